@@ -1,0 +1,32 @@
+// How far a picture is from another, by the measures of docs/conventions.md.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+namespace petzval {
+
+struct CompareSettings {
+    double exposure = 1;          // linear factor before clipping
+    View<const float> mask = {};  // where > 0.5 counts; empty: everywhere
+};
+
+// dB for psnr_*, peak 1; identical pictures give +infinity.
+struct Comparison {
+    double psnr_lin = 0;   // linear x exposure, clipped to 0…1, over R, G, B
+    double psnr_srgb = 0;  // the same after the sRGB curve
+    double psnr_log = 0;   // log2(1 + x/0.18), x clipped to 0…64, divided by its value at 64
+    double ssim_lin =
+        0;  // Wang et al. 2004, 11 x 11 Gaussian sigma 1.5, Rec.709 luma of clipped values, L = 1
+    double ssim_srgb = 0;
+    double max_error = 0;  // largest |difference| of a clipped linear channel
+    int max_error_x = 0, max_error_y = 0;
+    double energy_ratio = 0;  // sum of test / sum of reference, unclipped, R + G + B
+};
+
+// Errors: InvalidArgument when sizes differ, a picture or the mask is empty.
+PETZVAL_API Result<Comparison> compare(View<const Rgba> reference, View<const Rgba> test,
+                                       const CompareSettings& settings = {});
+
+}  // namespace petzval

@@ -1,0 +1,49 @@
+// A deep picture: any number of samples per pixel, each with its own colour, coverage and depth.
+#pragma once
+
+#include "petzval/image.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace petzval {
+
+// One thing seen in one pixel. Colour is premultiplied by the sample's OWN coverage `colour.a` (what it hides
+// of whatever lies behind it), not by what is left of the pixel in front of it.
+struct DeepSample {
+    Rgba colour;
+    float depth_m = 0;       // planar, metres; +infinity for a miss
+    float depth_back_m = 0;  // end of a volumetric sample; equal to depth_m for a surface
+};
+
+// Samples of a width x height picture, nearest first within each pixel, rows top to bottom.
+class DeepPicture {
+public:
+    DeepPicture() = default;
+    // Requires: first.size() == width * height + 1, first.front() == 0, ascending, first.back() ==
+    // samples.size().
+    DeepPicture(int width, int height, std::vector<std::size_t> first, std::vector<DeepSample> samples)
+        : width_(width), height_(height), first_(std::move(first)), samples_(std::move(samples)) {}
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    bool empty() const { return samples_.empty(); }
+    std::size_t sample_count() const { return samples_.size(); }
+    std::span<const DeepSample> at(int x, int y) const {
+        const std::size_t i = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+        return {samples_.data() + first_[i], first_[i + 1] - first_[i]};
+    }
+    std::span<DeepSample> samples() { return samples_; }
+    std::span<const DeepSample> samples() const { return samples_; }
+    // Index of the first sample of pixel i = y * width + x; one more entry closes the last pixel.
+    std::span<const std::size_t> first() const { return first_; }
+
+private:
+    int width_ = 0, height_ = 0;
+    std::vector<std::size_t> first_;
+    std::vector<DeepSample> samples_;
+};
+
+}  // namespace petzval

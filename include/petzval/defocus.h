@@ -1,0 +1,70 @@
+// The main door: a sharp picture with depth in, the picture a lens would have taken out.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/deep.h"
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/lens.h"
+#include "petzval/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// Accuracy only: radius and energy are the same at every level.
+enum class Quality { Draft, Standard, Final };
+
+struct DefocusJob {
+    View<const Rgba> colour;  // scene-linear, premultiplied
+    View<const float>
+        depth_m;  // planar metres, same size; +infinity for a miss. Or, with depth_is_coc, radii
+    bool depth_is_coc = false;  // depth_m holds signed CoC radii in pixels and the camera is not asked
+    const DeepPicture* deep =
+        nullptr;  // all samples of a deep input, same size; replaces colour and depth_m where given
+    const DeepPicture* behind = nullptr;  // hidden layers, same size, see docs/conventions.md; may be null
+    // Where the pixels lie in the display window, for the field position of lenses and the sensor's width.
+    Rect display_window, data_window;
+    double pixel_aspect = 1;
+
+    Camera camera;
+    CocControls coc;
+    LensChoice lens;
+
+    std::string engine = "scatter";  // one of engine_names()
+    Quality quality = Quality::Standard;
+    int pupil_points = 4096;           // reference only
+    int threads = 0;                   // 0: all this process may use; the result never depends on it
+    std::size_t max_memory_bytes = 0;  // 0: no limit
+    std::uint64_t seed = 1;
+    std::function<bool(double)> progress;  // share done 0…1, one call at a time; false cancels
+};
+
+struct StageTime {
+    std::string stage;
+    double seconds = 0;
+};
+
+struct DefocusReport {
+    Picture image;  // same size as the input
+    std::string engine, device, lens;
+    double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front
+    std::vector<StageTime> stages;
+    std::vector<std::string> warnings;
+};
+
+PETZVAL_API std::vector<std::string> engine_names();
+
+// Errors: InvalidArgument (sizes differ, empty picture, camera numbers, unknown engine or lens: the message
+// names the field and what would be accepted), OutOfMemory, Cancelled. Never throws anything but
+// std::bad_alloc. Non-finite colour counts as 0; non-finite depth as a miss.
+PETZVAL_API Result<DefocusReport> defocus(const DefocusJob& job);
+
+// The signed radius of every pixel, as the engines see it. Same errors as defocus().
+PETZVAL_API Result<Plane> circle_of_confusion(const DefocusJob& job);
+
+}  // namespace petzval

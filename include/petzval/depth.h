@@ -1,0 +1,49 @@
+// What a renderer's depth channel means, and how it becomes planar metres.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+enum class DepthKind {
+    Planar,      // distance along the optical axis
+    Ray,         // distance from the pinhole to the point
+    Inverse,     // 1 / planar
+    Normalized,  // 0 = range near, 1 = range far, linear in planar depth
+    Device,      // hyperbolic z-buffer value of range near, far; far < near means reversed z
+    CocPx,       // already a signed circle-of-confusion radius in pixels, + is far
+};
+
+struct DepthSettings {
+    DepthKind kind = DepthKind::Planar;
+    double unit_scale_m = 1;                      // metres per unit of the channel, > 0
+    std::optional<double> range_near, range_far;  // in units of the channel; Normalized and Device need both
+    std::optional<double> focal_length_mm, sensor_width_mm;  // Ray needs both: the angle of each pixel
+};
+
+struct DepthReport {
+    std::size_t misses = 0;      // inf, NaN, <= 0 (where not negated), >= 1e10, half-float maximum
+    std::size_t non_finite = 0;  // NaN and infinities as read
+    float nearest_m = 0, farthest_finite_m = 0;
+    std::vector<std::string> warnings;
+};
+
+// Rewrites a depth channel in place as planar metres; a miss becomes +infinity.
+//
+// `display` is the display window and `data` the window the plane covers, both in pixels of the same frame
+// (Ray needs them to know the axis; pixel_aspect = width / height of a pixel). If every finite value is
+// negative, absolute values are taken; otherwise negative values are misses; either way with one warning.
+// CocPx is not a depth: InvalidArgument. Errors: InvalidArgument naming the flag that is missing or out of
+// range.
+PETZVAL_API Result<DepthReport> depth_to_planar_metres(View<float> depth, const Rect& display,
+                                                       const Rect& data, double pixel_aspect,
+                                                       const DepthSettings& settings);
+
+}  // namespace petzval

@@ -1,0 +1,119 @@
+// Files: EXR through OpenEXR, PNG through libpng. Optional component petzval::files.
+#pragma once
+
+#include "petzval/deep.h"
+#include "petzval/depth.h"
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// What to take from a file; empty strings mean "detect, and say what was taken and why".
+struct ReadOptions {
+    std::string layer;          // colour layer or part, e.g. "ViewLayer.Combined" or "rgba_right"
+    std::string view_name;      // stereo view, e.g. "left"
+    std::string depth_file;     // another file that holds the depth
+    std::string depth_channel;  // e.g. "Z", "depth.R", "ViewLayer.Depth.Z"
+    bool need_depth = true;     // false: a file without depth is fine, depth stays empty
+    std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
+};
+
+// A camera number found in a file, in petzval's unit, and where it came from ("Redshift rs/camera/FStop").
+struct FoundNumber {
+    double value = 0;
+    std::string origin;
+};
+
+struct FoundCamera {
+    std::optional<FoundNumber> focal_length_mm, sensor_width_mm, f_number, focus_distance_m;
+};
+
+// One part of a file, as `inspect` lists it.
+struct PartSummary {
+    std::string name, type, view,
+        compression;  // type: scanlineimage, tiledimage, deepscanline, deeptile, png
+    Rect data_window;
+    std::vector<std::string> channels;  // "R half", "Z float", …
+};
+
+// Everything a file held that petzval does not process, kept to be written back (attributes, other channels,
+// parts).
+class CarriedContent;
+
+// A picture with its depth and its place in the frame.
+struct Frame {
+    Rect display_window, data_window;  // data_window may be smaller, larger or offset
+    double pixel_aspect = 1;           // width / height of a pixel
+    Picture colour;                    // size of data_window; scene-linear Rec.709, premultiplied
+    bool has_alpha = false;            // false: colour.a is 1 everywhere
+    Plane depth;       // size of data_window, values as stored (see depth_to_planar_metres); may be empty
+    DeepPicture deep;  // all samples of a deep input, else empty; colour and depth are then its front view
+    FoundCamera camera;
+    bool display_referred = false;  // read from PNG: 1.0 is clipped highlights
+    std::size_t non_finite_colour =
+        0;  // NaN or infinite colour values that were replaced by 0 or the largest half
+    std::vector<PartSummary> parts;
+    std::vector<std::string> detected;  // one line each: what was taken, from where, and why
+    std::vector<std::string> warnings;
+    std::shared_ptr<const CarriedContent> carried;
+};
+
+// Reads .exr (flat, tiled, multi-part, multi-view, deep) or .png, decided by content, not by name.
+// Errors: InvalidFile (missing, damaged, truncated, empty, no colour, no depth when needed, larger than
+// max_pixels), InvalidArgument (a layer, view or channel that the file does not have: the message lists those
+// it has).
+PETZVAL_API Result<Frame> read_frame(const std::string& path, const ReadOptions& options = {});
+
+// Header only: parts, channels, windows, camera; pixels stay unread.
+PETZVAL_API Result<Frame> read_frame_header(const std::string& path, const ReadOptions& options = {});
+
+enum class PixelType { Keep, Half, Float };
+
+struct WriteOptions {
+    PixelType type = PixelType::Keep;  // Keep: as the carried input had it, else half
+    std::string compression;           // "none", "zip", "piz", … ; empty: as the input, else "zip"
+    bool overwrite = true;             // false: an existing file is an OutputFailed error
+    // Extra attributes, e.g. {"petzval:coc", "signed radius, px, + is far"}.
+    std::vector<std::pair<std::string, std::string>> attributes;
+    // Camera numbers as typed attributes (focal length, sensor, aperture, focus), where known.
+    FoundCamera camera;
+};
+
+// Replaces colour (and alpha when has_alpha) of the carried part by frame.colour, keeps every other channel,
+// part and attribute, and writes a flat EXR. If frame.depth is not empty and nothing is carried, it is
+// written as float Z. Written beside `path`, synced, renamed: `path` is either complete or untouched.
+PETZVAL_API Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options = {});
+
+// Planes under channel names, float, one part: circle of confusion, depth, bokeh textures.
+struct NamedPlane {
+    std::string channel;
+    View<const float> plane;
+};
+PETZVAL_API Status write_exr_planes(const std::string& path, const Rect& display_window,
+                                    const Rect& data_window, const std::vector<NamedPlane>& planes,
+                                    const WriteOptions& options = {});
+
+// A deep scanline EXR: half R, G, B, A and float Z, ZBack (left out where no sample has a thickness).
+PETZVAL_API Status write_deep_exr(const std::string& path, const Rect& display_window,
+                                  const Rect& data_window, const DeepPicture& deep,
+                                  const WriteOptions& options = {});
+
+// 8 or 16 bit PNG of display-referred bytes already encoded (see develop.h). channels: 1, 3 or 4,
+// interleaved.
+struct PngPixels {
+    int width = 0, height = 0, channels = 3, bits = 8;
+    std::vector<std::uint16_t> samples;  // 0…255 or 0…65535
+};
+PETZVAL_API Status write_png(const std::string& path, const PngPixels& pixels, bool overwrite = true);
+// Samples as stored, never transfer-decoded: masks, depth PNGs, aperture images.
+PETZVAL_API Result<PngPixels> read_png(const std::string& path, std::size_t max_pixels = std::size_t(1)
+                                                                                         << 28);
+
+}  // namespace petzval

@@ -1,0 +1,53 @@
+// The built-in scenes: small procedural pictures with depth, and the truth a lens would have recorded.
+// Optional component petzval::scenes (Embree).
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/deep.h"
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+struct SceneSummary {
+    std::string name, purpose;  // one line each
+    Camera camera;              // the numbers it is meant for
+    int frames = 1;             // > 1: it moves
+};
+
+PETZVAL_API const std::vector<SceneSummary>& scene_list();
+
+struct SceneSettings {
+    int width = 960, height = 540;
+    int samples = 64;          // per pixel for the pinhole picture's box filter
+    int truth_samples = 1024;  // lens samples per pixel for the truth
+    std::uint64_t seed = 1;
+    int frame = 0;
+    std::optional<Camera> camera;  // default: the scene's own
+    bool want_truth = false, want_layers = false;
+    int threads = 0;                       // 0: all
+    std::function<bool(double)> progress;  // share done; false cancels
+};
+
+struct RenderedScene {
+    Camera camera;
+    Picture colour;  // pinhole, box-filtered
+    Plane depth_m;   // planar, one unfiltered sample at the pixel centre; +infinity for a miss
+    Picture truth;   // through the lens, when asked for
+    // Depth-peeled samples when asked for: every surface hidden behind the visible one, each with its own
+    // coverage; in pixels where several surfaces show, also the visible ones with their own coverage.
+    DeepPicture layers;
+};
+
+// Deterministic for the same settings and any thread count. Errors: InvalidArgument for an unknown scene (the
+// message lists them) or numbers out of range; Cancelled.
+PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings);
+
+}  // namespace petzval

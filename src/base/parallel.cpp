@@ -1,0 +1,26 @@
+#include "base/parallel.h"
+
+#include <algorithm>
+
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace petzval {
+
+int usable_threads() { return std::max(1, oneapi::tbb::info::default_concurrency()); }
+
+void parallel_for(int count, int threads, const std::function<void(int)>& body) {
+    if (count <= 0) return;
+    const int wanted = threads > 0 ? threads : usable_threads();
+    if (wanted == 1 || count == 1) {
+        for (int i = 0; i < count; ++i) body(i);
+        return;
+    }
+    // An arena of our own, so that a host's global scheduler settings neither limit us nor are changed.
+    oneapi::tbb::task_arena arena(wanted);
+    arena.execute([&] { oneapi::tbb::parallel_for(0, count, 1, body, oneapi::tbb::simple_partitioner()); });
+}
+
+}  // namespace petzval
