@@ -1,0 +1,49 @@
+// From scene-linear light to code values: exposure, tone curve, sRGB, dither.
+#include "petzval/develop.h"
+
+#include "base/parallel.h"
+#include "colour/dither.h"
+#include "colour/tone.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval {
+
+double srgb_encode(double linear) {
+    const double x = std::abs(linear);
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    return std::copysign(encoded, linear);
+}
+
+double srgb_decode(double encoded) {
+    const double x = std::abs(encoded);
+    const double linear = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    return std::copysign(linear, encoded);
+}
+
+std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopSettings& settings) {
+    if (picture.empty()) return {};
+    const int largest = (1 << settings.bits) - 1;
+    const float exposure = float(std::exp2(settings.exposure_stops));
+    std::vector<std::uint16_t> codes(std::size_t(picture.width()) * std::size_t(picture.height()) * 3);
+    const auto code = [&](float display_linear, int x, int y, int channel) {
+        // A NaN fails the comparison and is black.
+        const double encoded = display_linear > 0 ? srgb_encode(std::min(display_linear, 1.0f)) : 0;
+        const double u = settings.dither ? colour::dither_pattern(x, y, channel) : 0.5;
+        return colour::dithered(encoded * largest, largest, u);
+    };
+    parallel_for(picture.height(), settings.threads, [&](int y) {
+        std::uint16_t* out = codes.data() + std::size_t(y) * std::size_t(picture.width()) * 3;
+        for (int x = 0; x < picture.width(); ++x) {
+            Rgba c = exposure * picture(x, y);
+            if (settings.tone == ToneCurve::Filmic) c = colour::tone_map(c);
+            *out++ = code(c.r, x, y, 0);
+            *out++ = code(c.g, x, y, 1);
+            *out++ = code(c.b, x, y, 2);
+        }
+    });
+    return codes;
+}
+
+}  // namespace petzval
