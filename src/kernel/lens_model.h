@@ -36,7 +36,7 @@ struct PointSpread {
 
 // One point of the pupil. Weights of all rays of a set sum to 1 per channel.
 struct PupilRay {
-    float x = 0, y = 0;                      // unit disc of the f-stop, y DOWN
+    float x = 0, y = 0;                      // unit disc of the f-stop, y DOWN and times the pixel aspect
     float offset_x_px = 0, offset_y_px = 0;  // aberration: where the ray lands for c = 0
     Rgba weight;
 };

@@ -1,0 +1,140 @@
+#include "kernel/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace petzval::kernel {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Chords of a full circle of `radius` that stay within `tolerance` of it: sagitta = radius (1 - cos(pi/n)).
+int chord_count(double radius, double tolerance) {
+    const double n = kPi * std::sqrt(radius / (2 * tolerance));
+    return int(std::clamp(std::ceil(n), 12.0, 8192.0));
+}
+
+// Points after `from` up to and including angle `to`, in the direction of growing angle.
+void append_arc(std::vector<Point>& outline, const Circle& circle, double from, double to, double tolerance) {
+    const double turn = to - from;
+    const int count = std::max(1, int(std::ceil(chord_count(circle.radius, tolerance) * turn / (2 * kPi))));
+    for (int i = 1; i <= count; ++i) {
+        const double angle = from + turn * i / count;
+        outline.push_back(circle.centre + circle.radius * Point{std::cos(angle), std::sin(angle)});
+    }
+}
+
+// One side of the iris from vertex angle `from` to `to`: a chord, or an arc of a larger circle through both.
+void append_side(std::vector<Point>& outline, double from, double to, double curvature, double tolerance) {
+    const double half = 0.5 * (to - from), middle = 0.5 * (from + to);
+    const double sagitta = curvature * (1 - std::cos(half));
+    const double chord = std::sin(half);
+    if (sagitta < tolerance) {
+        outline.push_back({std::cos(to), std::sin(to)});
+        return;
+    }
+    const double radius = (chord * chord + sagitta * sagitta) / (2 * sagitta);
+    const double spread = std::asin(std::min(1.0, chord / radius));
+    const double back = std::cos(half) + sagitta - radius;  // centre of the arc along the side's middle
+    const Circle circle{back * Point{std::cos(middle), std::sin(middle)}, radius};
+    append_arc(outline, circle, middle - spread, middle + spread, tolerance);
+}
+
+double angle_about(const Circle& circle, Point p) {
+    return std::atan2(p.y - circle.centre.y, p.x - circle.centre.x);
+}
+
+bool inside(const Circle& circle, Point p) {
+    const Point d = p - circle.centre;
+    return d.x * d.x + d.y * d.y <= circle.radius * circle.radius;
+}
+
+// Parameters 0 < t < 1 at which p + t (q - p) crosses the circle, in order.
+struct Crossings {
+    double t[2] = {};
+    int count = 0;
+};
+Crossings crossings(const Circle& circle, Point p, Point q) {
+    const Point d = q - p, o = p - circle.centre;
+    const double a = d.x * d.x + d.y * d.y, b = d.x * o.x + d.y * o.y;
+    const double c = o.x * o.x + o.y * o.y - circle.radius * circle.radius;
+    const double discriminant = b * b - a * c;
+    Crossings found;
+    if (a == 0 || discriminant <= 0) return found;
+    for (const double sign : {-1.0, 1.0}) {
+        const double t = (-b + sign * std::sqrt(discriminant)) / a;
+        if (t > 0 && t < 1) found.t[found.count++] = t;
+    }
+    return found;
+}
+
+bool contains(const std::vector<Point>& convex, Point p) {
+    for (std::size_t i = 0; i < convex.size(); ++i)
+        if (cross(convex[(i + 1) % convex.size()] - convex[i], p - convex[i]) < 0) return false;
+    return true;
+}
+
+}  // namespace
+
+std::vector<Point> aperture_outline(const ApertureShape& shape, double tolerance) {
+    std::vector<Point> outline;
+    if (shape.blades < 3) {
+        append_arc(outline, {}, 0, 2 * kPi, tolerance);
+    } else {
+        // Counter-clockwise with y up is a falling angle with y down; sides are walked in rising order.
+        const double first = -shape.rotation_deg * kPi / 180, step = 2 * kPi / shape.blades;
+        for (int i = 0; i < shape.blades; ++i)
+            append_side(outline, first + i * step, first + (i + 1) * step, shape.curvature, tolerance);
+    }
+    const double wide = std::min(1.0, 1 / shape.squeeze), tall = std::min(1.0, shape.squeeze);
+    for (Point& p : outline) p = {p.x * wide, p.y * tall};
+    return outline;
+}
+
+std::vector<Point> clipped(const std::vector<Point>& outline, const Circle& circle, double tolerance) {
+    std::vector<Point> kept;
+    bool gap_open = false;  // the outline went outside at gap_from and has not come back
+    Point gap_from;
+    const auto close_gap = [&](Point to) {
+        const double from = angle_about(circle, gap_from), turn = angle_about(circle, to) - from;
+        append_arc(kept, circle, from, from + (turn > 0 ? turn : turn + 2 * kPi), tolerance);
+        gap_open = false;
+    };
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Point p = outline[i], q = outline[(i + 1) % outline.size()];
+        bool is_inside = inside(circle, p);
+        if (is_inside) kept.push_back(p);
+        const Crossings cuts = crossings(circle, p, q);
+        for (int k = 0; k < cuts.count; ++k, is_inside = !is_inside) {
+            const Point at = p + cuts.t[k] * (q - p);
+            if (gap_open) close_gap(at);
+            if (is_inside) gap_from = at, gap_open = true;
+            kept.push_back(at);
+        }
+    }
+    if (gap_open) close_gap(kept.front());
+    // No edge meets the circle and none is inside it: it lies wholly inside the outline, or wholly outside.
+    if (kept.empty() && contains(outline, circle.centre)) append_arc(kept, circle, 0, 2 * kPi, tolerance);
+    return kept;
+}
+
+double area(const std::vector<Point>& outline) {
+    double twice = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        twice += cross(outline[i], outline[(i + 1) % outline.size()]);
+    return 0.5 * twice;
+}
+
+Point centroid(const std::vector<Point>& outline) {
+    Point sum;
+    double twice = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Point p = outline[i], q = outline[(i + 1) % outline.size()];
+        sum = sum + cross(p, q) * (p + q);
+        twice += cross(p, q);
+    }
+    return (1 / (3 * twice)) * sum;
+}
+
+}  // namespace petzval::kernel
