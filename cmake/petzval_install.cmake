@@ -1,0 +1,45 @@
+# What `cmake --install` leaves: the program, the archives, their headers, and how others find them, by
+# find_package(petzval CONFIG COMPONENTS files scenes) and by pkg-config (petzval, petzval-files,
+# petzval-scenes).
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/petzval)
+set(headers include/petzval)
+
+# petzval_component(TARGET HEADERS names… PACKAGE name REQUIRES pkg-config modules… LIBS flags DESCRIPTION text)
+# LIBS and REQUIRES are public: the archives are static, whoever links them links what they use.
+function(petzval_component target)
+  cmake_parse_arguments(PC "" "PACKAGE;LIBS;DESCRIPTION" "REQUIRES;HEADERS" ${ARGN})
+  if(NOT TARGET ${target})
+    return()
+  endif()
+  install(TARGETS ${target} EXPORT ${PC_PACKAGE} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT ${PC_PACKAGE} NAMESPACE petzval:: FILE ${PC_PACKAGE}.cmake DESTINATION ${package_dir})
+  install(FILES ${PC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval)
+  list(JOIN PC_REQUIRES " " PC_REQUIRES)
+  get_target_property(PC_ARCHIVE ${target} OUTPUT_NAME)
+  if(NOT PC_ARCHIVE)
+    set(PC_ARCHIVE ${target})
+  endif()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/petzval.pc.in ${PROJECT_BINARY_DIR}/${PC_PACKAGE}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${PC_PACKAGE}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
+list(FILTER core_headers EXCLUDE REGEX "/(files|scene)\\.h$")
+petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES tbb libhwy
+                  DESCRIPTION "The depth of field of a real lens, for rendered pictures")
+petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h
+                  REQUIRES petzval OpenEXR libpng DESCRIPTION "EXR and PNG for petzval")
+petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
+                  REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
+if(TARGET petzval_cli)
+  install(TARGETS petzval_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/petzval-config.cmake.in
+                              ${PROJECT_BINARY_DIR}/petzval-config.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/petzval-config-version.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/petzval-config.cmake ${PROJECT_BINARY_DIR}/petzval-config-version.cmake
+        DESTINATION ${package_dir})

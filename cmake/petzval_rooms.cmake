@@ -73,7 +73,9 @@ function(petzval_library name)
   endif()
   add_library(${target} STATIC ${objects})
   add_library(petzval::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  # In a folder of their own: the room `files` and the library `petzval_files` have one archive name.
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX
+                        ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
   if(NOT name STREQUAL petzval)
     set_target_properties(${target} PROPERTIES OUTPUT_NAME petzval_${name})
     target_link_libraries(${target} PUBLIC petzval)

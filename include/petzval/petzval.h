@@ -1,0 +1,15 @@
+// Everything in petzval::petzval. The optional components have their own headers: petzval/files.h for
+// petzval::files, petzval/scene.h for petzval::scenes.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/compare.h"
+#include "petzval/deep.h"
+#include "petzval/defocus.h"
+#include "petzval/depth.h"
+#include "petzval/develop.h"
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/lens.h"
+#include "petzval/result.h"
+#include "petzval/version.h"

@@ -1,0 +1,72 @@
+"""The checks of the house find what they are there to find: each is shown a small tree with one fault."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+LONG_BODY = "    step();\n" * 60
+
+
+def result_of(check, files):
+    """Exit status and output of tools/CHECK over a tree of {path: text}."""
+    with tempfile.TemporaryDirectory() as root:
+        for name, text in files.items():
+            path = pathlib.Path(root) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        result = subprocess.run([sys.executable, TOOLS / check, root], stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
+        return result.returncode, result.stdout
+
+
+class Checks(unittest.TestCase):
+    def assert_found(self, check, files, *words):
+        status, output = result_of(check, files)
+        self.assertEqual(status, 1, output)
+        for word in words:
+            self.assertIn(word, output)
+
+    def assert_clean(self, check, files):
+        status, output = result_of(check, files)
+        self.assertEqual(status, 0, output)
+
+    def test_an_upward_include_is_found(self):
+        self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "engine/b.h"\n'}, "src/image/a.cpp:1")
+        self.assert_clean("check_layers.py", {"src/engine/a.cpp": '#include "image/b.h"\n'})
+
+    def test_a_public_header_of_a_higher_room_is_found(self):
+        self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "petzval/defocus.h"\n'}, "(api)")
+
+    def test_other_peoples_headers_stay_in_their_room(self):
+        self.assert_found("check_layers.py", {"src/engine/a.cpp": "#include <tbb/task_arena.h>\n"}, "parallel")
+        self.assert_found("check_layers.py", {"include/petzval/a.h": "#include <OpenEXR/ImfArray.h>\n"}, "files")
+
+    def test_the_program_sees_public_headers_only(self):
+        self.assert_found("check_layers.py", {"apps/cli/a.cpp": '#include "engine/b.h"\n'}, "petzval/ only")
+
+    def test_a_long_function_is_found_in_any_form(self):
+        for head in ("int long_one() {\n", "Result<A<B>> C::long_one(int a,\n          int b) const {\n",
+                     "template <typename T>\nvoid long_one(T x) noexcept {\n",
+                     "class C {\npublic:\n    C& long_one() {\n", "bool C::operator==(const C& long_one) {\n"):
+            text = "namespace a {\n" + head + LONG_BODY + "}\n" + ("};\n" if "class" in head else "") + "}\n"
+            self.assert_found("check_sizes.py", {"src/image/a.cpp": text}, "src/image/a.cpp", "lines, more than 60")
+        self.assert_found("check_sizes.py", {"tools/a.py": "def f():\n" + LONG_BODY}, "f has 61 lines")
+
+    def test_many_short_functions_are_fine(self):
+        text = "namespace a {\n" + "void f() {\n    if (x) {\n        y();\n    }\n}\n" * 20 + "}\n"
+        self.assert_clean("check_sizes.py", {"src/image/a.cpp": text})
+
+    def test_a_long_file_is_found(self):
+        self.assert_found("check_sizes.py", {"src/image/a.cpp": "int a;\n" * 501}, "501 lines")
+        self.assert_clean("check_sizes.py", {"src/image/a_test.cpp": "int a;\n" * 501})
+
+    def test_a_header_that_leans_on_others_is_found(self):
+        self.assert_found("check_headers.py", {"include/petzval/a.h": "#pragma once\nstd::string name();\n"}, "a.h")
+        self.assert_found("check_headers.py", {"include/petzval/a.h": "int twice = 0;\n"}, "a.h")
+        self.assert_clean("check_headers.py", {"include/petzval/a.h": "#pragma once\n#include <string>\n"})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,190 @@
+"""What ./dev does once the machine has what it needs. Each verb is one function; its docstring is its help."""
+import os
+import pathlib
+import shlex
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = ["include", "src", "apps", "tests", "bench"]
+JOBS = str(len(os.sched_getaffinity(0)))
+
+
+def fail(message, status=2):
+    sys.exit(print(f"dev: {message}", file=sys.stderr) or status)
+
+
+def run(*command, **options):
+    """Says what it runs, runs it at the root of the repository, stops with its exit status if it fails."""
+    print("+ " + shlex.join(map(str, command)), file=sys.stderr, flush=True)
+    status = subprocess.run(command, cwd=ROOT, **options).returncode
+    if status:
+        sys.exit(status)
+
+
+def quietly(*command):
+    """Runs; on a terminal everything shows, elsewhere only the output of what fails."""
+    if sys.stderr.isatty():
+        return run(*command, stdout=sys.stderr)
+    print("+ " + shlex.join(map(str, command)), file=sys.stderr, flush=True)
+    result = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if result.returncode:
+        sys.stderr.write(result.stdout)
+        sys.exit(result.returncode)
+
+
+def folder_of(preset):
+    return ROOT / "build" / preset
+
+
+def make(preset, *targets):
+    """Configures once (ninja repeats it when a CMake file changes), then builds."""
+    if not (folder_of(preset) / "build.ninja").exists():
+        quietly("cmake", "--preset", preset)
+    quietly("cmake", "--build", f"build/{preset}", *[word for t in targets for word in ("--target", t)])
+
+
+def take_preset(words):
+    """Removes `--preset NAME` from the words; the preset and what is left."""
+    if words[:1] != ["--preset"]:
+        return "release", words
+    return (words[1], words[2:]) if len(words) > 1 else fail("--preset needs a name, see CMakePresets.json")
+
+
+def program(preset="release"):
+    return folder_of(preset) / "apps/cli/petzval"
+
+
+def sources(*suffixes):
+    return sorted(p for folder in FOLDERS for s in suffixes for p in (ROOT / folder).rglob("*" + s))
+
+
+def demo(*_):
+    """the night scene, photographed: leaves build/demo/night_defocused.png and prints its path"""
+    make("release")
+    out = ROOT / "build/demo"
+    out.mkdir(parents=True, exist_ok=True)
+    sharp, taken, shown = out / "night.exr", out / "night_defocused.exr", out / "night_defocused.png"
+    run(program(), "scene", "make", "night", "-o", sharp)
+    run(program(), "defocus", sharp, "-o", taken, "--lens", "ideal")
+    run(program(), "develop", taken, "-o", shown)
+    print(shown)
+
+
+def build(preset="release", *targets):
+    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, core)"""
+    make(preset, *targets)
+
+
+def test(*words):
+    """[--preset P] [regex]: builds and runs every test, or those whose name matches"""
+    preset, words = take_preset(list(words))
+    make(preset)
+    command = ["ctest", "--test-dir", f"build/{preset}", "-j", JOBS, "--output-on-failure"]
+    if words:
+        command += ["--no-tests=error", "-R", words[0], *words[1:]]
+    print("+ " + shlex.join(command), file=sys.stderr, flush=True)
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, errors="replace") as ctest:
+        for line in ctest.stdout:  # what passed is counted in the summary
+            if not (line.rstrip().endswith(" sec") and " Passed " in line or line.lstrip().startswith("Start ")):
+                print(line, end="", flush=True)
+    sys.exit(ctest.returncode)
+
+
+def path(*_):
+    """prints where the program is (and builds it first if it is not there)"""
+    if not program().exists():
+        make("release", "petzval_cli")
+    print(program())
+
+
+def run_program(*words):
+    """ARGS…: builds what changed, then runs petzval with these arguments"""
+    if not (folder_of("release") / "build.ninja").exists():
+        make("release", "petzval_cli")
+    else:
+        built = subprocess.run(["cmake", "--build", "build/release", "--target", "petzval_cli"], cwd=ROOT,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if built.returncode:
+            sys.stderr.write(built.stdout)
+            sys.exit(built.returncode)
+    os.execv(program(), ["petzval", *words])
+
+
+def bench(*words):
+    """NAME [ARGS…]: runs bench/NAME.py, e.g. `bench quality`; without a name, lists them"""
+    known = sorted(p.stem for p in (ROOT / "bench").glob("*.py") if not p.stem.startswith("_"))
+    if not words or words[0] not in known:
+        fail(f"bench needs one of: {', '.join(known)}")
+    make("release")
+    run(sys.executable, f"bench/{words[0]}.py", *words[1:], env={**os.environ, "PETZVAL": str(program())})
+
+
+def format_sources(*words):
+    """[--check]: clang-format over every source file"""
+    how = ["--dry-run", "-Werror"] if words[:1] == ("--check",) else ["-i"]
+    files = sources(".h", ".cpp")
+    print(f"+ clang-format {' '.join(how)} ({len(files)} files)", file=sys.stderr)
+    sys.exit(subprocess.run(["clang-format", *how, *files]).returncode)
+
+
+def lint(*words):
+    """[--all | FILE…]: clang-tidy on what changed since main (on main: in the last commit), or on everything"""
+    if not (folder_of("release") / "build.ninja").exists():
+        quietly("cmake", "--preset", "release")
+    run(sys.executable, "tools/lint.py", "build/release", *words)
+
+
+def check(*_):
+    """the house holds together: formatting, layers, sizes, headers alone, lint of what changed"""
+    failed = []
+    for command in (["./dev", "format", "--check"], [sys.executable, "tools/check_layers.py"],
+                    [sys.executable, "tools/check_sizes.py"], [sys.executable, "tools/check_headers.py"],
+                    ["./dev", "lint"]):
+        start = time.monotonic()
+        print("+ " + shlex.join(command), file=sys.stderr, flush=True)
+        status = subprocess.run(command, cwd=ROOT).returncode
+        print(f"  {'ok' if status == 0 else 'FAILED'} after {time.monotonic() - start:.1f} s", file=sys.stderr)
+        failed += [shlex.join(command)] if status else []
+    if failed:
+        fail("check failed: " + "; ".join(failed), 1)
+    print("check: ok")
+
+
+def golden(*words):
+    """run | accept: compares small pictures with the stored ones; accept stores the new ones"""
+    if words[:1] not in (("run",), ("accept",)):
+        fail("golden needs run or accept")
+    make("release")
+    run(sys.executable, "tests/golden/golden.py", words[0], program())
+
+
+def validate_lenses(*words):
+    """every published number of every lens beside ours"""
+    make("release", "petzval_validate_lenses")
+    found = [p for p in folder_of("release").rglob("petzval_validate_lenses") if p.is_file()]
+    run(found[0], *words)
+
+
+VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
+         "format": format_sources, "lint": lint, "check": check, "golden": golden,
+         "validate-lenses": validate_lenses}
+
+
+def help_text():
+    rows = "\n".join(f"  {verb:16}{function.__doc__}" for verb, function in VERBS.items())
+    return f"usage: ./dev VERB [ARGS…]\n{rows}"
+
+
+if __name__ == "__main__":
+    verb, *rest = sys.argv[1:] or ["help"]
+    if verb in ("help", "-h", "--help"):
+        print(help_text())
+    elif verb in VERBS:
+        try:
+            VERBS[verb](*rest)
+        except KeyboardInterrupt:
+            sys.exit(130)
+    else:
+        fail(f"unknown verb '{verb}'\n{help_text()}")

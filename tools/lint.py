@@ -1,0 +1,77 @@
+"""clang-tidy on the sources that changed, on all, or on those that are named.
+
+Usage: lint.py BUILD_FOLDER [--all | FILE…]. "Changed" is since the branch left main; on main, in the last
+commit; what is not committed counts. A changed header is seen through one source that includes it.
+"""
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def git(*words):
+    result = subprocess.run(["git", *words], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    return result.stdout.split() if result.returncode == 0 else []
+
+
+def changed():
+    """Paths that differ from where the work began; None where there is no history to ask."""
+    head = git("rev-parse", "HEAD")
+    if not head:
+        return None
+    base = git("merge-base", "HEAD", "main") or git("merge-base", "HEAD", "origin/main")
+    if not base or base == head:
+        base = git("rev-parse", "HEAD~1")
+    if not base:
+        return None
+    return git("diff", "--name-only", *base) + git("ls-files", "--others", "--exclude-standard")
+
+
+def sources_for(paths, compiled):
+    """The compiled sources among the paths, and one that includes each header among them."""
+    chosen = set()
+    for path in paths:
+        if path in compiled:
+            chosen.add(path)
+        elif path.endswith(".h"):
+            include = re.compile(rf'#include "{re.escape(re.sub("^(include|src)/", "", path))}"')
+            users = sorted(s for s in compiled if include.search((ROOT / s).read_text()))
+            same = [s for s in users if pathlib.Path(s).stem == pathlib.Path(path).stem]
+            chosen.update((same or users)[:1])
+    return sorted(chosen)
+
+
+def tidy(build, source):
+    # The static analyser spends most of its time inside gtest; the sanitizers watch the tests instead.
+    less = ["--checks=-clang-analyzer-*"] if source.endswith("_test.cpp") else []
+    result = subprocess.run(["clang-tidy", "--quiet", "-p", build, *less, source], cwd=ROOT, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True)
+    return source, result.returncode, re.sub(r"^\d+ warnings.*\n", "", result.stdout, flags=re.MULTILINE)
+
+
+def main(build, words):
+    entries = json.loads((ROOT / build / "compile_commands.json").read_text())
+    compiled = {os.path.relpath(e["file"], ROOT) for e in entries}
+    compiled = {c for c in compiled if not c.startswith(("..", "build"))}
+    paths = sorted(compiled) if words == ["--all"] else words or changed()
+    if paths is None:
+        paths = sorted(compiled)
+    sources = sources_for(paths, compiled)
+    failed = []
+    with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        for source, status, output in pool.map(lambda s: tidy(build, s), sources):
+            if status:
+                failed.append(source)
+                print(output, end="", flush=True)
+    print(f"lint: {len(failed)} of {len(sources)} sources have findings" if failed else
+          f"lint: ok ({len(sources)} sources)")
+    sys.exit(bool(failed))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2:])
