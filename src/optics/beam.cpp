@@ -1,0 +1,271 @@
+#include "optics/beam.h"
+
+#include "optics/least_squares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+namespace petzval::optics {
+namespace {
+
+// Aiming is finished when the stop is met within this share of its radius.
+constexpr double kAimed = 1e-9;
+
+}  // namespace
+
+// Directions and object for a field angle; the chief ray is not known yet.
+void Beam::point_at(double field_rad) {
+    direction_ = {0, std::sin(field_rad), std::cos(field_rad)};
+    across_ = {0, std::cos(field_rad), -std::sin(field_rad)};
+    if (std::isfinite(object_.distance_mm))
+        object_position_ = {0, -object_.distance_mm * std::tan(field_rad),
+                            entrance_pupil_mm_ - object_.distance_mm};
+}
+
+Ray Beam::launch(Point at) const {
+    const Vec3 through = Vec3{at.x, 0, entrance_pupil_mm_} + at.y * across_;
+    if (std::isinf(object_.distance_mm)) return {through, direction_};
+    return {through, normalised(through - object_position_)};
+}
+
+// Where the launched ray crosses the stop's surface, in stop radii.
+std::optional<Beam::Point> Beam::stop_from_launch(Point at) const {
+    TracedRay traced = trace(*lens_, launch(at), 0, lens_->stop);
+    if (traced.fate != RayFate::Passed) return std::nullopt;
+    const auto stop = std::size_t(lens_->stop);
+    if (stop > 0) traced.ray.position.z -= lens_->surfaces[stop - 1].thickness_mm;
+    const auto hit = intersect(lens_->surfaces[stop], traced.ray);
+    if (!hit) return std::nullopt;
+    return Point{hit->x / stop_radius_mm_, hit->y / stop_radius_mm_};
+}
+
+// Meridional launch coordinate of the ray through the stop's centre, by Newton's method from a guess.
+std::optional<double> Beam::solve_chief(double guess) const {
+    const double step = 1e-5 * scale_.y;
+    double y = guess;
+    auto here = stop_from_launch({0, y});
+    for (int iteration = 0; here && iteration < 40; ++iteration) {
+        if (std::abs(here->y) < kAimed) return y;
+        const auto beside = stop_from_launch({0, y + step});
+        if (!beside || beside->y == here->y) return std::nullopt;
+        double change = -here->y * step / (beside->y - here->y);
+        // Never leave the region where rays reach the stop.
+        auto next = stop_from_launch({0, y + change});
+        for (int halving = 0; halving < 10 && (!next || std::abs(next->y) > std::abs(here->y)); ++halving)
+            next = stop_from_launch({0, y + (change /= 2)});
+        y += change;
+        here = next;
+    }
+    return std::nullopt;
+}
+
+// Follows the chief ray from the axis to the wanted field in steps that shrink where it bends.
+bool Beam::find_chief() {
+    const double wanted = object_.field_rad;
+    point_at(0);
+    const auto beside = stop_from_launch({0, 1e-4 * stop_radius_mm_});
+    if (!beside || beside->y == 0) return false;
+    scale_.y = 1e-4 * stop_radius_mm_ / beside->y;
+
+    double field = 0, offset = 0, rate = 0;
+    double step = 5 * std::numbers::pi / 180;
+    while (field < wanted) {
+        const double next = std::min(field + step, wanted);
+        point_at(next);
+        const auto found = solve_chief(offset + rate * (next - field));
+        if (!found) {
+            step /= 2;
+            if (step < 1e-4) return false;
+            continue;
+        }
+        rate = (*found - offset) / (next - field);
+        field = next;
+        offset = *found;
+    }
+    point_at(wanted);
+    chief_ = {0, offset};
+    return true;
+}
+
+bool Beam::measure_scale() {
+    const double step = 1e-4 * std::abs(scale_.y);
+    const auto right = stop_from_launch({step, chief_.y});
+    const auto up = stop_from_launch({0, chief_.y + step}), down = stop_from_launch({0, chief_.y - step});
+    if (!right || !up || !down || right->x == 0 || up->y == down->y) return false;
+    scale_ = {step / right->x, 2 * step / (up->y - down->y)};
+    return std::isfinite(scale_.x) && std::isfinite(scale_.y);
+}
+
+// Newton's method with differences; `start` is a launch point known to reach the stop near the target.
+std::optional<Beam::Point> Beam::aim_carefully(Point stop, Point start) const {
+    const double dx = 1e-5 * scale_.x, dy = 1e-5 * scale_.y;
+    Point at = start;
+    auto here = stop_from_launch(at);
+    for (int iteration = 0; here && iteration < 25; ++iteration) {
+        const Point miss{here->x - stop.x, here->y - stop.y};
+        const double missed = std::hypot(miss.x, miss.y);
+        if (missed < kAimed) return at;
+        const auto right = stop_from_launch({at.x + dx, at.y}), up = stop_from_launch({at.x, at.y + dy});
+        if (!right || !up) return std::nullopt;
+        const double xx = (right->x - here->x) / dx, yx = (right->y - here->y) / dx;
+        const double xy = (up->x - here->x) / dy, yy = (up->y - here->y) / dy;
+        const double determinant = xx * yy - xy * yx;
+        if (determinant == 0) return std::nullopt;
+        Point change{-(yy * miss.x - xy * miss.y) / determinant, -(xx * miss.y - yx * miss.x) / determinant};
+        std::optional<Point> next;
+        for (int halving = 0; halving < 8; ++halving) {
+            next = stop_from_launch({at.x + change.x, at.y + change.y});
+            if (next && std::hypot(next->x - stop.x, next->y - stop.y) < missed) break;
+            change = {change.x / 2, change.y / 2};
+        }
+        at = {at.x + change.x, at.y + change.y};
+        here = next;
+    }
+    return std::nullopt;
+}
+
+// Exactly aimed rays on rings of the half stop x >= 0 (the other half mirrors it), each started from its
+// inner neighbour; then the polynomial of highest degree that they determine.
+void Beam::fit_map() {
+    constexpr int kRings = 6, kSpokes = 13;
+    std::vector<Point> stop{{0, 0}}, launched{chief_};
+    for (int spoke = 0; spoke < kSpokes; ++spoke) {
+        const double angle = std::numbers::pi * (double(spoke) / (kSpokes - 1) - 0.5);
+        Point from = chief_;
+        for (int ring = 1; ring <= kRings; ++ring) {
+            const double r = std::sin(std::numbers::pi / 2 * ring / kRings);  // denser towards the rim
+            const Point target{r * std::cos(angle), r * std::sin(angle)};
+            const auto at = aim_carefully(target, from);
+            if (!at) break;
+            from = *at;
+            stop.push_back(target);
+            launched.push_back(*at);
+        }
+    }
+    for (const int degree : {7, 5, 3, 1})
+        if (fit(stop, launched, degree)) return;
+    map_x_ = {{1, 0, scale_.x}};
+    map_y_ = {{0, 0, chief_.y}, {0, 1, scale_.y}};
+}
+
+bool Beam::fit(const std::vector<Point>& stop, const std::vector<Point>& launched, int degree) {
+    const auto one = [&](int parity, auto component, std::vector<Term>& map) {
+        map.clear();
+        for (int i = parity; i <= degree; i += 2)  // mirror symmetry: x odd or even
+            for (int j = 0; i + j <= degree; ++j) map.push_back({i, j, 0});
+        if (stop.size() < map.size() + map.size() / 2) return false;
+        std::vector<std::vector<double>> rows;
+        std::vector<double> target;
+        for (std::size_t k = 0; k < stop.size(); ++k) {
+            auto& row = rows.emplace_back();
+            for (const Term& term : map)
+                row.push_back(std::pow(stop[k].x, term.i) * std::pow(stop[k].y, term.j));
+            target.push_back(component(launched[k]));
+        }
+        const auto solution = least_squares(std::move(rows), std::move(target));
+        for (std::size_t k = 0; k < solution.size(); ++k) map[k].coefficient = solution[k];
+        return !solution.empty();
+    };
+    return one(
+               1, [](Point p) { return p.x; }, map_x_) &&
+           one(
+               0, [](Point p) { return p.y; }, map_y_);
+}
+
+Beam::Guess Beam::guess(double stop_x, double stop_y) const {
+    constexpr int kPowers = 8;
+    double px[kPowers] = {1}, py[kPowers] = {1};
+    for (int i = 1; i < kPowers; ++i) px[i] = px[i - 1] * stop_x, py[i] = py[i - 1] * stop_y;
+    Guess g;
+    const auto add = [&](const std::vector<Term>& map, double& value, double& by_x, double& by_y) {
+        for (const auto& [i, j, c] : map) {
+            value += c * px[i] * py[j];
+            if (i > 0) by_x += c * i * px[i - 1] * py[j];
+            if (j > 0) by_y += c * j * px[i] * py[j - 1];
+        }
+    };
+    add(map_x_, g.at.x, g.by_x.x, g.by_y.x);
+    add(map_y_, g.at.y, g.by_x.y, g.by_y.y);
+    return g;
+}
+
+// The map's derivative is nearly the true one, so correcting by it converges in a step or two.
+std::optional<Beam::Point> Beam::aim(Point stop) const {
+    const Guess g = guess(stop.x, stop.y);
+    Point at = g.at;
+    double last_miss = 1e9;
+    for (int iteration = 0; iteration < 12; ++iteration) {
+        const auto here = stop_from_launch(at);
+        if (!here) break;
+        const Point miss{here->x - stop.x, here->y - stop.y};
+        const double missed = std::hypot(miss.x, miss.y);
+        if (missed < kAimed) return at;
+        if (missed > 0.5 * last_miss) break;
+        last_miss = missed;
+        at.x -= g.by_x.x * miss.x + g.by_y.x * miss.y;
+        at.y -= g.by_x.y * miss.x + g.by_y.y * miss.y;
+    }
+    return aim_carefully(stop, g.at);
+}
+
+Result<Beam> Beam::make(std::shared_ptr<const LensAtWavelength> lens, const ObjectPoint& object,
+                        double entrance_pupil_mm, double stop_radius_mm, double sensor_distance_mm) {
+    if (std::isfinite(object.distance_mm) && !(object.field_rad < 0.999 * std::numbers::pi / 2))
+        return Error{ErrorCode::InvalidArgument,
+                     "a field of 90 degrees or more has no object plane at a finite "
+                     "distance: focus at infinity"};
+    Beam beam;
+    beam.lens_ = std::move(lens);
+    beam.object_ = object;
+    beam.entrance_pupil_mm_ = entrance_pupil_mm;
+    beam.stop_radius_mm_ = stop_radius_mm;
+    beam.sensor_distance_mm_ = sensor_distance_mm;
+    if (!beam.find_chief() || !beam.measure_scale()) {
+        std::ostringstream text;
+        text << "no ray from " << object.field_rad * 180 / std::numbers::pi
+             << " degrees off the axis passes the centre of the stop: the field is larger than the lens "
+                "covers";
+        return Error{ErrorCode::InvalidArgument, text.str()};
+    }
+    beam.fit_map();
+    const Guess centre = beam.guess(0, 0);
+    beam.chief_flux_ = std::abs(centre.by_x.x * centre.by_y.y - centre.by_x.y * centre.by_y.x);
+    return beam;
+}
+
+std::optional<Ray> Beam::entering(double stop_x, double stop_y) const noexcept {
+    const auto at = aim({stop_x, stop_y});
+    if (!at) return std::nullopt;
+    return launch(*at);
+}
+
+SensorRay Beam::ray(double stop_x, double stop_y) const noexcept {
+    SensorRay result;
+    const auto enters = entering(stop_x, stop_y);
+    if (!enters) return result;
+    const TracedRay traced = trace(*lens_, *enters);
+    if (traced.fate != RayFate::Passed || !(traced.ray.direction.z > 0)) return result;
+
+    const Vec3 landing = at_plane(traced.ray, sensor_distance_mm_);
+    const Vec3& d = traced.ray.direction;
+    result.reached = true;
+    result.clearance = traced.clearance;
+    result.x_mm = landing.x;
+    result.y_mm = landing.y;
+    result.slope_x = d.x / d.z;
+    result.slope_y = d.y / d.z;
+
+    const Guess g = guess(stop_x, stop_y);
+    result.flux = std::abs(g.by_x.x * g.by_y.y - g.by_x.y * g.by_y.x) / chief_flux_;
+    if (std::isfinite(object_.distance_mm)) {
+        // Solid angle of an element of the launch plane: area times cos / distance^2, cos ~ 1 / distance.
+        const Vec3 chief = launch(chief_).position - object_position_;
+        const Vec3 here = enters->position - object_position_;
+        result.flux *= std::pow(length(chief) / length(here), 3);
+    }
+    return result;
+}
+
+}  // namespace petzval::optics

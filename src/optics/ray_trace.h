@@ -1,0 +1,85 @@
+// Exact sequential ray trace through the surfaces of a lens, at one wavelength.
+//
+// Each surface is met in its own frame: vertex at the origin, z along the axis. Conics are solved in closed
+// form, aspheres by Newton's method from there; refraction is Snell's law as vectors (W. T. Welford,
+// Aberrations of Optical Systems, 1986, ch. 4). A ray that would need the far side of a sphere, another sheet
+// of a hyperboloid, or that is totally reflected, ends.
+#pragma once
+
+#include "optics/prescription.h"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace petzval::optics {
+
+struct Vec3 {
+    double x = 0, y = 0, z = 0;
+
+    friend Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline Vec3 normalised(Vec3 a) { return (1 / length(a)) * a; }
+
+// Position in mm in the frame of some surface; direction of unit length.
+struct Ray {
+    Vec3 position, direction;
+};
+
+// A surface with the indices of one wavelength.
+struct RefractingSurface {
+    double curvature_per_mm = 0, conic = 0;
+    std::vector<double> asphere;  // coefficient of r^p at [p]; empty for a conic
+    double thickness_mm = 0;
+    double index_before = 1, index_after = 1;
+    double clear_radius_mm = 0;
+
+    // NaN outside the conic's reach. r in mm >= 0.
+    double sag_mm(double r) const;
+    double slope(double r) const;              // d sag / d r
+    double second_derivative(double r) const;  // d2 sag / d r2, 1/mm
+    // Curvature at the vertex, the r^2 term of the asphere included.
+    double vertex_curvature_per_mm() const;
+};
+
+struct LensAtWavelength {
+    double wavelength_um = 0;
+    std::vector<RefractingSurface> surfaces;
+    int stop = 0;
+
+    int count() const { return int(surfaces.size()); }
+};
+
+// The medium in front is air. Requires: check(lens) succeeded.
+LensAtWavelength at_wavelength(const Prescription& lens, double wavelength_um);
+
+// Where the ray meets the surface, both in the surface's frame; nothing if it does not.
+std::optional<Vec3> intersect(const RefractingSurface& surface, const Ray& ray) noexcept;
+
+enum class RayFate { Passed, Missed, TotalReflection };
+
+struct TracedRay {
+    Ray ray;  // in the frame of the last surface reached, behind it if Passed
+    RayFate fate = RayFate::Passed;
+    int surface = -1;      // the last surface reached, from 0
+    double clearance = 0;  // largest (height / clear radius) on the way, the stop's surface excepted; <= 1
+                           // passes every rim
+};
+
+// Surfaces first…end-1. `ray` is in the frame of surface `first`, in front of it (or virtually so: it may
+// start anywhere on its line). Rims do not end rays; see `clearance`.
+TracedRay trace(const LensAtWavelength& lens, Ray ray, int first, int end) noexcept;
+inline TracedRay trace(const LensAtWavelength& lens, const Ray& ray) noexcept {
+    return trace(lens, ray, 0, lens.count());
+}
+
+// The point of the ray on the plane z = z_mm of its frame. Requires: direction.z != 0.
+inline Vec3 at_plane(const Ray& ray, double z_mm) {
+    return ray.position + ((z_mm - ray.position.z) / ray.direction.z) * ray.direction;
+}
+
+}  // namespace petzval::optics

@@ -1,0 +1,122 @@
+#include "optics/ray_trace.h"
+
+#include "optics/test_lenses.h"
+
+#include <gtest/gtest.h>
+
+namespace petzval::optics {
+namespace {
+
+Ray slanted(double height_mm, double x_mm, double angle_rad) {
+    return {{x_mm, height_mm, 0}, {0, std::sin(angle_rad), std::cos(angle_rad)}};
+}
+
+TEST(RayTrace, AnAxialRayGoesStraightThrough) {
+    const TracedRay end = trace(at_wavelength(double_gauss(), kLineD_um), slanted(0, 0, 0));
+    EXPECT_EQ(end.fate, RayFate::Passed);
+    EXPECT_EQ(end.ray.position.y, 0);
+    EXPECT_EQ(end.ray.direction.y, 0);
+}
+
+TEST(RayTrace, LightRunsTheSameWayBackThroughTheReversedLens) {
+    Prescription lens = double_gauss();
+    lens.surfaces[3].asphere = {{4, 1e-5}, {5, 2e-7}};  // an asphere with an odd power as well
+    lens.surfaces[8].conic = -0.7;
+    const auto forward = at_wavelength(lens, kLineF_um);
+    const auto backward = at_wavelength(reversed(lens), kLineF_um);
+    for (const double height : {-6.0, -1.0, 3.0, 7.0}) {
+        const Ray in = slanted(height, 2.5, 0.12);
+        const TracedRay out = trace(forward, in);
+        ASSERT_EQ(out.fate, RayFate::Passed);
+        // Turn about the y axis: z and x change sign, and so does the direction of travel.
+        const Ray turned{{-out.ray.position.x, out.ray.position.y, -out.ray.position.z},
+                         {out.ray.direction.x, -out.ray.direction.y, out.ray.direction.z}};
+        const TracedRay back = trace(backward, turned);
+        ASSERT_EQ(back.fate, RayFate::Passed);
+        EXPECT_NEAR(back.ray.direction.x, 0, 1e-12);
+        EXPECT_NEAR(back.ray.direction.y, -in.direction.y, 1e-12);
+        const Vec3 crossing = at_plane(back.ray, 0);
+        EXPECT_NEAR(crossing.x, -in.position.x, 1e-11);
+        EXPECT_NEAR(crossing.y, in.position.y, 1e-11);
+    }
+}
+
+TEST(RayTrace, TheStartingPointOnTheLineDoesNotMatter) {
+    const auto lens = at_wavelength(double_gauss(), kLineD_um);
+    const Ray near = slanted(4, 1, 0.2);
+    for (const double back_mm : {-30.0, 1e3, 1e5}) {
+        const Ray far{near.position - back_mm * near.direction, near.direction};
+        const TracedRay a = trace(lens, near), b = trace(lens, far);
+        EXPECT_NEAR(a.ray.position.y, b.ray.position.y, 1e-9);
+        EXPECT_NEAR(a.ray.direction.y, b.ray.direction.y, 1e-11);
+    }
+}
+
+TEST(RayTrace, AParaboloidMirrorsTheDefinitionOfItsSag) {
+    RefractingSurface s;
+    s.curvature_per_mm = 0.05;
+    s.conic = -1;
+    s.index_after = 1.5;
+    EXPECT_NEAR(s.sag_mm(6), 0.05 * 36 / 2, 1e-14);  // z = c r^2 / 2
+    const auto hit = intersect(s, {{6, 0, -50}, {0, 0, 1}});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->z, 0.9, 1e-13);
+}
+
+TEST(RayTrace, ACartesianOvalFocusesWithoutSphericalAberration) {
+    // Ellipsoid of conic -1/n^2 facing collimated light: a perfect focus inside the glass at n R/(n - 1).
+    const double n = 1.6, radius = 30;
+    RefractingSurface s;
+    s.curvature_per_mm = 1 / radius;
+    s.conic = -1 / (n * n);
+    s.index_after = n;
+    s.clear_radius_mm = 100;
+    LensAtWavelength lens{0.55, {s}, 0};
+    for (const double height : {0.1, 5.0, 12.0, 17.0}) {
+        const TracedRay ray = trace(lens, slanted(height, 0, 0));
+        ASSERT_EQ(ray.fate, RayFate::Passed);
+        const double z = ray.ray.position.z - ray.ray.position.y * ray.ray.direction.z / ray.ray.direction.y;
+        EXPECT_NEAR(z, n * radius / (n - 1), 1e-10);
+    }
+}
+
+TEST(RayTrace, AnAsphereThatRepeatsASphereTracesLikeIt) {
+    // A sphere of radius 40 as a plane plus its own series, up to r^12: error about (r/R)^14.
+    Prescription sphere = singlet(), series = singlet();
+    sphere.surfaces[0].curvature_per_mm = 1 / 40.0;
+    series.surfaces[0].curvature_per_mm = 0;
+    const double R = 40;
+    series.surfaces[0].asphere = {{2, 1 / (2 * R)},
+                                  {4, 1 / (8 * std::pow(R, 3))},
+                                  {6, 1 / (16 * std::pow(R, 5))},
+                                  {8, 5 / (128 * std::pow(R, 7))},
+                                  {10, 7 / (256 * std::pow(R, 9))},
+                                  {12, 21 / (1024 * std::pow(R, 11))}};
+    const Ray ray = slanted(4, 1, 0.05);
+    const TracedRay a = trace(at_wavelength(sphere, kLineD_um), ray),
+                    b = trace(at_wavelength(series, kLineD_um), ray);
+    EXPECT_NEAR(a.ray.position.y, b.ray.position.y, 1e-11);
+    EXPECT_NEAR(a.ray.direction.y, b.ray.direction.y, 1e-12);
+}
+
+TEST(RayTrace, ARayOutsideTheSphereMissesAndASteepOneIsTotallyReflected) {
+    const auto lens = at_wavelength(singlet(), kLineD_um);
+    EXPECT_EQ(trace(lens, slanted(60, 0, 0)).fate, RayFate::Missed);
+    RefractingSurface glass_to_air;
+    glass_to_air.index_before = 1.6;
+    const LensAtWavelength block{0.55, {glass_to_air}, 0};
+    EXPECT_EQ(trace(block, slanted(0, 0, 0.6)).fate, RayFate::Passed);  // sin 0.6 rad = 0.565 < 1/1.6
+    EXPECT_EQ(trace(block, slanted(0, 0, 0.7)).fate, RayFate::TotalReflection);  // 0.644 > 0.625
+}
+
+TEST(RayTrace, ClearanceTellsHowFarOutsideARimTheRayWas) {
+    Prescription lens = singlet();
+    lens.stop = 1;
+    const TracedRay ray = trace(at_wavelength(lens, kLineD_um), slanted(12, 0, 0));
+    EXPECT_NEAR(ray.clearance, 12.0 / 15, 1e-12);
+    lens.surfaces[0].clear_radius_mm = 10;
+    EXPECT_NEAR(trace(at_wavelength(lens, kLineD_um), slanted(12, 0, 0)).clearance, 1.2, 1e-12);
+}
+
+}  // namespace
+}  // namespace petzval::optics

@@ -1,0 +1,115 @@
+#include "optics/traced_lens.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace petzval::optics {
+namespace {
+
+// Height at the stop of the real axial ray that enters at `height_mm`: the rim of the stop of a lens whose
+// aperture is stated in front. Paraxial where that ray does not get there.
+double real_stop_height(const LensAtWavelength& lens, double height_mm) {
+    TracedRay traced = trace(lens, {{0, height_mm, 0}, {0, 0, 1}}, 0, lens.stop);
+    if (traced.fate == RayFate::Passed) {
+        const auto stop = std::size_t(lens.stop);
+        if (stop > 0) traced.ray.position.z -= lens.surfaces[stop - 1].thickness_mm;
+        if (const auto hit = intersect(lens.surfaces[stop], traced.ray)) return std::abs(hit->y);
+    }
+    return std::abs(trace_paraxial(lens, {height_mm, 0}).height_mm[std::size_t(lens.stop)]);
+}
+
+Error no_image(double focus_mm, double nearest_mm) {
+    std::ostringstream text;
+    text << "focus distance is " << focus_mm
+         << " mm from the entrance pupil; the lens has a real image only of "
+         << "objects beyond " << nearest_mm << " mm";
+    return {ErrorCode::InvalidArgument, text.str()};
+}
+
+}  // namespace
+
+Result<TracedLens> TracedLens::make(Prescription lens, const LensSetting& setting) {
+    if (const Status status = check(lens); !status) return status.error();
+    const auto first = optics::first_order(lens, lens.primary_um);
+    if (!first) return first.error();
+    if (!(setting.focus_distance_mm > 0))
+        return Error{ErrorCode::InvalidArgument, "focus distance must be positive"};
+
+    TracedLens result;
+    result.first_ = *first;
+    result.f_number_ = first->f_number;
+    if (setting.f_number != 0) {
+        if (!(setting.f_number >= first->f_number * (1 - 1e-3)) || !std::isfinite(setting.f_number)) {
+            std::ostringstream text;
+            text << "f-number (--fstop) is " << setting.f_number << "; this lens opens to " << first->f_number
+                 << " and no further";
+            return Error{ErrorCode::InvalidArgument, text.str()};
+        }
+        result.f_number_ = setting.f_number;
+    }
+    const auto primary = at_wavelength(lens, lens.primary_um);
+    const double open_share = first->f_number / result.f_number_;
+    result.stop_radius_mm_ =
+        lens.aperture_kind == ApertureKind::StopRadius
+            ? lens.aperture * open_share
+            : real_stop_height(primary, first->entrance_pupil_diameter_mm / 2 * open_share);
+    if (!(result.stop_radius_mm_ > 0))
+        return Error{ErrorCode::InvalidArgument, "the axial beam has no width at the stop"};
+
+    // The lens moves as a whole, so the distance from its pupil fixes the one from its first vertex.
+    result.focus_distance_mm_ = setting.focus_distance_mm;
+    const double from_vertex = setting.focus_distance_mm - first->entrance_pupil_position_mm;
+    double image_mm = first->back_focal_length_mm;
+    if (std::isfinite(from_vertex)) {
+        image_mm = paraxial_image_distance_mm(primary, from_vertex);
+        const double beyond_focal_point = from_vertex + first->front_focal_position_mm;
+        if (!(beyond_focal_point > 0) && first->focal_length_mm > 0)
+            return no_image(setting.focus_distance_mm,
+                            first->entrance_pupil_position_mm - first->front_focal_position_mm);
+        result.magnification_ = -first->focal_length_mm / beyond_focal_point;  // Newton: m = f / x, x < 0
+    }
+    result.sensor_mm_ = image_mm + setting.sensor_shift_mm;
+
+    const double rim_mm = first->entrance_pupil_diameter_mm / 2 * open_share;
+    const ParaxialRay rim = std::isfinite(from_vertex)
+                                ? ParaxialRay{rim_mm * from_vertex / setting.focus_distance_mm,
+                                              rim_mm / setting.focus_distance_mm}
+                                : ParaxialRay{rim_mm, 0};
+    result.image_slope_ = std::abs(trace_paraxial(primary, rim).behind_last().slope);
+    result.lens_ = std::move(lens);
+    return result;
+}
+
+Result<Beam> TracedLens::beam(double wavelength_um, double field_rad) const {
+    return beam(wavelength_um, ObjectPoint{field_rad, focus_distance_mm_});
+}
+
+Result<Beam> TracedLens::beam(double wavelength_um, const ObjectPoint& object) const {
+    auto lens = std::make_shared<const LensAtWavelength>(at_wavelength(lens_, wavelength_um));
+    for (const RefractingSurface& surface : lens->surfaces)
+        if (!std::isfinite(surface.index_after)) {
+            std::ostringstream text;
+            text << "the glass of " << lens_.name << " has no index at " << wavelength_um << " um";
+            return Error{ErrorCode::InvalidArgument, text.str()};
+        }
+    return Beam::make(std::move(lens), object, first_.entrance_pupil_position_mm, stop_radius_mm_,
+                      sensor_mm_);
+}
+
+double best_focus_shift_mm(std::span<const Beam> axial_beams, std::span<const double> weights) {
+    // Mean over the stop of (y + d * slope)^2, with dA = r dr; smallest at d = -<y slope>/<slope^2>.
+    constexpr int kZones = 64;
+    double cross = 0, square = 0;
+    for (std::size_t k = 0; k < axial_beams.size(); ++k) {
+        for (int zone = 0; zone < kZones; ++zone) {
+            const double r = std::sqrt((zone + 0.5) / kZones);
+            const SensorRay ray = axial_beams[k].ray(0, r);
+            if (!ray.reached || ray.clearance > 1) continue;
+            cross += weights[k] * ray.flux * ray.y_mm * ray.slope_y;
+            square += weights[k] * ray.flux * ray.slope_y * ray.slope_y;
+        }
+    }
+    return square > 0 ? -cross / square : 0;
+}
+
+}  // namespace petzval::optics
