@@ -1,0 +1,208 @@
+// From a job as a user states it to the input of an engine: checks, circles of confusion, lens, sample lists.
+#include "petzval/defocus.h"
+
+#include "base/parallel.h"
+#include "engine/engine.h"
+#include "kernel/lens_model.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+namespace petzval {
+namespace {
+
+// Radii beyond any picture are as good as this; keeps all arithmetic finite.
+constexpr float kLargestRadiusPx = 16384;
+
+Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+float finite_radius(double radius_px) {
+    if (std::isnan(radius_px)) return 0;
+    return float(std::clamp(radius_px, double(-kLargestRadiusPx), double(kLargestRadiusPx)));
+}
+
+double finite_depth(double depth_m) {
+    return depth_m > 0 ? depth_m : std::numeric_limits<double>::infinity();
+}
+
+Status check_sizes(const DefocusJob& job) {
+    if (job.colour.empty()) return invalid("the picture is empty");
+    if (job.depth_m.width() != job.colour.width() || job.depth_m.height() != job.colour.height()) {
+        std::ostringstream text;
+        text << "depth is " << job.depth_m.width() << "x" << job.depth_m.height() << " and colour "
+             << job.colour.width() << "x" << job.colour.height() << "; they must be of one size";
+        return invalid(text.str());
+    }
+    for (const DeepPicture* deep : {job.deep, job.behind})
+        if (deep && !deep->empty() &&
+            (deep->width() != job.colour.width() || deep->height() != job.colour.height()))
+            return invalid("the deep samples or hidden layers are not of the picture's size");
+    if (job.display_window.empty()) return invalid("the display window is empty");
+    if (!(job.pixel_aspect > 0) || !std::isfinite(job.pixel_aspect))
+        return invalid("the pixel aspect ratio must be positive");
+    if (job.pupil_points < 1) return invalid("--pupil-points must be at least 1");
+    return Done{};
+}
+
+// The radius of every pixel of a depth plane: by the camera, or as given.
+class Radii {
+public:
+    static Result<Radii> make(const DefocusJob& job) {
+        Radii radii;
+        if (job.depth_is_coc) return radii;
+        const auto coc = CircleOfConfusion::make(job.camera, job.display_window.width(), job.coc);
+        if (!coc) return coc.error();
+        radii.coc_ = coc.value();
+        return radii;
+    }
+    float operator()(float depth) const {
+        return finite_radius(coc_ ? coc_->radius_px(finite_depth(double(depth))) : double(depth));
+    }
+    Plane of(View<const float> depth, int threads) const {
+        Plane plane = Plane::uninitialised(depth.width(), depth.height());
+        parallel_for(depth.height(), threads, [&](int y) {
+            for (int x = 0; x < depth.width(); ++x) plane(x, y) = (*this)(depth(x, y));
+        });
+        return plane;
+    }
+
+private:
+    std::optional<CircleOfConfusion> coc_;
+};
+
+Rgba finite_colour(Rgba c) {
+    const auto fix = [](float v) { return std::isfinite(v) ? v : 0.0f; };
+    return {fix(c.r), fix(c.g), fix(c.b), std::clamp(fix(c.a), 0.0f, 1.0f)};
+}
+
+Picture finite_picture(View<const Rgba> colour, int threads) {
+    Picture picture = Picture::uninitialised(colour.width(), colour.height());
+    parallel_for(colour.height(), threads, [&](int y) {
+        for (int x = 0; x < colour.width(); ++x) picture(x, y) = finite_colour(colour(x, y));
+    });
+    return picture;
+}
+
+// Hidden layers describe a pixel completely where they hold a sample at or in front of the visible depth;
+// elsewhere the visible sample lies in front of them. Equal depths may differ by rounding (half-float depth).
+constexpr float kSameDepth = 2e-3f;
+
+engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, const Radii& radii) {
+    engine::CocSamples all;
+    const DeepPicture* const extra = job.deep ? job.deep : job.behind;
+    if (!extra || extra->empty()) return all;
+    all.first.reserve(extra->first().size());
+    all.samples.reserve(extra->sample_count() + std::size_t(colour.width()) * std::size_t(colour.height()));
+    for (int y = 0; y < colour.height(); ++y)
+        for (int x = 0; x < colour.width(); ++x) {
+            all.first.push_back(all.samples.size());
+            const std::span<const DeepSample> samples = extra->at(x, y);
+            const float visible = float(finite_depth(double(job.depth_m(x, y))));
+            const bool complete =
+                job.deep || (!samples.empty() && samples.front().depth_m <= visible * (1 + kSameDepth));
+            if (!complete)
+                all.samples.push_back({colour(x, y), radii(job.depth_m(x, y)), radii(job.depth_m(x, y))});
+            for (const DeepSample& s : samples)
+                all.samples.push_back({finite_colour(s.colour), radii(s.depth_m), radii(s.depth_back_m)});
+            std::stable_sort(
+                all.samples.begin() + std::ptrdiff_t(all.first.back()), all.samples.end(),
+                [](const engine::CocSample& a, const engine::CocSample& b) { return a.coc_px < b.coc_px; });
+        }
+    all.first.push_back(all.samples.size());
+    return all;
+}
+
+const engine::Engine* find_engine(const std::string& name) {
+    for (const engine::Engine& e : engine::engines())
+        if (name == e.name) return &e;
+    return nullptr;
+}
+
+// An edge of the data window that lies inside the display window is the end of the scene; any other edge is
+// only where the render stopped.
+engine::OpenEdges open_edges(const DefocusJob& job) {
+    const Rect& display = job.display_window;
+    const Rect& data = job.data_window;
+    return {data.x0 <= display.x0, data.y0 <= display.y0, data.x1 >= display.x1, data.y1 >= display.y1};
+}
+
+}  // namespace
+
+std::vector<std::string> engine_names() {
+    std::vector<std::string> names;
+    for (const engine::Engine& e : engine::engines()) names.emplace_back(e.name);
+    return names;
+}
+
+Result<Plane> circle_of_confusion(const DefocusJob& job) {
+    if (const Status status = check_sizes(job); !status) return status.error();
+    const auto radii = Radii::make(job);
+    if (!radii) return radii.error();
+    return radii->of(job.depth_m, job.threads);
+}
+
+Result<DefocusReport> defocus(const DefocusJob& job) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+
+    if (const Status status = check_sizes(job); !status) return status.error();
+    const engine::Engine* const chosen = find_engine(job.engine);
+    if (!chosen) {
+        std::string known;
+        for (const std::string& name : engine_names()) known += (known.empty() ? "" : ", ") + name;
+        return invalid("--engine " + job.engine + " is not known; there are: " + known);
+    }
+    const auto radii = Radii::make(job);
+    if (!radii) return radii.error();
+    const kernel::Mount mount{job.camera, job.display_window.width(), job.display_window.height(),
+                              job.pixel_aspect};
+    const auto lens = kernel::make_lens(job.lens, mount);
+    if (!lens) return lens.error();
+    const double lens_ready = seconds();
+
+    const Picture colour = finite_picture(job.colour, job.threads);
+    const Plane coc_px = radii->of(job.depth_m, job.threads);
+    Progress progress(job.progress);
+    engine::Input input;
+    input.colour = colour;
+    input.coc_px = coc_px;
+    input.deep = all_samples(job, colour, *radii);
+    input.open_edges = open_edges(job);
+    input.field_centre_x = 0.5 * (job.display_window.x0 + job.display_window.x1) - job.data_window.x0;
+    input.field_centre_y = 0.5 * (job.display_window.y0 + job.display_window.y1) - job.data_window.y0;
+    input.field_per_px =
+        2 / std::hypot(job.display_window.width(), job.display_window.height() / job.pixel_aspect);
+    input.pixel_aspect = job.pixel_aspect;
+    input.lens = lens->get();
+    input.quality = job.quality;
+    input.pupil_points = job.pupil_points;
+    input.threads = job.threads;
+    input.max_memory_bytes = job.max_memory_bytes;
+    input.seed = job.seed;
+    input.progress = &progress;
+    const double prepared = seconds();
+
+    Result<engine::Output> output = chosen->run(input);
+    if (!output) return output.error();
+    DefocusReport report;
+    report.image = std::move(output->image);
+    report.engine = chosen->name;
+    report.device = "cpu";
+    report.lens = lens.value()->description();
+    report.stages = {{"kernels", lens_ready}, {"prepare", prepared - lens_ready}};
+    report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
+    report.warnings = std::move(output->warnings);
+    for (std::size_t i = 0; i < coc_px.size(); ++i) {
+        report.largest_radius_px = std::max(report.largest_radius_px, double(coc_px.pixels()[i]));
+        report.smallest_radius_px = std::min(report.smallest_radius_px, double(coc_px.pixels()[i]));
+    }
+    return report;
+}
+
+}  // namespace petzval

@@ -1,0 +1,251 @@
+// The definition of a correct result (docs/conventions.md), evaluated.
+//
+// For each output pixel and each of many pupil points u, the ray  q(c) = p - c u  is followed to the first
+// surface it meets. Instead of walking every ray, all rays of one pupil point are answered at once: seen
+// through u, a facet at signed radius c stands at its place + c u, so the facets of a tile are drawn there,
+// nearest in front, and every pixel looks up what covers its sample. The sample position inside the pixel
+// moves with u, which is the box filter. A facet that covers only part of its pixel is there for that share
+// of the pupil points.
+//
+// Bright points would be hit by few pupil points and come out dotted; they are taken out first and spread
+// with the lens's exact kernel, each tap dimmed by the share of its rays that a nearer surface stops.
+#include "base/parallel.h"
+#include "engine/engine.h"
+#include "engine/highlights.h"
+#include "engine/lens_ray.h"
+#include "engine/surfaces.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+// Where pupil points cannot be seen singly: 1 px of radius times this is far below a pixel.
+constexpr int kTile = 128;
+constexpr int kTileFieldVaries = 32;
+// Light above 1.5 x its surroundings + 0.25 of diffuse white is spread exactly; the rest is smooth enough for
+// rays.
+constexpr float kHighlightFactor = 1.5f, kHighlightFloor = 0.25f;
+constexpr double kShareOfRays = 0.8, kShareOfHighlights = 0.2;  // of the progress bar
+
+double fraction(double x) { return x - std::floor(x); }
+
+// Position of the sample inside its pixel for ray k: the R2 sequence (M. Roberts, "The unreasonable
+// effectiveness of quasirandom sequences", 2018), shifted so that a single ray looks at the centre.
+struct InPixel {
+    double x, y;
+};
+InPixel in_pixel(int k) {
+    return {fraction(0.5 + 0.7548776662466927 * k), fraction(0.5 + 0.5698402909980532 * k)};
+}
+
+// Whether a facet that covers part of its pixel is there for ray k; over all rays it is, for just its share.
+bool is_there(const Facet& facet, std::uint32_t index, int k) {
+    if (facet.coverage >= 1) return true;
+    const double start = fraction(index * 0.7320508075688772);
+    return fraction(start + 0.6180339887498949 * k) < double(facet.coverage);
+}
+
+// One tile of the output, drawn once per pupil point.
+class Tile {
+public:
+    Tile(const Surfaces& surfaces, const Rect& area)
+        : surfaces_(surfaces),
+          area_(area),
+          nearest_(area.width(), area.height()),
+          hit_(area.width(), area.height()),
+          sum_(area.width(), area.height()) {}
+
+    void add(const kernel::PupilRay& ray, int k) {
+        clear();
+        for (int by = 0; by < surfaces_.blocks_y(); ++by)
+            for (int bx = 0; bx < surfaces_.blocks_x(); ++bx)
+                if (reaches(bx, by, ray)) draw_block(surfaces_.block_area(bx, by), ray, k);
+        for (int y = 0; y < area_.height(); ++y)
+            for (int x = 0; x < area_.width(); ++x)
+                if (const std::uint32_t hit = hit_(x, y); hit != kNothing)
+                    sum_(x, y) += surfaces_.facets()[hit].colour * ray.weight;
+    }
+
+    const Picture& sum() const { return sum_; }
+
+private:
+    static constexpr std::uint32_t kNothing = 0xffffffff;
+
+    void clear() {
+        std::fill_n(nearest_.pixels(), nearest_.size(), 1e30f);
+        std::fill_n(hit_.pixels(), hit_.size(), kNothing);
+    }
+
+    bool reaches(int bx, int by, const kernel::PupilRay& ray) const {
+        const Surfaces::Bounds bounds = surfaces_.block(bx, by);
+        if (bounds.min > bounds.max) return false;
+        const Rect r = surfaces_.block_area(bx, by);
+        const float ax = bounds.min * ray.x + ray.offset_x_px, bx_px = bounds.max * ray.x + ray.offset_x_px;
+        const float ay = bounds.min * ray.y + ray.offset_y_px, by_px = bounds.max * ray.y + ray.offset_y_px;
+        return float(r.x1) + std::max(ax, bx_px) >= float(area_.x0) &&
+               float(r.x0) + std::min(ax, bx_px) < float(area_.x1) &&
+               float(r.y1) + std::max(ay, by_px) >= float(area_.y0) &&
+               float(r.y0) + std::min(ay, by_px) < float(area_.y1);
+    }
+
+    void draw_block(const Rect& block, const kernel::PupilRay& ray, int k) {
+        const InPixel sample = in_pixel(k);
+        const float shift_x = ray.offset_x_px - float(sample.x) - float(area_.x0);
+        const float shift_y = ray.offset_y_px - float(sample.y) - float(area_.y0);
+        for (int y = block.y0; y < block.y1; ++y)
+            for (int x = block.x0; x < block.x1; ++x) {
+                std::uint32_t index = surfaces_.first(x, y);
+                for (const Facet& facet : surfaces_.at(x, y)) {
+                    if (is_there(facet, index, k))
+                        draw(facet, index, float(x) + shift_x, float(y) + shift_y, ray);
+                    ++index;
+                }
+            }
+    }
+
+    // (left, top): corner of the facet's pixel, such that samples are at whole numbers.
+    void draw(const Facet& facet, std::uint32_t index, float left, float top, const kernel::PupilRay& ray) {
+        const float* c = facet.corner_coc_px;
+        const float bend = std::max({std::abs(c[0] - c[1]), std::abs(c[0] - c[2]), std::abs(c[0] - c[3])});
+        if (bend < 1e-5f) {  // flat: a unit square holds exactly one sample
+            const int x = int(std::ceil(left + facet.coc_px * ray.x)),
+                      y = int(std::ceil(top + facet.coc_px * ray.y));
+            if (x >= 0 && x < area_.width() && y >= 0 && y < area_.height()) put(x, y, facet.coc_px, index);
+            return;
+        }
+        const float x[4] = {left + c[0] * ray.x, left + 1 + c[1] * ray.x, left + c[2] * ray.x,
+                            left + 1 + c[3] * ray.x};
+        const float y[4] = {top + c[0] * ray.y, top + c[1] * ray.y, top + 1 + c[2] * ray.y,
+                            top + 1 + c[3] * ray.y};
+        const int x0 = std::max(0, int(std::ceil(std::min({x[0], x[1], x[2], x[3]}))));
+        const int x1 = std::min(area_.width() - 1, int(std::floor(std::max({x[0], x[1], x[2], x[3]}))));
+        const int y0 = std::max(0, int(std::ceil(std::min({y[0], y[1], y[2], y[3]}))));
+        const int y1 = std::min(area_.height() - 1, int(std::floor(std::max({y[0], y[1], y[2], y[3]}))));
+        for (int v = y0; v <= y1; ++v)
+            for (int u = x0; u <= x1; ++u)
+                if (in_triangle(float(u), float(v), x, y, 0, 1, 2) ||
+                    in_triangle(float(u), float(v), x, y, 1, 3, 2))
+                    put(u, v, facet.coc_px, index);
+    }
+
+    // Either way round: a surface seen from a far side of the pupil may be turned over.
+    static bool in_triangle(float u, float v, const float* x, const float* y, int a, int b, int c) {
+        const auto side = [&](int i, int j) {
+            return (x[j] - x[i]) * (v - y[i]) - (y[j] - y[i]) * (u - x[i]);
+        };
+        const float ab = side(a, b), bc = side(b, c), ca = side(c, a);
+        return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+    }
+
+    void put(int x, int y, float coc_px, std::uint32_t index) {
+        if (coc_px >= nearest_(x, y)) return;
+        nearest_(x, y) = coc_px;
+        hit_(x, y) = index;
+    }
+
+    const Surfaces& surfaces_;
+    Rect area_;
+    Plane nearest_;
+    Image<std::uint32_t> hit_;
+    Picture sum_;
+};
+
+std::vector<Rect> tiles_of(const Rect& area, int size) {
+    std::vector<Rect> tiles;
+    for (int y = area.y0; y < area.y1; y += size)
+        for (int x = area.x0; x < area.x1; x += size)
+            tiles.push_back(Rect{x, y, x + size, y + size}.intersected(area));
+    return tiles;
+}
+
+void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
+    const bool varies = input.lens->varies_over_field();
+    const std::vector<Rect> tiles = tiles_of(out.rect(), varies ? kTileFieldVaries : kTile);
+    const auto rays_at = [&](const Rect& r) {
+        return input.lens->rays(input.pupil_points,
+                                input.field_at(0.5 * (r.x0 + r.x1 - 1), 0.5 * (r.y0 + r.y1 - 1)), input.seed);
+    };
+    const std::vector<kernel::PupilRay> everywhere = rays_at(out.rect());
+    parallel_for(int(tiles.size()), input.threads, [&](int i) {
+        if (input.progress->cancelled()) return;
+        const Rect& area = tiles[std::size_t(i)];
+        const std::vector<kernel::PupilRay> here = varies ? rays_at(area) : std::vector<kernel::PupilRay>{};
+        const std::vector<kernel::PupilRay>& rays = varies ? here : everywhere;
+        Tile tile(surfaces, area);
+        for (int k = 0; k < int(rays.size()); ++k) tile.add(rays[std::size_t(k)], k);
+        for (int y = area.y0; y < area.y1; ++y)
+            for (int x = area.x0; x < area.x1; ++x) out(x, y) = tile.sum()(x - area.x0, y - area.y0);
+        input.progress->advance(kShareOfRays / double(tiles.size()));
+    });
+}
+
+void spread_highlights(const Input& input, const Surfaces& surfaces, const std::vector<Highlight>& highlights,
+                       View<Rgba> out) {
+    // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
+    // threads.
+    constexpr int kBatch = 512;
+    const int count = int(highlights.size());
+    for (int begin = 0; begin < count && !input.progress->cancelled(); begin += kBatch) {
+        const int size = std::min(kBatch, count - begin);
+        std::vector<kernel::PointSpread> spreads(static_cast<std::size_t>(size));
+        parallel_for(size, input.threads, [&](int i) {
+            const Highlight& h = highlights[std::size_t(begin + i)];
+            spreads[std::size_t(i)] =
+                visible_point_spread(surfaces, *input.lens, input.field_at(h.x, h.y), h.x, h.y, h.coc_px);
+        });
+        constexpr int kBand = 32;
+        parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
+            const Rect rows = Rect{0, band * kBand, out.width(), (band + 1) * kBand}.intersected(out.rect());
+            for (int i = 0; i < size; ++i) {
+                const Highlight& h = highlights[std::size_t(begin + i)];
+                const kernel::PointSpread& spread = spreads[std::size_t(i)];
+                const Rect e = spread.extent;
+                const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
+                for (int y = place.y0; y < place.y1; ++y)
+                    for (int x = place.x0; x < place.x1; ++x)
+                        out(x, y) += spread.weights(x - h.x - e.x0, y - h.y - e.y0) * h.colour;
+            }
+        });
+        input.progress->advance(kShareOfHighlights * size / count);
+    }
+}
+
+double largest_radius(const Input& input) {
+    float largest = 0;
+    for (int y = 0; y < input.height(); ++y)
+        for (int x = 0; x < input.width(); ++x) largest = std::max(largest, std::abs(input.coc_px(x, y)));
+    for (const CocSample& s : input.deep.samples) largest = std::max(largest, std::abs(s.coc_px));
+    return largest;
+}
+
+}  // namespace
+
+Result<Output> run_reference(const Input& input) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+
+    SplitPicture split = split_highlights(input, kHighlightFactor, kHighlightFloor);
+    Input base = input;
+    base.colour = split.base;
+    base.deep = std::move(split.deep);
+    // A ray may come from as far as the largest radius on either side of focus.
+    const int margin = int(std::ceil(input.lens->reach_px(largest_radius(input)))) + 2;
+    const Surfaces surfaces = Surfaces::make(base, margin);
+    const double prepared = seconds();
+
+    Output output;
+    output.image = Picture(input.width(), input.height());
+    trace_base(base, surfaces, output.image);
+    const double traced = seconds();
+    spread_highlights(input, surfaces, split.highlights, output.image);
+    if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+    output.stages = {{"surfaces", prepared}, {"rays", traced - prepared}, {"highlights", seconds() - traced}};
+    return output;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,72 @@
+// The samples of a frame as connected surfaces: what a lens ray can hit.
+//
+// Every sample is a small square facet at its pixel. Where neighbouring samples belong to one surface their
+// facets share corners, so the surface is watertight; at a silhouette they do not, and rays pass between.
+#pragma once
+
+#include "engine/engine.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace petzval::engine {
+
+struct Facet {
+    Rgba colour;             // what a ray that hits it sees: straight colour, a = 1
+    float coverage = 1;      // share of the pixel the facet fills, 0…1
+    float coc_px = 0;        // signed radius at the centre
+    float corner_coc_px[4];  // at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
+};
+
+// Facets of the picture and of a border of `margin` pixels around it. Beyond an open edge the outermost
+// pixels are repeated; beyond a closed one there is nothing.
+class Surfaces {
+public:
+    // Smallest and largest corner radius of a block of kBlock x kBlock pixels; min > max where it is empty.
+    static constexpr int kBlock = 16;
+    struct Bounds {
+        float min = 1e30f, max = -1e30f;
+    };
+
+    static Surfaces make(const Input& input, int margin);
+
+    // The area covered, in picture coordinates: the picture grown by the margin.
+    Rect area() const { return area_; }
+    // Facets of pixel (x, y) inside area(), nearest first; and the index of the first of them in facets().
+    std::span<const Facet> at(int x, int y) const { return {facets_.data() + first(x, y), count(x, y)}; }
+    std::uint32_t first(int x, int y) const { return first_[pixel(x, y)]; }
+    std::span<const Facet> facets() const { return facets_; }
+    int blocks_x() const { return (area_.width() + kBlock - 1) / kBlock; }
+    int blocks_y() const { return (area_.height() + kBlock - 1) / kBlock; }
+    Bounds block(int bx, int by) const {
+        return blocks_[std::size_t(by) * std::size_t(blocks_x()) + std::size_t(bx)];
+    }
+    Rect block_area(int bx, int by) const {
+        const int x = area_.x0 + bx * kBlock, y = area_.y0 + by * kBlock;
+        return Rect{x, y, x + kBlock, y + kBlock}.intersected(area_);
+    }
+
+private:
+    std::size_t pixel(int x, int y) const {
+        return std::size_t(y - area_.y0) * std::size_t(area_.width()) + std::size_t(x - area_.x0);
+    }
+    std::size_t count(int x, int y) const { return first_[pixel(x, y) + 1] - first_[pixel(x, y)]; }
+    void gather(const Input& input);
+    void connect(int threads);
+    void connect_around_corner(int x, int y);
+    void bound();
+
+    Rect area_;
+    std::vector<std::uint32_t> first_;
+    std::vector<Facet> facets_;
+    std::vector<Bounds> blocks_;
+};
+
+// True if two neighbouring samples belong to one surface, as far as their radii tell. A step of up to one
+// pixel of radius cannot hide anything wider than that, so it always connects; a larger one only where it
+// continues the slope on one of its sides (signed change of radius per pixel): on a plane the radius is
+// linear in image position.
+bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px, float slope_after_b_px);
+
+}  // namespace petzval::engine
