@@ -87,9 +87,10 @@ Picture finite_picture(View<const Rgba> colour, int threads) {
     return picture;
 }
 
-// Hidden layers describe a pixel completely where they hold a sample at or in front of the visible depth;
-// elsewhere the visible sample lies in front of them. Equal depths may differ by rounding (half-float depth).
-constexpr float kSameDepth = 2e-3f;
+// Hidden layers describe a pixel completely where they hold a sample at or in front of the visible one;
+// elsewhere the visible sample lies in front of them. Radii of equal depths may differ by rounding
+// (half-float depth).
+constexpr float kSameRadiusPx = 0.02f;
 
 engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, const Radii& radii) {
     engine::CocSamples all;
@@ -101,11 +102,10 @@ engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, c
         for (int x = 0; x < colour.width(); ++x) {
             all.first.push_back(all.samples.size());
             const std::span<const DeepSample> samples = extra->at(x, y);
-            const float visible = float(finite_depth(double(job.depth_m(x, y))));
+            const float visible = radii(job.depth_m(x, y));
             const bool complete =
-                job.deep || (!samples.empty() && samples.front().depth_m <= visible * (1 + kSameDepth));
-            if (!complete)
-                all.samples.push_back({colour(x, y), radii(job.depth_m(x, y)), radii(job.depth_m(x, y))});
+                job.deep || (!samples.empty() && radii(samples.front().depth_m) <= visible + kSameRadiusPx);
+            if (!complete) all.samples.push_back({colour(x, y), visible, visible});
             for (const DeepSample& s : samples)
                 all.samples.push_back({finite_colour(s.colour), radii(s.depth_m), radii(s.depth_back_m)});
             std::stable_sort(

@@ -33,7 +33,9 @@ bool crosses(const Facet& facet, int px, int py, const RaySource& s, double u, d
         speed;
     if (c > s.coc_px - kOwnSurfacePx) return false;
     const double qx = s.x + (s.coc_px - c) * u - px, qy = s.y + (s.coc_px - c) * v - py;
-    return qx >= 0 && qx < 1 && qy >= 0 && qy < 1;
+    // A hair wider than the pixel, so that no ray slips between two.
+    constexpr double kHair = 1e-9;
+    return qx >= -kHair && qx <= 1 + kHair && qy >= -kHair && qy <= 1 + kHair;
 }
 
 // A fixed sequence of chances that differ from ray to ray: multiples of the golden ratio.

@@ -32,20 +32,26 @@ constexpr double kShareOfRays = 0.8, kShareOfHighlights = 0.2;  // of the progre
 
 double fraction(double x) { return x - std::floor(x); }
 
-// Position of the sample inside its pixel for ray k: the R2 sequence (M. Roberts, "The unreasonable
-// effectiveness of quasirandom sequences", 2018), shifted so that a single ray looks at the centre.
+// Digits of k mirrored at the point (van der Corput), 0…1. Bases 5, 7 and 11 have nothing in common with each
+// other or with the sequences lenses spread their rays by, so no direction of the pupil meets the same sample
+// twice.
+double radical_inverse(int k, int base) {
+    double value = 0, digit = 1.0 / base;
+    for (; k > 0; k /= base, digit /= base) value += (k % base) * digit;
+    return value;
+}
+
+// Position of the sample inside its pixel for ray k; a single ray looks at the centre.
 struct InPixel {
     double x, y;
 };
 InPixel in_pixel(int k) {
-    return {fraction(0.5 + 0.7548776662466927 * k), fraction(0.5 + 0.5698402909980532 * k)};
+    return {fraction(0.5 + radical_inverse(k, 5)), fraction(0.5 + radical_inverse(k, 7))};
 }
 
 // Whether a facet that covers part of its pixel is there for ray k; over all rays it is, for just its share.
-bool is_there(const Facet& facet, std::uint32_t index, int k) {
-    if (facet.coverage >= 1) return true;
-    const double start = fraction(index * 0.7320508075688772);
-    return fraction(start + 0.6180339887498949 * k) < double(facet.coverage);
+bool is_there(const Facet& facet, std::uint32_t index, double chance) {
+    return facet.coverage >= 1 || fraction(index * 0.7320508075688772 + chance) < double(facet.coverage);
 }
 
 // One tile of the output, drawn once per pupil point.
@@ -56,6 +62,7 @@ public:
           area_(area),
           nearest_(area.width(), area.height()),
           hit_(area.width(), area.height()),
+          recent_(area.width(), area.height()),
           sum_(area.width(), area.height()) {}
 
     void add(const kernel::PupilRay& ray, int k) {
@@ -66,13 +73,26 @@ public:
         for (int y = 0; y < area_.height(); ++y)
             for (int x = 0; x < area_.width(); ++x)
                 if (const std::uint32_t hit = hit_(x, y); hit != kNothing)
-                    sum_(x, y) += surfaces_.facets()[hit].colour * ray.weight;
+                    recent_(x, y) += surfaces_.facets()[hit].colour * ray.weight;
+        if (k % kRecent == kRecent - 1) settle();
     }
 
-    const Picture& sum() const { return sum_; }
+    const Picture& sum() {
+        settle();
+        return sum_;
+    }
 
 private:
     static constexpr std::uint32_t kNothing = 0xffffffff;
+    // Thousands of small floats added to one large one lose digits; sums of this many first do not.
+    static constexpr int kRecent = 64;
+
+    void settle() {
+        for (std::size_t i = 0; i < sum_.size(); ++i) {
+            sum_.pixels()[i] += recent_.pixels()[i];
+            recent_.pixels()[i] = {};
+        }
+    }
 
     void clear() {
         std::fill_n(nearest_.pixels(), nearest_.size(), 1e30f);
@@ -93,13 +113,14 @@ private:
 
     void draw_block(const Rect& block, const kernel::PupilRay& ray, int k) {
         const InPixel sample = in_pixel(k);
+        const double chance = radical_inverse(k, 11);
         const float shift_x = ray.offset_x_px - float(sample.x) - float(area_.x0);
         const float shift_y = ray.offset_y_px - float(sample.y) - float(area_.y0);
         for (int y = block.y0; y < block.y1; ++y)
             for (int x = block.x0; x < block.x1; ++x) {
                 std::uint32_t index = surfaces_.first(x, y);
                 for (const Facet& facet : surfaces_.at(x, y)) {
-                    if (is_there(facet, index, k))
+                    if (is_there(facet, index, chance))
                         draw(facet, index, float(x) + shift_x, float(y) + shift_y, ray);
                     ++index;
                 }
@@ -150,7 +171,7 @@ private:
     Rect area_;
     Plane nearest_;
     Image<std::uint32_t> hit_;
-    Picture sum_;
+    Picture recent_, sum_;
 };
 
 std::vector<Rect> tiles_of(const Rect& area, int size) {

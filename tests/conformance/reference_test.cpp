@@ -1,0 +1,169 @@
+#include "petzval/defocus.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+// A picture with given radii, through the ideal lens.
+struct Shot {
+    Picture colour;
+    Plane coc_px;
+    DeepPicture behind;
+    DefocusJob job() const {
+        DefocusJob job;
+        job.colour = colour;
+        job.depth_m = coc_px;
+        job.depth_is_coc = true;
+        job.behind = behind.empty() ? nullptr : &behind;
+        job.display_window = job.data_window = colour.rect();
+        job.engine = "reference";
+        job.pupil_points = 1024;
+        return job;
+    }
+};
+
+Shot flat(int width, int height, Rgba colour, float coc_px) {
+    return {Picture(width, height, colour), Plane(width, height, coc_px), {}};
+}
+
+void paint_noise(Picture& picture, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> value(0.1f, 0.9f);
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x)
+            picture(x, y) = {value(random), value(random), value(random), 1};
+}
+
+Picture rendered(const DefocusJob& job) {
+    auto report = defocus(job);
+    EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
+    return std::move(report->image);
+}
+
+double largest_difference(const Picture& a, const Picture& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Rgba d = a.pixels()[i] - b.pixels()[i];
+        for (const float v : {d.r, d.g, d.b, d.a}) largest = std::max(largest, double(std::abs(v)));
+    }
+    return largest;
+}
+
+TEST(Reference, InFocusIsUntouched) {
+    Shot shot = flat(40, 23, {}, 0);
+    paint_noise(shot.colour, 1);
+    EXPECT_LT(largest_difference(rendered(shot.job()), shot.colour), 2e-6);
+}
+
+TEST(Reference, AConstantPictureStaysConstantUpToTheBorder) {
+    for (const float coc : {-9.0f, 0.4f, 6.5f}) {
+        const Shot shot = flat(31, 20, {0.2f, 0.5f, 0.7f, 1}, coc);
+        EXPECT_LT(largest_difference(rendered(shot.job()), shot.colour), 1e-5) << coc;
+    }
+}
+
+TEST(Reference, ABrightPointBecomesTheKernelOfTheLens) {
+    Shot shot = flat(101, 101, {0, 0, 0, 1}, 40);
+    shot.colour(50, 50) = {1000, 1000, 1000, 1};
+    const Picture image = rendered(shot.job());
+    double sum = 0;
+    const double inside = 1000 / (M_PI * 40 * 40);
+    for (int y = 0; y < 101; ++y)
+        for (int x = 0; x < 101; ++x) {
+            sum += double(image(x, y).g);
+            const double distance = std::hypot(x - 50, y - 50);
+            if (distance < 39) EXPECT_NEAR(image(x, y).g, inside, 0.005 * inside) << x << ", " << y;
+            if (distance > 41) EXPECT_NEAR(image(x, y).g, 0, 1e-9);
+        }
+    EXPECT_NEAR(sum, 1000, 1);
+}
+
+TEST(Reference, ASlantedSurfaceDoesNotLeak) {
+    // The surface passes through focus; everything behind it would be seen as red.
+    Shot shot = flat(80, 60, {0.5f, 0.5f, 0.5f, 1}, 0);
+    std::vector<std::size_t> first;
+    std::vector<DeepSample> samples;
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 80; ++x) {
+            shot.coc_px(x, y) = 0.25f * float(x - 40);
+            first.push_back(samples.size());
+            samples.push_back({{1, 0, 0, 1}, 30, 30});
+        }
+    first.push_back(samples.size());
+    shot.behind = DeepPicture(80, 60, first, samples);
+    const Picture image = rendered(shot.job());
+    for (int y = 0; y < 60; ++y)
+        for (int x = 12; x < 68; ++x) EXPECT_NEAR(image(x, y).r, 0.5, 0.004) << x << ", " << y;
+}
+
+TEST(Reference, NothingBleedsFromBehindOntoAnEdgeInFocus) {
+    Shot shot = flat(64, 32, {0.1f, 0.1f, 0.1f, 1}, 0);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 32; x < 64; ++x) shot.colour(x, y) = {0.9f, 0.9f, 0.9f, 1}, shot.coc_px(x, y) = 8;
+    const Picture image = rendered(shot.job());
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) EXPECT_NEAR(image(x, y).g, 0.1, 1e-5) << x;
+}
+
+TEST(Reference, ABlurredEdgeInFrontShowsTheSuppliedBackgroundThroughIt) {
+    // Front half plane at radius -10, a background in focus everywhere: at the edge half of the lens sees
+    // each.
+    Shot shot = flat(64, 32, {0.8f, 0.8f, 0.8f, 1}, 0);
+    std::vector<std::size_t> first;
+    std::vector<DeepSample> samples;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x) {
+            first.push_back(samples.size());
+            if (x >= 32) continue;
+            shot.colour(x, y) = {0, 0, 0, 1}, shot.coc_px(x, y) = -10;
+            samples.push_back({{0.8f, 0.8f, 0.8f, 1}, 0, 0});
+        }
+    first.push_back(samples.size());
+    shot.behind = DeepPicture(64, 32, first, samples);
+    const Picture image = rendered(shot.job());
+    // Share of a disc of radius 10 on one side of a line at distance d: 1/2 + (asin t + t sqrt(1 - t^2))/pi,
+    // t = d/10.
+    for (int x = 18; x < 46; ++x) {
+        const double t = std::clamp((x + 0.5 - 32) / 10, -1.0, 1.0);
+        const double clear = 0.5 + (std::asin(t) + t * std::sqrt(1 - t * t)) / M_PI;
+        EXPECT_NEAR(image(x, 16).g, 0.8 * clear, 0.006) << x;
+    }
+}
+
+TEST(Reference, ALampBehindATwigShowsTheTwigsShadowInsideItsDisc) {
+    Shot shot = flat(101, 101, {0, 0, 0, 1}, 30);
+    shot.colour(50, 50) = {1000, 1000, 1000, 1};
+    for (int y = 0; y < 101; ++y)
+        for (int x = 54; x < 58; ++x) shot.coc_px(x, y) = -15;  // a dark upright bar in front
+    const Picture image = rendered(shot.job());
+    // The bar at q = x_s + (30 + 15) u covers u in [4/45, 8/45] less half a pixel: landing at 50.5 + 30 u,
+    // that is pixels 52.8 to 55.5.
+    const double inside = 1000 / (M_PI * 30 * 30);
+    EXPECT_NEAR(image(54, 50).g, 0, 0.02 * inside);
+    EXPECT_NEAR(image(60, 50).g, inside, 0.01 * inside);
+    EXPECT_NEAR(image(48, 50).g, inside, 0.01 * inside);
+}
+
+TEST(Reference, TheSameBitsForAnyThreadCount) {
+    Shot shot = flat(70, 50, {}, 5);
+    paint_noise(shot.colour, 2);
+    shot.colour(30, 20) = {90, 60, 20, 1};
+    DefocusJob one = shot.job(), two = shot.job();
+    one.threads = 1, two.threads = 2;
+    EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
+}
+
+TEST(Reference, EmptinessStaysEmpty) {
+    Shot shot = flat(40, 40, {0.3f, 0.2f, 0.1f, 0.5f}, 6);
+    const Picture image = rendered(shot.job());
+    EXPECT_NEAR(image(20, 20).a, 0.5, 0.01);
+    EXPECT_NEAR(image(20, 20).r, 0.3, 0.006);
+}
+
+}  // namespace
+}  // namespace petzval
