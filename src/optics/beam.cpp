@@ -243,6 +243,8 @@ std::optional<Ray> Beam::entering(double stop_x, double stop_y) const noexcept {
 
 SensorRay Beam::ray(double stop_x, double stop_y) const noexcept {
     SensorRay result;
+    const Guess g = guess(stop_x, stop_y);
+    result.flux = std::abs(g.by_x.x * g.by_y.y - g.by_x.y * g.by_y.x) / chief_flux_;
     const auto enters = entering(stop_x, stop_y);
     if (!enters) return result;
     const TracedRay traced = trace(*lens_, *enters);
@@ -257,8 +259,6 @@ SensorRay Beam::ray(double stop_x, double stop_y) const noexcept {
     result.slope_x = d.x / d.z;
     result.slope_y = d.y / d.z;
 
-    const Guess g = guess(stop_x, stop_y);
-    result.flux = std::abs(g.by_x.x * g.by_y.y - g.by_x.y * g.by_y.x) / chief_flux_;
     if (std::isfinite(object_.distance_mm)) {
         // Solid angle of an element of the launch plane: area times cos / distance^2, cos ~ 1 / distance.
         const Vec3 chief = launch(chief_).position - object_position_;

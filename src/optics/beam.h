@@ -29,7 +29,7 @@ struct SensorRay {
     double clearance = 0;  // largest (height / clear radius) at any rim but the stop's; <= 1: not vignetted
     double x_mm = 0, y_mm = 0;        // on the sensor, from the axis
     double slope_x = 0, slope_y = 0;  // dx/dz, dy/dz: a sensor moved by d from the lens adds d * slope
-    double flux = 0;                  // light per area of the stop, relative to that at its centre
+    double flux = 0;  // light per area of the stop, relative to that at its centre; also if not reached
 };
 
 // Immutable; safe to use from many threads; ray() allocates nothing.
