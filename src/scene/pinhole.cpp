@@ -1,0 +1,211 @@
+// The picture a pinhole takes, with depth, and what hides behind what it sees.
+#include "base/parallel.h"
+#include "scene/tracing.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace petzval::scene {
+namespace {
+
+constexpr int kMaxLayers = 8;       // surfaces that one ray is followed through
+constexpr int kMaxSteps = 64;       // including surfaces seen from inside
+constexpr int kLampSamples = 1024;  // where a lamp, perhaps smaller than a pixel, shows
+// Hits of one object in one pixel whose depths leave a gap of more than this share belong to separate sheets.
+constexpr float kDepthGap = 0.01f;
+
+struct PeeledHit {
+    std::uint32_t object;
+    int ray;
+    float depth_m;
+    Vec3 radiance;
+};
+
+// Pixels of row y that a lamp may touch.
+std::vector<char> lamp_pixels(const Pass& pass, int y) {
+    std::vector<char> touched(std::size_t(pass.width), 0);
+    for (const Lamp& lamp : pass.world.lamps()) {
+        const Vec3 p = pass.world.view.from_world(lamp.centre);
+        if (p.z <= 0) continue;
+        const float reach = lamp.radius_m / p.z / pass.lens.pixel + 1;
+        if (std::abs(pass.lens.image_y(p) - (float(y) + 0.5f)) > reach) continue;
+        const float x = pass.lens.image_x(p);
+        const int first = int(std::clamp(x - reach, 0.0f, float(pass.width)));
+        const int last = int(std::clamp(x + reach, -1.0f, float(pass.width - 1)));
+        for (int i = first; i <= last; ++i) touched[std::size_t(i)] = 1;
+    }
+    return touched;
+}
+
+class Row {
+public:
+    Row(const Pass& pass, const SobolPoints& points, const SobolPoints& lamp_points, int y, bool want_layers)
+        : pass_(pass),
+          points_(points),
+          lamp_points_(lamp_points),
+          y_(y),
+          layers_(want_layers ? kMaxLayers : 1) {}
+
+    void render(Picture& colour, Plane& depth_m) {
+        const std::vector<char> lamps = lamp_pixels(pass_, y_);
+        for (int x = 0; x < pass_.width; ++x) {
+            const SobolPoints& points = lamps[std::size_t(x)] ? lamp_points_ : points_;
+            trace_pixel(x, points);
+            Vec3 sum;
+            for (const PeeledHit& hit : first_hits_) sum += hit.radiance;
+            colour(x, y_) = opaque(sum / float(points.count()));
+            if (layers_ > 1) collect(points.count());
+        }
+        trace_centres(depth_m);
+    }
+
+    std::vector<DeepSample> samples;
+    std::vector<std::size_t> counts;  // per pixel
+
+private:
+    struct Group {
+        double inverse_depth = 0;
+        Vec3 radiance = {};
+        int rays = 0, first_rays = 0;
+    };
+
+    void trace_pixel(int x, const SobolPoints& points);
+    void follow(Packet& packet, int first_ray, int lanes);
+    void collect(int rays);
+    std::vector<Group> groups();
+    void trace_centres(Plane& depth_m) const;
+
+    const Pass& pass_;
+    const SobolPoints &points_, &lamp_points_;
+    int y_, layers_;
+    std::vector<PeeledHit> hits_, first_hits_;
+};
+
+void Row::trace_pixel(int x, const SobolPoints& points) {
+    hits_.clear(), first_hits_.clear();
+    const std::uint32_t seed = hash(hash(pass_.seed, std::uint32_t(x)), std::uint32_t(y_));
+    for (int i = 0; i < points.count(); i += kPacket) {
+        Packet packet(pass_.world);
+        const int lanes = std::min(kPacket, points.count() - i);
+        for (int lane = 0; lane < lanes; ++lane) {
+            const Point4 p = points.at(i + lane, seed);
+            packet.set(lane, pass_.lens.through(float(x) + p[0], float(y_) + p[1], {}));
+        }
+        follow(packet, i, lanes);
+    }
+}
+
+void Row::follow(Packet& packet, int first_ray, int lanes) {
+    int found[kPacket] = {}, going = lanes;
+    bool active[kPacket];
+    for (int lane = 0; lane < kPacket; ++lane) active[lane] = lane < lanes;
+    for (int step = 0; step < kMaxSteps && going > 0; ++step) {
+        packet.intersect();
+        for (int lane = 0; lane < lanes; ++lane) {
+            if (!active[lane]) continue;
+            const World::Hit hit = packet.hit(lane);
+            const bool outside = !pass_.world.is_inside(hit);
+            if (outside) {
+                const PeeledHit peeled{hit.object, first_ray + lane, packet.depth(lane),
+                                       pass_.world.radiance(hit)};
+                if (found[lane]++ == 0) first_hits_.push_back(peeled);
+                hits_.push_back(peeled);
+            }
+            if (packet.missed(lane) || found[lane] == layers_) {
+                active[lane] = false, --going;
+                packet.retire(lane);
+            } else {
+                packet.step_behind(lane);
+            }
+        }
+    }
+}
+
+// Hits of one object without a gap in depth between them. Of a ray that hits a group more than once (tubes
+// run into each other) the nearest hit counts.
+std::vector<Row::Group> Row::groups() {
+    std::sort(hits_.begin(), hits_.end(), [](const PeeledHit& a, const PeeledHit& b) {
+        if (a.object != b.object) return a.object < b.object;
+        return a.depth_m != b.depth_m ? a.depth_m < b.depth_m : a.ray < b.ray;
+    });
+    std::vector<float> nearest(std::size_t(lamp_points_.count() + points_.count()),
+                               std::numeric_limits<float>::infinity());
+    for (const PeeledHit& hit : first_hits_) nearest[std::size_t(hit.ray)] = hit.depth_m;
+    std::vector<int> last_group(nearest.size(), -1);
+    std::vector<Group> found;
+    const PeeledHit* previous = nullptr;
+    for (const PeeledHit& hit : hits_) {
+        const bool joined = previous && previous->object == hit.object &&
+                            (hit.object == World::kSky || hit.depth_m <= previous->depth_m * (1 + kDepthGap));
+        if (!joined) found.emplace_back();
+        previous = &hit;
+        int& seen = last_group[std::size_t(hit.ray)];
+        if (seen == int(found.size()) - 1) continue;
+        seen = int(found.size()) - 1;
+        Group& group = found.back();
+        group.inverse_depth += 1 / double(hit.depth_m);
+        group.radiance += hit.radiance;
+        ++group.rays;
+        if (hit.depth_m == nearest[std::size_t(hit.ray)]) ++group.first_rays;
+    }
+    return found;
+}
+
+void Row::collect(int rays) {
+    const std::size_t before = samples.size();
+    for (const Group& group : groups()) {
+        if (group.first_rays == rays) continue;                      // the visible picture says it all
+        const float mean = float(group.rays / group.inverse_depth);  // CoC is linear in 1/depth
+        const Vec3 colour = group.radiance / float(rays);
+        samples.push_back({{colour.x, colour.y, colour.z, float(group.rays) / float(rays)}, mean, mean});
+    }
+    std::sort(samples.begin() + std::ptrdiff_t(before), samples.end(),
+              [](const DeepSample& a, const DeepSample& b) { return a.depth_m < b.depth_m; });
+    counts.push_back(samples.size() - before);
+}
+
+void Row::trace_centres(Plane& depth_m) const {
+    for (int x = 0; x < pass_.width; x += kPacket) {
+        Packet packet(pass_.world);
+        const int lanes = std::min(kPacket, pass_.width - x);
+        for (int lane = 0; lane < lanes; ++lane)
+            packet.set(lane, pass_.lens.through(float(x + lane) + 0.5f, float(y_) + 0.5f, {}));
+        packet.intersect();
+        for (int lane = 0; lane < lanes; ++lane) depth_m(x + lane, y_) = packet.depth(lane);
+    }
+}
+
+}  // namespace
+
+bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPicture* layers) {
+    colour = Picture::uninitialised(pass.width, pass.height);
+    depth_m = Plane::uninitialised(pass.width, pass.height);
+    const SobolPoints points(pass.samples), lamp_points(std::max(pass.samples, kLampSamples));
+    std::vector<std::vector<DeepSample>> samples(layers ? std::size_t(pass.height) : 0);
+    std::vector<std::vector<std::size_t>> counts(samples.size());
+    parallel_for(pass.height, pass.threads, [&](int y) {
+        if (pass.progress.cancelled()) return;
+        Row row(pass, points, lamp_points, y, layers != nullptr);
+        row.render(colour, depth_m);
+        if (layers) {
+            samples[std::size_t(y)] = std::move(row.samples);
+            counts[std::size_t(y)] = std::move(row.counts);
+        }
+        pass.progress.advance(pass.share / pass.height);
+    });
+    if (pass.progress.cancelled()) return false;
+    if (layers) {
+        std::vector<std::size_t> first{0};
+        std::vector<DeepSample> all;
+        for (std::size_t y = 0; y < samples.size(); ++y) {
+            for (const std::size_t count : counts[y]) first.push_back(first.back() + count);
+            all.insert(all.end(), samples[y].begin(), samples[y].end());
+            samples[y] = {};
+        }
+        *layers = DeepPicture(pass.width, pass.height, std::move(first), std::move(all));
+    }
+    return true;
+}
+
+}  // namespace petzval::scene

@@ -1,0 +1,111 @@
+// From the name of a scene to its pictures.
+#include "petzval/scene.h"
+
+#include "scene/scenes.h"
+#include "scene/tracing.h"
+
+#include <sstream>
+#include <string>
+
+namespace petzval {
+namespace scene {
+namespace {
+
+const std::vector<BuiltInScene>& built_in_scenes() {
+    static const std::vector<BuiltInScene> scenes{slant(), bars()};
+    return scenes;
+}
+
+constexpr int kMaxSide = 65536, kMaxSamples = 1 << 18;
+constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
+
+Error invalid(const std::string& what, std::int64_t got, const std::string& accepted) {
+    std::ostringstream text;
+    text << what << " is " << got << "; it must be " << accepted;
+    return {ErrorCode::InvalidArgument, text.str()};
+}
+
+Status check(const SceneSettings& s, int frames) {
+    const std::string side = "1 to " + std::to_string(kMaxSide) + " pixels";
+    const std::string samples = "1 to " + std::to_string(kMaxSamples);
+    if (s.width < 1 || s.width > kMaxSide) return invalid("width (--width)", s.width, side);
+    if (s.height < 1 || s.height > kMaxSide) return invalid("height (--height)", s.height, side);
+    if (std::int64_t(s.width) * s.height > kMaxPixels)
+        return invalid("width x height", std::int64_t(s.width) * s.height,
+                       "at most " + std::to_string(kMaxPixels) + " pixels");
+    if (s.samples < 1 || s.samples > kMaxSamples)
+        return invalid("pinhole samples per pixel", s.samples, samples);
+    if (s.truth_samples < 1 || s.truth_samples > kMaxSamples)
+        return invalid("lens samples per pixel (--samples)", s.truth_samples, samples);
+    if (s.frame < 0 || s.frame >= frames)
+        return invalid("frame (--frame)", s.frame,
+                       frames == 1 ? "0: this scene does not move" : "0 to " + std::to_string(frames - 1));
+    return Done{};
+}
+
+const BuiltInScene* find(const std::string& name) {
+    for (const BuiltInScene& scene : built_in_scenes())
+        if (scene.summary.name == name) return &scene;
+    return nullptr;
+}
+
+Error unknown(const std::string& name) {
+    std::string text = "there is no built-in scene \"" + name + "\"; there are ";
+    const char* separator = "";
+    for (const BuiltInScene& scene : built_in_scenes())
+        text += separator + scene.summary.name, separator = ", ";
+    return {ErrorCode::InvalidArgument, text};
+}
+
+}  // namespace
+
+Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings) {
+    // Refuses camera numbers that mean nothing.
+    if (const auto coc = CircleOfConfusion::make(camera, settings.width); !coc) return coc.error();
+    Progress progress(settings.progress);
+    const double truth_share = settings.want_truth ? 0.85 : 0;
+    const std::uint32_t seed = hash(std::uint32_t(settings.seed), std::uint32_t(settings.seed >> 32));
+    Pass pass{world,
+              LensRays(camera, settings.width, settings.height),
+              settings.width,
+              settings.height,
+              settings.samples,
+              seed,
+              settings.threads,
+              progress,
+              1 - truth_share};
+    const Error cancelled{ErrorCode::Cancelled, "rendering of the scene was cancelled"};
+    RenderedScene result;
+    result.camera = camera;
+    if (!render_pinhole(pass, result.colour, result.depth_m, settings.want_layers ? &result.layers : nullptr))
+        return cancelled;
+    if (settings.want_truth) {
+        pass.samples = settings.truth_samples, pass.share = truth_share;
+        if (!render_truth(pass, result.truth)) return cancelled;
+    }
+    return result;
+}
+
+}  // namespace scene
+
+const std::vector<SceneSummary>& scene_list() {
+    static const std::vector<SceneSummary> list = [] {
+        std::vector<SceneSummary> summaries;
+        for (const auto& scene : scene::built_in_scenes()) summaries.push_back(scene.summary);
+        return summaries;
+    }();
+    return list;
+}
+
+Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings) {
+    const scene::BuiltInScene* found = scene::find(name);
+    if (!found) return scene::unknown(name);
+    const int frames = found->summary.frames;
+    if (const Status status = scene::check(settings, frames); !status) return status.error();
+    scene::World world;
+    found->build(world, frames > 1 ? float(settings.frame) / float(frames - 1) : 0);
+    if (const Status status = world.commit(settings.threads); !status) return status.error();
+    return scene::render(world, settings.camera.value_or(found->summary.camera), settings);
+}
+
+}  // namespace petzval

@@ -1,0 +1,25 @@
+// The built-in scenes, one file each; scene_list.cpp lists them.
+#pragma once
+
+#include "petzval/scene.h"
+
+#include "scene/world.h"
+
+namespace petzval::scene {
+
+struct BuiltInScene {
+    SceneSummary summary;
+    // Fills an empty world as it stands at `time`, 0 at the first frame and 1 at the last.
+    void (*build)(World& world, float time);
+};
+
+BuiltInScene night();
+BuiltInScene fence();
+BuiltInScene table();
+BuiltInScene slant();
+BuiltInScene bars();
+
+// The three passes over a world that was committed.
+Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings);
+
+}  // namespace petzval::scene

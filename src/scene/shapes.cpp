@@ -1,0 +1,100 @@
+#include "scene/shapes.h"
+
+namespace petzval::scene {
+
+void Mesh::append(const Mesh& other) {
+    const std::uint32_t base = std::uint32_t(positions.size());
+    positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+    normals.insert(normals.end(), other.normals.begin(), other.normals.end());
+    uv.insert(uv.end(), other.uv.begin(), other.uv.end());
+    for (const auto& t : other.triangles) triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+}
+
+void Mesh::place(float yaw_rad, Vec3 to) {
+    const float c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+    const auto turned = [&](Vec3 p) { return Vec3{c * p.x + s * p.z, p.y, -s * p.x + c * p.z}; };
+    for (Vec3& p : positions) p = turned(p) + to;
+    for (Vec3& n : normals) n = turned(n);
+}
+
+namespace {
+
+// Triangles of a grid of (nu + 1) x (nv + 1) vertices, row by row.
+void connect_grid(Mesh& mesh, int nu, int nv) {
+    const std::uint32_t row = std::uint32_t(nu) + 1;
+    for (std::uint32_t j = 0; j < std::uint32_t(nv); ++j)
+        for (std::uint32_t i = 0; i < std::uint32_t(nu); ++i) {
+            const std::uint32_t a = j * row + i;
+            mesh.triangles.push_back({a, a + 1, a + row});
+            mesh.triangles.push_back({a + 1, a + row + 1, a + row});
+        }
+}
+
+}  // namespace
+
+Mesh patch(Vec3 corner, Vec3 edge_u, Vec3 edge_v, int nu, int nv) {
+    Mesh mesh;
+    const Vec3 normal = normalised(cross(edge_v, edge_u));
+    for (int j = 0; j <= nv; ++j)
+        for (int i = 0; i <= nu; ++i) {
+            const float u = float(i) / float(nu), v = float(j) / float(nv);
+            mesh.positions.push_back(corner + u * edge_u + v * edge_v);
+            mesh.normals.push_back(normal);
+            mesh.uv.push_back({u, v});
+        }
+    connect_grid(mesh, nu, nv);
+    return mesh;
+}
+
+Mesh box(Vec3 centre, Vec3 h, int cells) {
+    Mesh mesh;
+    const auto face = [&](Vec3 u, Vec3 v) {
+        const Vec3 out = normalised(cross(v, u));
+        const Vec3 middle = centre + out * h;
+        Mesh side = patch(middle - u - v, 2 * u, 2 * v, cells, cells);
+        for (auto& t : side.uv) t = {t[0] * 2 * length(u), t[1] * 2 * length(v)};
+        mesh.append(side);
+    };
+    face({h.x, 0, 0}, {0, h.y, 0});   // towards -z, the viewer
+    face({-h.x, 0, 0}, {0, h.y, 0});  // away
+    face({0, 0, -h.z}, {0, h.y, 0});  // left
+    face({0, 0, h.z}, {0, h.y, 0});   // right
+    face({h.x, 0, 0}, {0, 0, h.z});   // top
+    face({h.x, 0, 0}, {0, 0, -h.z});  // bottom
+    return mesh;
+}
+
+Mesh sphere(Vec3 centre, Vec3 radii, int around, int up) {
+    Mesh mesh;
+    for (int j = 0; j <= up; ++j)
+        for (int i = 0; i <= around; ++i) {
+            const float u = float(i) / float(around), v = float(j) / float(up);
+            const float azimuth = 2 * kPi * u, polar = kPi * v;
+            const Vec3 n{std::sin(polar) * std::sin(azimuth), -std::cos(polar),
+                         -std::sin(polar) * std::cos(azimuth)};
+            mesh.positions.push_back(centre + n * radii);
+            mesh.normals.push_back(normalised({n.x / radii.x, n.y / radii.y, n.z / radii.z}));
+            mesh.uv.push_back({u, v});
+        }
+    connect_grid(mesh, around, up);
+    return mesh;
+}
+
+void Tubes::path(const std::vector<Vec3>& through, float first_radius, float last_radius) {
+    for (std::size_t i = 0; i < through.size(); ++i) {
+        if (i + 1 < through.size()) segments.push_back(std::uint32_t(points.size()));
+        const float t = float(i) / float(through.size() - 1);
+        points.push_back({through[i], mix(first_radius, last_radius, t)});
+    }
+}
+
+void Tubes::arc(Vec3 centre, Vec3 a, Vec3 b, float circle, float from, float to, int pieces, float radius) {
+    std::vector<Vec3> through;
+    for (int i = 0; i <= pieces; ++i) {
+        const float angle = mix(from, to, float(i) / float(pieces));
+        through.push_back(centre + circle * (std::cos(angle) * a + std::sin(angle) * b));
+    }
+    path(through, radius, radius);
+}
+
+}  // namespace petzval::scene

@@ -1,0 +1,250 @@
+#include "scene/world.h"
+
+#include "base/check.h"
+#include "base/parallel.h"
+#include "scene/sampling.h"
+
+#include <limits>
+
+namespace petzval::scene {
+namespace {
+
+constexpr int kBakeRays = 64;  // per vertex, and per light
+// Bounced light is taken without shadows; this share of it makes up for them.
+constexpr float kBounceShare = 0.6f;
+const SobolPoints& bake_points() {
+    static const SobolPoints points(kBakeRays);
+    return points;
+}
+
+RTCRay ray(Vec3 from, Vec3 direction, float near, float far) {
+    RTCRay r{};
+    r.org_x = from.x, r.org_y = from.y, r.org_z = from.z;
+    r.dir_x = direction.x, r.dir_y = direction.y, r.dir_z = direction.z;
+    r.tnear = near, r.tfar = far, r.mask = ~0u;
+    return r;
+}
+
+void* buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
+             std::size_t count) {
+    void* memory = rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+// Cosine-free share of a light at a point: direction and irradiance of a surface facing it.
+struct Arrival {
+    Vec3 towards;  // not of unit length for a near light: ends at the light
+    Vec3 facing;
+};
+Arrival arrival(const Light& light, Vec3 position) {
+    if (light.distant) return {normalised(light.position), light.power};
+    const Vec3 towards = light.position - position;
+    return {towards, light.power / std::max(dot(towards, towards), 1e-4f)};
+}
+
+}  // namespace
+
+struct World::Object {
+    Mesh mesh;  // empty for tubes
+    std::vector<Vec3> irradiance;
+    Paint paint;
+    Sides sides = Sides::Solid;
+};
+
+Viewpoint Viewpoint::looking(Vec3 from, Vec3 at) {
+    Viewpoint v{.position = from};
+    v.forward = normalised(at - from);
+    v.right = normalised(cross({0, 1, 0}, v.forward));
+    v.up = cross(v.forward, v.right);
+    return v;
+}
+
+World::World() : device_(rtcNewDevice(nullptr)), rays_(rtcNewScene(device_)) {
+    PETZVAL_CHECK(device_ != nullptr && rays_ != nullptr);
+    rtcSetSceneFlags(rays_, RTC_SCENE_FLAG_ROBUST);  // no ray may slip through between two triangles
+}
+
+World::~World() {
+    rtcReleaseScene(rays_);
+    rtcReleaseDevice(device_);
+}
+
+void World::add(Mesh mesh, Paint paint, Sides sides) {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<Vec3*>(
+        buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size()));
+    std::copy(mesh.positions.begin(), mesh.positions.end(), vertices);
+    auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(
+        buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+    rtcCommitGeometry(geometry);
+    PETZVAL_CHECK(rtcAttachGeometry(rays_, geometry) == objects_.size());
+    rtcReleaseGeometry(geometry);
+    objects_.push_back(std::make_unique<Object>(Object{std::move(mesh), {}, std::move(paint), sides}));
+}
+
+void World::add(Tubes tubes, Paint paint) {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    auto* vertices = static_cast<Tubes::Point*>(buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
+                                                       sizeof(Tubes::Point), tubes.points.size()));
+    std::copy(tubes.points.begin(), tubes.points.end(), vertices);
+    auto* segments = static_cast<std::uint32_t*>(
+        buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, 4, tubes.segments.size()));
+    std::copy(tubes.segments.begin(), tubes.segments.end(), segments);
+    rtcCommitGeometry(geometry);
+    PETZVAL_CHECK(rtcAttachGeometry(rays_, geometry) == objects_.size());
+    rtcReleaseGeometry(geometry);
+    objects_.push_back(std::make_unique<Object>(Object{{}, {}, std::move(paint), Sides::Solid}));
+}
+
+void World::add_lamp(Vec3 centre, float radius_m, Vec3 radiance) {
+    lamps_.push_back({centre, radius_m, radiance});
+}
+
+void World::attach_lamps() {
+    if (lamps_.empty()) return;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    auto* discs = static_cast<Tubes::Point*>(
+        buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sizeof(Tubes::Point), lamps_.size()));
+    auto* normals = static_cast<Vec3*>(
+        buffer(geometry, RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, sizeof(Vec3), lamps_.size()));
+    for (std::size_t i = 0; i < lamps_.size(); ++i) {
+        discs[i] = {lamps_[i].centre, lamps_[i].radius_m};
+        normals[i] = -view.forward;
+    }
+    rtcCommitGeometry(geometry);
+    lamp_object_ = rtcAttachGeometry(rays_, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+Status World::commit(int threads) {
+    attach_lamps();
+    rtcCommitScene(rays_);
+    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+        return Error{ErrorCode::OutOfMemory, "the scene's ray tracing structure does not fit the memory"};
+    bake(threads);
+    return Done{};
+}
+
+void World::bake(int threads) {
+    constexpr int kPiece = 64;  // vertices
+    for (std::size_t o = 0; o < objects_.size(); ++o) {
+        Object& object = *objects_[o];
+        const int count = int(object.mesh.positions.size());
+        object.irradiance.resize(std::size_t(count));
+        parallel_for((count + kPiece - 1) / kPiece, threads, [&](int piece) {
+            for (int v = piece * kPiece; v < std::min(count, (piece + 1) * kPiece); ++v)
+                bake_vertex(object, std::size_t(v), hash(std::uint32_t(o), std::uint32_t(v)));
+        });
+    }
+}
+
+void World::bake_vertex(Object& object, std::size_t vertex, std::uint32_t seed) const {
+    const Vec3 p = object.mesh.positions[vertex], n = object.mesh.normals[vertex];
+    Vec3 irradiance = baked_irradiance(p, n, seed);
+    if (object.sides == Sides::Leaf) irradiance = 0.6f * (irradiance + baked_irradiance(p, -n, seed));
+    object.irradiance[vertex] = irradiance;
+}
+
+Vec3 World::baked_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const {
+    const Vec3 from = position + 1e-3f * normal;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    Vec3 sum;
+    for (int i = 0; i < kBakeRays; ++i) {
+        const Point4 point = bake_points().at(i, seed);
+        RTCRayHit around{};
+        const Vec3 direction = cosine_direction(normal, point[0], point[1]);
+        around.ray = ray(from, direction, 0, std::numeric_limits<float>::infinity());
+        around.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(rays_, &context, &around);
+        if (around.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            sum += kPi * sky(direction);
+        } else if (!is_lamp(around.hit.geomID)) {
+            const Hit hit{around.hit.geomID,
+                          around.hit.primID,
+                          around.hit.u,
+                          around.hit.v,
+                          from + around.ray.tfar * direction,
+                          {around.hit.Ng_x, around.hit.Ng_y, around.hit.Ng_z},
+                          direction};
+            const Matter m = matter(hit);
+            const Vec3 facing = normalised(hit.normal) * (dot(hit.normal, direction) > 0 ? -1.0f : 1.0f);
+            sum += kPi * m.emission + kBounceShare * m.albedo * plain_irradiance(hit.position, facing);
+        }
+        const DiscPoint spot = disc_point(point[2], point[3]);
+        for (const Light& light : lights) {
+            const Arrival a = arrival(light, position);
+            const Vec3 across = normalised(cross(a.towards, {0.31f, 0.87f, 0.38f}));
+            const Vec3 other = normalised(cross(a.towards, across));
+            const Vec3 towards = a.towards + light.radius * (spot.x * across + spot.y * other);
+            const float cosine = dot(normal, normalised(towards));
+            if (cosine <= 0) continue;
+            RTCRay shadow =
+                ray(from, towards, 0, light.distant ? std::numeric_limits<float>::infinity() : 0.999f);
+            rtcOccluded1(rays_, &context, &shadow);
+            if (shadow.tfar >= 0) sum += cosine * a.facing;
+        }
+    }
+    return sum / float(kBakeRays);
+}
+
+Vec3 World::plain_irradiance(Vec3 position, Vec3 normal) const {
+    Vec3 sum = mix(ambient_below, ambient_above, 0.5f + 0.5f * normal.y);
+    for (const Light& light : lights) {
+        const Arrival a = arrival(light, position);
+        sum += std::max(0.0f, dot(normal, normalised(a.towards))) * a.facing;
+    }
+    return sum;
+}
+
+bool World::is_inside(const Hit& hit) const {
+    if (hit.object == kSky || is_lamp(hit.object)) return false;
+    const Object& object = *objects_[hit.object];
+    if (object.sides != Sides::Solid) return false;
+    if (object.mesh.triangles.empty()) return dot(hit.normal, hit.direction) > 0;
+    // By the vertex normals, which point outwards whatever way round a triangle is listed.
+    const auto& t = object.mesh.triangles[hit.primitive];
+    const auto& p = object.mesh.positions;
+    const auto& n = object.mesh.normals;
+    const Vec3 flat = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+    const float outwards = dot(flat, n[t[0]] + n[t[1]] + n[t[2]]);
+    return dot(flat, hit.direction) * outwards > 0;
+}
+
+Matter World::matter(const Hit& hit) const {
+    const Object& object = *objects_[hit.object];
+    SurfacePoint point{hit.position, {}, hit.u, hit.v};
+    if (object.mesh.triangles.empty()) {
+        point.normal = normalised(hit.normal);
+    } else {
+        const auto& t = object.mesh.triangles[hit.primitive];
+        const float w[3] = {1 - hit.u - hit.v, hit.u, hit.v};
+        point.u = point.v = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            point.normal += w[k] * object.mesh.normals[t[k]];
+            point.u += w[k] * object.mesh.uv[t[k]][0];
+            point.v += w[k] * object.mesh.uv[t[k]][1];
+        }
+    }
+    return object.paint(point);
+}
+
+Vec3 World::radiance(const Hit& hit) const {
+    if (hit.object == kSky) return sky(hit.direction);
+    if (is_lamp(hit.object)) return lamps_[hit.primitive].radiance;
+    const Matter m = matter(hit);
+    const Object& object = *objects_[hit.object];
+    Vec3 irradiance;
+    if (object.mesh.triangles.empty()) {
+        irradiance = plain_irradiance(hit.position, normalised(hit.normal));
+    } else {
+        const auto& t = object.mesh.triangles[hit.primitive];
+        irradiance = (1 - hit.u - hit.v) * object.irradiance[t[0]] + hit.u * object.irradiance[t[1]] +
+                     hit.v * object.irradiance[t[2]];
+    }
+    return m.emission + m.albedo * irradiance / kPi;
+}
+
+}  // namespace petzval::scene

@@ -1,0 +1,113 @@
+// A scene ready to be looked at: shapes, what they are painted with, the light that falls on them.
+//
+// Everything is matt or glows by itself, so a point has the same colour from everywhere: a pinhole picture
+// with depth says all there is to say about what is visible, and the truth differs from it by the lens alone.
+// Light is baked once into the vertices (soft shadows and one bounce); tubes are lit without shadows.
+#pragma once
+
+#include "petzval/result.h"
+
+#include "scene/shapes.h"
+#include "scene/vec3.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <embree3/rtcore.h>
+
+namespace petzval::scene {
+
+struct SurfacePoint {
+    Vec3 position, normal;
+    float u = 0, v = 0;
+};
+
+struct Matter {
+    Vec3 albedo, emission;
+};
+using Paint = std::function<Matter(const SurfacePoint&)>;
+
+enum class Sides {
+    Solid,  // closed and opaque: its inside is never seen
+    Sheet,  // seen and lit from the side of its normal
+    Leaf,   // thin: lit alike from both sides
+};
+
+// A light that casts soft shadows but is not seen itself. A distant one has the direction towards it as
+// `position`, its irradiance as `power` and the tangent of its angular radius as `radius`; a near one is a
+// sphere of `radius` metres and `power` is its radiant intensity.
+struct Light {
+    Vec3 position, power;
+    float radius = 0.1f;
+    bool distant = false;
+};
+
+// A small disc parallel to the sensor that glows; tracked one by one, so that its image through the lens can
+// be integrated without noise however bright it is.
+struct Lamp {
+    Vec3 centre;
+    float radius_m = 0;
+    Vec3 radiance;
+};
+
+struct Viewpoint {
+    Vec3 position, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
+    static Viewpoint looking(Vec3 from, Vec3 at);
+    Vec3 to_world(Vec3 v) const { return v.x * right + v.y * up + v.z * forward; }
+    Vec3 from_world(Vec3 p) const {
+        return {dot(p - position, right), dot(p - position, up), dot(p - position, forward)};
+    }
+};
+
+class World {
+public:
+    World();
+    ~World();
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    // Building, before commit().
+    Viewpoint view;
+    std::function<Vec3(Vec3 direction)> sky = [](Vec3) { return Vec3{}; };  // radiance towards a direction
+    Vec3 ambient_above, ambient_below;  // irradiance that tubes and bounced light get besides the lights
+    std::vector<Light> lights;
+    void add(Mesh mesh, Paint paint, Sides sides);
+    void add(Tubes tubes, Paint paint);
+    void add_lamp(Vec3 centre, float radius_m, Vec3 radiance);
+
+    // Builds the ray tracing structure and bakes light. Errors: OutOfMemory.
+    Status commit(int threads);
+
+    // Looking, after commit(); thread-safe.
+    static constexpr std::uint32_t kSky = RTC_INVALID_GEOMETRY_ID;
+    struct Hit {
+        std::uint32_t object = kSky, primitive = 0;
+        float u = 0, v = 0;
+        Vec3 position, normal, direction;  // normal of the geometry, not of unit length; direction of the ray
+    };
+    RTCScene rays() const { return rays_; }
+    const std::vector<Lamp>& lamps() const { return lamps_; }
+    bool is_lamp(std::uint32_t object) const { return object == lamp_object_; }
+    // A surface that can never be seen from this side.
+    bool is_inside(const Hit& hit) const;
+    Vec3 radiance(const Hit& hit) const;
+
+private:
+    struct Object;
+    void attach_lamps();
+    void bake(int threads);
+    void bake_vertex(Object& object, std::size_t vertex, std::uint32_t seed) const;
+    Vec3 baked_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const;
+    Vec3 plain_irradiance(Vec3 position, Vec3 normal) const;
+    Matter matter(const Hit& hit) const;
+
+    RTCDevice device_;
+    RTCScene rays_;
+    std::vector<std::unique_ptr<Object>> objects_;  // by Embree geometry id
+    std::vector<Lamp> lamps_;
+    std::uint32_t lamp_object_ = kSky;
+};
+
+}  // namespace petzval::scene
