@@ -53,7 +53,7 @@ double difference(float reference, float test, Transfer transfer) {
 struct Input {
     View<const Rgba> reference, test;
     View<const float> mask;
-    float exposure;
+    float exposure = 1;
 
     int width() const { return reference.width(); }
     int height() const { return reference.height(); }
@@ -116,7 +116,7 @@ ChannelSums channel_sums(const Input& in) {
 using Moments = std::array<float, 5>;
 
 std::array<float, 2 * kWindowRadius + 1> gaussian_window() {
-    std::array<float, 2 * kWindowRadius + 1> weights;
+    std::array<float, 2 * kWindowRadius + 1> weights{};
     for (int i = -kWindowRadius; i <= kWindowRadius; ++i)
         weights[std::size_t(i + kWindowRadius)] = float(std::exp(-i * i / (2 * 1.5 * 1.5)));
     return weights;

@@ -49,7 +49,7 @@ double sampled_disc_share(double radius, int dx, int dy) {
     int inside = 0;
     for (int j = 0; j < 400; ++j)
         for (int i = 0; i < 400; ++i)
-            inside += std::hypot(dx - 0.5 + (i + 0.5) / 400, dy - 0.5 + (j + 0.5) / 400) <= radius;
+            if (std::hypot(dx - 0.5 + (i + 0.5) / 400, dy - 0.5 + (j + 0.5) / 400) <= radius) ++inside;
     return inside / 160000.0;
 }
 

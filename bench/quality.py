@@ -1,0 +1,151 @@
+"""How close each engine comes to what a lens sampled by a ray tracer recorded, and how long it takes.
+
+One table, in Markdown, on stdout: every engine on every built-in scene, and on the path-traced scenes that lie
+in ../shared/scenes where that folder is there. `pinhole` is the sharp picture itself, the line to beat. PSNR and
+SSIM are those of docs/conventions.md on linear light times the scene's exposure, clipped to 0…1. Seconds are
+those the program spends computing, without reading and writing files.
+
+Usage: ./dev bench quality [--scenes A,B] [--engines A,B] [--width N] [--pupil-points N] [--quality Q]
+Scenes and their truth are made once and kept in build/bench until the sources of the scenes change.
+"""
+import argparse
+import dataclasses
+import datetime
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SHARED = ROOT.parent / "shared/scenes"
+PROGRAM = os.environ["PETZVAL"]
+CACHE = ROOT / "build/bench"
+
+
+@dataclasses.dataclass
+class Scene:
+    name: str
+    sharp: pathlib.Path
+    truth: pathlib.Path
+    camera: list  # flags; empty where the file says it
+    behind: pathlib.Path = None  # hidden layers, where known
+    mask: pathlib.Path = None
+    exposure: float = 1
+
+
+def petzval(*words):
+    result = subprocess.run([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if result.returncode:
+        sys.exit(f"bench: petzval {' '.join(map(str, words))}\n{result.stderr}")
+    return result.stdout
+
+
+def engine_names():
+    """As the program's own help lists them."""
+    return re.search(r"--engine NAME\s+(.*?);", petzval("defocus", "--help"), re.DOTALL)[1].replace(",", " ").split()
+
+
+def built_in_names():
+    return [line.split()[0] for line in petzval("scene", "list").splitlines() if line.strip()]
+
+
+def built_in(name, width):
+    """Pinhole picture, truth and hidden layers of a built-in scene, made if they are not there yet."""
+    sources = sorted((ROOT / "src/scene").glob("*")) + sorted((ROOT / "src/optics").glob("circle*"))
+    state = hashlib.sha1(b"".join(p.read_bytes() for p in sources)).hexdigest()[:8]
+    stem = f"{name}_{width}_{state}"
+    sharp, truth, behind = (CACHE / f"{stem}_{what}.exr" for what in ("sharp", "truth", "behind"))
+    if not (sharp.exists() and truth.exists() and behind.exists()):
+        print(f"making {name}", file=sys.stderr)
+        petzval("scene", "make", name, "-o", sharp, "--truth", truth, "--layers", behind, "--width", width,
+                "--height", width * 9 // 16, "--overwrite")
+    return Scene(name, sharp, truth, [], behind)
+
+
+def path_traced(name):
+    """A scene of ../shared/scenes with its camera; `table` counts inside the mask of its truth's low noise."""
+    folder = SHARED / name
+    camera = json.loads((folder / "camera.json").read_text())
+    truth = camera["ground_truths"]["mod"]
+    flags = ["--focal-length", camera["focal_length_mm"], "--sensor-width", camera["sensor_width_mm"],
+             "--focus", camera["focus_distance_m"], "--fstop", truth["f_stop"]]
+    mask = folder / "gt_mod_valid.png" if name == "table" else None
+    return Scene(f"{name} (Cycles{', masked' if mask else ''})", folder / "pinhole.exr", folder / truth["file"],
+                 flags, None, mask, camera["comparison_exposure"])
+
+
+def methods(scene, engines, quality, pupil_points):
+    """(label, flags) of each way to defocus the scene."""
+    for engine in engines:
+        flags = ["--engine", engine]
+        flags += ["--pupil-points", pupil_points] if engine == "reference" else ["--quality", quality]
+        yield engine, flags
+        if scene.behind:
+            yield f"{engine}, hidden layers given", [*flags, "--behind", scene.behind]
+
+
+def score(scene, test):
+    mask = ["--mask", scene.mask] if scene.mask else []
+    found = json.loads(petzval("compare", scene.truth, test, "--exposure", scene.exposure, *mask, "--json", "-"))
+    return f"{found['psnr_lin']:.2f}", f"{found['ssim_lin']:.4f}"
+
+
+def rows(scene, engines, quality, pupil_points):
+    yield [scene.name, "pinhole", *score(scene, scene.sharp), ""]
+    for label, flags in methods(scene, engines, quality, pupil_points):
+        print(f"{scene.name}: {label}", file=sys.stderr)
+        out = CACHE / "defocused.exr"
+        report = json.loads(petzval("defocus", scene.sharp, "-o", out, *scene.camera, *flags, "--overwrite",
+                                    "--json", "-", "-q"))
+        seconds = report["seconds"]["kernels"] + report["seconds"]["compute"]
+        yield [scene.name, label, *score(scene, out), f"{seconds:.2f}"]
+
+
+def first_line(*command):
+    try:
+        return subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              text=True).stdout.splitlines()[0]
+    except (OSError, IndexError):
+        return "unknown"
+
+
+def machine():
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    return (f"{model[1] if model else 'unknown processor'}, {len(os.sched_getaffinity(0))} threads, "
+            f"{first_line('c++', '--version')}, petzval {first_line('git', 'describe', '--always', '--dirty')}, "
+            f"{datetime.date.today()}")
+
+
+def print_table(head, body):
+    widths = [max(len(row[i]) for row in [head, *body]) for i in range(len(head))]
+    for row in [head, ["-" * w for w in widths], *body]:
+        print("| " + " | ".join(cell.ljust(w) if i < 2 else cell.rjust(w)
+                                for i, (cell, w) in enumerate(zip(row, widths))) + " |")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="./dev bench quality")
+    parser.add_argument("--scenes", help="built-in names, or shared/NAME")
+    parser.add_argument("--engines")
+    parser.add_argument("--width", type=int, default=960)
+    parser.add_argument("--pupil-points", type=int, default=4096)
+    parser.add_argument("--quality", default="standard")
+    given = parser.parse_args()
+    CACHE.mkdir(parents=True, exist_ok=True)
+    shared = [f"shared/{p.parent.name}" for p in sorted(SHARED.glob("*/camera.json"))]
+    names = given.scenes.split(",") if given.scenes else built_in_names() + shared
+    engines = given.engines.split(",") if given.engines else engine_names()
+    body = []
+    for name in names:
+        scene = path_traced(name[7:]) if name.startswith("shared/") else built_in(name, given.width)
+        body += rows(scene, engines, given.quality, given.pupil_points)
+    print_table(["scene", "engine", "PSNR dB", "SSIM", "seconds"], body)
+    print(f"\n{given.width} px wide, --quality {given.quality}, reference with {given.pupil_points} pupil points. "
+          f"{machine()}.")
+
+
+if __name__ == "__main__":
+    main()
