@@ -1,6 +1,7 @@
 // What a renderer's depth channel means, and how it becomes planar metres.
 #pragma once
 
+#include "petzval/deep.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
@@ -17,7 +18,8 @@ enum class DepthKind {
     Ray,         // distance from the pinhole to the point
     Inverse,     // 1 / planar
     Normalized,  // 0 = range near, 1 = range far, linear in planar depth
-    Device,      // hyperbolic z-buffer value of range near, far; far < near means reversed z
+    Device,      // z-buffer value, linear in 1/z: 0 = range near, 1 = range far; far < near is reversed z,
+                 // and an infinite end is allowed
     CocPx,       // already a signed circle-of-confusion radius in pixels, + is far
 };
 
@@ -37,6 +39,8 @@ struct DepthReport {
 
 // Rewrites a depth channel in place as planar metres; a miss becomes +infinity.
 //
+// A value is a miss if it is NaN, infinite, of size >= 1e10 or 65504 (the largest half), 0 (except in
+// Normalized and Device, where 0 is the near end), or if its planar depth is not > 0.
 // `display` is the display window and `data` the window the plane covers, both in pixels of the same frame
 // (Ray needs them to know the axis; pixel_aspect = width / height of a pixel). If every finite value is
 // negative, absolute values are taken; otherwise negative values are misses; either way with one warning.
@@ -45,5 +49,11 @@ struct DepthReport {
 PETZVAL_API Result<DepthReport> depth_to_planar_metres(View<float> depth, const Rect& display,
                                                        const Rect& data, double pixel_aspect,
                                                        const DepthSettings& settings);
+
+// The same for both depths of every deep sample; samples stay nearest first. Each sample counts as a pixel
+// does.
+PETZVAL_API Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Rect& display,
+                                                      const Rect& data, double pixel_aspect,
+                                                      const DepthSettings& settings);
 
 }  // namespace petzval

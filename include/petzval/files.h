@@ -29,10 +29,14 @@ struct ReadOptions {
 struct FoundNumber {
     double value = 0;
     std::string origin;
+    bool scene_units = false;  // a distance in the renderer's unit: multiply by the metres per unit
 };
 
 struct FoundCamera {
     std::optional<FoundNumber> focal_length_mm, sensor_width_mm, f_number, focus_distance_m;
+    // Where a file gives it; with one of focal length and sensor width known, the other follows (and is
+    // filled in where the file holds both of these).
+    std::optional<FoundNumber> horizontal_fov_deg;
 };
 
 // One part of a file, as `inspect` lists it.
@@ -76,19 +80,38 @@ PETZVAL_API Result<Frame> read_frame_header(const std::string& path, const ReadO
 
 enum class PixelType { Keep, Half, Float };
 
+// What writing had to change, for a log.
+struct WriteReport {
+    std::size_t clamped_to_half = 0;  // finite colour values beyond 65504, written as 65504
+    std::size_t non_finite = 0;       // NaN written as 0, infinities as 65504
+};
+
 struct WriteOptions {
     PixelType type = PixelType::Keep;  // Keep: as the carried input had it, else half
-    std::string compression;           // "none", "zip", "piz", … ; empty: as the input, else "zip"
-    bool overwrite = true;             // false: an existing file is an OutputFailed error
+    // none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab; empty: as the input, else zip. An input whose
+    // compression would lose a little more of a carried channel at each writing is written as zip.
+    std::string compression;
+    bool overwrite = true;  // false: an existing file is an OutputFailed error
     // Extra attributes, e.g. {"petzval:coc", "signed radius, px, + is far"}.
     std::vector<std::pair<std::string, std::string>> attributes;
     // Camera numbers as typed attributes (focal length, sensor, aperture, focus), where known.
     FoundCamera camera;
+    WriteReport* report = nullptr;  // filled when given
 };
+
+// Removes every output of this process that is not finished; for a signal handler, which may call it at any
+// time (async-signal-safe). The process must not write on afterwards.
+PETZVAL_API void remove_unfinished_outputs();
 
 // Replaces colour (and alpha when has_alpha) of the carried part by frame.colour, keeps every other channel,
 // part and attribute, and writes a flat EXR. If frame.depth is not empty and nothing is carried, it is
 // written as float Z. Written beside `path`, synced, renamed: `path` is either complete or untouched.
+//
+// Carried channels are copied bit for bit from the input, which must still be what was read; where
+// frame.data_window is larger than the input's they are 0 there (depth: +infinity). Colour goes back to the
+// primaries of the input. Mip levels below the first are dropped.
+// Errors: InvalidArgument (sizes that do not match, an unknown compression), InvalidFile (the input changed),
+// OutputFailed.
 PETZVAL_API Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options = {});
 
 // Planes under channel names, float, one part: circle of confusion, depth, bokeh textures.

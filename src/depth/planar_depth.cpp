@@ -1,0 +1,237 @@
+#include "petzval/depth.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace petzval {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kMissFrom = 1e10f;       // Blender and others write 1e10 where a ray hit nothing
+constexpr float kHalfMaximum = 65504.f;  // what 1e10 or infinity becomes in a half-float channel
+
+bool is_range_kind(DepthKind kind) { return kind == DepthKind::Normalized || kind == DepthKind::Device; }
+
+// A value that means "nothing there" whatever its sign. 0 is one, except where it is the end of a range.
+bool is_miss(float stored, DepthKind kind) {
+    const float size = std::abs(stored);
+    return !std::isfinite(stored) || size >= kMissFrom || size == kHalfMaximum ||
+           (size == 0 && !is_range_kind(kind));
+}
+
+Status check(const DepthSettings& s) {
+    const auto refuse = [](const std::string& message) { return Error{ErrorCode::InvalidArgument, message}; };
+    const auto got = [](double v) { return ", got " + std::to_string(v); };
+    if (s.kind == DepthKind::CocPx)
+        return refuse("--depth-kind coc-px holds circle-of-confusion radii, not distances in metres");
+    if (!(s.unit_scale_m > 0) || !std::isfinite(s.unit_scale_m))
+        return refuse("--unit-scale must be > 0 metres per unit" + got(s.unit_scale_m));
+    if (s.kind == DepthKind::Ray) {
+        if (!s.focal_length_mm || !s.sensor_width_mm)
+            return refuse(
+                "--depth-kind ray needs --focal-length and --sensor-width: the angle of each pixel");
+        if (!(*s.focal_length_mm > 0) || !std::isfinite(*s.focal_length_mm))
+            return refuse("--focal-length must be > 0 mm" + got(*s.focal_length_mm));
+        if (!(*s.sensor_width_mm > 0) || !std::isfinite(*s.sensor_width_mm))
+            return refuse("--sensor-width must be > 0 mm" + got(*s.sensor_width_mm));
+    }
+    if (is_range_kind(s.kind)) {
+        if (!s.range_near || !s.range_far)
+            return refuse("--depth-kind normalized and device need --depth-range NEAR,FAR");
+        const double near = *s.range_near, far = *s.range_far;
+        const bool device = s.kind == DepthKind::Device;
+        if (!(near > 0 || (near == 0 && !device)) || !(far > 0 || (far == 0 && !device)) || near == far)
+            return refuse("--depth-range needs two different distances > 0" + got(near) + "," +
+                          std::to_string(far));
+        if (std::isinf(near) ? !device : (std::isinf(far) && !device))
+            return refuse("--depth-range may be infinite only for --depth-kind device");
+    }
+    return Done{};
+}
+
+// Turns one stored value into planar metres: what the kind says, without misses and signs.
+class Converter {
+public:
+    Converter(const Rect& display, double pixel_aspect, const DepthSettings& s)
+        : kind_(s.kind), scale_m_(s.unit_scale_m) {
+        if (s.range_near) near_ = *s.range_near;
+        if (s.range_far) far_ = *s.range_far;
+        if (kind_ == DepthKind::Ray) {
+            tan_per_px_x_ = *s.sensor_width_mm / *s.focal_length_mm / display.width();
+            tan_per_px_y_ = tan_per_px_x_ / pixel_aspect;
+            axis_x_ = 0.5 * (double(display.x0) + display.x1);
+            axis_y_ = 0.5 * (double(display.y0) + display.y1);
+        }
+    }
+
+    // `x`, `y`: the pixel in the frame of the display window.
+    float metres(double stored, int x, int y) const { return float(scale_m_ * planar(stored, x, y)); }
+    // Inverse and reversed kinds turn near into far: deep samples must be ordered again.
+    bool reverses_order() const { return kind_ == DepthKind::Inverse || near_ > far_; }
+
+private:
+    double planar(double stored, int x, int y) const {
+        switch (kind_) {
+            case DepthKind::Ray:
+                return stored * cosine(x, y);
+            case DepthKind::Inverse:
+                return 1 / stored;
+            case DepthKind::Normalized:
+                return near_ + stored * (far_ - near_);
+            case DepthKind::Device:
+                return device(stored);
+            default:
+                return stored;
+        }
+    }
+
+    // A perspective z-buffer is linear in 1/z: 1/z = (1 - d)/near + d/far. Exact for an infinite end as well.
+    double device(double d) const {
+        const double inverse = (1 - d) / near_ + d / far_;
+        return inverse == 0 ? kInfinity : 1 / inverse;
+    }
+
+    // Cosine of the angle between the axis and the ray through the centre of pixel (x, y).
+    double cosine(int x, int y) const {
+        const double tan_x = (x + 0.5 - axis_x_) * tan_per_px_x_;
+        const double tan_y = (y + 0.5 - axis_y_) * tan_per_px_y_;
+        return 1 / std::sqrt(1 + tan_x * tan_x + tan_y * tan_y);
+    }
+
+    DepthKind kind_;
+    double scale_m_, near_ = 0, far_ = 1;
+    double tan_per_px_x_ = 0, tan_per_px_y_ = 0, axis_x_ = 0, axis_y_ = 0;
+};
+
+// What a row of values holds; rows are counted apart and then added, so threads cannot change the result.
+struct Tally {
+    std::size_t non_finite = 0, negative = 0, positive = 0, misses = 0;
+    float nearest = kInfinity, farthest = 0;
+
+    void look_at(float stored, DepthKind kind) {
+        if (!std::isfinite(stored)) ++non_finite;
+        if (is_miss(stored, kind)) return;
+        if (stored < 0) ++negative;
+        if (stored > 0) ++positive;
+    }
+    void count(float depth_m) {
+        if (std::isinf(depth_m)) {
+            ++misses;
+            return;
+        }
+        nearest = std::min(nearest, depth_m);
+        farthest = std::max(farthest, depth_m);
+    }
+    void add(const Tally& o) {
+        non_finite += o.non_finite, negative += o.negative, positive += o.positive, misses += o.misses;
+        nearest = std::min(nearest, o.nearest), farthest = std::max(farthest, o.farthest);
+    }
+};
+
+template <typename Body>  // body(y, tally)
+Tally tally_rows(int rows, const Body& body) {
+    std::vector<Tally> of_row(std::size_t(std::max(rows, 0)));
+    parallel_for(rows, 0, [&](int y) { body(y, of_row[std::size_t(y)]); });
+    Tally sum;
+    for (const Tally& t : of_row) sum.add(t);
+    return sum;
+}
+
+// Planar metres of one stored value, +infinity for a miss. `sign` is -1 where the file counts downwards.
+float converted(const Converter& to, float stored, DepthKind kind, float sign, int x, int y) {
+    if (is_miss(stored, kind) || sign * stored < 0) return kInfinity;
+    const float depth_m = to.metres(double(sign) * double(stored), x, y);
+    return depth_m > 0 ? depth_m : kInfinity;
+}
+
+DepthReport report_of(const Tally& before, const Tally& after) {
+    DepthReport report;
+    report.non_finite = before.non_finite;
+    report.misses = after.misses;
+    const bool any = after.nearest <= after.farthest;
+    report.nearest_m = any ? after.nearest : 0;
+    report.farthest_finite_m = any ? after.farthest : 0;
+    if (before.negative > 0)
+        report.warnings.push_back(before.positive == 0
+                                      ? "every depth is negative: its absolute values were taken"
+                                      : std::to_string(before.negative) +
+                                            " negative depths were taken as infinitely far");
+    if (!any) report.warnings.push_back("no pixel has a finite depth: everything is infinitely far");
+    return report;
+}
+
+Status check_windows(int width, int height, const Rect& display, const Rect& data, double pixel_aspect) {
+    if (width != data.width() || height != data.height() || display.empty())
+        return Error{ErrorCode::InvalidArgument, "depth is " + std::to_string(width) + "x" +
+                                                     std::to_string(height) + " but its data window is " +
+                                                     std::to_string(data.width()) + "x" +
+                                                     std::to_string(data.height())};
+    if (!(pixel_aspect > 0) || !std::isfinite(pixel_aspect))
+        return Error{ErrorCode::InvalidArgument,
+                     "the pixel aspect ratio must be > 0, got " + std::to_string(pixel_aspect)};
+    return Done{};
+}
+
+}  // namespace
+
+Result<DepthReport> depth_to_planar_metres(View<float> depth, const Rect& display, const Rect& data,
+                                           double pixel_aspect, const DepthSettings& settings) {
+    if (Status s = check(settings); !s) return s.error();
+    if (Status s = check_windows(depth.width(), depth.height(), display, data, pixel_aspect); !s)
+        return s.error();
+    const DepthKind kind = settings.kind;
+    const Tally before = tally_rows(depth.height(), [&](int y, Tally& tally) {
+        for (int x = 0; x < depth.width(); ++x) tally.look_at(depth(x, y), kind);
+    });
+    const float sign = before.negative > 0 && before.positive == 0 ? -1.f : 1.f;
+    const Converter to(display, pixel_aspect, settings);
+    const Tally after = tally_rows(depth.height(), [&](int y, Tally& tally) {
+        for (int x = 0; x < depth.width(); ++x) {
+            float& d = depth(x, y);
+            d = converted(to, d, kind, sign, data.x0 + x, data.y0 + y);
+            tally.count(d);
+        }
+    });
+    return report_of(before, after);
+}
+
+Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Rect& display, const Rect& data,
+                                          double pixel_aspect, const DepthSettings& settings) {
+    if (Status s = check(settings); !s) return s.error();
+    if (Status s = check_windows(deep.width(), deep.height(), display, data, pixel_aspect); !s)
+        return s.error();
+    const DepthKind kind = settings.kind;
+    const auto row = [&](int y) {
+        const std::size_t first = std::size_t(y) * std::size_t(deep.width());
+        const std::size_t from = deep.first()[first], to = deep.first()[first + std::size_t(deep.width())];
+        return deep.samples().subspan(from, to - from);
+    };
+    const Tally before = tally_rows(deep.height(), [&](int y, Tally& tally) {
+        for (const DeepSample& s : row(y)) tally.look_at(s.depth_m, kind);
+    });
+    const float sign = before.negative > 0 && before.positive == 0 ? -1.f : 1.f;
+    const Converter to(display, pixel_aspect, settings);
+    const bool reorder = to.reverses_order() || sign < 0;
+    const Tally after = tally_rows(deep.height(), [&](int y, Tally& tally) {
+        for (int x = 0; x < deep.width(); ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(deep.width()) + std::size_t(x);
+            const auto pixel = deep.samples().subspan(deep.first()[i], deep.first()[i + 1] - deep.first()[i]);
+            for (DeepSample& s : pixel) {
+                const float a = converted(to, s.depth_m, kind, sign, data.x0 + x, data.y0 + y);
+                const float b = converted(to, s.depth_back_m, kind, sign, data.x0 + x, data.y0 + y);
+                s.depth_m = std::min(a, b), s.depth_back_m = std::max(a, b);
+                tally.count(s.depth_m);
+            }
+            if (reorder)
+                std::stable_sort(pixel.begin(), pixel.end(), [](const DeepSample& p, const DeepSample& q) {
+                    return p.depth_m < q.depth_m;
+                });
+        }
+    });
+    return report_of(before, after);
+}
+
+}  // namespace petzval

@@ -1,0 +1,26 @@
+// What a file held beside the colour that petzval works on. Pixels are not kept in memory: the open file is,
+// and write_exr() copies from it.
+#pragma once
+
+#include "files/channel_choice.h"
+#include "files/input_file.h"
+#include "files/layout.h"
+#include "files/primaries.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace petzval {
+
+class CarriedContent {
+public:
+    std::shared_ptr<const InputFile> file;
+    Layout layout;
+    ColourChoice colour;
+    std::string depth_channel;  // of the colour's part, empty if it has none
+    std::optional<PrimariesConversion> primaries;
+    std::size_t max_pixels = 0;
+};
+
+}  // namespace petzval

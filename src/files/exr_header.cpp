@@ -1,0 +1,128 @@
+#include "files/exr_header.h"
+
+#include "files/exr_file.h"
+#include "files/wording.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfVecAttribute.h>
+
+namespace petzval {
+namespace {
+
+Imf::ChannelList channel_list(const std::vector<Channel>& channels) {
+    Imf::ChannelList list;
+    for (const Channel& c : channels)
+        list.insert(c.name, Imf::Channel(c.type == SampleType::Half    ? Imf::HALF
+                                         : c.type == SampleType::Float ? Imf::FLOAT
+                                                                       : Imf::UINT,
+                                         c.x_sampling, c.y_sampling));
+    return list;
+}
+
+// Whether decoding and encoding again changes samples. B44 packs every half channel, DWA those named like
+// colour; PXR24 rounds floats to 24 bits, which a second time changes nothing.
+bool loses_again(Imf::Compression compression, const Channel& channel) {
+    switch (compression) {
+        case Imf::B44_COMPRESSION:
+        case Imf::B44A_COMPRESSION:
+            return channel.type == SampleType::Half;
+        case Imf::DWAA_COMPRESSION:
+        case Imf::DWAB_COMPRESSION: {
+            const std::string base = lower(channel.base);
+            constexpr std::array lossy{"r", "g", "b", "y", "ry", "by", "red", "green", "blue"};
+            return std::find(lossy.begin(), lossy.end(), base) != lossy.end();
+        }
+        default:
+            return false;
+    }
+}
+
+std::optional<Imf::Compression> compression_of(const std::string& name) {
+    for (int c = 0; c < Imf::NUM_COMPRESSION_METHODS; ++c)
+        if (compression_name(c) == lower(name)) return Imf::Compression(c);
+    return std::nullopt;
+}
+
+// Replaces an attribute whatever its type was; inserting another type would throw.
+void put(Imf::Header& header, const std::string& name, const Imf::Attribute& attribute) {
+    header.erase(name);
+    header.insert(name, attribute);
+}
+
+}  // namespace
+
+Imath::Box2i box_of(const Rect& r) { return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}}; }
+
+Imf::Header new_header(const Rect& display_window, const Rect& data_window, double pixel_aspect,
+                       const std::vector<Channel>& channels) {
+    Imf::Header header(box_of(display_window), box_of(data_window), float(pixel_aspect), Imath::V2f(0, 0), 1,
+                       Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+    header.setType(Imf::SCANLINEIMAGE);
+    header.channels() = channel_list(channels);
+    return header;
+}
+
+Imf::Header kept_header(const Imf::Header& input, const Frame& frame) {
+    Imf::Header header = input;
+    header.erase("chunkCount");  // OpenEXR counts anew
+    header.displayWindow() = box_of(frame.display_window);
+    if (!header.hasType()) header.setType(header.hasTileDescription() ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+    return header;
+}
+
+Imf::Header colour_header(const Imf::Header& input, const Frame& frame, const std::vector<Channel>& channels,
+                          std::size_t colours) {
+    Imf::Header header = kept_header(input, frame);
+    header.dataWindow() = box_of(frame.data_window);
+    header.channels() = channel_list(channels);
+    header.lineOrder() = Imf::INCREASING_Y;
+    const bool tiled = Imf::isTiled(header.type());
+    if (Imf::isDeepData(header.type())) {
+        header.erase("version");
+        header.erase("maxSamplesPerPixel");
+        header.setType(tiled ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+    }
+    if (tiled) {
+        Imf::TileDescription tiles = header.tileDescription();
+        tiles.mode = Imf::ONE_LEVEL;
+        header.setTileDescription(tiles);
+    }
+    for (std::size_t i = colours; i < channels.size(); ++i)
+        if (loses_again(header.compression(), channels[i])) header.compression() = Imf::ZIP_COMPRESSION;
+    return header;
+}
+
+Status apply(const WriteOptions& options, const Rect& display_window, Imf::Header& header) {
+    if (!options.compression.empty()) {
+        const auto compression = compression_of(options.compression);
+        if (!compression)
+            return Error{ErrorCode::InvalidArgument,
+                         "unknown EXR compression '" + printable(options.compression) +
+                             "'; none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab"};
+        header.compression() = *compression;
+    }
+    for (const auto& [name, text] : options.attributes) put(header, name, Imf::StringAttribute(text));
+    const FoundCamera& camera = options.camera;
+    const auto put_float = [&](const char* name, const std::optional<FoundNumber>& n) {
+        if (n && !n->scene_units) put(header, name, Imf::FloatAttribute(float(n->value)));
+    };
+    put_float("pinholeFocalLength", camera.focal_length_mm);
+    put_float("aperture", camera.f_number);
+    put_float("focus", camera.focus_distance_m);
+    if (camera.sensor_width_mm) {
+        const double width = camera.sensor_width_mm->value;
+        const double height =
+            width * display_window.height() / display_window.width() / header.pixelAspectRatio();
+        put(header, "sensorOverallDimensions", Imf::V2fAttribute(Imath::V2f(float(width), float(height))));
+    }
+    return Done{};
+}
+
+}  // namespace petzval

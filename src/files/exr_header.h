@@ -1,0 +1,30 @@
+// Headers of the files that are written.
+#pragma once
+
+#include "petzval/files.h"
+
+#include "files/layout.h"
+
+#include <vector>
+
+#include <OpenEXR/ImfHeader.h>
+
+namespace petzval {
+
+Imf::Header new_header(const Rect& display_window, const Rect& data_window, double pixel_aspect,
+                       const std::vector<Channel>& channels);
+
+// The header of the colour's part with everything the input said, for flat pixels of `channels`, of which the
+// first `colours` are written anew and all others copied: these must not suffer from the compression.
+Imf::Header colour_header(const Imf::Header& input, const Frame& frame, const std::vector<Channel>& channels,
+                          std::size_t colours);
+
+// The header of a part that is copied as it is.
+Imf::Header kept_header(const Imf::Header& input, const Frame& frame);
+
+// Compression, attributes and camera of `options`. Errors: InvalidArgument for an unknown compression.
+Status apply(const WriteOptions& options, const Rect& display_window, Imf::Header& header);
+
+Imath::Box2i box_of(const Rect& rect);
+
+}  // namespace petzval

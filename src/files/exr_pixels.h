@@ -1,0 +1,37 @@
+// Pixels of flat EXR parts, as float.
+#pragma once
+
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+#include "files/channel_choice.h"
+#include "files/exr_file.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// Where a channel's samples go: the first pixel of the part's data window, and the steps between pixels and
+// rows in floats.
+struct FloatTarget {
+    std::string channel;
+    float* first = nullptr;
+    std::ptrdiff_t pixel_step = 1, row_step = 0;
+};
+// All channels in one pass over the part. Half and uint samples are converted.
+Status read_floats(const ExrFile& exr, std::size_t part, const std::vector<FloatTarget>& targets);
+
+// Colour of the chosen channels, alpha 1 where there is none; `depth`, if given, is filled from a channel of
+// the same part in the same pass.
+Status read_colour(const ExrFile& exr, const ColourChoice& choice, Picture& colour, Plane* depth,
+                   const std::string& depth_channel);
+
+// The chosen depth over its part's data window.
+Result<Plane> read_depth(const ExrFile& exr, const DepthChoice& choice);
+
+// `plane` covers `from`; returns what of it lies in `to`, +infinity (a miss) where it covers nothing.
+Plane pasted(const Plane& plane, const Rect& from, const Rect& to);
+
+}  // namespace petzval

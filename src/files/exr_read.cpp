@@ -1,0 +1,195 @@
+#include "files/exr_read.h"
+
+#include "base/parallel.h"
+#include "files/carried.h"
+#include "files/exr_pixels.h"
+#include "files/exr_prescan.h"
+#include "files/wording.h"
+
+#include <cmath>
+#include <limits>
+
+#include <OpenEXR/ImfChromaticities.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
+namespace petzval {
+namespace {
+
+constexpr float kLargestHalf = 65504.f;
+
+std::vector<PartSummary> summaries_of(const Layout& layout) {
+    std::vector<PartSummary> summaries;
+    for (const Part& part : layout.parts) {
+        PartSummary s{part.name, part.type, part.view, part.compression, part.data_window, {}};
+        for (const Channel& c : part.channels)
+            s.channels.push_back(c.name + (c.type == SampleType::Half    ? " half"
+                                           : c.type == SampleType::Float ? " float"
+                                                                         : " uint"));
+        summaries.push_back(std::move(s));
+    }
+    return summaries;
+}
+
+// The colour's part speaks first: in a multi-part file every part may hold its own metadata.
+FoundCamera camera_of(const ExrFile& exr, std::size_t colour_part) {
+    std::vector<NumericAttribute> attributes = numeric_attributes(exr.parts->header(int(colour_part)));
+    for (int p = 0; p < exr.parts->parts(); ++p) {
+        if (std::size_t(p) == colour_part) continue;
+        for (NumericAttribute& a : numeric_attributes(exr.parts->header(p)))
+            attributes.push_back(std::move(a));
+    }
+    return camera_from_metadata(attributes);
+}
+
+void describe_camera(const FoundCamera& camera, std::vector<std::string>& detected) {
+    const auto say = [&](const char* what, const std::optional<FoundNumber>& n, const char* unit) {
+        if (n) detected.push_back(std::string(what) + ": " + number(n->value) + unit + " from " + n->origin);
+    };
+    say("focal length", camera.focal_length_mm, " mm");
+    say("sensor width", camera.sensor_width_mm, " mm");
+    say("f-number", camera.f_number, "");
+    const auto& focus = camera.focus_distance_m;
+    say("focus distance", focus, focus && focus->scene_units ? " units" : " m");
+    if (!camera.focal_length_mm || !camera.sensor_width_mm)
+        say("field of view", camera.horizontal_fov_deg, " deg");
+}
+
+void describe_view(const Layout& layout, const ColourChoice& colour, const ReadOptions& options,
+                   std::vector<std::string>& detected) {
+    if (layout.views.empty()) return;
+    std::string line = "view: " + (colour.view.empty() ? "none" : printable(colour.view));
+    line += options.view_name.empty() ? ", not asked for" : ", asked for with --view-name";
+    detected.push_back(line + "; the file has " + listed(layout.views));
+}
+
+std::optional<PrimariesConversion> primaries_of(const ExrFile& exr, std::size_t part, Frame& frame) {
+    const Imf::Header& header = exr.parts->header(int(part));
+    if (!Imf::hasChromaticities(header)) return std::nullopt;
+    const Imf::Chromaticities c = Imf::chromaticities(header);
+    const Chromaticities xy{c.red.x, c.red.y, c.green.x, c.green.y, c.blue.x, c.blue.y, c.white.x, c.white.y};
+    auto conversion = conversion_of(xy);
+    if (conversion) {
+        std::vector<std::string> xy_text;
+        for (std::size_t k = 0; k < xy.size(); k += 2)
+            xy_text.push_back(number(xy[k]) + "," + number(xy[k + 1]));
+        frame.detected.push_back("primaries: from those of the file (" + joined(xy_text, " ") +
+                                 ") to Rec.709; written back in those of the file");
+    } else if (!is_rec709(xy)) {
+        frame.warnings.push_back("its chromaticities describe no colour space; Rec.709 is assumed");
+    }
+    return conversion;
+}
+
+void convert(Picture& colour, const Matrix3& matrix) {
+    parallel_for(colour.height(), 0, [&](int y) {
+        Rgba* p = colour.row(y);
+        for (int x = 0; x < colour.width(); ++x) p[x] = transformed(matrix, p[x]);
+    });
+}
+
+struct Choices {
+    ColourChoice colour;
+    std::optional<DepthChoice> depth;
+};
+
+// Finds depth in the same file where it is wanted there; a header alone may lack it.
+Status choose_depth_of(const ExrFile& exr, const ReadOptions& options, bool pixels, Choices& choices,
+                       Frame& frame) {
+    if (!options.depth_file.empty()) return Done{};
+    bool camera_matrix = false;
+    for (int p = 0; p < exr.parts->parts(); ++p) camera_matrix |= Imf::hasWorldToCamera(exr.parts->header(p));
+    const auto found = choose_depth(exr.file->path(), exr.layout, &choices.colour, options, camera_matrix);
+    const bool asked = !options.depth_channel.empty();
+    if (!found && (asked || (options.need_depth && pixels))) return found.error();
+    if (!found) {
+        frame.detected.push_back("depth: none");
+        return Done{};
+    }
+    choices.depth = *found;
+    frame.detected.push_back(found->line);
+    return Done{};
+}
+
+Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions& options, Frame& frame) {
+    const bool together =
+        choices.depth && choices.depth->part == choices.colour.part && !choices.depth->is_position();
+    const std::string channel = together ? choices.depth->channel : "";
+    if (Status s = read_colour(exr, choices.colour, frame.colour, together ? &frame.depth : nullptr, channel);
+        !s)
+        return s;
+    if (choices.depth && !together) {
+        Result<Plane> depth = read_depth(exr, *choices.depth);
+        if (!depth) return depth.error();
+        const Rect window = exr.layout.parts[choices.depth->part].data_window;
+        frame.depth =
+            window == frame.data_window ? std::move(*depth) : pasted(*depth, window, frame.data_window);
+    }
+    if (!options.depth_file.empty()) {
+        Result<Plane> depth =
+            read_depth_file(options, frame.display_window, frame.data_window, frame.detected);
+        if (!depth) return depth.error();
+        frame.depth = std::move(*depth);
+    }
+    return Done{};
+}
+
+}  // namespace
+
+std::size_t replace_non_finite(Picture& colour) {
+    std::vector<std::size_t> of_row(std::size_t(colour.height()));
+    parallel_for(colour.height(), 0, [&](int y) {
+        Rgba* p = colour.row(y);
+        for (int x = 0; x < colour.width(); ++x)
+            for (float* v : {&p[x].r, &p[x].g, &p[x].b, &p[x].a})
+                if (!std::isfinite(*v)) {
+                    *v = std::isnan(*v) ? 0 : std::copysign(kLargestHalf, *v);
+                    ++of_row[std::size_t(y)];
+                }
+    });
+    std::size_t sum = 0;
+    for (std::size_t n : of_row) sum += n;
+    return sum;
+}
+
+Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels) {
+    Result<ExrFile> opened = ExrFile::open(file, options.max_pixels);
+    if (!opened) return opened.error();
+    const ExrFile& exr = *opened;
+    Frame frame;
+    frame.display_window = exr.layout.display_window;
+    frame.pixel_aspect = exr.layout.pixel_aspect;
+    frame.parts = summaries_of(exr.layout);
+
+    Result<ColourChoice> colour = choose_colour(file->path(), exr.layout, options);
+    if (!colour && !pixels && colour.error().code == ErrorCode::InvalidFile) {
+        // A header of depth or circles of confusion alone is worth showing.
+        frame.detected.push_back("colour: none");
+        frame.data_window = exr.layout.parts[0].data_window;
+        frame.camera = camera_of(exr, 0);
+        describe_camera(frame.camera, frame.detected);
+        return frame;
+    }
+    if (!colour) return colour.error();
+    Choices choices{*colour, std::nullopt};
+    const Part& part = exr.layout.parts[colour->part];
+    frame.data_window = part.data_window;
+    frame.has_alpha = !colour->alpha.empty();
+    frame.detected.push_back(colour->line);
+    describe_view(exr.layout, *colour, options, frame.detected);
+    if (Status s = choose_depth_of(exr, options, pixels, choices, frame); !s) return s.error();
+    frame.camera = camera_of(exr, colour->part);
+    describe_camera(frame.camera, frame.detected);
+    const auto primaries = primaries_of(exr, colour->part, frame);
+    if (!pixels) return frame;
+
+    if (Status s = read_pixels(exr, choices, options, frame); !s) return s.error();
+    frame.non_finite_colour = replace_non_finite(frame.colour);
+    if (primaries) convert(frame.colour, primaries->to_rec709);
+    const bool own_depth = choices.depth && choices.depth->part == colour->part;
+    frame.carried = std::make_shared<CarriedContent>(CarriedContent{
+        file, exr.layout, *colour, own_depth ? choices.depth->channel : "", primaries, options.max_pixels});
+    return frame;
+}
+
+}  // namespace petzval

@@ -1,0 +1,23 @@
+// Reading a picture from an EXR file.
+#pragma once
+
+#include "petzval/files.h"
+
+#include "files/input_file.h"
+
+#include <memory>
+
+namespace petzval {
+
+// As read_frame() and read_frame_header() promise, for a file that starts like an EXR. `pixels` false: header
+// only.
+Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels);
+
+// Depth from another file, EXR or PNG, in the colour's data window. Adds a line to `detected`.
+Result<Plane> read_depth_file(const ReadOptions& options, const Rect& display_window, const Rect& data_window,
+                              std::vector<std::string>& detected);
+
+// Replaces NaN by 0 and infinities by the largest half; returns how many.
+std::size_t replace_non_finite(Picture& colour);
+
+}  // namespace petzval

@@ -1,0 +1,35 @@
+// A regular file opened for reading. Reads name their offset, so several readers share one open file; it
+// stays readable after it is renamed over or deleted.
+#pragma once
+
+#include "petzval/result.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace petzval {
+
+class InputFile {
+public:
+    // Never blocks. Errors: InvalidFile if missing, unreadable, empty, or a directory, pipe or device.
+    static Result<std::shared_ptr<const InputFile>> open(const std::string& path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    // False if fewer than `bytes` bytes are there or the disk failed.
+    bool read_at(std::uint64_t offset, void* to, std::size_t bytes) const;
+
+    const std::string& path() const { return path_; }
+    std::uint64_t bytes() const { return bytes_; }
+
+private:
+    InputFile(std::string path, int descriptor, std::uint64_t bytes);
+
+    std::string path_;
+    int descriptor_;
+    std::uint64_t bytes_;
+};
+
+}  // namespace petzval

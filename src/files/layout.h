@@ -1,0 +1,54 @@
+// What a file holds, as plain values: parts, layers, views, channels. Choosing what to read needs no more.
+#pragma once
+
+#include "petzval/files.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+enum class SampleType { Uint, Half, Float };
+
+// Channel `forward.left.u` has layer "forward", view "left" and base "u".
+struct Channel {
+    std::string name, layer, view, base;
+    SampleType type = SampleType::Half;
+    int x_sampling = 1, y_sampling = 1;
+
+    bool subsampled() const { return x_sampling != 1 || y_sampling != 1; }
+};
+
+struct Part {
+    std::string name;   // "" where the file gives none
+    std::string label;  // the name without its view: "depth_left" -> "depth"
+    std::string view, type, compression;
+    Rect data_window;
+    bool deep = false, tiled = false, readable = true;
+    std::vector<Channel> channels;
+
+    const Channel* find(const std::string& channel_name) const;
+    // "part 3 'depth_right'"; "" in a file of one part.
+    std::string title;
+};
+
+// Eight numbers: x and y of red, green, blue and white.
+using Chromaticities = std::array<double, 8>;
+
+struct Layout {
+    Rect display_window;
+    double pixel_aspect = 1;
+    std::vector<Part> parts;
+    std::vector<std::string> views;  // in the file's order; the first is its default
+};
+
+// Splits a channel name. `views` are those the part declares for its channels (attribute multiView), default
+// first. OpenEXR's rule: the last component but one may be the view, and a name without any dot belongs to
+// the default view.
+Channel split_channel_name(const std::string& name, const std::vector<std::string>& views);
+// "depth_left", "left" -> "depth"; also with '.', '-', ' ' and with the view in front.
+std::string without_view(const std::string& part_name, const std::string& view);
+
+}  // namespace petzval

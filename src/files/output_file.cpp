@@ -1,0 +1,163 @@
+#include "files/output_file.h"
+
+#include "petzval/files.h"
+
+#include "files/wording.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace petzval {
+namespace {
+
+// Names of unfinished files in memory that never moves, so that a signal handler may read them. A slot is
+// written only while `state` says Filling, and a handler looks only at slots that say Ready.
+enum SlotState : int { Free, Filling, Ready };
+struct Slot {
+    std::atomic<int> state{Free};
+    std::array<char, 4096> path{};
+};
+std::array<Slot, 16> unfinished;
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler reads the slots");
+
+// Returns the slot, or -1 when the path is too long or all slots are taken: the file is then only removed by
+// ~OutputFile.
+int remember(const std::string& path) {
+    if (path.size() >= unfinished[0].path.size()) return -1;
+    for (std::size_t i = 0; i < unfinished.size(); ++i) {
+        int expected = Free;
+        if (!unfinished[i].state.compare_exchange_strong(expected, Filling)) continue;
+        std::memcpy(unfinished[i].path.data(), path.c_str(), path.size() + 1);
+        unfinished[i].state.store(Ready);
+        return int(i);
+    }
+    return -1;
+}
+
+void forget(int slot) {
+    if (slot >= 0) unfinished[std::size_t(slot)].state.store(Free);
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// Where a symbolic link leads, so that writing through it keeps the link.
+std::string followed(const std::string& path) {
+    char* real = ::realpath(path.c_str(), nullptr);
+    if (!real) return path;
+    std::string out = real;
+    std::free(real);
+    return out;
+}
+
+}  // namespace
+
+void remove_unfinished_outputs() {
+    const int saved_errno = errno;
+    for (Slot& slot : unfinished)
+        if (slot.state.load() == Ready) ::unlink(slot.path.data());
+    errno = saved_errno;
+}
+
+Result<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path, bool overwrite) {
+    if (path.empty()) return output_failed("(no name)", "an output file needs a name");
+    std::unique_ptr<OutputFile> file(new OutputFile);
+    file->path_ = path;
+    file->target_ = followed(path);
+    file->overwrite_ = overwrite;
+    struct stat status = {};
+    const bool exists = ::stat(file->target_.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode))
+        return output_failed(path, "is a directory; a file name is needed");
+    if (exists && !S_ISREG(status.st_mode))
+        return output_failed(path, "is a pipe or device; only regular files can be written");
+    if (exists && !overwrite) return output_failed(path, "exists already and may not be overwritten");
+
+    const std::string folder = folder_of(file->target_);
+    const std::string name = file->target_.substr(file->target_.rfind('/') + 1);
+    // Renaming replaces even a read-only file; someone who protected it does not expect that.
+    if (exists && ::access(file->target_.c_str(), W_OK) != 0)
+        return output_failed(path, std::strerror(errno));
+    static std::atomic<unsigned> counter{0};
+    for (int attempt = 0; attempt < 100 && file->descriptor_ < 0; ++attempt) {
+        file->unfinished_path_ = folder + "/." + name.substr(0, 200) + "." + std::to_string(::getpid()) +
+                                 "-" + std::to_string(counter++) + ".unfinished";
+        const mode_t mode = exists ? status.st_mode & 0777 : 0666;
+        file->descriptor_ =
+            ::open(file->unfinished_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        if (file->descriptor_ < 0 && errno != EEXIST)
+            return output_failed(path, "cannot be written: " + std::string(std::strerror(errno)));
+    }
+    if (file->descriptor_ < 0) return output_failed(path, "cannot be written: no free name beside it");
+    file->slot_ = remember(file->unfinished_path_);
+    return file;
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    if (!committed_) ::unlink(unfinished_path_.c_str());
+    forget(slot_);
+}
+
+bool OutputFile::write_at(std::uint64_t offset, const void* from, std::size_t bytes) {
+    const char* in = static_cast<const char*>(from);
+    while (bytes > 0 && error_ == 0) {
+        const ssize_t put = ::pwrite(descriptor_, in, bytes, off_t(offset));
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) {
+            error_ = put < 0 ? errno : ENOSPC;
+            break;
+        }
+        in += put, offset += std::uint64_t(put), bytes -= std::size_t(put);
+    }
+    return error_ == 0;
+}
+
+Error OutputFile::error() const {
+    return output_failed(path_, "cannot be written: " + std::string(std::strerror(error_)));
+}
+
+Status OutputFile::commit() {
+    if (error_ == 0 && ::fsync(descriptor_) != 0) error_ = errno;
+    if (error_ != 0) return error();
+    if (Status renamed = rename_to_target(); !renamed) return renamed;
+    committed_ = true;
+    // The rename itself must reach the disk too; where a folder cannot be synced there is nothing to do about
+    // it.
+    const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) {
+        ::fsync(folder);
+        ::close(folder);
+    }
+    return Done{};
+}
+
+Status OutputFile::rename_to_target() {
+    const char *from = unfinished_path_.c_str(), *to = target_.c_str();
+    if (!overwrite_) {
+        // Decided by the file system itself: someone else may have written the file since create().
+        if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return Done{};
+        if (errno == EEXIST) return output_failed(path_, "exists already and may not be overwritten");
+        if (errno != EINVAL && errno != ENOSYS) {
+            error_ = errno;
+            return error();
+        }
+    }
+    if (::rename(from, to) != 0) {
+        error_ = errno;
+        return error();
+    }
+    return Done{};
+}
+
+}  // namespace petzval

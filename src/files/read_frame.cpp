@@ -1,0 +1,141 @@
+#include "petzval/develop.h"
+#include "petzval/files.h"
+
+#include "files/exr_pixels.h"
+#include "files/exr_prescan.h"
+#include "files/exr_read.h"
+#include "files/png.h"
+#include "files/wording.h"
+
+#include <algorithm>
+
+namespace petzval {
+namespace {
+
+Error neither(const InputFile& file) {
+    return invalid_file(file.path(), "is neither an OpenEXR nor a PNG file, whatever its name says");
+}
+
+Result<Frame> read(const std::string& path, const ReadOptions& options, bool pixels) {
+    const auto file = InputFile::open(path);
+    if (!file) return file.error();
+    try {
+        if (starts_like_exr(**file)) return read_exr_frame(*file, options, pixels);
+        if (starts_like_png(**file)) return read_png_frame(*file, options, pixels);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::OutOfMemory, printable(path, 4096) + ": does not fit into memory"};
+    }
+    return neither(**file);
+}
+
+// The share of full scale, never through a transfer curve.
+Plane first_channel(const PngPixels& p) {
+    Plane out = Plane::uninitialised(p.width, p.height);
+    const float full = p.bits == 16 ? 65535.f : 255.f;
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out.pixels()[i] = float(p.samples[i * std::size_t(p.channels)]) / full;
+    return out;
+}
+
+std::string size_of(const Rect& r) { return std::to_string(r.width()) + "x" + std::to_string(r.height()); }
+
+Error wrong_size(const InputFile& file, const Rect& depth, const Rect& picture) {
+    return invalid_file(file.path(), "is " + size_of(depth) + " but the picture is " + size_of(picture) +
+                                         "; depth must have the picture's size");
+}
+
+Result<Plane> depth_of_png(const InputFile& file, std::size_t max_pixels, const Rect& display,
+                           const Rect& data, std::vector<std::string>& detected) {
+    const Result<PngPixels> png = read_png_file(file, max_pixels);
+    if (!png) return png.error();
+    detected.push_back("depth: " + printable(file.path()) + ", " + std::to_string(png->bits) +
+                       " bit as a share of full scale, never sRGB-decoded");
+    const Rect size{0, 0, png->width, png->height};
+    Plane depth = first_channel(*png);
+    if (size.width() == data.width() && size.height() == data.height()) return depth;
+    if (size.width() != display.width() || size.height() != display.height())
+        return wrong_size(file, size, display);
+    return pasted(depth, display, data);
+}
+
+Result<Plane> depth_of_exr(std::shared_ptr<const InputFile> file, const ReadOptions& options,
+                           const Rect& display, const Rect& data, std::vector<std::string>& detected) {
+    Result<ExrFile> exr = ExrFile::open(file, options.max_pixels);
+    if (!exr) return exr.error();
+    const Rect theirs = exr->layout.display_window;
+    if (theirs.width() != display.width() || theirs.height() != display.height())
+        return wrong_size(*file, theirs, display);
+    const Result<DepthChoice> choice = choose_depth(file->path(), exr->layout, nullptr, options, false);
+    if (!choice) return choice.error();
+    detected.push_back(choice->line + ", in " + printable(file->path()));
+    Result<Plane> depth = read_depth(*exr, *choice);
+    if (!depth) return depth.error();
+    const Rect window = exr->layout.parts[choice->part].data_window;
+    return window == data ? std::move(*depth) : pasted(*depth, window, data);
+}
+
+}  // namespace
+
+Result<Frame> read_frame(const std::string& path, const ReadOptions& options) {
+    return read(path, options, true);
+}
+
+Result<Frame> read_frame_header(const std::string& path, const ReadOptions& options) {
+    return read(path, options, false);
+}
+
+Result<Plane> read_depth_file(const ReadOptions& options, const Rect& display_window, const Rect& data_window,
+                              std::vector<std::string>& detected) {
+    const auto file = InputFile::open(options.depth_file);
+    if (!file) return file.error();
+    if (starts_like_exr(**file)) return depth_of_exr(*file, options, display_window, data_window, detected);
+    if (starts_like_png(**file))
+        return depth_of_png(**file, options.max_pixels, display_window, data_window, detected);
+    return neither(**file);
+}
+
+Result<Frame> read_png_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels) {
+    const Result<PngPixels> png =
+        pixels ? read_png_file(*file, options.max_pixels) : read_png_size(*file, options.max_pixels);
+    if (!png) return png.error();
+    for (const std::string* asked : {&options.layer, &options.view_name})
+        if (!asked->empty())
+            return Error{
+                ErrorCode::InvalidArgument,
+                printable(file->path(), 4096) + ": a PNG has no layer or view '" + printable(*asked) + "'"};
+    Frame frame;
+    frame.display_window = frame.data_window = {0, 0, png->width, png->height};
+    frame.has_alpha = png->channels == 4;
+    frame.display_referred = true;
+    frame.parts.push_back({"", "png", "", "zip", frame.data_window, {}});
+    const std::string bits = std::to_string(png->bits) + " bit";
+    for (int c = 0; c < png->channels; ++c)
+        frame.parts[0].channels.push_back(
+            std::string(png->channels == 1 ? "Y" : std::string("RGBA").substr(std::size_t(c), 1)) + " " +
+            bits);
+    frame.detected.push_back("colour: PNG, " + bits +
+                             ", decoded through the sRGB curve; 1.0 is clipped highlights");
+    if (options.depth_file.empty() && (options.need_depth || !options.depth_channel.empty()) && pixels)
+        return invalid_file(file->path(), "has no depth channel; a PNG needs a depth file, --depth FILE");
+    if (!pixels) return frame;
+
+    std::vector<float> linear(png->bits == 16 ? 65536 : 256);
+    for (std::size_t i = 0; i < linear.size(); ++i)
+        linear[i] = float(srgb_decode(double(i) / double(linear.size() - 1)));
+    frame.colour = Picture::uninitialised(png->width, png->height);
+    for (std::size_t i = 0; i < frame.colour.size(); ++i) {
+        const std::uint16_t* s = png->samples.data() + i * std::size_t(png->channels);
+        const float a = frame.has_alpha ? float(s[3]) / float(linear.size() - 1) : 1.f;
+        const int step = png->channels == 1 ? 0 : 1;
+        frame.colour.pixels()[i] = {linear[s[0]] * a, linear[s[step]] * a, linear[s[2 * step]] * a, a};
+    }
+    if (!options.depth_file.empty()) {
+        Result<Plane> depth =
+            read_depth_file(options, frame.display_window, frame.data_window, frame.detected);
+        if (!depth) return depth.error();
+        frame.depth = std::move(*depth);
+    }
+    return frame;
+}
+
+}  // namespace petzval

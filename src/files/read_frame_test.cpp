@@ -1,0 +1,121 @@
+#include "petzval/files.h"
+
+#include "files/test_exr.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+using test::quick_rgbaz;
+using test::QuickChannel;
+using test::QuickPart;
+using test::TemporaryFolder;
+using test::write_quick_exr;
+using testing::Contains;
+using testing::HasSubstr;
+
+const Rect kWindow{0, 0, 8, 6};
+
+TEST(ReadFrame, PixelsOfEveryTypeCompressionAndLayoutArriveAsTheyWereWritten) {
+    const TemporaryFolder folder;
+    for (int compression = 0; compression < Imf::B44_COMPRESSION; ++compression)
+        for (const int tile : {0, 4, 64})
+            for (const Rect window : {Rect{0, 0, 8, 6}, Rect{-3, -5, 21, 40}, Rect{2, 1, 5, 2}}) {
+                QuickPart part = quick_rgbaz(window);
+                part.compression = Imf::Compression(compression);
+                part.tile = tile;
+                write_quick_exr(folder / "a.exr", kWindow, {part});
+                const Result<Frame> frame = read_frame(folder / "a.exr");
+                ASSERT_TRUE(frame) << frame.error().message;
+                ASSERT_EQ(frame->data_window, window);
+                ASSERT_EQ(frame->display_window, kWindow);
+                for (int y = window.y0; y < window.y1; ++y)
+                    for (int x = window.x0; x < window.x1; ++x) {
+                        const Rgba c = frame->colour(x - window.x0, y - window.y0);
+                        ASSERT_EQ(c, (Rgba{0.25f * float(x) + 0.5f * float(y) + 1.f,
+                                           -0.5f * float(x) + 0.125f * float(y) + 2.f,
+                                           0.125f * float(x) - 0.25f * float(y) + 3.f, 0.5f}));
+                        ASSERT_NEAR(frame->depth(x - window.x0, y - window.y0), 0.1 * x + 0.01 * y + 2, 1e-3);
+                    }
+            }
+}
+
+TEST(ReadFrame, FloatAndUintColourAndHalfAndUintDepthAreUnderstood) {
+    const TemporaryFolder folder;
+    QuickPart part{"",
+                   "",
+                   kWindow,
+                   {{"R", Imf::FLOAT, [](int, int) { return 0.3; }},
+                    {"G", Imf::UINT, [](int, int) { return 3; }},
+                    {"B", Imf::HALF, [](int, int) { return 0.25; }},
+                    {"Z", Imf::UINT, [](int x, int) { return 10 + x; }}}};
+    write_quick_exr(folder / "a.exr", kWindow, {part});
+    const Result<Frame> frame = read_frame(folder / "a.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->colour(2, 2), (Rgba{0.3f, 3, 0.25f, 1}));
+    EXPECT_EQ(frame->depth(5, 0), 15);
+    EXPECT_FALSE(frame->has_alpha);
+}
+
+TEST(ReadFrame, LuminanceAloneIsReadAsGrey) {
+    const TemporaryFolder folder;
+    write_quick_exr(folder / "a.exr", kWindow, {{"", "", kWindow, {{"Y"}, {"Z", Imf::FLOAT}}}});
+    const Result<Frame> frame = read_frame(folder / "a.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->colour(1, 1), (Rgba{0.5f, 0.5f, 0.5f, 1}));
+    EXPECT_THAT(frame->detected, Contains(HasSubstr("luminance only")));
+}
+
+TEST(ReadFrame, NonFiniteColourIsReplacedAndCounted) {
+    const TemporaryFolder folder;
+    QuickPart part = quick_rgbaz();
+    part.channels[0].value = [](int x, int) {
+        return x == 1   ? std::numeric_limits<double>::quiet_NaN()
+               : x == 2 ? std::numeric_limits<double>::infinity()
+               : x == 3 ? -std::numeric_limits<double>::infinity()
+                        : 1.0;
+    };
+    write_quick_exr(folder / "a.exr", kWindow, {part});
+    const Result<Frame> frame = read_frame(folder / "a.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->non_finite_colour, 18u);
+    EXPECT_EQ(frame->colour(1, 0).r, 0);
+    EXPECT_EQ(frame->colour(2, 0).r, 65504);
+    EXPECT_EQ(frame->colour(3, 0).r, -65504);
+}
+
+TEST(ReadFrame, DepthOfAnotherPartIsPastedAndMissesWhereItCoversNothing) {
+    const TemporaryFolder folder;
+    QuickPart colour{"rgba_left", "left", kWindow, {{"R"}, {"G"}, {"B"}}};
+    QuickPart depth{
+        "depth_left", "left", {2, -1, 12, 3}, {{"Z", Imf::HALF, [](int x, int y) { return x + 10 * y; }}}};
+    QuickPart other{"depth_right", "right", kWindow, {{"Z"}}};
+    write_quick_exr(folder / "a.exr", kWindow, {other, colour, depth});
+    const Result<Frame> frame = read_frame(folder / "a.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->depth(2, 0), 2);
+    EXPECT_EQ(frame->depth(7, 2), 27);
+    EXPECT_EQ(frame->depth(1, 0), std::numeric_limits<float>::infinity());
+    EXPECT_EQ(frame->depth(4, 3), std::numeric_limits<float>::infinity());
+    EXPECT_THAT(frame->detected, Contains(HasSubstr("'depth_left'")));
+}
+
+TEST(ReadFrame, HeaderAloneNamesPartsChannelsAndCamera) {
+    const TemporaryFolder folder;
+    write_quick_exr(folder / "a.exr", kWindow, {quick_rgbaz()});
+    const Result<Frame> frame = read_frame_header(folder / "a.exr");
+    ASSERT_TRUE(frame);
+    EXPECT_TRUE(frame->colour.empty());
+    ASSERT_EQ(frame->parts.size(), 1u);
+    EXPECT_THAT(frame->parts[0].channels, Contains("Z float"));
+    EXPECT_EQ(frame->parts[0].compression, "zip");
+}
+
+}  // namespace
+}  // namespace petzval

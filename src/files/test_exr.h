@@ -1,0 +1,140 @@
+// For tests: a folder that disappears, and a quick way to write any EXR.
+#pragma once
+
+#include "petzval/image.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Imath/half.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfTiledOutputPart.h>
+
+namespace petzval::test {
+
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "petzval-XXXXXX").string();
+        folder_ = ::mkdtemp(name.data());
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(folder_); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::string operator/(const std::string& name) const { return folder_ + "/" + name; }
+    std::string path() const { return folder_; }
+    std::size_t files() const {
+        std::size_t n = 0;
+        for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_)) ++n;
+        return n;
+    }
+
+private:
+    std::string folder_;
+};
+
+inline std::string bytes_of(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+inline void write_bytes(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// One channel; `value(x, y)` is asked with coordinates of the frame.
+struct QuickChannel {
+    std::string name;
+    Imf::PixelType type = Imf::HALF;
+    std::function<double(int, int)> value = [](int, int) { return 0.5; };
+    int sampling = 1;
+};
+
+struct QuickPart {
+    std::string name;
+    std::string view;
+    Rect data_window{0, 0, 8, 6};
+    std::vector<QuickChannel> channels;
+    int tile = 0;  // > 0: tiles of this size
+    Imf::Compression compression = Imf::ZIP_COMPRESSION;
+    std::function<void(Imf::Header&)> with = [](Imf::Header&) {};
+};
+
+inline void write_quick_exr(const std::string& path, const Rect& display,
+                            const std::vector<QuickPart>& parts) {
+    const auto box = [](const Rect& r) {
+        return Imath::Box2i(Imath::V2i(r.x0, r.y0), Imath::V2i(r.x1 - 1, r.y1 - 1));
+    };
+    std::vector<Imf::Header> headers;
+    for (const QuickPart& p : parts) {
+        Imf::Header header(box(display), box(p.data_window));
+        header.setType(p.tile ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+        if (p.tile) header.setTileDescription(Imf::TileDescription(unsigned(p.tile), unsigned(p.tile)));
+        if (!p.name.empty()) header.setName(p.name);
+        if (!p.view.empty()) header.setView(p.view);
+        header.compression() = p.compression;
+        for (const QuickChannel& c : p.channels)
+            header.channels().insert(c.name, Imf::Channel(c.type, c.sampling, c.sampling));
+        p.with(header);
+        headers.push_back(header);
+    }
+    Imf::MultiPartOutputFile file(path.c_str(), headers.data(), int(headers.size()));
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        const QuickPart& p = parts[n];
+        const Rect& w = p.data_window;
+        std::vector<std::vector<char>> stored;
+        Imf::FrameBuffer buffer;
+        for (const QuickChannel& c : p.channels) {
+            const int width = w.width() / c.sampling, height = w.height() / c.sampling;
+            const std::size_t size = c.type == Imf::HALF ? 2 : 4;
+            stored.emplace_back(std::size_t(width) * std::size_t(height) * size);
+            char* to = stored.back().data();
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x, to += size) {
+                    const double v = c.value(w.x0 + x * c.sampling, w.y0 + y * c.sampling);
+                    if (c.type == Imf::HALF) *reinterpret_cast<Imath::half*>(to) = float(v);
+                    if (c.type == Imf::FLOAT) *reinterpret_cast<float*>(to) = float(v);
+                    if (c.type == Imf::UINT) *reinterpret_cast<std::uint32_t*>(to) = std::uint32_t(v);
+                }
+            buffer.insert(c.name, Imf::Slice::Make(c.type, stored.back().data(), Imath::V2i(w.x0, w.y0),
+                                                   w.width(), w.height(), size, size * std::size_t(width),
+                                                   c.sampling, c.sampling));
+        }
+        if (p.tile) {
+            Imf::TiledOutputPart out(file, int(n));
+            out.setFrameBuffer(buffer);
+            out.writeTiles(0, out.numXTiles() - 1, 0, out.numYTiles() - 1);
+        } else {
+            Imf::OutputPart out(file, int(n));
+            out.setFrameBuffer(buffer);
+            out.writePixels(w.height());
+        }
+    }
+}
+
+// R, G, B, A half and Z float, all different everywhere.
+inline QuickPart quick_rgbaz(const Rect& window = {0, 0, 8, 6}) {
+    QuickPart part;
+    part.data_window = window;
+    const auto ramp = [](double a, double b, double c) {
+        return [=](int x, int y) { return a * x + b * y + c; };
+    };
+    part.channels = {{"R", Imf::HALF, ramp(0.25, 0.5, 1)},
+                     {"G", Imf::HALF, ramp(-0.5, 0.125, 2)},
+                     {"B", Imf::HALF, ramp(0.125, -0.25, 3)},
+                     {"A", Imf::HALF, ramp(0, 0, 0.5)},
+                     {"Z", Imf::FLOAT, ramp(0.1, 0.01, 2)}};
+    return part;
+}
+
+}  // namespace petzval::test
