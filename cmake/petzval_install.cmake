@@ -5,6 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/petzval)
 set(headers include/petzval)
+file(RELATIVE_PATH PREFIX_FROM_PC /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 
 # petzval_component(TARGET HEADERS names… PACKAGE name REQUIRES pkg-config modules… LIBS flags DESCRIPTION text)
 # LIBS and REQUIRES are public: the archives are static, whoever links them links what they use.
@@ -14,7 +15,7 @@ function(petzval_component target)
     return()
   endif()
   install(TARGETS ${target} EXPORT ${PC_PACKAGE} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT ${PC_PACKAGE} NAMESPACE petzval:: FILE ${PC_PACKAGE}.cmake DESTINATION ${package_dir})
+  install(EXPORT ${PC_PACKAGE} NAMESPACE petzval:: FILE ${PC_PACKAGE}-targets.cmake DESTINATION ${package_dir})
   install(FILES ${PC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval)
   list(JOIN PC_REQUIRES " " PC_REQUIRES)
   get_target_property(PC_ARCHIVE ${target} OUTPUT_NAME)
