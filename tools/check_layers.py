@@ -7,14 +7,15 @@ import re
 import sys
 
 PIXELS = {"base", "image"}
-LENS = PIXELS | {"colour", "optics", "depth", "kernel"}
+LENS = PIXELS | {"colour", "optics", "lens_files", "depth", "kernel"}
 ALLOWED = {
     "base": set(),
     "image": {"base"},
     "colour": PIXELS,
     "optics": PIXELS,
+    "lens_files": PIXELS | {"optics"},
     "depth": PIXELS,
-    "kernel": PIXELS | {"colour", "optics"},
+    "kernel": PIXELS | {"colour", "optics", "lens_files"},
     "engine": LENS,
     "glare": PIXELS | {"colour", "optics", "kernel"},
     "scene": PIXELS | {"optics"},

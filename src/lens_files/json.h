@@ -1,0 +1,37 @@
+// A strict, small JSON reader (RFC 8259) that remembers lines, so that errors can name them. Bounded in depth
+// and count whatever the bytes.
+#pragma once
+
+#include "petzval/result.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace petzval::lens_files {
+
+struct Json {
+    enum class Type { Null, Bool, Number, String, Array, Object };
+
+    Type type = Type::Null;
+    int line = 0;  // where the value starts, from 1
+    bool boolean = false;
+    double number = 0;
+    std::string string;
+    std::vector<Json> items;                            // of an array
+    std::vector<std::pair<std::string, Json>> members;  // of an object, as written
+
+    bool is(Type wanted) const { return type == wanted; }
+    // The member of that name; nullptr when there is none or this is no object.
+    const Json* find(std::string_view name) const;
+};
+
+inline constexpr int kDeepestJson = 32;
+inline constexpr int kMostJsonValues = 300000;
+
+// Errors: InvalidFile "line N: …" at the first character that is not JSON, at a key given twice, and beyond
+// the limits above.
+Result<Json> parse_json(std::string_view text);
+
+}  // namespace petzval::lens_files

@@ -1,0 +1,56 @@
+// What the readers of this room share; one reader per format.
+#pragma once
+
+#include "lens_files/glass_catalogue.h"
+#include "lens_files/json.h"
+#include "lens_files/lens_file.h"
+#include "lens_files/text.h"
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace petzval::lens_files {
+
+// Each returns errors "line N: …"; read_lens puts the file's name in front.
+Result<LensFile> read_json_lens(const std::string& text);
+Result<LensFile> read_zmx(const std::string& text);
+Result<LensFile> read_seq(const std::string& text);
+Result<LensFile> read_pbrt(const std::string& text);
+Result<LensFile> read_optical_bench(const std::string& text);
+
+inline Error at_line(int line, const std::string& what) {
+    return {ErrorCode::InvalidFile, "line " + std::to_string(line) + ": " + what};
+}
+
+// The reader's answer to a glass the file names.
+struct GlassRequest {
+    std::string name;              // as written, may be empty
+    std::string maker;             // as written, may be empty
+    std::optional<double> nd, vd;  // a model the file gives beside the name
+    int line = 0;
+};
+// The catalogue's glass of that name; else the model, with a warning; else an error that names near misses. A
+// maker other than the catalogue's is a warning.
+Result<optics::Glass> find_glass(const GlassRequest& request, const optics::GlassCatalogue& own,
+                                 std::vector<std::string>& warnings);
+
+// Words the reader knows to be harmless, collected into one warning.
+class Ignored {
+public:
+    void add(const std::string& word) { words_.insert(word); }
+    void report(std::vector<std::string>& warnings) const;
+
+private:
+    std::set<std::string> words_;
+};
+
+// Surfaces whose glass is only (nd, Vd), or has no dispersion at all, as one warning each; sets
+// dispersion_known.
+void warn_of_models(LensFile& file);
+
+// A field for formats that state none: the half diagonal of a 36 x 24 mm picture, said in a warning.
+void assume_field(LensFile& file);
+
+}  // namespace petzval::lens_files

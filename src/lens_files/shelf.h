@@ -1,0 +1,29 @@
+// The lenses that ship with the library. They are compiled in from lenses/*.json, so a program finds them
+// wherever it is installed.
+#pragma once
+
+#include "petzval/result.h"
+
+#include "lens_files/lens_file.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace petzval::lens_files {
+
+struct ShelfItem {
+    std::string_view name;  // the file's name without .json
+    std::string_view text;  // its content
+};
+// By name, in alphabetical order.
+std::span<const ShelfItem> shelf();
+
+// The content of lenses/glasses.json.
+std::string_view glasses_text();
+
+// A lens of the shelf by name (or by the id it has in its source), else the file of that path.
+// Errors: InvalidArgument when it is neither (the message lists the shelf); those of load_lens_file.
+Result<LensFile> find_lens(const std::string& name_or_path);
+
+}  // namespace petzval::lens_files
