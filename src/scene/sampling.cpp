@@ -39,13 +39,6 @@ std::array<std::uint32_t, 32> directions(unsigned s, unsigned a, std::array<std:
 
 }  // namespace
 
-std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t x = a * 0x9e3779b9u ^ (b + 0x7f4a7c15u + (a << 6) + (a >> 2));
-    x ^= x >> 16, x *= 0x7feb352du;
-    x ^= x >> 15, x *= 0x846ca68bu;
-    return x ^ x >> 16;
-}
-
 SobolPoints::SobolPoints(int count) : points_(std::size_t(count)) {
     const std::array<std::array<std::uint32_t, 32>, 4> v = {
         directions(0, 0, {}), directions(1, 0, {1}), directions(2, 1, {1, 3}), directions(3, 1, {1, 3, 1})};

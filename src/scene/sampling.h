@@ -14,7 +14,12 @@
 namespace petzval::scene {
 
 // A well mixed 32-bit number from two.
-std::uint32_t hash(std::uint32_t a, std::uint32_t b);
+inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t x = a * 0x9e3779b9u ^ (b + 0x7f4a7c15u + (a << 6) + (a >> 2));
+    x ^= x >> 16, x *= 0x7feb352du;
+    x ^= x >> 15, x *= 0x846ca68bu;
+    return x ^ x >> 16;
+}
 
 using Point4 = std::array<float, 4>;  // each in [0, 1); the first two dimensions are the best spread pair
 

@@ -84,9 +84,11 @@ TEST(BuiltInScenes, APinholeLensRecordsThePinholePicture) {
     SceneSettings s = small();
     s.want_truth = true;
     s.samples = s.truth_samples = 1024;
-    s.camera = scene_list().front().camera;
-    s.camera->f_number = std::numeric_limits<double>::infinity();
-    const auto r = render_scene(scene_list().front().name, s);
+    s.camera = Camera{.focal_length_mm = 85,
+                      .sensor_width_mm = 36,
+                      .f_number = std::numeric_limits<double>::infinity(),
+                      .focus_distance_m = 3};
+    const auto r = render_scene("bars", s);
     ASSERT_TRUE(r);
     EXPECT_GT(compare(r->colour.view(), r->truth.view())->psnr_lin, 46);
 }

@@ -88,6 +88,23 @@ void Tubes::path(const std::vector<Vec3>& through, float first_radius, float las
     }
 }
 
+void Tubes::curve(const std::vector<Vec3>& through, int pieces, float first_radius, float last_radius) {
+    std::vector<Vec3> fine;
+    const auto point = [&](std::size_t i, int step) {
+        const std::size_t last = through.size() - 1;
+        return through[step < 0 ? (i == 0 ? 0 : i - 1) : std::min(i + std::size_t(step), last)];
+    };
+    for (std::size_t i = 0; i + 1 < through.size(); ++i)
+        for (int k = 0; k < pieces; ++k) {
+            const float t = float(k) / float(pieces);
+            const Vec3 a = point(i, -1), b = point(i, 0), c = point(i, 1), d = point(i, 2);
+            fine.push_back(0.5f * (2 * b + t * (c - a) + t * t * (2 * a - 5 * b + 4 * c - d) +
+                                   t * t * t * (3 * b - a - 3 * c + d)));
+        }
+    fine.push_back(through.back());
+    path(fine, first_radius, last_radius);
+}
+
 void Tubes::arc(Vec3 centre, Vec3 a, Vec3 b, float circle, float from, float to, int pieces, float radius) {
     std::vector<Vec3> through;
     for (int i = 0; i <= pieces; ++i) {

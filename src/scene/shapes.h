@@ -38,6 +38,8 @@ struct Tubes {
     void line(Vec3 a, Vec3 b, float radius) { path({a, b}, radius, radius); }
     // The radius runs from first to last along the path.
     void path(const std::vector<Vec3>& through, float first_radius, float last_radius);
+    // A smooth curve through the points (Catmull-Rom), `pieces` segments between two of them.
+    void curve(const std::vector<Vec3>& through, int pieces, float first_radius, float last_radius);
     // An arc of `circle` radius in the plane of unit vectors a and b, from angle to angle (radians, a towards
     // b).
     void arc(Vec3 centre, Vec3 a, Vec3 b, float circle, float from, float to, int pieces, float radius);

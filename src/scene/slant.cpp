@@ -6,7 +6,7 @@
 namespace petzval::scene {
 namespace {
 
-constexpr float kCell = 0.14f;  // side of one printed motif, m
+constexpr float kCell = 0.14f;  // width of one printed motif, m; its length grows with its distance
 
 // 0…1, how much ink motif `kind` puts at (x, y) of its cell, both -1…1.
 float motif(int kind, float x, float y) {
@@ -36,7 +36,7 @@ Matter sheet(const SurfacePoint& p) {
         {0.75f, 0.70f, 0.60f}, {0.55f, 0.62f, 0.62f}, {0.70f, 0.52f, 0.36f}, {0.16f, 0.22f, 0.30f}};
     static const Vec3 kInks[] = {
         {0.05f, 0.06f, 0.09f}, {0.55f, 0.07f, 0.05f}, {0.04f, 0.20f, 0.36f}, {0.85f, 0.62f, 0.16f}};
-    const float x = p.position.x / kCell, y = p.position.z / kCell * 1.3f;
+    const float x = p.position.x / kCell, y = std::log(p.position.z) / kCell * 0.9f;
     const int i = int(std::floor(x)), j = int(std::floor(y));
     const float cx = 2 * (x - float(i)) - 1, cy = 2 * (y - float(j)) - 1;
     const int paper = int(4 * cell_value(i, j, 11)), kind = int(6 * cell_value(i, j, 23));

@@ -5,9 +5,17 @@
 namespace petzval::scene {
 namespace {
 
-float lattice(int i, int j, int k) {
-    const std::uint32_t h = hash(hash(std::uint32_t(i), std::uint32_t(j)), std::uint32_t(k));
-    return float(h >> 8) * 0x1p-23f - 1;
+// Largest integer <= x; std::floor is a call on baseline x86-64.
+int cell(float x) {
+    const int i = int(x);
+    return i - (x < float(i));
+}
+
+// The hash is a short one: noise is most of what a scene costs.
+float lattice(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    std::uint32_t h = i * 0x8da6b343u ^ j * 0xd8163841u ^ k * 0xcb1ab31fu;
+    h = (h ^ h >> 15) * 0x9e3779b1u;
+    return float((h ^ h >> 13) & 0xffffu) * 0x1p-15f - 1;
 }
 
 }  // namespace
@@ -22,11 +30,11 @@ float cell_value(int i, int j, std::uint32_t seed) {
 }
 
 float noise(Vec3 p) {
-    const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-    const int i = int(fx), j = int(fy), k = int(fz);
-    const auto fade = [](float t) { return t * t * t * (t * (t * 6 - 15) + 10); };
-    const float u = fade(p.x - fx), v = fade(p.y - fy), w = fade(p.z - fz);
-    const auto edge = [&](int dj, int dk) {
+    const int cx = cell(p.x), cy = cell(p.y), cz = cell(p.z);
+    const std::uint32_t i = std::uint32_t(cx), j = std::uint32_t(cy), k = std::uint32_t(cz);
+    const auto fade = [](float t) { return t * t * (3 - 2 * t); };
+    const float u = fade(p.x - float(cx)), v = fade(p.y - float(cy)), w = fade(p.z - float(cz));
+    const auto edge = [&](std::uint32_t dj, std::uint32_t dk) {
         return mix(lattice(i, j + dj, k + dk), lattice(i + 1, j + dj, k + dk), u);
     };
     return mix(mix(edge(0, 0), edge(1, 0), v), mix(edge(0, 1), edge(1, 1), v), w);
@@ -42,13 +50,13 @@ float fractal_noise(Vec3 p, int octaves) {
 }
 
 float stripes(float x, float duty, float softness) {
-    const float t = x - std::floor(x);
+    const float t = x - float(cell(x));
     return smoothstep(0, softness, t) * (1 - smoothstep(duty, duty + softness, t));
 }
 
 float checks(float x, float y, float softness) {
     const auto wave = [&](float t) {
-        const float half = 2 * (0.5f * t - std::floor(0.5f * t));  // 0…2
+        const float half = 2 * (0.5f * t - float(cell(0.5f * t)));  // 0…2
         return smoothstep(0, softness, half) - smoothstep(1, 1 + softness, half);
     };
     const float a = wave(x), b = wave(y);
@@ -56,13 +64,13 @@ float checks(float x, float y, float softness) {
 }
 
 Brick brick(float x, float y, float joint_x, float joint_y) {
-    const float row = std::floor(y);
-    const float shifted = x + 0.5f * std::fmod(std::abs(row), 2.0f);
-    const float column = std::floor(shifted);
+    const int row = cell(y);
+    const float shifted = x + ((row & 1) ? 0.5f : 0.0f);
+    const int column = cell(shifted);
     const auto inside = [](float t, float joint) {
         return smoothstep(0.3f * joint, joint, t) * smoothstep(0.3f * joint, joint, 1 - t);
     };
-    return {1 - inside(shifted - column, joint_x) * inside(y - row, joint_y), int(column), int(row)};
+    return {1 - inside(shifted - float(column), joint_x) * inside(y - float(row), joint_y), column, row};
 }
 
 }  // namespace petzval::scene
