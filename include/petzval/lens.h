@@ -1,4 +1,5 @@
-// What the photographer mounts on the camera: a named lens and the shape of its aperture.
+// What the photographer mounts on the camera: a named lens, the shape of its aperture, and what is left of its
+// aberrations.
 #pragma once
 
 #include <string>
@@ -13,11 +14,29 @@ struct ApertureShape {
     double squeeze = 1;       // the disc is so many times taller than wide, > 0
 };
 
+// Where the sensor is put, which spherical aberration and colour leave open.
+enum class FocusMode {
+    Best,      // least mean square blur at this aperture, wavelengths weighted by luminance
+    Paraxial,  // where light at 587.56 nm near the axis meets
+    Shift,     // focus_shift_mm from there
+};
+
 // A lens as an engine is asked to use it. Defaults: a perfect lens with a round aperture, a flat disc.
 struct LensChoice {
     std::string name = "ideal";  // a built-in lens (lens list) or the path of a lens file
     ApertureShape aperture;
     double cats_eye = 0;  // 0…1: barrel displaced by cats_eye * field, in pupil radii
+
+    FocusMode focus_mode = FocusMode::Best;
+    double focus_shift_mm = 0;  // FocusMode::Shift: + away from the lens
+    // The defocus-control ring: factors on the lens's own residuals, 1 as built, 0 none, -1 reversed.
+    double spherical = 1, axial_colour = 1;
+    // Third-order aberrations off the axis, added to a curve lens (0: none). At full field, with the pupil's rim
+    // at height h = 1/(2 f-number) focal lengths:
+    double coma = 0;         // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward
+    double astigmatism = 0;  // tangential and sagittal focus 2 * 0.01 * astigmatism focal lengths apart
+    double distortion = 0;   // discs stretch by (1 + 3 d) along and (1 + d) across the field's direction
+    int wavelengths = 0;     // bands of the spectrum; 0: as many as the kernel needs to be smooth
 };
 
 }  // namespace petzval

@@ -17,6 +17,8 @@ void CoverageBuffer::add_edge(Point from, Point to, double weight) {
     // Rows and columns counted from the extent's corner, where pixel borders are whole numbers.
     const double left = extent_.x0 - 0.5, top = extent_.y0 - 0.5;
     double xa = from.x - left, ya = from.y - top, xb = to.x - left, yb = to.y - top;
+    // What lies to the right of an edge that goes down is outside.
+    weight = -weight;
     if (ya > yb) std::swap(xa, xb), std::swap(ya, yb), weight = -weight;
     const double slope = (xb - xa) / (yb - ya);
     const int last = std::min(extent_.height() - 1, int(yb));
@@ -56,6 +58,14 @@ void CoverageBuffer::add_piece(double* row, double xa, double xb, double descent
 void CoverageBuffer::add_polygon(const std::vector<Point>& polygon, double weight) {
     for (std::size_t i = 0; i < polygon.size(); ++i)
         add_edge(polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1], weight);
+}
+
+void CoverageBuffer::add_point(Point p, double weight) {
+    const int i = std::clamp(int(p.x - extent_.x0 + 0.5), 0, extent_.width() - 1);
+    const int j = std::clamp(int(p.y - extent_.y0 + 0.5), 0, extent_.height() - 1);
+    double* cell = &cells_[std::size_t(j) * std::size_t(stride_) + std::size_t(i)];
+    cell[0] += weight;
+    cell[1] -= weight;
 }
 
 const double* CoverageBuffer::resolve_row(int j) {

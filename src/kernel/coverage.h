@@ -33,11 +33,13 @@ public:
     const Rect& extent() const { return extent_; }
     // Sets every pixel back to zero.
     void clear();
-    // One directed edge of a closed polygon whose density is `weight` inside. Requires: both ends inside
-    // the extent's squares. A polygon that turns the other way counts negative.
+    // One directed edge of a closed polygon whose density is `weight` inside when it turns from +x to +y, and
+    // -weight when it turns the other way. Requires: both ends inside the extent's squares.
     void add_edge(Point from, Point to, double weight);
     // `weight` spread evenly over a closed polygon.
     void add_polygon(const std::vector<Point>& polygon, double weight);
+    // `weight` in the pixel that holds a point.
+    void add_point(Point p, double weight);
     // Turns the edges of one row into covered area, in place; call once per row, then read it.
     const double* resolve_row(int j);
 

@@ -49,6 +49,12 @@ public:
     // The weight of a pixel is the share of the aperture's light that lands in its square.
     virtual PointSpread point_spread(double coc_radius_px, FieldPosition field) const = 0;
 
+    // The same before colours that no screen has are mapped into gamut: r, g or b may be negative in fringes.
+    // This is what rays() sum to.
+    virtual PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const {
+        return point_spread(coc_radius_px, field);
+    }
+
     // `count` low-discrepancy points over pupil and wavelengths, the same for the same count and seed.
     virtual std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const = 0;
 

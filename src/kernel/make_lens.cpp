@@ -1,16 +1,64 @@
 // From a name to a lens: the registry.
+#include "kernel/curve_lens.h"
 #include "kernel/ideal_lens.h"
 #include "kernel/lens_model.h"
 
-namespace petzval::kernel {
+#include <cmath>
 
-Result<std::unique_ptr<const LensModel>> make_lens(const LensChoice& choice, const Mount& mount) {
+namespace petzval::kernel {
+namespace {
+
+using Lens = std::unique_ptr<const LensModel>;
+
+Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+// Aberrations have a size only on a camera.
+Status check_camera(const Mount& mount) {
+    const Camera& camera = mount.camera;
+    if (!(camera.focal_length_mm > 0) || !std::isfinite(camera.focal_length_mm))
+        return refuse("this lens needs a focal length (--focal-length, mm) above 0");
+    if (!(camera.sensor_width_mm > 0) || !std::isfinite(camera.sensor_width_mm))
+        return refuse("this lens needs a sensor width (--sensor-width, mm) above 0");
+    if (!(camera.f_number > 0)) return refuse("this lens needs an f-number (--fstop) above 0");
+    return Done{};
+}
+
+Status check_residuals(const LensChoice& choice) {
+    const auto in = [](double value, double limit) { return std::abs(value) <= limit; };  // false for NaN
+    if (!in(choice.spherical, 10)) return refuse("--spherical must lie between -10 and 10");
+    if (!in(choice.axial_colour, 10)) return refuse("--axial-colour must lie between -10 and 10");
+    if (!in(choice.coma, 10)) return refuse("--coma must lie between -10 and 10");
+    if (!in(choice.astigmatism, 10)) return refuse("--astigmatism must lie between -10 and 10");
+    if (!in(choice.distortion, 0.3)) return refuse("--distortion must lie between -0.3 and 0.3");
+    if (!std::isfinite(choice.focus_shift_mm)) return refuse("--focus-shift must be a number of mm");
+    if (choice.wavelengths < 0 || choice.wavelengths > 1000)
+        return refuse("--wavelengths must be 0 (as many as needed) to 1000");
+    return Done{};
+}
+
+// The ideal lens with third-order aberrations off the axis: curves without any shift.
+const AberrationCurves& straight_curves() {
+    static const AberrationCurves curves{"ideal", "no aberration on the axis", 50, 1, 36, {587.56}, {0, 0.5},
+                                         {{0, 0}}};
+    return curves;
+}
+
+}  // namespace
+
+Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
     if (const Status status = check_aperture(choice); !status) return status.error();
-    if (choice.name == "ideal") {
-        std::unique_ptr<const LensModel> lens = std::make_unique<IdealLens>(choice, mount);
-        return lens;
+    if (const Status status = check_residuals(choice); !status) return status.error();
+    const bool perfect = choice.coma == 0 && choice.astigmatism == 0 && choice.distortion == 0;
+    if (choice.name == "ideal" && perfect) return Lens(std::make_unique<IdealLens>(choice, mount));
+
+    const AberrationCurves* curves = choice.name == "ideal" ? &straight_curves() : curve_preset(choice.name);
+    if (curves) {
+        if (const Status status = check_camera(mount); !status) return status.error();
+        return Lens(std::make_unique<CurveLens>(*curves, choice, mount));
     }
-    return Error{ErrorCode::InvalidArgument, "unknown lens \"" + choice.name + "\"; known lenses: ideal"};
+    std::string known = "ideal";
+    for (const std::string& name : curve_preset_names()) known += ", " + name;
+    return refuse("unknown lens \"" + choice.name + "\"; known lenses: " + known);
 }
 
 }  // namespace petzval::kernel

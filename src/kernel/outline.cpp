@@ -19,9 +19,12 @@ int chord_count(double radius, double tolerance) {
 void append_arc(std::vector<Point>& outline, const Circle& circle, double from, double to, double tolerance) {
     const double turn = to - from;
     const int count = std::max(1, int(std::ceil(chord_count(circle.radius, tolerance) * turn / (2 * kPi))));
+    // Corners lie a hair outside, so that chords enclose the area of the arc: sin cos against the half angle.
+    const double half = 0.5 * turn / count;
+    const double radius = circle.radius * std::sqrt(half / (std::sin(half) * std::cos(half)));
     for (int i = 1; i <= count; ++i) {
         const double angle = from + turn * i / count;
-        outline.push_back(circle.centre + circle.radius * Point{std::cos(angle), std::sin(angle)});
+        outline.push_back(circle.centre + radius * Point{std::cos(angle), std::sin(angle)});
     }
 }
 

@@ -44,6 +44,11 @@ std::vector<Point> Pupil::outline(FieldPosition field, double tolerance) const {
     return outline;
 }
 
+bool Pupil::is_disc(FieldPosition field) const {
+    const bool round = shape_.blades < 3 || shape_.curvature == 1;
+    return round && shape_.squeeze == 1 && (cats_eye_ == 0 || (field.x == 0 && field.y == 0));
+}
+
 Status check_aperture(const LensChoice& choice) {
     const ApertureShape& shape = choice.aperture;
     if (shape.blades != 0 && (shape.blades < 3 || shape.blades > 64))

@@ -1,0 +1,62 @@
+#include "colour/spectrum.h"
+
+#include "base/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace petzval::colour {
+namespace {
+
+struct TableRow {
+    double wavelength_nm, x, y, z, d65;
+};
+constexpr TableRow kTable[] = {
+#include "colour/cie1931_table.inc"
+};
+constexpr double kFirst_nm = 400, kLast_nm = 700;
+
+// Tristimulus density of the illuminant at one wavelength, linear between rows.
+std::array<double, 3> tristimulus(double wavelength_nm) {
+    const double at = (wavelength_nm - kTable[0].wavelength_nm) / 5;
+    const std::size_t i = std::min(std::size_t(at), std::size(kTable) - 2);
+    const double t = at - double(i);
+    const TableRow &p = kTable[i], &q = kTable[i + 1];
+    const auto mix = [t](double a, double b) { return a + t * (b - a); };
+    const double power = mix(p.d65, q.d65);
+    return {power * mix(p.x, q.x), power * mix(p.y, q.y), power * mix(p.z, q.z)};
+}
+
+SpectralBand integrated(double from_nm, double to_nm) {
+    const int steps = std::max(1, int(std::ceil(to_nm - from_nm)));
+    const double step = (to_nm - from_nm) / steps;
+    double x = 0, y = 0, z = 0;
+    for (int i = 0; i < steps; ++i) {
+        const auto [dx, dy, dz] = tristimulus(from_nm + (i + 0.5) * step);
+        x += step * dx, y += step * dy, z += step * dz;
+    }
+    // IEC 61966-2-1: XYZ (D65) to linear Rec.709.
+    return {0.5 * (from_nm + to_nm), 3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
+            -0.9692660 * x + 1.8760108 * y + 0.0415560 * z, 0.0556434 * x - 0.2040259 * y + 1.0572252 * z, y};
+}
+
+}  // namespace
+
+std::vector<SpectralBand> spectral_bands(int count) {
+    PETZVAL_CHECK(count >= 1);
+    std::vector<SpectralBand> bands;
+    SpectralBand sum;
+    const double width = (kLast_nm - kFirst_nm) / count;
+    for (int i = 0; i < count; ++i) {
+        bands.push_back(integrated(kFirst_nm + i * width, kFirst_nm + (i + 1) * width));
+        const SpectralBand& band = bands.back();
+        sum.r += band.r, sum.g += band.g, sum.b += band.b, sum.luminance += band.luminance;
+    }
+    for (SpectralBand& band : bands)
+        band.r /= sum.r, band.g /= sum.g, band.b /= sum.b, band.luminance /= sum.luminance;
+    return bands;
+}
+
+}  // namespace petzval::colour

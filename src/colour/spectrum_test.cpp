@@ -1,0 +1,50 @@
+#include "colour/spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace petzval::colour {
+namespace {
+
+TEST(Spectrum, EveryChannelSumsToOneForAnyNumberOfBands) {
+    for (const int count : {1, 2, 3, 8, 31, 64, 300}) {
+        double r = 0, g = 0, b = 0, y = 0;
+        for (const SpectralBand& band : spectral_bands(count))
+            r += band.r, g += band.g, b += band.b, y += band.luminance;
+        EXPECT_NEAR(r, 1, 1e-12);
+        EXPECT_NEAR(g, 1, 1e-12);
+        EXPECT_NEAR(b, 1, 1e-12);
+        EXPECT_NEAR(y, 1, 1e-12);
+    }
+}
+
+TEST(Spectrum, ColoursComeInTheOrderOfTheRainbow) {
+    const auto bands = spectral_bands(31);
+    const auto at = [&](double nm) { return bands[std::size_t((nm - 400) / 300 * 31)]; };
+    EXPECT_GT(at(450).b, std::max(at(450).r, at(450).g));
+    EXPECT_GT(at(535).g, std::max(at(535).r, at(535).b));
+    EXPECT_GT(at(620).r, std::max(at(620).g, at(620).b));
+    EXPECT_GT(at(410).r, 0);  // violet, not blue
+    EXPECT_LT(at(500).r, 0);  // outside the gamut: kept
+}
+
+TEST(Spectrum, LuminancePeaksInTheGreen) {
+    const auto bands = spectral_bands(60);
+    const auto peak = std::max_element(bands.begin(), bands.end(),
+                                       [](auto& a, auto& b) { return a.luminance < b.luminance; });
+    EXPECT_NEAR(peak->wavelength_nm, 555, 8);
+}
+
+TEST(Spectrum, FewBandsHoldWhatManyBandsHold) {
+    const auto coarse = spectral_bands(15), fine = spectral_bands(60);
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+        double r = 0;
+        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) r += fine[k].r;
+        EXPECT_NEAR(coarse[i].r, r, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace petzval::colour

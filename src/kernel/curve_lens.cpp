@@ -1,0 +1,192 @@
+#include "kernel/curve_lens.h"
+
+#include "kernel/mesh_kernel.h"
+#include "kernel/ray_set.h"
+#include "kernel/ring_kernel.h"
+#include "kernel/spread.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace petzval::kernel {
+namespace {
+
+constexpr int kLadder[] = {7, 15, 31, 62, 124, 248};
+// Neighbouring bands may land this far apart before their rims show as separate lines.
+constexpr double kBandStepPx = 0.4;
+// Light outside carries under 1 % of the luminance; it does not decide how many bands are needed.
+constexpr int kLeastRingBands = 31, kLeastMeshBands = 7, kLeastRayBands = 62;
+// A chord of the outline may leave its arc by this much on the image.
+constexpr double kChordTolerancePx = 0.02;
+constexpr double kSeenFrom_nm = 430, kSeenTo_nm = 670;
+
+// Units of LensChoice::coma and ::astigmatism, focal lengths (petzval/lens.h).
+constexpr double kComaUnit = 0.02, kAstigmatismUnit = 0.01;
+
+double focus_of(const CurveSampler& sampler, const LensChoice& choice, double focal_length_mm) {
+    switch (choice.focus_mode) {
+        case FocusMode::Best:
+            return sampler.best_focus();
+        case FocusMode::Shift:
+            return choice.focus_shift_mm / focal_length_mm;
+        case FocusMode::Paraxial:
+            break;
+    }
+    return 0;
+}
+
+std::string describe(const AberrationCurves& curves, const Camera& camera) {
+    std::string text = curves.name + ": " + curves.description;
+    if (camera.f_number < curves.f_number)
+        text += " (curves stretched to this aperture, wider than drawn for)";
+    return text;
+}
+
+BandWeight weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band.b}; }
+
+}  // namespace
+
+CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount)
+    : description_(describe(curves, mount.camera)),
+      pupil_(choice),
+      choice_(choice),
+      pixel_aspect_(mount.pixel_aspect) {
+    const Camera& camera = mount.camera;
+    const double focal_length_px = camera.focal_length_mm / camera.sensor_width_mm * mount.display_width_px;
+    const double rim = 0.5 / camera.f_number;
+    aberration_px_ = rim * focal_length_px;
+    coma_px_ = choice.coma * kComaUnit * rim * rim * focal_length_px;
+    astigmatism_px_ = choice.astigmatism * kAstigmatismUnit * aberration_px_;
+
+    const CurveSampler sampler(curves, {camera.f_number, choice.spherical, choice.axial_colour});
+    focus_ = focus_of(sampler, choice, camera.focal_length_mm);
+    const auto add_rung = [&](int count) {
+        ladder_.emplace_back();
+        for (const colour::SpectralBand& band : colour::spectral_bands(count))
+            ladder_.back().push_back({band, sampler.at(band.wavelength_nm)});
+    };
+    if (choice.wavelengths > 0)
+        add_rung(choice.wavelengths);
+    else
+        for (const int count : kLadder) add_rung(count);
+    measure_curves();
+}
+
+void CurveLens::measure_curves() {
+    const std::vector<Band>& bands = ladder_.back();
+    const std::size_t samples = bands[0].shift.samples().size();
+    for (std::size_t i = 0; i < samples; ++i) {
+        const double rho = std::sqrt(double(i) / double(samples - 1));
+        double least = 1e9, most = -1e9;
+        for (const Band& band : bands) {
+            const double miss = rho * (band.shift.samples()[i] - focus_);
+            largest_shift_ = std::max(largest_shift_, std::abs(miss));
+            if (band.spectrum.wavelength_nm < kSeenFrom_nm || band.spectrum.wavelength_nm > kSeenTo_nm)
+                continue;
+            least = std::min(least, miss), most = std::max(most, miss);
+        }
+        colour_spread_ = std::max(colour_spread_, most - least);
+    }
+}
+
+const std::vector<CurveLens::Band>& CurveLens::bands_for(int at_least) const {
+    const double needed = std::max(double(at_least), colour_spread_ * aberration_px_ / kBandStepPx);
+    for (const std::vector<Band>& rung : ladder_)
+        if (double(rung.size()) >= needed) return rung;
+    return ladder_.back();
+}
+
+Point CurveLens::landing_px(const ZoneShift& shift, double coc_radius_px, const FieldAxis& axis,
+                            Point pupil) const {
+    const double area = pupil.x * pupil.x + pupil.y * pupil.y;
+    const double scale = coc_radius_px - aberration_px_ * (shift(area) - focus_);
+    if (axis.size == 0) return {scale * pupil.x, scale * pupil.y * pixel_aspect_};
+    const Point p = axis.to_axis(pupil);
+    // Coma: rho^2 (2 + cos 2 theta, sin 2 theta). Astigmatism: one focus nearer, the other farther by
+    // field^2.
+    const double coma = coma_px_ * axis.size, bend = astigmatism_px_ * axis.size * axis.size;
+    const double stretch = choice_.distortion * axis.size * axis.size;
+    const Point landed{(scale + bend) * p.x + coma * (3 * p.x * p.x + p.y * p.y),
+                       (scale - bend) * p.y + coma * 2 * p.x * p.y};
+    const Point image = axis.from_axis({landed.x * (1 + 3 * stretch), landed.y * (1 + stretch)});
+    return {image.x, image.y * pixel_aspect_};
+}
+
+bool CurveLens::varies_over_field() const {
+    return pupil_.varies_over_field() || choice_.coma != 0 || choice_.astigmatism != 0 ||
+           choice_.distortion != 0;
+}
+
+bool CurveLens::same_in_all_directions(FieldPosition field) const {
+    const bool on_axis = field.x == 0 && field.y == 0;
+    return pupil_.is_disc(field) && pixel_aspect_ == 1 &&
+           (on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0));
+}
+
+double CurveLens::reach_px(double coc_radius_px) const {
+    const double off_axis = 3 * std::abs(coma_px_) + std::abs(astigmatism_px_);
+    const double stretch = std::max(1.0, 1 + 3 * std::abs(choice_.distortion));
+    return (std::abs(coc_radius_px) + aberration_px_ * largest_shift_ + off_axis) * stretch *
+           std::max(1.0, pixel_aspect_);
+}
+
+PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+    return same_in_all_directions(field) ? ring_spread(coc_radius_px) : mesh_spread(coc_radius_px, field);
+}
+
+PointSpread CurveLens::point_spread(double coc_radius_px, FieldPosition field) const {
+    PointSpread spread = raw_point_spread(coc_radius_px, field);
+    map_into_gamut(spread);
+    return spread;
+}
+
+PointSpread CurveLens::ring_spread(double coc_radius_px) const {
+    std::vector<RingBand> bands;
+    double reach = 0;
+    for (const Band& band : bands_for(kLeastRingBands)) {
+        const auto landing = [this, coc_radius_px, &band](double area) {
+            return std::sqrt(area) * (coc_radius_px - aberration_px_ * (band.shift(area) - focus_));
+        };
+        const std::size_t last = band.shift.samples().size() - 1;
+        for (std::size_t i = 0; i <= last; ++i)
+            reach = std::max(reach, std::abs(landing(double(i) / double(last))));
+        bands.push_back({weight_of(band.spectrum), landing});
+    }
+    return ring_kernel(bands, reach);
+}
+
+PointSpread CurveLens::mesh_spread(double coc_radius_px, FieldPosition field) const {
+    const FieldAxis axis(field);
+    const double size = reach_px(coc_radius_px);
+    MeshPupil pupil;
+    pupil.outline = subdivided(pupil_.outline(field, kChordTolerancePx / std::max(size, 1.0)), 0.1);
+    pupil.rings = rings_for(size);
+    std::vector<MeshBand> bands;
+    for (const Band& band : bands_for(kLeastMeshBands))
+        bands.push_back({weight_of(band.spectrum), [&, coc_radius_px](Point p) {
+                             return landing_px(band.shift, coc_radius_px, axis, p);
+                         }});
+    return mesh_kernel(pupil, bands);
+}
+
+std::vector<PupilRay> CurveLens::rays(int count, FieldPosition field, std::uint64_t seed) const {
+    const FieldAxis axis(field);
+    const std::vector<Band>& bands = bands_for(kLeastRayBands);
+    std::vector<colour::SpectralBand> spectrum;
+    for (const Band& band : bands) spectrum.push_back(band.spectrum);
+    const BandPicker picker(spectrum);
+    std::vector<PupilRay> rays;
+    for (const PupilPoint& p : spread_evenly(pupil_.outline(field, 1e-5), count, seed)) {
+        const BandPicker::Pick pick = picker.pick(p.third);
+        const ZoneShift& shift = bands[pick.band].shift;
+        const Point offset = landing_px(shift, 0, axis, p.place);
+        // What the radius alone does: the landing place is linear in it.
+        const Point unit = landing_px(shift, 1, axis, p.place) - offset;
+        rays.push_back({float(unit.x), float(unit.y), float(offset.x), float(offset.y), pick.weight});
+    }
+    balance(rays);
+    return rays;
+}
+
+}  // namespace petzval::kernel

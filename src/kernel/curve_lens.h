@@ -1,0 +1,70 @@
+// A lens given by its longitudinal aberration curves.
+//
+// Light of wavelength w through pupil height h = rho h_rim meets the axis `shift(h, w)` focal lengths away
+// from the paraxial focus; the sensor stands s focal lengths from it. Seen on the sensor, a source of signed
+// CoC radius c is spread to the signed radius
+//     v(rho) = c rho - K rho (shift(rho h_rim, w) - s),     K = h_rim * focal length in pixels
+// (similar triangles, to first order in the shift). Marginal light that meets nearer to the lens (shift < 0)
+// folds the near disc over into a sharp ring and draws the far disc out into a soft rim.
+#pragma once
+
+#include "colour/spectrum.h"
+#include "kernel/aberration_curves.h"
+#include "kernel/lens_model.h"
+#include "kernel/pupil.h"
+
+#include <cmath>
+
+namespace petzval::kernel {
+
+// Direction of the field in pixel orientation and its size; any direction serves in the middle.
+struct FieldAxis {
+    Point along{1, 0};
+    double size = 0;
+
+    explicit FieldAxis(FieldPosition field) : size(std::hypot(field.x, field.y)) {
+        if (size > 0) along = {field.x / size, -field.y / size};
+    }
+    // To components along and across, and back.
+    Point to_axis(Point p) const { return {p.x * along.x + p.y * along.y, p.y * along.x - p.x * along.y}; }
+    Point from_axis(Point p) const { return {p.x * along.x - p.y * along.y, p.x * along.y + p.y * along.x}; }
+};
+
+class CurveLens final : public LensModel {
+public:
+    // Requires: check_curves(curves), check_aperture(choice), camera numbers > 0.
+    CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount);
+
+    PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
+    PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override;
+    std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
+    double reach_px(double coc_radius_px) const override;
+    bool varies_over_field() const override;
+    std::string description() const override { return description_; }
+
+private:
+    struct Band {
+        colour::SpectralBand spectrum;
+        ZoneShift shift;
+    };
+    void measure_curves();
+    const std::vector<Band>& bands_for(int at_least) const;
+    Point landing_px(const ZoneShift& shift, double coc_radius_px, const FieldAxis& axis, Point pupil) const;
+    bool same_in_all_directions(FieldPosition field) const;
+    PointSpread ring_spread(double coc_radius_px) const;
+    PointSpread mesh_spread(double coc_radius_px, FieldPosition field) const;
+
+    std::string description_;
+    Pupil pupil_;
+    LensChoice choice_;
+    double pixel_aspect_;
+    double aberration_px_;                   // K
+    double focus_;                           // s, focal lengths
+    double coma_px_;                         // sagittal coma of the rim at full field
+    double astigmatism_px_;                  // half the distance between both foci at full field, times K
+    double largest_shift_ = 0;               // of rho |shift - s| over pupil and wavelengths
+    double colour_spread_ = 0;               // of shift between wavelengths that count, over the pupil
+    std::vector<std::vector<Band>> ladder_;  // the spectrum cut finer and finer
+};
+
+}  // namespace petzval::kernel

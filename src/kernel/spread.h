@@ -1,0 +1,24 @@
+// Finishing a kernel: energy, alpha, and the mapping of colours that no screen has.
+#pragma once
+
+#include "kernel/lens_model.h"
+
+namespace petzval::kernel {
+
+// One wavelength band's share in each channel.
+struct BandWeight {
+    double r = 1, g = 1, b = 1;
+};
+
+// All light on the pixel of the source.
+PointSpread single_pixel();
+
+// Scales r, g, b to sum to 1 each, sets a to their luminance, and notes whether all are equal.
+// Requires: each channel's sum is positive.
+void normalise(PointSpread& spread);
+
+// Texels with a negative channel move towards the grey of their luminance until none is negative (black where
+// the luminance itself is not positive); then normalise(). Neutral kernels come out as they went in.
+void map_into_gamut(PointSpread& spread);
+
+}  // namespace petzval::kernel
