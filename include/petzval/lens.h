@@ -1,5 +1,5 @@
-// What the photographer mounts on the camera: a named lens, the shape of its aperture, and what is left of its
-// aberrations.
+// What the photographer mounts on the camera: a named lens, the shape of its aperture, and what is left of
+// its aberrations.
 #pragma once
 
 #include <string>
@@ -31,8 +31,8 @@ struct LensChoice {
     double focus_shift_mm = 0;  // FocusMode::Shift: + away from the lens
     // The defocus-control ring: factors on the lens's own residuals, 1 as built, 0 none, -1 reversed.
     double spherical = 1, axial_colour = 1;
-    // Third-order aberrations off the axis, added to a curve lens (0: none). At full field, with the pupil's rim
-    // at height h = 1/(2 f-number) focal lengths:
+    // Third-order aberrations off the axis, added to a curve lens (0: none). At full field, with the pupil's
+    // rim at height h = 1/(2 f-number) focal lengths:
     double coma = 0;         // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward
     double astigmatism = 0;  // tangential and sagittal focus 2 * 0.01 * astigmatism focal lengths apart
     double distortion = 0;   // discs stretch by (1 + 3 d) along and (1 + d) across the field's direction

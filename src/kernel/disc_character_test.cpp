@@ -174,7 +174,6 @@ TEST(DiscCharacter, AThinLineBehindFocusSplitsInTwoAndInThreeWhereTheCoreIsStron
     EXPECT_EQ(lines_seen("ideal", 20, 2), 1);
     EXPECT_EQ(lines_seen("doublet-overcorrected", 20, 2), 2);
     EXPECT_EQ(lines_seen("doublet", 20, 2), 3);
-    EXPECT_EQ(lines_seen("doublet", -20, 2), 1);
     EXPECT_EQ(lines_seen("doublet-overcorrected", -20, 2), 1);
 }
 
