@@ -1,5 +1,6 @@
 // The picture a pinhole takes, with depth, and what hides behind what it sees.
 #include "base/parallel.h"
+#include "scene/lamp_light.h"
 #include "scene/tracing.h"
 
 #include <algorithm>
@@ -9,9 +10,8 @@
 namespace petzval::scene {
 namespace {
 
-constexpr int kMaxLayers = 8;       // surfaces that one ray is followed through
-constexpr int kMaxSteps = 64;       // including surfaces seen from inside
-constexpr int kLampSamples = 1024;  // where a lamp, perhaps smaller than a pixel, shows
+constexpr int kMaxLayers = 8;  // surfaces that one ray is followed through
+constexpr int kMaxSteps = 64;  // including surfaces seen from inside
 // Hits of one object in one pixel whose depths leave a gap of more than this share belong to separate sheets.
 constexpr float kDepthGap = 0.01f;
 
@@ -22,40 +22,35 @@ struct PeeledHit {
     Vec3 radiance;
 };
 
-// Pixels of row y that a lamp may touch.
-std::vector<char> lamp_pixels(const Pass& pass, int y) {
-    std::vector<char> touched(std::size_t(pass.width), 0);
-    for (const Lamp& lamp : pass.world.lamps()) {
-        const Vec3 p = pass.world.view.from_world(lamp.centre);
-        if (p.z <= 0) continue;
-        const float reach = lamp.radius_m / p.z / pass.lens.pixel + 1;
-        if (std::abs(pass.lens.image_y(p) - (float(y) + 0.5f)) > reach) continue;
-        const float x = pass.lens.image_x(p);
-        const int first = int(std::clamp(x - reach, 0.0f, float(pass.width)));
-        const int last = int(std::clamp(x + reach, -1.0f, float(pass.width - 1)));
-        for (int i = first; i <= last; ++i) touched[std::size_t(i)] = 1;
-    }
-    return touched;
-}
+// What all rows share.
+struct Tools {
+    SobolPoints points;
+    LampLight light;
+    std::vector<LampImage> lamps;
+};
 
 class Row {
 public:
-    Row(const Pass& pass, const SobolPoints& points, const SobolPoints& lamp_points, int y, bool want_layers)
-        : pass_(pass),
-          points_(points),
-          lamp_points_(lamp_points),
-          y_(y),
-          layers_(want_layers ? kMaxLayers : 1) {}
+    Row(const Pass& pass, const Tools& tools, int y, bool want_layers)
+        : pass_(pass), tools_(tools), y_(y), layers_(want_layers ? kMaxLayers : 1) {
+        for (const LampImage& lamp : tools.lamps)
+            if (lamp.touches({0, y, pass.width, y + 1})) lamps_.push_back(&lamp);
+    }
 
     void render(Picture& colour, Plane& depth_m) {
-        const std::vector<char> lamps = lamp_pixels(pass_, y_);
         for (int x = 0; x < pass_.width; ++x) {
-            const SobolPoints& points = lamps[std::size_t(x)] ? lamp_points_ : points_;
-            trace_pixel(x, points);
+            trace_pixel(x);
             Vec3 sum;
             for (const PeeledHit& hit : first_hits_) sum += hit.radiance;
-            colour(x, y_) = opaque(sum / float(points.count()));
-            if (layers_ > 1) collect(points.count());
+            sum = sum / float(rays());
+            const std::size_t before = samples.size();
+            if (layers_ > 1) collect_surfaces();
+            for (const LampImage* lamp : lamps_)
+                if (lamp->touches({x, y_, x + 1, y_ + 1})) sum += collect_lamp(*lamp, x);
+            colour(x, y_) = opaque(sum);
+            counts.push_back(samples.size() - before);
+            std::sort(samples.begin() + std::ptrdiff_t(before), samples.end(),
+                      [](const DeepSample& a, const DeepSample& b) { return a.depth_m < b.depth_m; });
         }
         trace_centres(depth_m);
     }
@@ -70,21 +65,30 @@ private:
         int rays = 0, first_rays = 0;
     };
 
-    void trace_pixel(int x, const SobolPoints& points);
+    int rays() const { return tools_.points.count(); }
+    std::uint32_t pixel_seed(int x) const {
+        return hash(hash(pass_.seed, std::uint32_t(x)), std::uint32_t(y_));
+    }
+    void trace_pixel(int x);
     void follow(Packet& packet, int first_ray, int lanes);
-    void collect(int rays);
+    void collect_surfaces();
+    Vec3 collect_lamp(const LampImage& lamp, int x);
     std::vector<Group> groups();
     void trace_centres(Plane& depth_m) const;
 
     const Pass& pass_;
-    const SobolPoints &points_, &lamp_points_;
+    const Tools& tools_;
     int y_, layers_;
+    std::vector<const LampImage*> lamps_;
+    // Of one pixel: every surface that each ray meets, and the first thing that it meets, lamps (black)
+    // included.
     std::vector<PeeledHit> hits_, first_hits_;
 };
 
-void Row::trace_pixel(int x, const SobolPoints& points) {
+void Row::trace_pixel(int x) {
     hits_.clear(), first_hits_.clear();
-    const std::uint32_t seed = hash(hash(pass_.seed, std::uint32_t(x)), std::uint32_t(y_));
+    const SobolPoints& points = tools_.points;
+    const std::uint32_t seed = pixel_seed(x);
     for (int i = 0; i < points.count(); i += kPacket) {
         Packet packet(pass_.world);
         const int lanes = std::min(kPacket, points.count() - i);
@@ -105,12 +109,12 @@ void Row::follow(Packet& packet, int first_ray, int lanes) {
         for (int lane = 0; lane < lanes; ++lane) {
             if (!active[lane]) continue;
             const World::Hit hit = packet.hit(lane);
-            const bool outside = !pass_.world.is_inside(hit);
-            if (outside) {
-                const PeeledHit peeled{hit.object, first_ray + lane, packet.depth(lane),
-                                       pass_.world.radiance(hit)};
+            if (!pass_.world.is_inside(hit)) {
+                const bool lamp = pass_.world.is_lamp(hit.object);
+                const Vec3 radiance = lamp ? Vec3{} : pass_.world.radiance(hit);
+                const PeeledHit peeled{hit.object, first_ray + lane, packet.depth(lane), radiance};
                 if (found[lane]++ == 0) first_hits_.push_back(peeled);
-                hits_.push_back(peeled);
+                if (!lamp) hits_.push_back(peeled);
             }
             if (packet.missed(lane) || found[lane] == layers_) {
                 active[lane] = false, --going;
@@ -129,8 +133,7 @@ std::vector<Row::Group> Row::groups() {
         if (a.object != b.object) return a.object < b.object;
         return a.depth_m != b.depth_m ? a.depth_m < b.depth_m : a.ray < b.ray;
     });
-    std::vector<float> nearest(std::size_t(lamp_points_.count() + points_.count()),
-                               std::numeric_limits<float>::infinity());
+    std::vector<float> nearest(std::size_t(rays()), std::numeric_limits<float>::infinity());
     for (const PeeledHit& hit : first_hits_) nearest[std::size_t(hit.ray)] = hit.depth_m;
     std::vector<int> last_group(nearest.size(), -1);
     std::vector<Group> found;
@@ -152,17 +155,23 @@ std::vector<Row::Group> Row::groups() {
     return found;
 }
 
-void Row::collect(int rays) {
-    const std::size_t before = samples.size();
+void Row::collect_surfaces() {
     for (const Group& group : groups()) {
-        if (group.first_rays == rays) continue;                      // the visible picture says it all
+        if (group.first_rays == rays()) continue;                    // the visible picture says it all
         const float mean = float(group.rays / group.inverse_depth);  // CoC is linear in 1/depth
-        const Vec3 colour = group.radiance / float(rays);
-        samples.push_back({{colour.x, colour.y, colour.z, float(group.rays) / float(rays)}, mean, mean});
+        const Vec3 colour = group.radiance / float(rays());
+        samples.push_back({{colour.x, colour.y, colour.z, float(group.rays) / float(rays())}, mean, mean});
     }
-    std::sort(samples.begin() + std::ptrdiff_t(before), samples.end(),
-              [](const DeepSample& a, const DeepSample& b) { return a.depth_m < b.depth_m; });
-    counts.push_back(samples.size() - before);
+}
+
+// Adds a lamp to the layers and returns its light in the pixel.
+Vec3 Row::collect_lamp(const LampImage& lamp, int x) {
+    const LampShare share = tools_.light.at(lamp, x, y_, pixel_seed(x));
+    const Vec3 own = share.unhindered * lamp.lamp.radiance;
+    const float depth_m = lamp.centre.z;
+    if (layers_ > 1 && share.unhindered > 0)
+        samples.push_back({{own.x, own.y, own.z, std::min(1.0f, share.unhindered)}, depth_m, depth_m});
+    return share.seen * lamp.lamp.radiance;
 }
 
 void Row::trace_centres(Plane& depth_m) const {
@@ -181,12 +190,15 @@ void Row::trace_centres(Plane& depth_m) const {
 bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPicture* layers) {
     colour = Picture::uninitialised(pass.width, pass.height);
     depth_m = Plane::uninitialised(pass.width, pass.height);
-    const SobolPoints points(pass.samples), lamp_points(std::max(pass.samples, kLampSamples));
+    LensRays pinhole = pass.lens;
+    pinhole.aperture_radius_m = 0;
+    const Tools tools{SobolPoints(pass.samples), LampLight(pass.world, pinhole, pass.samples),
+                      lamp_images(pass.world, pinhole, pass.width, pass.height)};
     std::vector<std::vector<DeepSample>> samples(layers ? std::size_t(pass.height) : 0);
     std::vector<std::vector<std::size_t>> counts(samples.size());
     parallel_for(pass.height, pass.threads, [&](int y) {
         if (pass.progress.cancelled()) return;
-        Row row(pass, points, lamp_points, y, layers != nullptr);
+        Row row(pass, tools, y, layers != nullptr);
         row.render(colour, depth_m);
         if (layers) {
             samples[std::size_t(y)] = std::move(row.samples);
