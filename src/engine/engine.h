@@ -87,5 +87,6 @@ std::span<const Engine> engines();
 
 // The engines. Errors: Cancelled, OutOfMemory.
 Result<Output> run_reference(const Input& input);
+Result<Output> run_scatter(const Input& input);
 
 }  // namespace petzval::engine

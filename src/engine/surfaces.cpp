@@ -1,6 +1,7 @@
 #include "engine/surfaces.h"
 
 #include "base/parallel.h"
+#include "depth/connectivity.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kAlwaysConnectedPx = 1.0f;
-constexpr float kSlopeTolerance = 0.5f;
 constexpr float kLeastCoverage = 1e-4f;
 
 Facet facet_of(Rgba colour, float coc_px) {
@@ -21,13 +21,6 @@ Facet facet_of(Rgba colour, float coc_px) {
 }
 
 }  // namespace
-
-bool same_surface(float a, float b, float slope_before_a, float slope_after_b) {
-    const float step = b - a;
-    if (std::abs(step) <= kAlwaysConnectedPx) return true;
-    const float tolerance = kSlopeTolerance * std::abs(step);
-    return std::abs(step - slope_before_a) <= tolerance || std::abs(step - slope_after_b) <= tolerance;
-}
 
 Surfaces Surfaces::make(const Input& input, int margin) {
     Surfaces surfaces;
@@ -126,7 +119,7 @@ void Surfaces::connect_around_corner(int x, int y) {
             for (Member& b : members)
                 if (b.place == next && (!best || std::abs(b.coc - a.coc) < std::abs(best->coc - a.coc)))
                     best = &b;
-            if (!best || !same_surface(a.coc, best->coc, -slope_beyond(a, next), slope_beyond(*best, place)))
+            if (!best || !depth::same_surface(a.coc, best->coc, -slope_beyond(a, next), slope_beyond(*best, place)))
                 continue;
             bool mutual = true;
             for (const Member& other : members)

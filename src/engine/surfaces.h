@@ -63,10 +63,4 @@ private:
     std::vector<Bounds> blocks_;
 };
 
-// True if two neighbouring samples belong to one surface, as far as their radii tell. A step of up to one
-// pixel of radius cannot hide anything wider than that, so it always connects; a larger one only where it
-// continues the slope on one of its sides (signed change of radius per pixel): on a plane the radius is
-// linear in image position.
-bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px, float slope_after_b_px);
-
 }  // namespace petzval::engine
