@@ -7,8 +7,8 @@ namespace petzval::depth {
 Image<unsigned char> connections(View<const float> coc, int threads) {
     const int width = coc.width(), height = coc.height();
     Image<unsigned char> connected(width, height, kAll);
-    // Each pixel decides about its right and lower side; both pixels of the pair are marked. Rows are done in two
-    // sweeps so that no two threads write one row.
+    // Each pixel decides about its right and lower side; both pixels of the pair are marked. Rows are done in
+    // two sweeps so that no two threads write one row.
     const auto joined = [&](int x, int y, int dx, int dy) {
         return same_surface(coc(x, y), coc(x + dx, y + dy), coc(x, y) - coc.clamped(x - dx, y - dy),
                             coc.clamped(x + 2 * dx, y + 2 * dy) - coc(x + dx, y + dy));

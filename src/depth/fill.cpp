@@ -1,6 +1,5 @@
-#include "depth/hidden.h"
-
 #include "base/parallel.h"
+#include "depth/hidden.h"
 
 #include <algorithm>
 #include <array>
@@ -12,12 +11,22 @@ namespace {
 constexpr int kDirections = 32;      // even: opposite directions are paired
 constexpr float kBehindPx = 1.0f;    // farther by less than this in radius is not worth filling
 constexpr float kPastEdgePx = 2.0f;  // how far beyond the reach of the blur to look
+constexpr float kLikeEnough =
+    0.1f;  // squared relative difference below which two patches are as good as the same
+constexpr float kOneSided = 10;  // what a surface met on one side counts, against two unlike patches
 
+// The end of a search: a few pixels of the surface that was met, as seen coming from the hidden pixel.
+constexpr int kPatch = 5;
+constexpr int kHits = 2;      // per direction
+constexpr int kSurfaces = 3;  // behind one pixel
 struct Found {
     bool found = false;
-    Rgba colour;
+    std::array<Rgba, kPatch> patch;  // the pixel met, one to either side of it, two beyond it
     float coc_px = 0, distance_px = 0;
+    const Rgba& colour() const { return patch[0]; }
 };
+
+using Hits = std::array<std::array<Found, kHits>, kDirections>;
 
 struct Direction {
     float x, y;
@@ -36,130 +45,199 @@ public:
     Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
            const Sparse<Mixture>& mixtures)
         : colour_(colour), coc_(coc), connected_(connected), mixtures_(mixtures) {
-        for (int y = 0; y < coc.height(); ++y)
-            for (int x = 0; x < coc.width(); ++x) farthest_ = std::max(farthest_, coc(x, y));
+        for (const Mixture& m : mixtures.values) farthest_ = std::max(farthest_, m.far_coc_px);
+        measure_distances();
     }
 
     // What lies behind (x, y), if any surface nearby does.
-    bool fill(int x, int y, Hidden& hidden) const {
+    bool fill(int x, int y, std::vector<Hidden>& hidden) const {
         const float own = coc_(x, y);
-        if (farthest_ < own + kBehindPx) return false;
+        if (beyond_(x, y) > std::abs(own) + kPastEdgePx) return false;
         static const std::array<Direction, kDirections> all = directions();
-        std::array<Found, kDirections> found;
+        Hits hits;
         bool any = false;
         const Slope slope = slope_at(coc_, connected_, x, y);
         for (int k = 0; k < kDirections; ++k) {
-            found[std::size_t(k)] = search(x, y, own, slope, all[std::size_t(k)]);
-            any = any || found[std::size_t(k)].found;
+            hits[std::size_t(k)] = search(x, y, own, slope, all[std::size_t(k)]);
+            any = any || hits[std::size_t(k)][0].found;
         }
-        if (!any) return false;
-        hidden = combined(found);
-        return true;
+        if (any) stack(hits, hidden);
+        return any;
     }
 
 private:
-    // The first clean pixel of a farther surface, walking from (x, y).
-    Found search(int x, int y, float own, Slope slope, Direction d) const {
+    // Distance to each silhouette less the blur of what lies behind it, the smallest: a two-sweep chamfer
+    // transform (G. Borgefors, "Distance transformations in digital images", 1986). Pixels beyond their own
+    // blur need no search.
+    void measure_distances() {
+        const int width = coc_.width(), height = coc_.height();
+        beyond_ = Plane(width, height, 1e9f);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                if (const Mixture* m = mixtures_.at(x, y)) beyond_(x, y) = -std::abs(m->far_coc_px);
+        constexpr float kSide = 0.955f, kDiagonal = 1.3693f;
+        const auto relax = [&](int x, int y, int dx, int dy) {
+            if (!beyond_.rect().contains(x + dx, y + dy)) return;
+            const float step = dx != 0 && dy != 0 ? kDiagonal : kSide;
+            beyond_(x, y) = std::min(beyond_(x, y), beyond_(x + dx, y + dy) + step);
+        };
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
+        for (int y = height - 1; y >= 0; --y)
+            for (int x = width - 1; x >= 0; --x)
+                relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+    }
+
+    // The first clean pixel of a farther surface, walking from (x, y), and of one farther still.
+    std::array<Found, kHits> search(int x, int y, float own, Slope slope, Direction d) const {
         const float longest = std::abs(own) + std::abs(farthest_) + kPastEdgePx;
-        float t = 1;
-        while (t <= longest) {
+        std::array<Found, kHits> hits;
+        int n = 0;
+        float behind = own;
+        for (float t = 1; t <= longest && n < kHits; t += t < 16 ? 1.0f : t / 16) {
             const int u = x + int(std::lround(t * d.x)), v = y + int(std::lround(t * d.y));
-            if (!coc_.rect().contains(u, v)) return {};
+            if (!coc_.rect().contains(u, v)) break;
             const float c = coc_(u, v);
             const float own_here = own + t * (slope.x * d.x + slope.y * d.y);
-            if (c > std::max(own, own_here) + kBehindPx && mixtures_.index(u, v) < 0) {
-                if (t > std::abs(own) + std::abs(c) + kPastEdgePx) return {};
-                return {true, colour_(u, v), c, t};
-            }
-            t += t < 16 ? 1.0f : t / 16;
+            if (c <= std::max(behind, own_here) + kBehindPx || mixtures_.index(u, v) >= 0) continue;
+            if (t <= std::abs(own) + std::abs(c) + kPastEdgePx)
+                hits[std::size_t(n++)] = {true, patch_at(u, v, c, d), c, t};
+            behind = c + kBehindPx;
         }
-        return {};
+        return hits;
     }
 
+    std::array<Rgba, kPatch> patch_at(int x, int y, float c, Direction d) const {
+        // Across the direction in a fixed sense, so that patches met in opposite directions can be compared.
+        const bool turned = d.y < 0 || (d.y == 0 && d.x < 0);
+        const float across_x = turned ? d.y : -d.y, across_y = turned ? -d.x : d.x;
+        const std::array<Direction, kPatch> offsets{{{0, 0},
+                                                     {1.5f * across_x, 1.5f * across_y},
+                                                     {-1.5f * across_x, -1.5f * across_y},
+                                                     {1.5f * d.x, 1.5f * d.y},
+                                                     {3 * d.x, 3 * d.y}}};
+        std::array<Rgba, kPatch> patch;
+        for (int k = 0; k < kPatch; ++k) {
+            const Direction o = offsets[std::size_t(k)];
+            const int u = x + int(std::lround(o.x)), v = y + int(std::lround(o.y));
+            const bool usable =
+                coc_.rect().contains(u, v) && mixtures_.index(u, v) < 0 && std::abs(coc_(u, v) - c) < 1;
+            patch[std::size_t(k)] = usable ? colour_(u, v) : colour_(x, y);
+        }
+        return patch;
+    }
+
+    // High where two patches could be two pieces of one surface.
     static float likeness(const Found& a, const Found& b) {
-        const Rgba d = a.colour - b.colour, m = a.colour + b.colour;
-        const float difference = d.r * d.r + d.g * d.g + d.b * d.b;
-        const float level = 0.25f * (m.r * m.r + m.g * m.g + m.b * m.b);
+        float difference = 0, level = 0;
+        for (int k = 0; k < kPatch; ++k) {
+            const Rgba d = a.patch[std::size_t(k)] - b.patch[std::size_t(k)];
+            const Rgba m = 0.5f * (a.patch[std::size_t(k)] + b.patch[std::size_t(k)]);
+            difference += d.r * d.r + d.g * d.g + d.b * d.b;
+            level += m.r * m.r + m.g * m.g + m.b * m.b;
+        }
         const float depth = a.coc_px - b.coc_px;
-        return 1 / (0.003f + difference / (level + 0.003f) + 0.02f * depth * depth);
+        const float unlike = difference / (level + 0.003f) + 0.02f * depth * depth;
+        return 1 / (kLikeEnough + unlike * unlike);
     }
 
-    static Hidden combined(const std::array<Found, kDirections>& found) {
-        constexpr int kPairs = kDirections / 2;
-        // A surface must be chosen first: the depth that most of the weight agrees on.
-        struct Vote {
-            Rgba colour;
-            float coc, weight;
-        };
-        std::array<Vote, kDirections> votes{};
+    static bool one_surface(float coc_a, float coc_b) {
+        return std::abs(coc_a - coc_b) < 1.5f + 0.05f * std::abs(coc_a + coc_b);
+    }
+
+    // A surface mostly there is wholly there, one hardly there is not: smoothstep around one half.
+    static float sharpened(float share) {
+        const float t = std::clamp((share - 0.3f) / 0.4f, 0.0f, 1.0f);
+        return t * t * (3 - 2 * t);
+    }
+
+    // The surfaces that were met, nearest first. The farthest fills all there is; a nearer one only the share
+    // of the surroundings that it has: a wire behind a leaf goes on as a wire.
+    static void stack(Hits& hits, std::vector<Hidden>& hidden) {
+        float share_behind = 0;
+        std::array<Hidden, kSurfaces> surfaces{};
         int n = 0;
-        for (int k = 0; k < kPairs; ++k) {
-            const Found &a = found[std::size_t(k)], &b = found[std::size_t(k + kPairs)];
-            if (a.found && b.found) {
-                const float total = a.distance_px + b.distance_px;
-                const float wa = b.distance_px / total, wb = a.distance_px / total;
-                const float weight = (1 / a.distance_px + 1 / b.distance_px) * likeness(a, b);
-                const bool one_surface = std::abs(a.coc_px - b.coc_px) < 2;
-                if (one_surface) {
-                    votes[std::size_t(n++)] = {wa * a.colour + wb * b.colour, wa * a.coc_px + wb * b.coc_px, weight};
-                } else {
-                    votes[std::size_t(n++)] = {a.colour, a.coc_px, weight / a.distance_px * total / 2};
-                    votes[std::size_t(n++)] = {b.colour, b.coc_px, weight / b.distance_px * total / 2};
-                }
-            } else if (a.found || b.found) {
-                const Found& one = a.found ? a : b;
-                votes[std::size_t(n++)] = {one.colour, one.coc_px, 1 / (one.distance_px * one.distance_px)};
-            }
+        for (; n < kSurfaces; ++n) {
+            // The farthest that is left, and all that belongs to it.
+            float farthest = -1e30f;
+            for (const auto& direction : hits)
+                for (const Found& f : direction)
+                    if (f.found) farthest = std::max(farthest, f.coc_px);
+            if (farthest < -1e29f) break;
+            float share = 0;
+            surfaces[std::size_t(n)] = surface(hits, farthest, share);
+            share_behind += share;
+            surfaces[std::size_t(n)].colour *= sharpened(share / share_behind);
         }
-        float best = -1, chosen = 0;
-        for (int i = 0; i < n; ++i) {
-            float support = 0;
-            for (int j = 0; j < n; ++j) {
-                const float d = votes[std::size_t(i)].coc - votes[std::size_t(j)].coc;
-                support += votes[std::size_t(j)].weight / (1 + d * d);
-            }
-            if (support > best) best = support, chosen = votes[std::size_t(i)].coc;
-        }
+        for (int i = n - 1; i >= 0; --i) hidden.push_back(surfaces[std::size_t(i)]);
+    }
+
+    // What the hits at `coc_px` agree on; they are used up. share: their weight, the sum of 1/distance.
+    static Hidden surface(Hits& hits, float coc_px, float& share) {
         Rgba sum;
-        float coc = 0, weight = 0;
-        for (int i = 0; i < n; ++i) {
-            const Vote& vote = votes[std::size_t(i)];
-            const float d = vote.coc - chosen;
-            const float w = vote.weight / (1 + d * d * d * d);
-            sum += w * vote.colour, coc += w * vote.coc, weight += w;
+        float coc = 0, weight_sum = 0;
+        const auto vote = [&](Rgba colour, float c, float weight) {
+            sum += weight * colour, coc += weight * c, weight_sum += weight;
+        };
+        const auto take = [&](int k) -> Found* {
+            for (Found& f : hits[std::size_t(k)])
+                if (f.found && one_surface(f.coc_px, coc_px)) return &f;
+            return nullptr;
+        };
+        constexpr int kPairs = kDirections / 2;
+        for (int k = 0; k < kPairs; ++k) {
+            Found *a = take(k), *b = take(k + kPairs);
+            // Seen on both sides, it most likely goes on between them.
+            if (a && b) share += 2 / a->distance_px + 2 / b->distance_px;
+            if (!a != !b) share += 0.5f / (a ? a : b)->distance_px;
+            if (a && b) {
+                const float total = a->distance_px + b->distance_px;
+                const float wa = b->distance_px / total, wb = a->distance_px / total;
+                vote(wa * a->colour() + wb * b->colour(), wa * a->coc_px + wb * b->coc_px,
+                     (1 / a->distance_px + 1 / b->distance_px) * likeness(*a, *b));
+            } else if (a || b) {
+                const Found& one = a ? *a : *b;
+                vote(one.colour(), one.coc_px, kOneSided / (one.distance_px * one.distance_px));
+            }
+            if (a) a->found = false;
+            if (b) b->found = false;
         }
-        return {sum * (1 / weight), coc / weight};
+        return {sum * (1 / weight_sum), coc / weight_sum};
     }
 
     View<const Rgba> colour_;
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Sparse<Mixture>& mixtures_;
-    float farthest_ = -1e30f;
+    Plane beyond_;
+    float farthest_ = 0;
 };
 
 }  // namespace
 
-Sparse<Hidden> fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
-                           const Sparse<Mixture>& mixtures, int threads) {
+HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
+                         const Sparse<Mixture>& mixtures, int threads) {
     const Filler filler(colour, coc, connected, mixtures);
-    std::vector<std::vector<Hidden>> rows(std::size_t(coc.height()), std::vector<Hidden>{});
-    Sparse<Hidden> all{Image<int>(coc.width(), coc.height(), -1), {}};
-    parallel_for(coc.height(), threads, [&](int y) {
-        for (int x = 0; x < coc.width(); ++x) {
-            Hidden hidden;
-            if (mixtures.index(x, y) >= 0 || !filler.fill(x, y, hidden)) continue;
-            all.index(x, y) = int(rows[std::size_t(y)].size());
-            rows[std::size_t(y)].push_back(hidden);
+    const int width = coc.width(), height = coc.height();
+    std::vector<std::vector<Hidden>> rows(static_cast<std::size_t>(height));
+    Image<int> first(width, height);
+    parallel_for(height, threads, [&](int y) {
+        for (int x = 0; x < width; ++x) {
+            first(x, y) = int(rows[std::size_t(y)].size());
+            if (mixtures.index(x, y) < 0) filler.fill(x, y, rows[std::size_t(y)]);
         }
     });
-    for (int y = 0; y < coc.height(); ++y) {
-        const int before = int(all.values.size());
-        for (int x = 0; x < coc.width(); ++x)
-            if (all.index(x, y) >= 0) all.index(x, y) += before;
-        all.values.insert(all.values.end(), rows[std::size_t(y)].begin(), rows[std::size_t(y)].end());
+    HiddenLayers layers;
+    layers.width = width;
+    layers.first.reserve(first.size() + 1);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x)
+            layers.first.push_back(layers.samples.size() + std::size_t(first(x, y)));
+        layers.samples.insert(layers.samples.end(), rows[std::size_t(y)].begin(), rows[std::size_t(y)].end());
     }
-    return all;
+    layers.first.push_back(layers.samples.size());
+    return layers;
 }
 
 }  // namespace petzval::depth

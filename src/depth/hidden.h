@@ -1,21 +1,22 @@
-// What one picture with depth does not say: which part of a silhouette's pixel belongs to which surface, and what lies
-// behind a surface near its edge, where a lens looks past it.
+// What one picture with depth does not say: which part of a silhouette's pixel belongs to which surface, and
+// what lies behind a surface near its edge, where a lens looks past it.
 #pragma once
 
 #include "petzval/image.h"
 
 #include "depth/connectivity.h"
 
+#include <span>
 #include <vector>
 
 namespace petzval::depth {
 
-// A pixel of a silhouette taken apart. The renderer filtered its colour over the pixel and beyond, but its depth is
-// that of one point:  colour = near_colour + (1 - near_share) far_colour.
+// A pixel of a silhouette taken apart. The renderer filtered its colour over the pixel and beyond, but its
+// depth is that of one point:  colour = near_colour + (1 - near_share) far_colour.
 struct Mixture {
-    float near_share = 0;   // 0…1: coverage of the nearer surface
-    Rgba near_colour;       // premultiplied by near_share
-    Rgba far_colour;        // of the farther surface, as if it filled the pixel
+    float near_share = 0;  // 0…1: coverage of the nearer surface
+    Rgba near_colour;      // premultiplied by near_share
+    Rgba far_colour;       // of the farther surface, as if it filled the pixel
     float near_coc_px = 0, far_coc_px = 0;
 };
 
@@ -30,22 +31,37 @@ struct Sparse {
     }
 };
 
-// Takes apart every pixel that touches a silhouette (also diagonally). The clean colours of both surfaces come from
-// their nearest pixels that touch no silhouette; of a thin thing that has none, from the pixel least like the far side.
+// Takes apart every pixel that touches a silhouette (also diagonally). The clean colours of both surfaces
+// come from their nearest pixels that touch no silhouette; of a thin thing that has none, from the pixel
+// least like the far side.
 Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc_px,
                                   View<const unsigned char> connected, int threads);
 
-// A sample behind the visible one.
+// A sample behind the visible one; colour.a is the share of the pixel it covers, colour is premultiplied by
+// it.
 struct Hidden {
     Rgba colour;
     float coc_px = 0;
 };
 
-// Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach behind it.
-// Only from surfaces farther than the one that hides. Along opposite directions that agree, colours are interpolated
-// (edges run on behind a thin thing); otherwise the nearest continues. The weights 1/distance make it the
-// mean-value interpolant (M. Floater, "Mean value coordinates", 2003) where directions agree equally.
-Sparse<Hidden> fill_hidden(View<const Rgba> colour, View<const float> coc_px, View<const unsigned char> connected,
-                           const Sparse<Mixture>& mixtures, int threads);
+// Hidden samples of every pixel, nearest first.
+struct HiddenLayers {
+    int width = 0;
+    std::vector<std::size_t> first;  // per pixel, row by row, and one more; empty: nothing is hidden
+    std::vector<Hidden> samples;
+    std::span<const Hidden> at(int x, int y) const {
+        if (first.empty()) return {};
+        const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+        return {samples.data() + first[i], first[i + 1] - first[i]};
+    }
+};
+
+// Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
+// behind it. Only from surfaces farther than the one that hides. Along opposite directions that agree,
+// colours are interpolated (edges run on behind a thin thing); otherwise the nearest continues. The weights
+// 1/distance make it the mean-value interpolant (M. Floater, "Mean value coordinates", 2003) where directions
+// agree equally.
+HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc_px,
+                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures, int threads);
 
 }  // namespace petzval::depth

@@ -1,6 +1,5 @@
-#include "depth/hidden.h"
-
 #include "base/parallel.h"
+#include "depth/hidden.h"
 
 #include <algorithm>
 #include <array>
@@ -30,17 +29,17 @@ float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
 
 // What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
 struct Sides {
-    Rgba near_clean, far_clean;         // weighted sums over clean pixels
+    Rgba near_clean, far_clean;  // weighted sums over clean pixels
     float near_weight = 0, far_weight = 0;
-    Rgba near_any, far_any;             // the same over all pixels of that side
+    Rgba near_any, far_any;  // the same over all pixels of that side
     float near_any_weight = 0, far_any_weight = 0;
-    float near_coc = 0, far_coc = 0;    // of the closest pixel of that side
+    float near_coc = 0, far_coc = 0;  // of the closest pixel of that side
     float near_closest = 1e9f, far_closest = 1e9f;
-    float near_share_by_shape = 0;      // share of the 3 x 3 tent that shows the nearer surface
+    float near_share_by_shape = 0;  // share of the 3 x 3 tent that shows the nearer surface
 };
 
-Sides look_around(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x, int y,
-                  float threshold) {
+Sides look_around(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
+                  int y, float threshold) {
     Sides s;
     const Rect window = Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(coc.rect());
     float tent_total = 0;
@@ -69,7 +68,8 @@ Sides look_around(View<const Rgba> colour, View<const float> coc, View<const uns
 }
 
 // The colour of a thin thing that has no clean pixel: of its pixels nearby, the one least like the far side.
-Rgba least_like(Rgba far_colour, View<const Rgba> colour, View<const float> coc, int x, int y, float threshold) {
+Rgba least_like(Rgba far_colour, View<const Rgba> colour, View<const float> coc, int x, int y,
+                float threshold) {
     Rgba best = colour(x, y);
     float largest = -1;
     for (int v = std::max(0, y - 2); v <= std::min(coc.height() - 1, y + 2); ++v)
@@ -79,7 +79,8 @@ Rgba least_like(Rgba far_colour, View<const Rgba> colour, View<const float> coc,
     return best;
 }
 
-Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x, int y) {
+Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
+                    int y) {
     float low = coc(x, y), high = coc(x, y);
     for (int v = std::max(0, y - 1); v <= std::min(coc.height() - 1, y + 1); ++v)
         for (int u = std::max(0, x - 1); u <= std::min(coc.width() - 1, x + 1); ++u)
@@ -92,14 +93,15 @@ Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const u
     m.far_colour = s.far_weight > 0 ? s.far_clean * (1 / s.far_weight) : s.far_any * (1 / s.far_any_weight);
     const Rgba near = s.near_weight > 0 ? s.near_clean * (1 / s.near_weight)
                                         : least_like(m.far_colour, colour, coc, x, y, threshold);
-    // Where the two colours differ, the pixel's own colour tells its share; where they do not, its shape must.
+    // Where the two colours differ, the pixel's own colour tells its share; where they do not, its shape
+    // must.
     const Rgba axis = near - m.far_colour;
     const float length2 = dot(axis, axis);
     const float by_colour = length2 > 0 ? std::clamp(dot(c - m.far_colour, axis) / length2, 0.0f, 1.0f) : 0;
     const float trust = length2 / (length2 + 1e-3f * (1e-3f + dot(c, c)));
     m.near_share = trust * by_colour + (1 - trust) * s.near_share_by_shape;
-    // The nearer part is what is left, so that near + far is the pixel again; what would be negative goes to the far
-    // side's account.
+    // The nearer part is what is left, so that near + far is the pixel again; what would be negative goes to
+    // the far side's account.
     const float far_share = 1 - m.near_share;
     Rgba rest = c - far_share * m.far_colour;
     rest = {std::max(0.0f, rest.r), std::max(0.0f, rest.g), std::max(0.0f, rest.b), m.near_share * c.a};
@@ -113,8 +115,8 @@ Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const u
 
 }  // namespace
 
-Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
-                                  int threads) {
+Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc,
+                                  View<const unsigned char> connected, int threads) {
     const int width = coc.width(), height = coc.height();
     Image<unsigned char> touching(width, height);
     parallel_for(height, threads, [&](int y) {
@@ -133,7 +135,8 @@ Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc
         const int before = int(mixtures.values.size());
         for (int x = 0; x < width; ++x)
             if (mixtures.index(x, y) >= 0) mixtures.index(x, y) += before;
-        mixtures.values.insert(mixtures.values.end(), rows[std::size_t(y)].begin(), rows[std::size_t(y)].end());
+        mixtures.values.insert(mixtures.values.end(), rows[std::size_t(y)].begin(),
+                               rows[std::size_t(y)].end());
     }
     return mixtures;
 }

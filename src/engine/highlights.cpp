@@ -59,47 +59,52 @@ Plane reduced(View<const float> plane) {
     return small;
 }
 
-// What of `colour` stays in the base when luminance above `bound` is taken out; alpha always stays.
-Rgba kept(Rgba colour, float bound) {
-    if (colour.a <= kLeastAlpha) bound = 0;
-    const float light = luminance(colour);
-    if (light <= bound) return colour;
-    const Rgba scaled = colour * (bound / light);
-    return {scaled.r, scaled.g, scaled.b, colour.a};
-}
-
 }  // namespace
 
-SplitPicture split_highlights(const Input& input, float factor, float floor) {
-    const int width = input.width(), height = input.height();
-    const Plane light = luminance_of(input.colour, input.threads);
-    const Plane narrow = separable_median(light, input.threads);
-    const Plane wide = separable_median(reduced(light), input.threads);
+HighlightSplit::HighlightSplit(View<const Rgba> picture, float factor, float floor, int threads)
+    : bound_(Plane::uninitialised(picture.width(), picture.height())) {
+    const Plane light = luminance_of(picture, threads);
+    const Plane narrow = separable_median(light, threads);
+    const Plane wide = separable_median(reduced(light), threads);
+    parallel_for(picture.height(), threads, [&](int y) {
+        for (int x = 0; x < picture.width(); ++x)
+            bound_(x, y) =
+                floor + factor * std::max(0.0f, std::min(narrow(x, y), 2 * wide(x / kCoarse, y / kCoarse)));
+    });
+}
 
-    SplitPicture split{Picture::uninitialised(width, height), input.deep, {}};
+Rgba HighlightSplit::base(int x, int y, Rgba light) const {
+    const float bound = light.a > kLeastAlpha ? bound_(x, y) * light.a : 0;
+    const float brightness = luminance(light);
+    if (brightness <= bound) return light;
+    const Rgba scaled = light * (bound / brightness);
+    return {scaled.r, scaled.g, scaled.b, light.a};
+}
+
+SplitInput split_highlights(const Input& input, const HighlightSplit& split) {
+    const int width = input.width(), height = input.height();
+    SplitInput result{Picture::uninitialised(width, height), input.deep, {}};
     std::vector<std::vector<Highlight>> rows(static_cast<std::size_t>(height));
     parallel_for(height, input.threads, [&](int y) {
-        const auto take = [&](int x, float coc_px, Rgba& colour, float bound, bool listed) {
-            const Rgba rest = kept(colour, bound);
-            if (listed && !(rest == colour)) rows[std::size_t(y)].push_back({x, y, coc_px, colour - rest});
-            colour = rest;
+        const auto take = [&](int x, float coc_px, Rgba& light) {
+            const Rgba base = split.base(x, y, light);
+            if (!(base == light)) rows[std::size_t(y)].push_back({x, y, coc_px, light - base});
+            light = base;
         };
         for (int x = 0; x < width; ++x) {
-            const float surroundings =
-                std::max(0.0f, std::min(narrow(x, y), 2 * wide(x / kCoarse, y / kCoarse)));
-            const float bound = factor * surroundings + floor;
-            split.base(x, y) = input.colour(x, y);
-            take(x, input.coc_px(x, y), split.base(x, y), bound, input.deep.empty());
-            if (input.deep.empty()) continue;
-            const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            for (std::size_t k = split.deep.first[i]; k < split.deep.first[i + 1]; ++k) {
-                CocSample& sample = split.deep.samples[k];
-                take(x, sample.coc_px, sample.colour, bound * std::max(sample.colour.a, kLeastAlpha), true);
+            Rgba& visible = result.base(x, y) = input.colour(x, y);
+            if (input.deep.empty()) {
+                take(x, input.coc_px(x, y), visible);
+                continue;
             }
+            visible = split.base(x, y, visible);
+            const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+            for (std::size_t k = result.deep.first[i]; k < result.deep.first[i + 1]; ++k)
+                take(x, result.deep.samples[k].coc_px, result.deep.samples[k].colour);
         }
     });
-    for (const auto& row : rows) split.highlights.insert(split.highlights.end(), row.begin(), row.end());
-    return split;
+    for (const auto& row : rows) result.highlights.insert(result.highlights.end(), row.begin(), row.end());
+    return result;
 }
 
 }  // namespace petzval::engine

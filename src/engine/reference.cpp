@@ -250,7 +250,8 @@ Result<Output> run_reference(const Input& input) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
 
-    SplitPicture split = split_highlights(input, kHighlightFactor, kHighlightFloor);
+    SplitInput split = split_highlights(
+        input, HighlightSplit(input.colour, kHighlightFactor, kHighlightFloor, input.threads));
     Input base = input;
     base.colour = split.base;
     base.deep = std::move(split.deep);

@@ -1,5 +1,6 @@
 // The final-frame engine: split, spread by levels, composite by lens area (docs/design/scatter.md).
 #include "base/parallel.h"
+#include "engine/complete.h"
 #include "engine/engine.h"
 #include "engine/highlights.h"
 #include "engine/lens_ray.h"
@@ -18,9 +19,11 @@ constexpr int kTile = 64;
 // One tile of the picture: what has arrived so far, and how much of the lens is still free.
 class TileComposite {
 public:
-    explicit TileComposite(const Rect& area) : area_(area), sum_(area.width(), area.height()), free_(area.width(), area.height(), 1.0f) {}
+    explicit TileComposite(const Rect& area)
+        : area_(area), sum_(area.width(), area.height()), free_(area.width(), area.height(), 1.0f) {}
 
-    // The lens-area budget: a layer takes the area it arrives with, or what is left of the lens if that is less.
+    // The lens-area budget: a layer takes the area it arrives with, or what is left of the lens if that is
+    // less.
     void add(View<const Rgba> layer) {
         for (int y = 0; y < area_.height(); ++y)
             for (int x = 0; x < area_.width(); ++x) {
@@ -52,15 +55,19 @@ private:
 
 Result<Output> run_scatter(const Input& input) {
     const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     const float largest_cells = 12;
 
-    const SplitPicture split = split_highlights(input, 2, 0.5f);
-    Input base = input;
-    base.colour = split.base;
-    base.deep = split.deep;
+    Input complete = input;
+    complete.deep = completed(input);
+    const double completed_at = seconds();
+    const SplitInput split = split_highlights(complete, HighlightSplit(input.colour, 2, 0.5f, input.threads));
+    complete.colour = split.base;
+    complete.deep = split.deep;
     const double split_at = seconds();
-    const SourceGrid grid = SourceGrid::make(base, split.base, largest_cells);
+    const SourceGrid grid = SourceGrid::make(complete, largest_cells);
     const double sources_at = seconds();
     const SpreadTable table(*input.lens, largest_cells * 1.2f);
 
@@ -80,18 +87,24 @@ Result<Output> run_scatter(const Input& input) {
 
     // Highlights
     {
-        const Surfaces surfaces = Surfaces::make(base, 1);
+        const Surfaces surfaces = Surfaces::make(complete, 1);
         for (const Highlight& h : split.highlights) {
-            const kernel::PointSpread spread = visible_point_spread(surfaces, *input.lens, input.field_at(h.x, h.y), h.x, h.y, h.coc_px);
+            const kernel::PointSpread spread =
+                visible_point_spread(surfaces, *input.lens, input.field_at(h.x, h.y), h.x, h.y, h.coc_px);
             const Rect e = spread.extent;
-            const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(output.image.rect());
+            const Rect place =
+                Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(output.image.rect());
             for (int y = place.y0; y < place.y1; ++y)
                 for (int x = place.x0; x < place.x1; ++x)
                     output.image(x, y) += spread.weights(x - h.x - e.x0, y - h.y - e.y0) * h.colour;
         }
     }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
-    output.stages = {{"split", split_at}, {"sources", sources_at - split_at}, {"spread", spread_at - sources_at}, {"highlights", seconds() - spread_at}};
+    output.stages = {{"complete", completed_at},
+                     {"split", split_at - completed_at},
+                     {"sources", sources_at - split_at},
+                     {"spread", spread_at - sources_at},
+                     {"highlights", seconds() - spread_at}};
     return output;
 }
 

@@ -2,7 +2,6 @@
 
 #include "base/parallel.h"
 #include "depth/connectivity.h"
-#include "depth/hidden.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,6 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kLeastShare = 1e-3f;
 // Across this share of a switch between levels a source is spread on both, fading from one to the other.
 constexpr float kFade = 0.15f;
 
@@ -19,54 +17,6 @@ struct Emitter {
     Rgba light;
     float coc_px = 0;
     depth::Slope slope;
-};
-
-// What every pixel of the picture emits: its visible surface or the two of a silhouette, and what is hidden behind.
-class Emitters {
-public:
-    Emitters(const Input& input, View<const Rgba> base)
-        : input_(input), base_(base), connected_(depth::connections(input.coc_px, input.threads)) {
-        if (!input.deep.empty()) return;
-        mixtures_ = depth::unmix_silhouettes(base, input.coc_px, connected_, input.threads);
-        hidden_ = depth::fill_hidden(base, input.coc_px, connected_, mixtures_, input.threads);
-    }
-
-    // Calls emit(Emitter) for each of pixel (x, y).
-    template <typename Emit>
-    void at(int x, int y, const Emit& emit) const {
-        const depth::Slope slope = depth::slope_at(input_.coc_px, connected_, x, y);
-        if (!input_.deep.empty()) {
-            const std::size_t pixel = std::size_t(y) * std::size_t(input_.width()) + std::size_t(x);
-            for (const CocSample& s : input_.deep.at(pixel)) emit(Emitter{s.colour, s.coc_px, slope});
-            return;
-        }
-        if (const depth::Mixture* m = mixtures_.at(x, y)) {
-            if (m->near_share > kLeastShare) {
-                Rgba near = m->near_colour;
-                near.a = m->near_share;
-                emit(Emitter{near, m->near_coc_px, {}});
-            }
-            Rgba far = m->far_colour;
-            far.a = 1;
-            emit(Emitter{far, m->far_coc_px, {}});
-            return;
-        }
-        Rgba light = base_(x, y);
-        light.a = 1;
-        emit(Emitter{light, input_.coc_px(x, y), slope});
-        if (const depth::Hidden* h = hidden_.at(x, y)) {
-            Rgba behind = h->colour;
-            behind.a = 1;
-            emit(Emitter{behind, h->coc_px, {}});
-        }
-    }
-
-private:
-    const Input& input_;
-    View<const Rgba> base_;
-    Image<unsigned char> connected_;
-    depth::Sparse<depth::Mixture> mixtures_;
-    depth::Sparse<depth::Hidden> hidden_;
 };
 
 // The level whose cells see the radius as at most largest_cells, as a real number: 0 below it, 1 at twice it.
@@ -112,12 +62,13 @@ private:
 int layer_of(float coc_px) {
     constexpr float kLinearPx = 8, kPerOctave = 6;
     const float r = std::abs(coc_px);
-    const int step = r < kLinearPx ? int(r + 0.5f) : int(kLinearPx + kPerOctave * std::log2(r / kLinearPx) + 0.5f);
+    const int step =
+        r < kLinearPx ? int(r + 0.5f) : int(kLinearPx + kPerOctave * std::log2(r / kLinearPx) + 0.5f);
     return coc_px < 0 ? -step : step;
 }
 
-SourceGrid SourceGrid::make(const Input& input, View<const Rgba> base, float largest_cells) {
-    const Emitters emitters(input, base);
+SourceGrid SourceGrid::make(const Input& input, float largest_cells) {
+    const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
     float largest = 0;
     for (int y = 0; y < input.height(); ++y)
         for (int x = 0; x < input.width(); ++x) largest = std::max(largest, std::abs(input.coc_px(x, y)));
@@ -142,17 +93,24 @@ SourceGrid SourceGrid::make(const Input& input, View<const Rgba> base, float lar
                 for (int y = cy * size; y < (cy + 1) * size; ++y)
                     for (int x = cx * size; x < (cx + 1) * size; ++x) {
                         // Beyond an open edge the outermost pixels are repeated.
-                        const int u = std::clamp(x, 0, input.width() - 1), v = std::clamp(y, 0, input.height() - 1);
-                        if ((u != x && !(x < 0 ? open.left : open.right)) || (v != y && !(y < 0 ? open.top : open.bottom)))
+                        const int u = std::clamp(x, 0, input.width() - 1),
+                                  v = std::clamp(y, 0, input.height() - 1);
+                        if ((u != x && !(x < 0 ? open.left : open.right)) ||
+                            (v != y && !(y < 0 ? open.top : open.bottom)))
                             continue;
-                        emitters.at(u, v, [&](const Emitter& e) {
+                        const depth::Slope slope = depth::slope_at(input.coc_px, connected, u, v);
+                        for (const CocSample& sample :
+                             input.deep.at(std::size_t(v) * std::size_t(input.width()) + std::size_t(u))) {
+                            // Only what is seen has a known slope.
+                            const bool visible = std::abs(sample.coc_px - input.coc_px(u, v)) < 0.01f;
+                            const Emitter e{sample.colour, sample.coc_px, visible ? slope : depth::Slope{}};
                             // Level n takes what lies in (n - 1, n], and fades into n + 1 at its upper end.
                             const float at = level_of(e.coc_px, largest_cells);
                             const float below = std::clamp((at - float(l - 1)) / kFade, 0.0f, 1.0f);
                             const float above = std::clamp((at - float(l)) / kFade, 0.0f, 1.0f);
                             const float share = (l == 0 ? 1.0f : below) - above;
                             if (share > 0) cell.add(e, share);
-                        });
+                        }
                     }
                 cell.flush(cx, size * size, row);
             }

@@ -1,4 +1,5 @@
-// Spreading sources over tiles: kernels from a table, stamped on each level's grid, brought up to full resolution.
+// Spreading sources over tiles: kernels from a table, stamped on each level's grid, brought up to full
+// resolution.
 #pragma once
 
 #include "engine/sources.h"

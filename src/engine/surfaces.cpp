@@ -119,7 +119,8 @@ void Surfaces::connect_around_corner(int x, int y) {
             for (Member& b : members)
                 if (b.place == next && (!best || std::abs(b.coc - a.coc) < std::abs(best->coc - a.coc)))
                     best = &b;
-            if (!best || !depth::same_surface(a.coc, best->coc, -slope_beyond(a, next), slope_beyond(*best, place)))
+            if (!best ||
+                !depth::same_surface(a.coc, best->coc, -slope_beyond(a, next), slope_beyond(*best, place)))
                 continue;
             bool mutual = true;
             for (const Member& other : members)
