@@ -2,6 +2,7 @@
 // every distance behind. This is the picture that shows what a lens does to lights, so the lamps are as
 // bright as real ones (radiance 20…2000 where the lit ground is 0.02).
 #include "scene/bicycle.h"
+#include "scene/plants.h"
 #include "scene/scenes.h"
 #include "scene/textures.h"
 
@@ -248,65 +249,6 @@ void add_quay(World& world) {
     world.add(std::move(trunks), [](const SurfacePoint&) { return Matter{{0.07f, 0.055f, 0.045f}, {}}; });
 }
 
-// A leaf from its stalk towards `tip`, bent and a little folded along its middle.
-Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width) {
-    const Vec3 along = tip - stalk, across = normalised(cross(along, facing)),
-               out = normalised(cross(across, along));
-    Mesh mesh;
-    constexpr int kPieces = 8;
-    for (int j = 0; j <= kPieces; ++j) {
-        const float t = float(j) / kPieces, width = half_width * std::sin(kPi * std::pow(t, 0.8f));
-        for (int i = -1; i <= 1; ++i) {
-            const float bend = 0.18f * length(along) * t * t - 0.3f * width * float(i * i);
-            mesh.positions.push_back(stalk + t * along + float(i) * width * across - bend * out);
-            mesh.normals.push_back(normalised(out + 0.3f * float(i) * across));
-            mesh.uv.push_back({0.5f * float(i + 1), t});
-        }
-    }
-    for (std::uint32_t j = 0; j < kPieces; ++j)
-        for (std::uint32_t i = 0; i < 2; ++i) {
-            const std::uint32_t a = 3 * j + i;
-            mesh.triangles.push_back({a, a + 1, a + 3});
-            mesh.triangles.push_back({a + 1, a + 4, a + 3});
-        }
-    return mesh;
-}
-
-// One branch with leaves, from `from` to `to`, drooping.
-void add_twig(World& world, Vec3 from, Vec3 to, int leaves, std::uint32_t seed) {
-    Tubes wood;
-    std::vector<Vec3> through;
-    for (int i = 0; i <= 12; ++i) {
-        const float t = float(i) / 12;
-        through.push_back(mix(from, to, t) +
-                          Vec3{0.01f * std::sin(9 * t), 0.06f * t * (1 - t), 0.012f * std::sin(7 * t)});
-    }
-    wood.path(through, 0.0042f, 0.0016f);
-    Mesh green;
-    for (int i = 0; i < leaves; ++i) {
-        const float t = 0.15f + 0.85f * float(i) / float(leaves);
-        const Vec3 stalk =
-            mix(from, to, t) + Vec3{0.01f * std::sin(9 * t), 0.06f * t * (1 - t), 0.012f * std::sin(7 * t)};
-        const float turn = (i % 2 ? 1.0f : -1.0f) * (0.5f + 0.8f * cell_value(i, 0, seed)),
-                    size = 0.03f + 0.02f * cell_value(i, 1, seed);
-        const Vec3 along = normalised(to - from);
-        const Vec3 side = normalised(
-            along + turn * normalised(Vec3{-along.y, along.x, 0.4f * (cell_value(i, 2, seed) - 0.5f)}) +
-            Vec3{0, -0.35f, 0});
-        wood.line(stalk, stalk + 0.2f * size * side, 0.0011f);
-        green.append(leaf(stalk + 0.2f * size * side, stalk + 1.2f * size * side,
-                          normalised(Vec3{cell_value(i, 3, seed) - 0.5f, 0.5f, -0.8f}), 0.3f * size));
-    }
-    world.add(std::move(wood), [](const SurfacePoint&) { return Matter{{0.06f, 0.045f, 0.035f}, {}}; });
-    world.add(
-        std::move(green),
-        [](const SurfacePoint& p) {
-            const float vein = 1 - 0.35f * smoothstep(0.06f, 0.02f, std::abs(p.u - 0.5f));
-            return Matter{vein * mix(Vec3{0.30f, 0.20f, 0.035f}, Vec3{0.13f, 0.19f, 0.05f}, p.v), {}};
-        },
-        Sides::Leaf);
-}
-
 void build(World& world, float time) {
     world.view.position = {0.35f * time, kEyeHeight, 0};
     world.sky = [](Vec3 d) {
@@ -328,9 +270,10 @@ void build(World& world, float time) {
     add_quay(world);
     const Vec3 forward = normalised(Vec3{0.76f, 0, -0.65f});
     add_bicycle(world, {Vec3{0.20f, 0, City::kFocus} - 0.83f * forward, forward});
-    add_twig(world, {-0.36f, 0.83f, 1.55f}, {-0.10f, 0.72f, 1.75f}, 12, 1);
-    add_twig(world, {-0.33f, 0.74f, 1.45f}, {-0.19f, 0.60f, 1.60f}, 9, 2);
-    add_twig(world, {0.40f, 0.80f, 1.9f}, {0.24f, 0.775f, 2.0f}, 8, 3);
+    const Foliage autumn{{0.06f, 0.045f, 0.035f}, {0.30f, 0.20f, 0.035f}, {0.13f, 0.19f, 0.05f}, 0.04f};
+    add_twig(world, {-0.36f, 0.83f, 1.55f}, {-0.10f, 0.72f, 1.75f}, 12, autumn, 1);
+    add_twig(world, {-0.33f, 0.74f, 1.45f}, {-0.19f, 0.60f, 1.60f}, 9, autumn, 2);
+    add_twig(world, {0.40f, 0.80f, 1.9f}, {0.24f, 0.775f, 2.0f}, 8, autumn, 3);
 }
 
 }  // namespace
