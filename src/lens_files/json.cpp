@@ -84,6 +84,7 @@ private:
         if (end == at_ || !parsed || !std::isfinite(*parsed)) return fail("not a JSON value: " + excerpt());
         out.type = Json::Type::Number;
         out.number = *parsed;
+        out.string = text_.substr(at_, end - at_);
         at_ = end;
         return true;
     }

@@ -18,7 +18,7 @@ struct Json {
     int line = 0;  // where the value starts, from 1
     bool boolean = false;
     double number = 0;
-    std::string string;
+    std::string string;                                 // of a string; of a number, its digits as written
     std::vector<Json> items;                            // of an array
     std::vector<std::pair<std::string, Json>> members;  // of an object, as written
 

@@ -50,7 +50,7 @@ private:
     Check finish(const Json& root);
 
     LensFile file_;
-    optics::GlassCatalogue own_;
+    GlassFinder glasses_;
     Ignored ignored_;
     bool has_stop_ = false, has_aperture_ = false;
     double mm_ = 1;  // millimetres per unit of the file
@@ -223,7 +223,7 @@ Status Reader::medium(const Json& value, Surface& out) {
     if (upper_case(request.name) == "MIRROR") return at_line(value.line, "mirrors are not supported");
     if (request.name.empty() && !request.nd)
         return at_line(value.line, "a medium is \"air\", {\"glass\": name} or {\"nd\", \"Vd\"}");
-    const auto glass = find_glass(request, own_, file_.warnings);
+    const auto glass = glasses_.find(request);
     if (!glass) return glass.error();
     out.after = *glass;
     return Done{};
@@ -323,6 +323,7 @@ Status Reader::finish(const Json& root) {
     bool any_rim = false;
     for (const Surface& surface : lens.surfaces) any_rim = any_rim || std::isfinite(surface.clear_radius_mm);
     if (!any_rim) file_.warnings.push_back("no clear apertures are given: the lens vignettes nothing");
+    glasses_.report(file_.warnings);
     warn_of_models(file_);
     ignored_.report(file_.warnings);
     return Done{};
@@ -336,7 +337,7 @@ Result<LensFile> Reader::read(const Json& root) {
     if (const Json* glasses = root.find("glasses")) {
         auto own = read_glasses(*glasses);
         if (!own) return own.error();
-        own_ = std::move(*own);
+        glasses_ = GlassFinder(std::move(*own));
     }
     for (const Status& status : {texts(root), top_level(root), finish(root)})
         if (!status) return status.error();

@@ -8,9 +8,10 @@
 namespace petzval::lens_files {
 namespace {
 
-std::string list_of(const std::vector<std::string>& names) {
+template <typename Names>
+std::string list_of(const Names& names) {
     std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    for (const std::string& name : names) text.append(text.empty() ? "" : ", ").append(name);
     return text;
 }
 
@@ -22,31 +23,26 @@ std::string printed(double x) {
 
 }  // namespace
 
-Result<optics::Glass> find_glass(const GlassRequest& request, const optics::GlassCatalogue& own,
-                                 std::vector<std::string>& warnings) {
+Result<optics::Glass> GlassFinder::find(const GlassRequest& request) {
     if (!request.name.empty()) {
-        const optics::Glass* glass = own.find(request.name);
+        const optics::Glass* glass = own_.find(request.name);
         if (!glass) glass = glass_catalogue().find(request.name);
         if (glass) {
             const bool other_maker =
                 !request.maker.empty() && !glass->maker.empty() &&
                 optics::normalised_glass_name(request.maker) != optics::normalised_glass_name(glass->maker);
             if (other_maker)
-                warnings.push_back("line " + std::to_string(request.line) + ": " + glass->name + " of " +
-                                   glass->maker + " stands for " + request.name + " of " + request.maker);
+                other_makers_.insert(request.name + " of " + request.maker + " by that of " + glass->maker);
             return *glass;
         }
     }
     // Programs write 1.5 and 40 where they know no better; that is no glass.
     const bool placeholder = request.nd && request.vd && *request.nd == 1.5 && *request.vd == 40;
     if (request.nd && *request.nd > 0 && !(placeholder && !request.name.empty())) {
-        const bool dispersive = request.vd && *request.vd > 0;
+        if (!request.name.empty()) modelled_.insert(request.name);
         const std::string name = request.name.empty() ? "nd " + printed(*request.nd) : request.name;
-        if (!request.name.empty())
-            warnings.push_back("line " + std::to_string(request.line) + ": glass " + quoted(request.name) +
-                               " is not in the catalogue; its nd and Vd from the file are used");
-        return dispersive ? optics::abbe_glass(name, *request.nd, *request.vd)
-                          : optics::constant_glass(name, *request.nd);
+        return request.vd && *request.vd > 0 ? optics::abbe_glass(name, *request.nd, *request.vd)
+                                             : optics::constant_glass(name, *request.nd);
     }
     std::string what = "glass " + quoted(request.name) + " is not in the catalogue";
     const auto similar = glass_catalogue().similar_names(request.name);
@@ -54,10 +50,17 @@ Result<optics::Glass> find_glass(const GlassRequest& request, const optics::Glas
     return at_line(request.line, what + "; give nd and Vd instead, or another glass");
 }
 
+void GlassFinder::report(std::vector<std::string>& warnings) const {
+    if (!modelled_.empty())
+        warnings.push_back("not in the glass catalogue, nd and Vd of the file are used: " +
+                           list_of(modelled_));
+    if (!other_makers_.empty()) warnings.push_back("glass replaced: " + list_of(other_makers_));
+}
+
 void Ignored::report(std::vector<std::string>& warnings) const {
     if (words_.empty()) return;
     std::string text = "ignored, without effect on the path of light:";
-    for (const std::string& word : words_) text += " " + word;
+    for (const std::string& word : words_) text.append(" ").append(word);
     warnings.push_back(text);
 }
 

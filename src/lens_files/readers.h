@@ -31,10 +31,21 @@ struct GlassRequest {
     std::optional<double> nd, vd;  // a model the file gives beside the name
     int line = 0;
 };
-// The catalogue's glass of that name; else the model, with a warning; else an error that names near misses. A
-// maker other than the catalogue's is a warning.
-Result<optics::Glass> find_glass(const GlassRequest& request, const optics::GlassCatalogue& own,
-                                 std::vector<std::string>& warnings);
+// The catalogue's glass of that name; else the model, which is reported; else an error that names near
+// misses. A maker other than the catalogue's is reported too.
+class GlassFinder {
+public:
+    GlassFinder() = default;
+    // `own`: glasses the file brings along, which come first.
+    explicit GlassFinder(optics::GlassCatalogue own) : own_(std::move(own)) {}
+
+    Result<optics::Glass> find(const GlassRequest& request);
+    void report(std::vector<std::string>& warnings) const;
+
+private:
+    optics::GlassCatalogue own_;
+    std::set<std::string> modelled_, other_makers_;
+};
 
 // Words the reader knows to be harmless, collected into one warning.
 class Ignored {
