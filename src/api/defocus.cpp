@@ -94,6 +94,7 @@ constexpr float kSameRadiusPx = 0.02f;
 
 engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, const Radii& radii) {
     engine::CocSamples all;
+    all.width = colour.width();
     const DeepPicture* const extra = job.deep ? job.deep : job.behind;
     if (!extra || extra->empty()) return all;
     all.first.reserve(extra->first().size());
@@ -114,6 +115,24 @@ engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, c
         }
     all.first.push_back(all.samples.size());
     return all;
+}
+
+using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
+
+// The lens on the picture's pixels, and on pixels 2, 4, … times as wide for engines that work at several
+// resolutions.
+Result<LensLevels> lens_levels(const DefocusJob& job) {
+    constexpr int kLevels = 10;
+    LensLevels levels;
+    for (int l = 0; l < kLevels; ++l) {
+        const auto reduced = [&](int size) { return std::max(1, int(std::lround(std::ldexp(size, -l)))); };
+        const kernel::Mount mount{job.camera, reduced(job.display_window.width()),
+                                  reduced(job.display_window.height()), job.pixel_aspect};
+        auto lens = kernel::make_lens(job.lens, mount);
+        if (!lens) return lens.error();
+        levels.push_back(std::move(*lens));
+    }
+    return levels;
 }
 
 const engine::Engine* find_engine(const std::string& name) {
@@ -160,10 +179,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     }
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
-    const kernel::Mount mount{job.camera, job.display_window.width(), job.display_window.height(),
-                              job.pixel_aspect};
-    const auto lens = kernel::make_lens(job.lens, mount);
-    if (!lens) return lens.error();
+    const auto lenses = lens_levels(job);
+    if (!lenses) return lenses.error();
     const double lens_ready = seconds();
 
     const Picture colour = finite_picture(job.colour, job.threads);
@@ -172,14 +189,16 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     engine::Input input;
     input.colour = colour;
     input.coc_px = coc_px;
-    input.deep = all_samples(job, colour, *radii);
+    const engine::CocSamples samples = all_samples(job, colour, *radii);
+    if (!samples.first.empty()) input.deep = samples;
     input.open_edges = open_edges(job);
     input.field_centre_x = 0.5 * (job.display_window.x0 + job.display_window.x1) - job.data_window.x0;
     input.field_centre_y = 0.5 * (job.display_window.y0 + job.display_window.y1) - job.data_window.y0;
     input.field_per_px =
         2 / std::hypot(job.display_window.width(), job.display_window.height() / job.pixel_aspect);
     input.pixel_aspect = job.pixel_aspect;
-    input.lens = lens->get();
+    input.lens_levels = *lenses;
+    input.frame_height = colour.height();
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
     input.threads = job.threads;
@@ -194,7 +213,7 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     report.image = std::move(output->image);
     report.engine = chosen->name;
     report.device = "cpu";
-    report.lens = lens.value()->description();
+    report.lens = lenses->front()->description();
     report.stages = {{"kernels", lens_ready}, {"prepare", prepared - lens_ready}};
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
     report.warnings = std::move(output->warnings);

@@ -8,7 +8,7 @@
 namespace petzval::depth {
 namespace {
 
-constexpr int kDirections = 32;      // even: opposite directions are paired
+constexpr int kDirections = 16;      // even: opposite directions are paired
 constexpr float kBehindPx = 1.0f;    // farther by less than this in radius is not worth filling
 constexpr float kPastEdgePx = 2.0f;  // how far beyond the reach of the blur to look
 constexpr float kLikeEnough =
@@ -31,34 +31,42 @@ using Hits = std::array<std::array<Found, kHits>, kDirections>;
 struct Direction {
     float x, y;
 };
-std::array<Direction, kDirections> directions() {
-    std::array<Direction, kDirections> all{};
-    for (int k = 0; k < kDirections; ++k) {
-        const double angle = 2 * M_PI * (k + 0.5) / kDirections;
-        all[std::size_t(k)] = {float(std::cos(angle)), float(std::sin(angle))};
-    }
-    return all;
-}
+struct Step {
+    float t;  // distance, px
+    int x, y;
+    std::ptrdiff_t offset;  // in the plane of clean radii
+};
+struct Path {
+    Direction direction;
+    std::vector<Step> steps;
+};
 
 class Filler {
 public:
     Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
            const Sparse<Mixture>& mixtures)
         : colour_(colour), coc_(coc), connected_(connected), mixtures_(mixtures) {
-        for (const Mixture& m : mixtures.values) farthest_ = std::max(farthest_, m.far_coc_px);
+        for (const Mixture& m : mixtures.values) {
+            farthest_ = std::max(farthest_, m.far_coc_px);
+            largest_ = std::max(largest_, std::abs(m.near_coc_px));
+        }
+        clean_ = Plane::uninitialised(coc.width(), coc.height());
+        for (int y = 0; y < coc.height(); ++y)
+            for (int x = 0; x < coc.width(); ++x)
+                clean_(x, y) = mixtures.index(x, y) < 0 ? coc(x, y) : -1e30f;
         measure_distances();
+        lay_paths();
     }
 
     // What lies behind (x, y), if any surface nearby does.
     bool fill(int x, int y, std::vector<Hidden>& hidden) const {
         const float own = coc_(x, y);
         if (beyond_(x, y) > std::abs(own) + kPastEdgePx) return false;
-        static const std::array<Direction, kDirections> all = directions();
         Hits hits;
         bool any = false;
         const Slope slope = slope_at(coc_, connected_, x, y);
         for (int k = 0; k < kDirections; ++k) {
-            hits[std::size_t(k)] = search(x, y, own, slope, all[std::size_t(k)]);
+            hits[std::size_t(k)] = search(x, y, own, slope, paths_[std::size_t(k)]);
             any = any || hits[std::size_t(k)][0].found;
         }
         if (any) stack(hits, hidden);
@@ -66,20 +74,24 @@ public:
     }
 
 private:
-    // Distance to each silhouette less the blur of what lies behind it, the smallest: a two-sweep chamfer
-    // transform (G. Borgefors, "Distance transformations in digital images", 1986). Pixels beyond their own
-    // blur need no search.
+    // Distance to each silhouette of a pixel's own surface, less the blur of what lies behind it, the
+    // smallest: a two-sweep chamfer transform (G. Borgefors, "Distance transformations in digital images",
+    // 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own blur need no
+    // search.
     void measure_distances() {
         const int width = coc_.width(), height = coc_.height();
         beyond_ = Plane(width, height, 1e9f);
+        Plane far(width, height, -1e30f);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
-                if (const Mixture* m = mixtures_.at(x, y)) beyond_(x, y) = -std::abs(m->far_coc_px);
+                if (const Mixture* m = mixtures_.at(x, y))
+                    beyond_(x, y) = -std::abs(m->far_coc_px), far(x, y) = m->far_coc_px;
         constexpr float kSide = 0.955f, kDiagonal = 1.3693f;
         const auto relax = [&](int x, int y, int dx, int dy) {
-            if (!beyond_.rect().contains(x + dx, y + dy)) return;
-            const float step = dx != 0 && dy != 0 ? kDiagonal : kSide;
-            beyond_(x, y) = std::min(beyond_(x, y), beyond_(x + dx, y + dy) + step);
+            if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
+            const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
+            if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= coc_(x, y) + kBehindPx) return;
+            beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
         };
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
@@ -89,21 +101,39 @@ private:
                 relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
     }
 
+    // Where the steps of each direction land: every pixel at first, every sixteenth of the way further out.
+    void lay_paths() {
+        const float longest = largest_ + std::abs(farthest_) + kPastEdgePx;
+        for (int k = 0; k < kDirections; ++k) {
+            const double angle = 2 * M_PI * (k + 0.5) / kDirections;
+            Path& path = paths_[std::size_t(k)];
+            path.direction = {float(std::cos(angle)), float(std::sin(angle))};
+            for (float t = 1; t <= longest; t += t < 16 ? 1.0f : t / 16) {
+                const int dx = int(std::lround(t * path.direction.x)),
+                          dy = int(std::lround(t * path.direction.y));
+                path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * clean_.width() + dx});
+            }
+        }
+    }
+
     // The first clean pixel of a farther surface, walking from (x, y), and of one farther still.
-    std::array<Found, kHits> search(int x, int y, float own, Slope slope, Direction d) const {
+    std::array<Found, kHits> search(int x, int y, float own, Slope slope, const Path& path) const {
+        const Direction d = path.direction;
         const float longest = std::abs(own) + std::abs(farthest_) + kPastEdgePx;
+        const float own_per_px = std::max(0.0f, slope.x * d.x + slope.y * d.y);
+        const float* const start = &clean_(x, y);
         std::array<Found, kHits> hits;
         int n = 0;
-        float behind = own;
-        for (float t = 1; t <= longest && n < kHits; t += t < 16 ? 1.0f : t / 16) {
-            const int u = x + int(std::lround(t * d.x)), v = y + int(std::lround(t * d.y));
-            if (!coc_.rect().contains(u, v)) break;
-            const float c = coc_(u, v);
-            const float own_here = own + t * (slope.x * d.x + slope.y * d.y);
-            if (c <= std::max(behind, own_here) + kBehindPx || mixtures_.index(u, v) >= 0) continue;
-            if (t <= std::abs(own) + std::abs(c) + kPastEdgePx)
-                hits[std::size_t(n++)] = {true, patch_at(u, v, c, d), c, t};
-            behind = c + kBehindPx;
+        float behind = own + kBehindPx;
+        for (const Step& step : path.steps) {
+            if (step.t > longest || n == kHits) break;
+            const int u = x + step.x, v = y + step.y;
+            if (u < 0 || v < 0 || u >= clean_.width() || v >= clean_.height()) break;
+            const float c = start[step.offset];
+            if (c <= behind || c <= own + step.t * own_per_px + kBehindPx) continue;
+            if (step.t <= std::abs(own) + std::abs(c) + kPastEdgePx)
+                hits[std::size_t(n++)] = {true, patch_at(u, v, c, d), c, step.t};
+            behind = c + 2 * kBehindPx;
         }
         return hits;
     }
@@ -210,8 +240,10 @@ private:
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Sparse<Mixture>& mixtures_;
-    Plane beyond_;
-    float farthest_ = 0;
+    Plane clean_;   // radius of pixels that touch no silhouette, else far in front
+    Plane beyond_;  // see measure_distances
+    std::array<Path, kDirections> paths_;
+    float farthest_ = 0, largest_ = 0;  // of silhouettes: radius behind, |radius| in front
 };
 
 }  // namespace

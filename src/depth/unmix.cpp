@@ -23,9 +23,9 @@ bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
 
 float distance2(Rgba a, Rgba b) {
     const Rgba d = a - b;
-    return d.r * d.r + d.g * d.g + d.b * d.b;
+    return d.r * d.r + d.g * d.g + d.b * d.b + d.a * d.a;
 }
-float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
+float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b + a.a * b.a; }
 
 // What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
 struct Sides {
@@ -104,7 +104,7 @@ Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const u
     // the far side's account.
     const float far_share = 1 - m.near_share;
     Rgba rest = c - far_share * m.far_colour;
-    rest = {std::max(0.0f, rest.r), std::max(0.0f, rest.g), std::max(0.0f, rest.b), m.near_share * c.a};
+    rest = {std::max(0.0f, rest.r), std::max(0.0f, rest.g), std::max(0.0f, rest.b), std::clamp(rest.a, 0.0f, 1.0f)};
     if (far_share > 0.05f) {
         const Rgba far = (c - rest) * (1 / far_share);
         m.far_colour = {std::max(0.0f, far.r), std::max(0.0f, far.g), std::max(0.0f, far.b), m.far_colour.a};

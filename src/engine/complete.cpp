@@ -9,12 +9,32 @@ namespace {
 
 constexpr float kLeastShare = 1e-3f;
 
-CocSample sample(Rgba colour, float coc_px) { return {colour, coc_px, coc_px}; }
+bool is_opaque(const CocSample& sample) { return sample.colour.a > 1 - kLeastShare; }
+
+// Ends every pixel whose farthest sample can be seen through in emptiness.
+CocSamples with_emptiness(const CocSamples& stated) {
+    CocSamples all;
+    all.width = stated.width;
+    all.first.reserve(stated.first.size());
+    all.samples.reserve(stated.samples.size());
+    for (std::size_t i = 0; i + 1 < stated.first.size(); ++i) {
+        all.first.push_back(all.samples.size());
+        const auto begin = stated.samples.begin() + std::ptrdiff_t(stated.first[i]);
+        const auto end = stated.samples.begin() + std::ptrdiff_t(stated.first[i + 1]);
+        all.samples.insert(all.samples.end(), begin, end);
+        if (begin == end)
+            all.samples.push_back({});
+        else if (!is_opaque(*(end - 1)))
+            all.samples.push_back({{}, (end - 1)->coc_px, (end - 1)->coc_px});
+    }
+    all.first.push_back(all.samples.size());
+    return all;
+}
 
 }  // namespace
 
 CocSamples completed(const Input& input) {
-    if (!input.deep.empty()) return input.deep;
+    if (!input.deep.empty()) return with_emptiness(stated_samples(input));
     const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
     const auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
     const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures, input.threads);
@@ -22,15 +42,19 @@ CocSamples completed(const Input& input) {
     // Counted first, then written, so that rows can be done in parallel.
     const int width = input.width(), height = input.height();
     const auto samples_at = [&](int x, int y, const auto& emit) {
+        CocSample last;
+        const auto put = [&](Rgba colour, float coc_px) { emit(last = {colour, coc_px, coc_px}); };
         if (const depth::Mixture* m = mixtures.at(x, y)) {
-            if (m->near_share > kLeastShare) emit(sample(m->near_colour, m->near_coc_px));
-            emit(sample(m->far_colour, m->far_coc_px));
+            if (m->near_share > kLeastShare) put(m->near_colour, m->near_coc_px);
+            put(m->far_colour, m->far_coc_px);
         } else {
-            emit(sample(input.colour(x, y), input.coc_px(x, y)));
-            for (const depth::Hidden& h : hidden.at(x, y)) emit(sample(h.colour, h.coc_px));
+            put(input.colour(x, y), input.coc_px(x, y));
+            for (const depth::Hidden& h : hidden.at(x, y)) put(h.colour, h.coc_px);
         }
+        if (!is_opaque(last)) emit(CocSample{{}, last.coc_px, last.coc_px});
     };
     CocSamples all;
+    all.width = width;
     all.first.assign(std::size_t(width) * std::size_t(height) + 1, 0);
     parallel_for(height, input.threads, [&](int y) {
         for (int x = 0; x < width; ++x) {

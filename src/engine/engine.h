@@ -12,7 +12,9 @@
 #include "base/progress.h"
 #include "kernel/lens_model.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,15 +28,41 @@ struct CocSample {
     float coc_px = 0, coc_back_px = 0;
 };
 
-// Samples per pixel, nearest (smallest CoC) first; as DeepPicture, with depth turned into radii.
-struct CocSamples {
-    std::vector<std::size_t> first;  // width * height + 1 entries, or empty: none
-    std::vector<CocSample> samples;
-    bool empty() const { return samples.empty(); }
-    std::span<const CocSample> at(std::size_t pixel) const {
-        if (first.empty()) return {};
-        return {samples.data() + first[pixel], first[pixel + 1] - first[pixel]};
+// Samples per pixel, nearest (smallest CoC) first, rows top to bottom; a view, owned by CocSamples. A pixel
+// whose last sample is {0, 0, 0, 0} ends in emptiness: what its nearer samples leave uncovered stays
+// transparent.
+class CocSamplesView {
+public:
+    CocSamplesView() = default;
+    CocSamplesView(std::span<const std::size_t> first, std::span<const CocSample> samples, int width)
+        : first_(first), samples_(samples), width_(width) {}
+    bool empty() const { return first_.empty(); }
+    std::span<const CocSample> at(int x, int y) const {
+        const std::size_t i = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+        return samples_.subspan(first_[i], first_[i + 1] - first_[i]);
     }
+    std::span<const std::size_t> first() const { return first_; }
+    std::span<const CocSample> samples() const { return samples_; }
+    // Rows y0…y1-1 alone.
+    CocSamplesView rows(int y0, int y1) const {
+        if (empty()) return {};
+        const std::size_t from = std::size_t(y0) * std::size_t(width_),
+                          to = std::size_t(y1) * std::size_t(width_);
+        return {first_.subspan(from, to - from + 1), samples_, width_};
+    }
+
+private:
+    std::span<const std::size_t> first_;  // width * height + 1 entries, or empty: none
+    std::span<const CocSample> samples_;
+    int width_ = 0;
+};
+
+struct CocSamples {
+    int width = 0;
+    std::vector<std::size_t> first;
+    std::vector<CocSample> samples;
+    int height() const { return width > 0 ? int((first.size() - 1) / std::size_t(width)) : 0; }
+    operator CocSamplesView() const { return {first, samples, width}; }
 };
 
 // Which edges of the picture are merely where the render stopped (the scene goes on beyond them), as against
@@ -48,13 +76,17 @@ struct Input {
     View<const float> coc_px;  // signed radius, + behind focus
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
     // then colour and coc_px are not all there is to hit. Empty otherwise.
-    CocSamples deep;
+    CocSamplesView deep;
     OpenEdges open_edges;
     // Field position of pixel (x, y): ((x + 0.5 - centre_x) * per_px, -(y + 0.5 - centre_y) * per_px /
     // pixel_aspect).
     double field_centre_x = 0, field_centre_y = 0, field_per_px = 0;
     double pixel_aspect = 1;
-    const kernel::LensModel* lens = nullptr;
+    // The whole frame's height and the row of it that is row 0 here, when an engine works on part of a frame.
+    int frame_height = 0, first_row = 0;
+    // The lens on pixels 1, 2, 4, … times as wide: lens_levels[n]. At least one; the last stands for all
+    // beyond.
+    std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
     Quality quality = Quality::Standard;
     int pupil_points = 4096;
     int threads = 0;
@@ -64,11 +96,17 @@ struct Input {
 
     int width() const { return colour.width(); }
     int height() const { return colour.height(); }
+    const kernel::LensModel& lens(int level) const {
+        return *lens_levels[std::min(std::size_t(level), lens_levels.size() - 1)];
+    }
     kernel::FieldPosition field_at(double x, double y) const {
         return {(x + 0.5 - field_centre_x) * field_per_px,
                 -(y + 0.5 - field_centre_y) * field_per_px / pixel_aspect};
     }
 };
+
+// Every sample the input states: those of deep, or the one of each pixel.
+CocSamples stated_samples(const Input& input);
 
 struct Output {
     Picture image;

@@ -3,108 +3,86 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace petzval::engine {
 namespace {
 
-constexpr int kReach = 3;   // medians of 2 * 3 + 1 = 7
-constexpr int kCoarse = 4;  // pixels per cell of the wide median: 7 * 4 = 28
 constexpr float kLeastAlpha = 1e-4f;
+constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything that is compared with it
+constexpr int kNarrowReach = 1, kWideReach = 3;  // cells on either side: 12 and 28 pixels
 
-float median(std::array<float, 2 * kReach + 1>& values) {
-    std::nth_element(values.begin(), values.begin() + kReach, values.end());
-    return values[kReach];
-}
-
-// Median of rows, then of columns: not the true 2-D median, but as blind to what is small.
-Plane separable_median(View<const float> plane, int threads) {
-    Plane rows = Plane::uninitialised(plane.width(), plane.height());
-    Plane both = Plane::uninitialised(plane.width(), plane.height());
-    const auto pass = [threads](View<const float> from, View<float> to, int dx, int dy) {
-        parallel_for(from.height(), threads, [&](int y) {
-            std::array<float, 2 * kReach + 1> values;
-            for (int x = 0; x < from.width(); ++x) {
-                for (int k = -kReach; k <= kReach; ++k)
-                    values[std::size_t(k + kReach)] = from.clamped(x + k * dx, y + k * dy);
-                to(x, y) = median(values);
-            }
-        });
-    };
-    pass(plane, rows, 1, 0);
-    pass(rows, both, 0, 1);
-    return both;
-}
-
-Plane luminance_of(View<const Rgba> colour, int threads) {
-    Plane plane = Plane::uninitialised(colour.width(), colour.height());
-    parallel_for(colour.height(), threads, [&](int y) {
-        for (int x = 0; x < colour.width(); ++x) plane(x, y) = luminance(colour(x, y));
-    });
-    return plane;
-}
-
-Plane reduced(View<const float> plane) {
-    Plane small((plane.width() + kCoarse - 1) / kCoarse, (plane.height() + kCoarse - 1) / kCoarse);
-    for (int y = 0; y < small.height(); ++y)
-        for (int x = 0; x < small.width(); ++x) {
-            const Rect cell =
-                Rect{x * kCoarse, y * kCoarse, (x + 1) * kCoarse, (y + 1) * kCoarse}.intersected(
-                    plane.rect());
+// Mean of 1 / (luminance + kDark) over cells of `size` pixels. Its reciprocal, the harmonic mean, follows
+// what most of the cell shows and hardly moves for a few bright pixels.
+Plane reciprocal_cells(View<const Rgba> picture, int size, int threads) {
+    Plane cells((picture.width() + size - 1) / size, (picture.height() + size - 1) / size);
+    parallel_for(cells.height(), threads, [&](int cy) {
+        for (int cx = 0; cx < cells.width(); ++cx) {
+            const Rect r =
+                Rect{cx * size, cy * size, (cx + 1) * size, (cy + 1) * size}.intersected(picture.rect());
             float sum = 0;
-            for (int v = cell.y0; v < cell.y1; ++v)
-                for (int u = cell.x0; u < cell.x1; ++u) sum += plane(u, v);
-            small(x, y) = sum / float(cell.width() * cell.height());
+            for (int y = r.y0; y < r.y1; ++y)
+                for (int x = r.x0; x < r.x1; ++x)
+                    sum += 1 / (std::max(0.0f, luminance(picture(x, y))) + kDark);
+            cells(cx, cy) = sum / float(r.width() * r.height());
         }
-    return small;
+    });
+    return cells;
+}
+
+float box_mean(View<const float> cells, int cx, int cy, int reach) {
+    const Rect r = Rect{cx - reach, cy - reach, cx + reach + 1, cy + reach + 1}.intersected(cells.rect());
+    float sum = 0;
+    for (int y = r.y0; y < r.y1; ++y)
+        for (int x = r.x0; x < r.x1; ++x) sum += cells(x, y);
+    return sum / float(r.width() * r.height());
 }
 
 }  // namespace
 
-HighlightSplit::HighlightSplit(View<const Rgba> picture, float factor, float floor, int threads)
-    : bound_(Plane::uninitialised(picture.width(), picture.height())) {
-    const Plane light = luminance_of(picture, threads);
-    const Plane narrow = separable_median(light, threads);
-    const Plane wide = separable_median(reduced(light), threads);
-    parallel_for(picture.height(), threads, [&](int y) {
-        for (int x = 0; x < picture.width(); ++x)
-            bound_(x, y) =
-                floor + factor * std::max(0.0f, std::min(narrow(x, y), 2 * wide(x / kCoarse, y / kCoarse)));
+HighlightSplit::HighlightSplit(View<const Rgba> picture, const HighlightRule& rule, int threads)
+    : rule_(rule) {
+    const Plane reciprocal = reciprocal_cells(picture, kCell, threads);
+    surroundings_ = Plane(reciprocal.width(), reciprocal.height());
+    parallel_for(reciprocal.height(), threads, [&](int y) {
+        for (int x = 0; x < reciprocal.width(); ++x) {
+            const float narrow = 1 / box_mean(reciprocal, x, y, kNarrowReach);
+            const float wide = 1 / box_mean(reciprocal, x, y, kWideReach);
+            surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
+        }
     });
 }
 
-Rgba HighlightSplit::base(int x, int y, Rgba light) const {
-    const float bound = light.a > kLeastAlpha ? bound_(x, y) * light.a : 0;
+Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
+    if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
+    const float radius = std::abs(coc_px);
+    const float cheapest = rule_.least_floor * light.a;
+    if (brightness <= cheapest || radius < rule_.least_radius_px) return light;
+    const float floor = std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
+    const float bound = light.a * (floor + rule_.factor * surroundings_(x / kCell, y / kCell));
     if (brightness <= bound) return light;
     const Rgba scaled = light * (bound / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};
 }
 
-SplitInput split_highlights(const Input& input, const HighlightSplit& split) {
-    const int width = input.width(), height = input.height();
-    SplitInput result{Picture::uninitialised(width, height), input.deep, {}};
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int threads) {
+    const int width = samples.width, height = samples.height();
     std::vector<std::vector<Highlight>> rows(static_cast<std::size_t>(height));
-    parallel_for(height, input.threads, [&](int y) {
-        const auto take = [&](int x, float coc_px, Rgba& light) {
-            const Rgba base = split.base(x, y, light);
-            if (!(base == light)) rows[std::size_t(y)].push_back({x, y, coc_px, light - base});
-            light = base;
-        };
-        for (int x = 0; x < width; ++x) {
-            Rgba& visible = result.base(x, y) = input.colour(x, y);
-            if (input.deep.empty()) {
-                take(x, input.coc_px(x, y), visible);
-                continue;
+    parallel_for(height, threads, [&](int y) {
+        std::size_t i = std::size_t(y) * std::size_t(width);
+        for (int x = 0; x < width; ++x, ++i)
+            for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
+                CocSample& sample = samples.samples[k];
+                const Rgba base = split.base(x, y, sample.coc_px, sample.colour);
+                if (base == sample.colour) continue;
+                rows[std::size_t(y)].push_back({x, y, sample.coc_px, sample.colour - base});
+                sample.colour = base;
             }
-            visible = split.base(x, y, visible);
-            const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            for (std::size_t k = result.deep.first[i]; k < result.deep.first[i + 1]; ++k)
-                take(x, result.deep.samples[k].coc_px, result.deep.samples[k].colour);
-        }
     });
-    for (const auto& row : rows) result.highlights.insert(result.highlights.end(), row.begin(), row.end());
-    return result;
+    std::vector<Highlight> highlights;
+    for (const auto& row : rows) highlights.insert(highlights.end(), row.begin(), row.end());
+    return highlights;
 }
 
 }  // namespace petzval::engine

@@ -13,27 +13,34 @@ struct Highlight {
     Rgba colour;  // what was taken out; a is 0: the surface itself stays in the base
 };
 
-// Splits light where it stands out of its surroundings:  base + highlight = light, and the base is at most
-// factor * surroundings + floor (luminance, scene-linear; light of coverage a is compared with a times that).
-// The surroundings are the smaller of two medians of the picture, of 7 x 7 pixels and of twice 28 x 28: lamps
-// smaller than about 14 pixels do not raise them, surfaces do. Light without alpha (additive glow) is taken
-// out whole.
+// How far a pixel may stand out before it counts as a highlight: luminance above
+//     factor * surroundings + floor(radius)      (scene-linear; light of coverage a is compared with a times
+//     that)
+// where the floor rises with the radius as radius^1.5, because a wider disc hides more of what the levels
+// blur (docs/design/scatter.md gives the law), and is `floor_at_1px` there.
+struct HighlightRule {
+    float factor = 2;
+    float floor_at_1px = 0.25f;
+    float least_floor = 0.25f;  // however small the radius
+    float least_radius_px = 0;  // below it nothing counts
+};
+
+// Splits light where it stands out of its surroundings:  base + highlight = light. The surroundings are the
+// smaller of two harmonic means of the picture's luminance, over 12 x 12 pixels and twice that over 28 x 28:
+// lamps hardly raise them, surfaces do. Light without alpha (additive glow) is taken out whole.
 class HighlightSplit {
 public:
-    HighlightSplit(View<const Rgba> picture, float factor, float floor, int threads);
-    // The part of `light` at pixel (x, y) that stays; alpha always stays.
-    Rgba base(int x, int y, Rgba light) const;
+    HighlightSplit(View<const Rgba> picture, const HighlightRule& rule, int threads);
+    // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
+    Rgba base(int x, int y, float coc_px, Rgba light) const;
 
 private:
-    Plane bound_;
+    HighlightRule rule_;
+    Plane surroundings_;  // per cell of kCell x kCell pixels
+    static constexpr int kCell = 4;
 };
 
-// A whole input split: its base and its highlights, those of every deep sample where there are any.
-struct SplitInput {
-    Picture base;
-    CocSamples deep;
-    std::vector<Highlight> highlights;  // row by row, nearest first
-};
-SplitInput split_highlights(const Input& input, const HighlightSplit& split);
+// Splits every sample in place; returns what was taken, row by row, nearest first.
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int threads);
 
 }  // namespace petzval::engine

@@ -27,7 +27,7 @@ constexpr int kTile = 128;
 constexpr int kTileFieldVaries = 32;
 // Light above 1.5 x its surroundings + 0.25 of diffuse white is spread exactly; the rest is smooth enough for
 // rays.
-constexpr float kHighlightFactor = 1.5f, kHighlightFloor = 0.25f;
+constexpr HighlightRule kHighlights{.factor = 1.5f, .floor_at_1px = 0};
 constexpr double kShareOfRays = 0.8, kShareOfHighlights = 0.2;  // of the progress bar
 
 double fraction(double x) { return x - std::floor(x); }
@@ -183,11 +183,11 @@ std::vector<Rect> tiles_of(const Rect& area, int size) {
 }
 
 void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
-    const bool varies = input.lens->varies_over_field();
+    const bool varies = input.lens(0).varies_over_field();
     const std::vector<Rect> tiles = tiles_of(out.rect(), varies ? kTileFieldVaries : kTile);
     const auto rays_at = [&](const Rect& r) {
-        return input.lens->rays(input.pupil_points,
-                                input.field_at(0.5 * (r.x0 + r.x1 - 1), 0.5 * (r.y0 + r.y1 - 1)), input.seed);
+        return input.lens(0).rays(
+            input.pupil_points, input.field_at(0.5 * (r.x0 + r.x1 - 1), 0.5 * (r.y0 + r.y1 - 1)), input.seed);
     };
     const std::vector<kernel::PupilRay> everywhere = rays_at(out.rect());
     parallel_for(int(tiles.size()), input.threads, [&](int i) {
@@ -215,7 +215,7 @@ void spread_highlights(const Input& input, const Surfaces& surfaces, const std::
         parallel_for(size, input.threads, [&](int i) {
             const Highlight& h = highlights[std::size_t(begin + i)];
             spreads[std::size_t(i)] =
-                visible_point_spread(surfaces, *input.lens, input.field_at(h.x, h.y), h.x, h.y, h.coc_px);
+                visible_point_spread(surfaces, input.lens(0), input.field_at(h.x, h.y), h.x, h.y, h.coc_px);
         });
         constexpr int kBand = 32;
         parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
@@ -238,7 +238,7 @@ double largest_radius(const Input& input) {
     float largest = 0;
     for (int y = 0; y < input.height(); ++y)
         for (int x = 0; x < input.width(); ++x) largest = std::max(largest, std::abs(input.coc_px(x, y)));
-    for (const CocSample& s : input.deep.samples) largest = std::max(largest, std::abs(s.coc_px));
+    for (const CocSample& s : input.deep.samples()) largest = std::max(largest, std::abs(s.coc_px));
     return largest;
 }
 
@@ -250,21 +250,19 @@ Result<Output> run_reference(const Input& input) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
 
-    SplitInput split = split_highlights(
-        input, HighlightSplit(input.colour, kHighlightFactor, kHighlightFloor, input.threads));
-    Input base = input;
-    base.colour = split.base;
-    base.deep = std::move(split.deep);
+    CocSamples samples = stated_samples(input);
+    const HighlightSplit split(input.colour, kHighlights, input.threads);
+    const std::vector<Highlight> highlights = take_highlights(samples, split, input.threads);
     // A ray may come from as far as the largest radius on either side of focus.
-    const int margin = int(std::ceil(input.lens->reach_px(largest_radius(input)))) + 2;
-    const Surfaces surfaces = Surfaces::make(base, margin);
+    const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
+    const Surfaces surfaces = Surfaces::make(samples, input.open_edges, margin, input.threads);
     const double prepared = seconds();
 
     Output output;
     output.image = Picture(input.width(), input.height());
-    trace_base(base, surfaces, output.image);
+    trace_base(input, surfaces, output.image);
     const double traced = seconds();
-    spread_highlights(input, surfaces, split.highlights, output.image);
+    spread_highlights(input, surfaces, highlights, output.image);
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {{"surfaces", prepared}, {"rays", traced - prepared}, {"highlights", seconds() - traced}};
     return output;

@@ -9,41 +9,46 @@
 namespace petzval::engine {
 namespace {
 
-// Across this share of a switch between levels a source is spread on both, fading from one to the other.
-constexpr float kFade = 0.15f;
-
-// A source before it is put on a level.
-struct Emitter {
-    Rgba light;
-    float coc_px = 0;
-    depth::Slope slope;
-};
-
-// The level whose cells see the radius as at most largest_cells, as a real number: 0 below it, 1 at twice it.
-float level_of(float coc_px, float largest_cells) {
+// Position on the scale of levels: 0 up to largest_cells, 1 at twice that.
+float level_position(float coc_px, const LevelRule& rule) {
     const float r = std::abs(coc_px);
-    return r <= largest_cells ? 0.0f : std::log2(r / largest_cells);
+    return r <= rule.largest_cells ? 0.0f : std::log2(r / rule.largest_cells);
+}
+
+// The share of a source of radius coc_px that is spread on level l. Shares of all levels sum to 1.
+float share_on_level(float coc_px, int l, const LevelRule& rule) {
+    const float at = level_position(coc_px, rule);
+    const auto passed = [&](int level) { return std::clamp((at - float(level)) / rule.fade, 0.0f, 1.0f); };
+    return (l == 0 ? 1.0f : passed(l - 1)) - passed(l);
+}
+
+bool is_emptiness(const CocSample& s) { return s.colour == Rgba{}; }
+
+// The change of weight per pixel away from a source: a facet of a slanted surface is seen larger from one
+// side of the pupil than from the other, by 1 + slope . u with u = offset / radius.
+depth::Slope tilt_of(depth::Slope slope, float coc_px) {
+    constexpr float kLeastRadiusPx = 0.5f;  // narrower discs stay within their pixel
+    if (std::abs(coc_px) < kLeastRadiusPx) return {};
+    return {slope.x / coc_px, slope.y / coc_px};
 }
 
 // Sources of one cell of a coarse level, gathered from its pixels: one per layer.
 class Cell {
 public:
-    void add(const Emitter& e, float share) {
-        const int layer = layer_of(e.coc_px);
+    void add(int layer, Rgba light, float coc_px, depth::Slope tilt) {
         Sum* sum = nullptr;
         for (Sum& s : sums_)
             if (s.layer == layer) sum = &s;
         if (!sum) sum = &sums_.emplace_back(Sum{layer, {}, 0, 0, 0});
-        sum->light += share * e.light;
-        const float weight = share * e.light.a;
-        sum->coc += weight * e.coc_px, sum->slope_x += weight * e.slope.x, sum->slope_y += weight * e.slope.y;
+        sum->light += light;
+        sum->coc += light.a * coc_px, sum->tilt_x += light.a * tilt.x, sum->tilt_y += light.a * tilt.y;
     }
-    void flush(int x, int pixels, std::vector<Source>& row) {
+    void flush(int x, int size, std::vector<Source>& row) {
         for (const Sum& s : sums_) {
             if (s.light.a <= 0) continue;
-            const float per_weight = 1 / s.light.a;
-            row.push_back({s.light * (1 / float(pixels)), s.coc * per_weight, s.slope_x * per_weight,
-                           s.slope_y * per_weight, x, s.layer});
+            const float mean = 1 / s.light.a, cells = 1 / float(size);
+            row.push_back({s.light * (cells * cells), s.coc * mean * cells, s.tilt_x * mean * float(size),
+                           s.tilt_y * mean * float(size), x, s.layer});
         }
         sums_.clear();
     }
@@ -52,72 +57,98 @@ private:
     struct Sum {
         int layer;
         Rgba light;
-        float coc, slope_x, slope_y;
+        float coc, tilt_x, tilt_y;
     };
     std::vector<Sum> sums_;
+};
+
+class Maker {
+public:
+    Maker(const CocSamples& samples, View<const float> coc_px, const OpenEdges& open, const LevelRule& rule,
+          int threads)
+        : samples_(samples),
+          coc_px_(coc_px),
+          open_(open),
+          rule_(rule),
+          connected_(depth::connections(coc_px, threads)) {}
+
+    // Calls emit(layer, light, coc_px, tilt) for each sample of pixel (x, y), clamped to the picture.
+    template <typename Emit>
+    void at(int x, int y, int level, const Emit& emit) const {
+        const int width = coc_px_.width(), height = coc_px_.height();
+        const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
+        // Beyond a closed edge there is emptiness, beyond an open one the outermost pixels are repeated.
+        const bool outside = (u != x && !(x < 0 ? open_.left : open_.right)) ||
+                             (v != y && !(y < 0 ? open_.top : open_.bottom));
+        for (const CocSample& s : samples_.at(u, v)) {
+            const float share = share_on_level(s.coc_px, level, rule_);
+            if (share <= 0) continue;
+            if (outside || is_emptiness(s)) {
+                emit(kEmptyLayer, Rgba{0, 0, 0, share}, s.coc_px, depth::Slope{});
+                if (outside) break;
+                continue;
+            }
+            // Only what is seen has a known slope.
+            const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
+            const depth::Slope slope = visible ? depth::slope_at(coc_px_, connected_, u, v) : depth::Slope{};
+            emit(layer_of(s.coc_px), share * s.colour, s.coc_px, tilt_of(slope, s.coc_px));
+        }
+    }
+
+private:
+    CocSamplesView samples_;
+    View<const float> coc_px_;
+    OpenEdges open_;
+    LevelRule rule_;
+    Image<unsigned char> connected_;
 };
 
 }  // namespace
 
 int layer_of(float coc_px) {
-    constexpr float kLinearPx = 8, kPerOctave = 6;
+    constexpr float kLinearPx = 8, kPerOctave = 8;
     const float r = std::abs(coc_px);
     const int step =
         r < kLinearPx ? int(r + 0.5f) : int(kLinearPx + kPerOctave * std::log2(r / kLinearPx) + 0.5f);
     return coc_px < 0 ? -step : step;
 }
 
-SourceGrid SourceGrid::make(const Input& input, float largest_cells) {
-    const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
-    float largest = 0;
-    for (int y = 0; y < input.height(); ++y)
-        for (int x = 0; x < input.width(); ++x) largest = std::max(largest, std::abs(input.coc_px(x, y)));
-    for (const CocSample& s : input.deep.samples) largest = std::max(largest, std::abs(s.coc_px));
+float LevelRule::largest_radius() const { return largest_cells * std::exp2(fade); }
 
-    SourceGrid grid;
-    const int levels = 1 + int(std::ceil(level_of(largest, largest_cells)));
-    for (int l = 0; l < levels; ++l) {
+std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
+                                      const OpenEdges& open, const LevelRule& rule, int threads) {
+    float largest = 0;
+    for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
+    const Maker maker(samples, coc_px, open, rule, threads);
+    std::vector<SourceLevel> levels(1 + std::size_t(std::ceil(level_position(largest, rule))));
+    for (int l = 0; l < int(levels.size()); ++l) {
+        SourceLevel& level = levels[std::size_t(l)];
         const int size = 1 << l;
-        const int margin = int(std::ceil(largest_cells * (1 + kFade))) + 2;
-        const OpenEdges& open = input.open_edges;
-        Level level;
-        level.area = {open.left ? -margin : 0, open.top ? -margin : 0,
-                      (input.width() + size - 1) / size + (open.right ? margin : 0),
-                      (input.height() + size - 1) / size + (open.bottom ? margin : 0)};
+        const int margin = int(std::ceil(rule.largest_radius())) + 3;
+        level.area =
+            Rect{0, 0, (coc_px.width() + size - 1) / size, (coc_px.height() + size - 1) / size}.grown(margin);
         level.rows.resize(std::size_t(level.area.height()));
-        parallel_for(level.area.height(), input.threads, [&](int i) {
+        parallel_for(level.area.height(), threads, [&](int i) {
             std::vector<Source>& row = level.rows[std::size_t(i)];
             const int cy = level.area.y0 + i;
             Cell cell;
             for (int cx = level.area.x0; cx < level.area.x1; ++cx) {
+                if (l == 0) {
+                    maker.at(cx, cy, 0, [&](int layer, Rgba light, float coc, depth::Slope tilt) {
+                        row.push_back({light, coc, tilt.x, tilt.y, cx, layer});
+                    });
+                    continue;
+                }
                 for (int y = cy * size; y < (cy + 1) * size; ++y)
-                    for (int x = cx * size; x < (cx + 1) * size; ++x) {
-                        // Beyond an open edge the outermost pixels are repeated.
-                        const int u = std::clamp(x, 0, input.width() - 1),
-                                  v = std::clamp(y, 0, input.height() - 1);
-                        if ((u != x && !(x < 0 ? open.left : open.right)) ||
-                            (v != y && !(y < 0 ? open.top : open.bottom)))
-                            continue;
-                        const depth::Slope slope = depth::slope_at(input.coc_px, connected, u, v);
-                        for (const CocSample& sample :
-                             input.deep.at(std::size_t(v) * std::size_t(input.width()) + std::size_t(u))) {
-                            // Only what is seen has a known slope.
-                            const bool visible = std::abs(sample.coc_px - input.coc_px(u, v)) < 0.01f;
-                            const Emitter e{sample.colour, sample.coc_px, visible ? slope : depth::Slope{}};
-                            // Level n takes what lies in (n - 1, n], and fades into n + 1 at its upper end.
-                            const float at = level_of(e.coc_px, largest_cells);
-                            const float below = std::clamp((at - float(l - 1)) / kFade, 0.0f, 1.0f);
-                            const float above = std::clamp((at - float(l)) / kFade, 0.0f, 1.0f);
-                            const float share = (l == 0 ? 1.0f : below) - above;
-                            if (share > 0) cell.add(e, share);
-                        }
-                    }
-                cell.flush(cx, size * size, row);
+                    for (int x = cx * size; x < (cx + 1) * size; ++x)
+                        maker.at(x, y, l, [&](int layer, Rgba light, float coc, depth::Slope tilt) {
+                            cell.add(layer, light, coc, tilt);
+                        });
+                cell.flush(cx, size, row);
             }
         });
-        grid.levels_.push_back(std::move(level));
     }
-    return grid;
+    return levels;
 }
 
 }  // namespace petzval::engine

@@ -22,36 +22,28 @@ Facet facet_of(Rgba colour, float coc_px) {
 
 }  // namespace
 
-Surfaces Surfaces::make(const Input& input, int margin) {
+Surfaces Surfaces::make(const CocSamples& samples, const OpenEdges& open, int margin, int threads) {
     Surfaces surfaces;
-    const OpenEdges& open = input.open_edges;
     surfaces.area_ = {open.left ? -margin : 0, open.top ? -margin : 0,
-                      input.width() + (open.right ? margin : 0), input.height() + (open.bottom ? margin : 0)};
-    surfaces.gather(input);
-    surfaces.connect(input.threads);
+                      samples.width + (open.right ? margin : 0),
+                      samples.height() + (open.bottom ? margin : 0)};
+    surfaces.gather(samples);
+    surfaces.connect(threads);
     surfaces.bound();
     return surfaces;
 }
 
-void Surfaces::gather(const Input& input) {
-    const std::size_t pixels = std::size_t(area_.width()) * std::size_t(area_.height());
-    first_.reserve(pixels + 1);
-    facets_.reserve(pixels + input.deep.samples.size());
-    for (int y = area_.y0; y < area_.y1; ++y) {
-        const int v = std::clamp(y, 0, input.height() - 1);
+void Surfaces::gather(const CocSamples& samples) {
+    const CocSamplesView view = samples;
+    first_.reserve(std::size_t(area_.width()) * std::size_t(area_.height()) + 1);
+    facets_.reserve(samples.samples.size());
+    for (int y = area_.y0; y < area_.y1; ++y)
         for (int x = area_.x0; x < area_.x1; ++x) {
-            const int u = std::clamp(x, 0, input.width() - 1);
             first_.push_back(std::uint32_t(facets_.size()));
-            if (input.deep.empty()) {
-                if (const Rgba c = input.colour(u, v); c.a > kLeastCoverage)
-                    facets_.push_back(facet_of(c, input.coc_px(u, v)));
-                continue;
-            }
             for (const CocSample& s :
-                 input.deep.at(std::size_t(v) * std::size_t(input.width()) + std::size_t(u)))
+                 view.at(std::clamp(x, 0, samples.width - 1), std::clamp(y, 0, samples.height() - 1)))
                 if (s.colour.a > kLeastCoverage) facets_.push_back(facet_of(s.colour, s.coc_px));
         }
-    }
     first_.push_back(std::uint32_t(facets_.size()));
 }
 

@@ -29,7 +29,7 @@ public:
         float min = 1e30f, max = -1e30f;
     };
 
-    static Surfaces make(const Input& input, int margin);
+    static Surfaces make(const CocSamples& samples, const OpenEdges& open, int margin, int threads);
 
     // The area covered, in picture coordinates: the picture grown by the margin.
     Rect area() const { return area_; }
@@ -52,7 +52,7 @@ private:
         return std::size_t(y - area_.y0) * std::size_t(area_.width()) + std::size_t(x - area_.x0);
     }
     std::size_t count(int x, int y) const { return first_[pixel(x, y) + 1] - first_[pixel(x, y)]; }
-    void gather(const Input& input);
+    void gather(const CocSamples& samples);
     void connect(int threads);
     void connect_around_corner(int x, int y);
     void bound();

@@ -1,0 +1,194 @@
+#include "engine/highlight_spread.h"
+
+#include "base/parallel.h"
+#include "kernel/bank.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace petzval::engine {
+namespace {
+
+using kernel::PointSpread;
+
+// What is nearer by less than this cannot be told from the highlight's own surface.
+constexpr float kOwnSurfacePx = 0.75f;
+constexpr int kBlock = 16;
+constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
+
+// Smallest radius of any sample in each block of pixels.
+class NearestBlocks {
+public:
+    NearestBlocks(const CocSamples& samples, int threads)
+        : nearest_((samples.width + kBlock - 1) / kBlock, (samples.height() + kBlock - 1) / kBlock, 1e30f) {
+        const CocSamplesView view = samples;
+        parallel_for(nearest_.height(), threads, [&](int by) {
+            for (int y = by * kBlock; y < std::min((by + 1) * kBlock, samples.height()); ++y)
+                for (int x = 0; x < samples.width; ++x)
+                    for (const CocSample& s : view.at(x, y))
+                        if (s.colour.a > 0)
+                            nearest_(x / kBlock, by) = std::min(nearest_(x / kBlock, by), s.coc_px);
+        });
+        for (std::size_t i = 0; i < nearest_.size(); ++i) overall_ = std::min(overall_, nearest_.pixels()[i]);
+    }
+    float overall() const { return overall_; }
+    const Plane& blocks() const { return nearest_; }
+
+private:
+    Plane nearest_;
+    float overall_ = 1e30f;
+};
+
+// The share of the pupil that nearer samples cover, on a grid over [-1, 1]^2.
+class PupilShadow {
+public:
+    explicit PupilShadow(int cells) : cells_(cells), covered_(cells, cells) {}
+
+    // A square of the given side around (u, v), in pupil radii.
+    void cover(float u, float v, float side, float coverage) {
+        const float scale = 0.5f * float(cells_);
+        const float x0 = (u - 0.5f * side + 1) * scale, x1 = (u + 0.5f * side + 1) * scale;
+        const float y0 = (v - 0.5f * side + 1) * scale, y1 = (v + 0.5f * side + 1) * scale;
+        const int left = std::max(0, int(std::floor(x0))), right = std::min(cells_, int(std::ceil(x1)));
+        const int top = std::max(0, int(std::floor(y0))), bottom = std::min(cells_, int(std::ceil(y1)));
+        for (int y = top; y < bottom; ++y) {
+            const float tall = std::min(y1, float(y + 1)) - std::max(y0, float(y));
+            for (int x = left; x < right; ++x) {
+                const float wide = std::min(x1, float(x + 1)) - std::max(x0, float(x));
+                covered_(x, y) += coverage * tall * wide;
+            }
+        }
+    }
+    float visible(int x, int y) const { return 1 - std::min(1.0f, covered_(x, y)); }
+    int cells() const { return cells_; }
+
+private:
+    int cells_;
+    Plane covered_;
+};
+
+class Spreader {
+public:
+    Spreader(const Input& input, const CocSamples& samples)
+        : input_(input),
+          samples_(samples),
+          blocks_(samples, input.threads),
+          stretch_(float(std::max(1.0, input.lens(0).reach_px(1)))),
+          bank_(input.lens(0), {.columns = 32,
+                                .rows = 18,
+                                .aspect = double(input.width()) / input.frame_height,
+                                .relative_step = 0.005,
+                                .least_step_px = 0.0625,
+                                .max_bytes = std::size_t(256) << 20}) {}
+
+    std::shared_ptr<const PointSpread> kernel(const Highlight& h) const {
+        auto open = bank_.kernel(double(h.coc_px), input_.field_at(h.x, h.y));
+        if (blocks_.overall() >= h.coc_px - kOwnSurfacePx) return open;
+        // As fine as the taps where they are many, finer than they are where they are few.
+        PupilShadow shadow(std::max(16, 2 * int(std::ceil(std::abs(h.coc_px)))));
+        if (!collect(h, shadow)) return open;
+        return std::make_shared<const PointSpread>(dimmed(*open, h, shadow));
+    }
+
+private:
+    bool collect(const Highlight& h, PupilShadow& shadow) const {
+        bool any = false;
+        for (int by = 0; by < blocks_.blocks().height(); ++by)
+            for (int bx = 0; bx < blocks_.blocks().width(); ++bx) {
+                const float c = blocks_.blocks()(bx, by);
+                if (c >= h.coc_px - kOwnSurfacePx) continue;
+                const float reach = (h.coc_px - c) * stretch_ + 1;
+                const int dx = std::max({bx * kBlock - h.x, h.x - (bx + 1) * kBlock + 1, 0});
+                const int dy = std::max({by * kBlock - h.y, h.y - (by + 1) * kBlock + 1, 0});
+                if (float(dx * dx + dy * dy) <= reach * reach) any = collect_block(h, bx, by, shadow) || any;
+            }
+        return any;
+    }
+
+    bool collect_block(const Highlight& h, int bx, int by, PupilShadow& shadow) const {
+        bool any = false;
+        const Rect r = Rect{bx * kBlock, by * kBlock, (bx + 1) * kBlock, (by + 1) * kBlock}.intersected(
+            {0, 0, samples_.width, samples_.height()});
+        const CocSamplesView view = samples_;
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x)
+                for (const CocSample& s : view.at(x, y)) {
+                    const float apart = h.coc_px - s.coc_px;
+                    if (apart < kOwnSurfacePx) break;  // nearest first
+                    const float per_px = 1 / apart;
+                    const float u = float(x - h.x) * per_px, v = float(y - h.y) * per_px;
+                    if (u * u + v * v > (1 + per_px) * (1 + per_px) * stretch_ * stretch_) continue;
+                    shadow.cover(u, v, per_px, s.colour.a);
+                    any = true;
+                }
+        return any;
+    }
+
+    // Pupil cells are counted where they land; taps that none reaches take the mean.
+    static PointSpread dimmed(const PointSpread& open, const Highlight& h, const PupilShadow& shadow) {
+        const Rect e = open.extent;
+        Plane seen(e.width(), e.height()), all(e.width(), e.height());
+        float seen_total = 0, all_total = 0;
+        const float per_cell = 2 / float(shadow.cells());
+        for (int y = 0; y < shadow.cells(); ++y)
+            for (int x = 0; x < shadow.cells(); ++x) {
+                const float u = (float(x) + 0.5f) * per_cell - 1, v = (float(y) + 0.5f) * per_cell - 1;
+                if (u * u + v * v > 1) continue;
+                const float visible = shadow.visible(x, y);
+                seen_total += visible, all_total += 1;
+                const int tx = int(std::floor(h.coc_px * u + 0.5f)) - e.x0,
+                          ty = int(std::floor(h.coc_px * v + 0.5f)) - e.y0;
+                if (!all.rect().contains(tx, ty)) continue;
+                seen(tx, ty) += visible, all(tx, ty) += 1;
+            }
+        PointSpread result{e, open.weights.clone(), open.neutral};
+        for (int y = 0; y < e.height(); ++y)
+            for (int x = 0; x < e.width(); ++x)
+                result.weights(x, y) *= all(x, y) > 0 ? seen(x, y) / all(x, y) : seen_total / all_total;
+        return result;
+    }
+
+    const Input& input_;
+    const CocSamples& samples_;
+    NearestBlocks blocks_;
+    float stretch_;
+    kernel::KernelBank bank_;
+};
+
+void add(const PointSpread& spread, const Highlight& h, const Rect& rows, View<Rgba> out) {
+    const Rect e = spread.extent;
+    const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
+    for (int y = place.y0; y < place.y1; ++y) {
+        const Rgba* weights = spread.weights.row(y - h.y - e.y0) - h.x - e.x0;
+        Rgba* sums = out.row(y);
+        for (int x = place.x0; x < place.x1; ++x) sums[x] += weights[x] * h.colour;
+    }
+}
+
+}  // namespace
+
+void spread_highlights(const Input& input, const CocSamples& samples,
+                       const std::vector<Highlight>& highlights, View<Rgba> out) {
+    if (highlights.empty()) return;
+    const Spreader spreader(input, samples);
+    // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
+    // threads.
+    for (std::size_t begin = 0; begin < highlights.size() && !input.progress->cancelled();) {
+        std::size_t end = begin;
+        for (std::size_t bytes = 0; end < highlights.size() && bytes < kBatchBytes; ++end)
+            bytes += std::size_t(4 * highlights[end].coc_px * highlights[end].coc_px + 9) * sizeof(Rgba);
+        std::vector<std::shared_ptr<const PointSpread>> kernels(end - begin);
+        parallel_for(int(kernels.size()), input.threads, [&](int i) {
+            kernels[std::size_t(i)] = spreader.kernel(highlights[begin + std::size_t(i)]);
+        });
+        constexpr int kBand = 32;
+        parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
+            const Rect rows = Rect{0, band * kBand, out.width(), (band + 1) * kBand}.intersected(out.rect());
+            for (std::size_t i = begin; i < end; ++i) add(*kernels[i - begin], highlights[i], rows, out);
+        });
+        begin = end;
+    }
+}
+
+}  // namespace petzval::engine

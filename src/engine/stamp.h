@@ -1,0 +1,69 @@
+// The inner loops of spreading, for the instructions of this machine: kernels added to accumulators, layers
+// enlarged and composited. Chosen at run time; stamp_simd.cpp is compiled once per instruction set, scalar
+// included.
+#pragma once
+
+#include "petzval/image.h"
+
+#include "kernel/lens_model.h"
+
+#include <cstddef>
+#include <memory>
+
+namespace petzval::engine {
+
+// A kernel laid out for stamping: rows of RGBA weights, padded with zeros to whole groups of kGroup pixels.
+class StampKernel {
+public:
+    static constexpr int kGroup = 4;
+    StampKernel() = default;
+    explicit StampKernel(const kernel::PointSpread& spread);
+
+    Rect extent() const { return extent_; }  // offsets that hold weights
+    int groups() const { return groups_; }   // per row
+    // First and past-the-last group of a row (counted from the top) that holds any weight.
+    int first_group(int row) const { return spans_[row * 2]; }
+    int last_group(int row) const { return spans_[row * 2 + 1]; }
+    const float* row(int row) const { return &weights_.row(row)->r; }
+    std::size_t bytes() const { return weights_.bytes(); }
+
+private:
+    Rect extent_;
+    int groups_ = 0;
+    Picture weights_;
+    std::unique_ptr<short[]> spans_;
+};
+
+// Accumulated light over an area of cells, with room on either side of every row for whole groups to spill
+// into.
+class Accumulator {
+public:
+    static constexpr int kSpill = StampKernel::kGroup;
+    // Zeroes the area. Keeps its memory when it has been larger.
+    void reset(const Rect& area);
+    const Rect& area() const { return area_; }
+    Rgba* row(int y) { return pixels_.row(y - area_.y0) + kSpill; }
+    const Rgba* row(int y) const { return pixels_.row(y - area_.y0) + kSpill; }
+
+private:
+    Rect area_;
+    Picture pixels_;
+};
+
+// light x kernel, its centre at (x, y), each weight times max(0, 1 + tilt . offset); clipped to the
+// accumulator.
+void stamp(const StampKernel& kernel, int x, int y, Rgba light, float tilt_x, float tilt_y,
+           Accumulator& into);
+
+// Adds `coarse`, whose cells are 2^level pixels wide, to `fine`: Catmull-Rom, negative lobes cut off.
+// Requires: coarse covers the cells of fine's area and two more on every side.
+void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine);
+
+// The lens-area budget, pixel by pixel: a layer takes the lens area it arrives with (its a), or what is left
+// in `free` if that is less; its light comes in proportion. n pixels.
+void take_budget(const Rgba* layer, Rgba* sum, float* free, int n);
+
+// "AVX3", "AVX2", "SSE4", "SCALAR", …: what the loops above run on here.
+const char* instruction_set();
+
+}  // namespace petzval::engine

@@ -1,0 +1,50 @@
+#include "engine/stamp_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kStepsPerCell = 16;
+constexpr int kPartsX = 9, kPartsY = 6;
+
+}  // namespace
+
+StampTable::StampTable(const Input& input, int levels, float largest_radius)
+    : input_(input), steps_(int(std::ceil(largest_radius * kStepsPerCell)) + 2) {
+    if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
+    for (int l = 0; l < levels; ++l)
+        reach_.push_back(int(std::ceil(input.lens(l).reach_px(double(largest_radius)) + 0.5)));
+    kernels_ =
+        std::vector<std::atomic<const StampKernel*>>(std::size_t(levels * parts_x_ * parts_y_ * 2 * steps_));
+}
+
+StampTable::~StampTable() {
+    for (auto& kernel : kernels_) delete kernel.load();
+}
+
+int StampTable::part_of(double x, double y) const {
+    const int px = std::clamp(int((x + 0.5) / input_.width() * parts_x_), 0, parts_x_ - 1);
+    const int py = std::clamp(int((y + 0.5) / input_.frame_height * parts_y_), 0, parts_y_ - 1);
+    return py * parts_x_ + px;
+}
+
+const StampKernel& StampTable::at(int level, int part, float radius) const {
+    const int step = std::min(int(std::abs(radius) * kStepsPerCell + 0.5f), steps_ - 1);
+    const int side = radius < 0 ? 0 : 1;
+    std::atomic<const StampKernel*>& slot =
+        kernels_[std::size_t(((level * parts_x_ * parts_y_ + part) * 2 + side) * steps_ + step)];
+    if (const StampKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
+
+    const double middle_x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double middle_y = (part / parts_x_ + 0.5) * input_.frame_height / parts_y_ - 0.5 - input_.first_row;
+    const double signed_radius = (side ? 1 : -1) * double(step) / double(kStepsPerCell);
+    auto made = std::make_unique<const StampKernel>(
+        input_.lens(level).point_spread(signed_radius, input_.field_at(middle_x, middle_y)));
+    const StampKernel* expected = nullptr;
+    if (slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *expected;  // another thread was first, with the same kernel
+}
+
+}  // namespace petzval::engine

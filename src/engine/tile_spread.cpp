@@ -1,0 +1,111 @@
+#include "engine/tile_spread.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kBorder = 2;  // cells around a tile that enlarging reads
+
+// A source that reaches the tile.
+struct Arrival {
+    const Source* source;
+    int y;
+    int level;
+};
+
+// Memory one thread keeps from tile to tile.
+struct Workspace {
+    std::vector<Arrival> arrivals;
+    Accumulator fine, coarse;
+    Picture sum;
+    Plane free, empty;
+};
+
+Rect cells_of(const Rect& tile, int level) {
+    if (level == 0) return tile;
+    return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
+                ((tile.y1 - 1) >> level) + 1}
+        .grown(kBorder);
+}
+
+void find_arrivals(const std::vector<SourceLevel>& levels, const StampTable& table, const Rect& tile,
+                   std::vector<Arrival>& arrivals) {
+    arrivals.clear();
+    for (int l = 0; l < int(levels.size()); ++l) {
+        const Rect reached = cells_of(tile, l).grown(table.reach(l));
+        for (int y = reached.y0; y < reached.y1; ++y) {
+            const std::span<const Source> row = levels[std::size_t(l)].row(y);
+            const auto before = [](const Source& s, int x) { return s.x < x; };
+            auto source = std::lower_bound(row.begin(), row.end(), reached.x0, before);
+            for (; source != row.end() && source->x < reached.x1; ++source)
+                arrivals.push_back({&*source, y, l});
+        }
+    }
+    // By layer, then level; within both in the order found, so that sums are always taken in the same order.
+    std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+        return a.source->layer != b.source->layer ? a.source->layer < b.source->layer : a.level < b.level;
+    });
+}
+
+// Stamps arrivals [begin, end), all of one layer, into w.fine.
+void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, std::size_t end,
+                      const StampTable& table, int part, const Rect& tile, Workspace& w) {
+    w.fine.reset(tile);
+    while (begin < end) {
+        const int level = arrivals[begin].level;
+        Accumulator& target = level == 0 ? w.fine : w.coarse;
+        if (level > 0) target.reset(cells_of(tile, level));
+        for (; begin < end && arrivals[begin].level == level; ++begin) {
+            const Source& s = *arrivals[begin].source;
+            stamp(table.at(level, part, s.radius), s.x, arrivals[begin].y, s.light, s.tilt_x, s.tilt_y,
+                  target);
+        }
+        if (level > 0) add_enlarged(w.coarse, level, w.fine);
+    }
+}
+
+// Emptiness takes what is left of the lens, and nothing arrives from there.
+void take_emptiness(const Workspace& w, int y, float* free, float* empty, int n) {
+    const Rgba* arriving = w.fine.row(y);
+    for (int i = 0; i < n; ++i) {
+        empty[i] = std::min(arriving[i].a, free[i]);
+        free[i] -= empty[i];
+    }
+}
+
+}  // namespace
+
+void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, const Rect& tile,
+                 View<Rgba> out) {
+    thread_local Workspace w;
+    const int width = tile.width(), height = tile.height();
+    w.sum = Picture(width, height);
+    w.free = Plane(width, height, 1.0f);
+    w.empty = Plane(width, height, 0.0f);
+    const int part = table.part_of(0.5 * (tile.x0 + tile.x1 - 1), 0.5 * (tile.y0 + tile.y1 - 1));
+    find_arrivals(levels, table, tile, w.arrivals);
+    for (std::size_t begin = 0; begin < w.arrivals.size();) {
+        const int layer = w.arrivals[begin].source->layer;
+        std::size_t end = begin;
+        while (end < w.arrivals.size() && w.arrivals[end].source->layer == layer) ++end;
+        accumulate_layer(w.arrivals, begin, end, table, part, tile, w);
+        for (int y = 0; y < height; ++y) {
+            if (layer == kEmptyLayer)
+                take_emptiness(w, tile.y0 + y, w.free.row(y), w.empty.row(y), width);
+            else
+                take_budget(w.fine.row(tile.y0 + y), w.sum.row(y), w.free.row(y), width);
+        }
+        begin = end;
+    }
+    // Discrete sources leave a little of the lens free; it goes to those that did arrive.
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Rgba sum = w.sum(x, y);
+            const float taken = sum.a + w.empty(x, y);
+            out(tile.x0 + x, tile.y0 + y) = taken > 0 ? sum * (1 / taken) : Rgba{};
+        }
+}
+
+}  // namespace petzval::engine

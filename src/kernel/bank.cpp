@@ -1,0 +1,128 @@
+#include "kernel/bank.h"
+
+#include "base/check.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::kernel {
+namespace {
+
+std::uint64_t key_of(int step, int cell) {
+    return (std::uint64_t(std::uint32_t(step)) << 32) | std::uint32_t(cell);
+}
+
+}  // namespace
+
+KernelBank::KernelBank(const LensModel& lens, const BankOptions& options) : lens_(lens), options_(options) {
+    PETZVAL_CHECK(options.columns > 0 && options.rows > 0 && options.aspect > 0);
+    PETZVAL_CHECK(options.relative_step > 0 && options.least_step_px > 0);
+    if (!lens.varies_over_field()) options_.columns = options_.rows = 1;
+    // Even steps until the next would be narrower than the relative one.
+    linear_steps_ = std::max(1, int(std::floor(1 / options.relative_step)));
+    linear_end_px_ = linear_steps_ * options.least_step_px;
+    half_height_ = 1 / std::hypot(1.0, options.aspect);
+    half_width_ = options.aspect * half_height_;
+}
+
+int KernelBank::step_of(double coc_radius_px) const {
+    const double radius = std::abs(coc_radius_px);
+    const double step = radius <= linear_end_px_ ? radius / options_.least_step_px
+                                                 : linear_steps_ + std::log(radius / linear_end_px_) /
+                                                                       std::log1p(options_.relative_step);
+    return int(std::lround(std::copysign(step, coc_radius_px)));
+}
+
+double KernelBank::radius_of(int step) const {
+    const int count = std::abs(step);
+    const double radius = count <= linear_steps_
+                              ? count * options_.least_step_px
+                              : linear_end_px_ * std::pow(1 + options_.relative_step, count - linear_steps_);
+    return std::copysign(radius, double(step));
+}
+
+int KernelBank::cell_of(FieldPosition field) const {
+    const auto index = [](double at, int count) {
+        return std::clamp(int(std::floor(at * count)), 0, count - 1);
+    };
+    const int column = index(0.5 + 0.5 * field.x / half_width_, options_.columns);
+    const int row = index(0.5 + 0.5 * field.y / half_height_, options_.rows);
+    return row * options_.columns + column;
+}
+
+FieldPosition KernelBank::middle_of(int cell) const {
+    const int column = cell % options_.columns, row = cell / options_.columns;
+    // Exactly 0 in the middle cell, whose kernel may be simpler.
+    return {half_width_ * (2 * column + 1 - options_.columns) / options_.columns,
+            half_height_ * (2 * row + 1 - options_.rows) / options_.rows};
+}
+
+std::shared_ptr<const PointSpread> KernelBank::kernel(double coc_radius_px, FieldPosition field) const {
+    return kernel_of(step_of(coc_radius_px), cell_of(field));
+}
+
+std::shared_ptr<const PointSpread> KernelBank::kernel_of(int step, int cell) const {
+    const std::uint64_t key = key_of(step, cell);
+    std::shared_ptr<Slot> slot;
+    {
+        const std::lock_guard lock(mutex_);
+        std::shared_ptr<Slot>& found = slots_[key];
+        if (!found) {
+            found = std::make_shared<Slot>();
+            found->place = recent_.insert(recent_.begin(), key);
+        }
+        slot = found;
+        recent_.splice(recent_.begin(), recent_, slot->place);
+    }
+    const std::lock_guard making(slot->making);
+    if (!slot->kernel) {
+        slot->kernel =
+            std::make_shared<const PointSpread>(lens_.point_spread(radius_of(step), middle_of(cell)));
+        keep(slot);
+    }
+    return slot->kernel;
+}
+
+// Counts a new kernel and drops the ones that were not asked for longest. A slot that is being made is not
+// counted yet and stays.
+void KernelBank::keep(const std::shared_ptr<Slot>& slot) const {
+    const std::lock_guard lock(mutex_);
+    slot->bytes = slot->kernel->weights.bytes() + sizeof(Slot) + sizeof(PointSpread);
+    bytes_ += slot->bytes;
+    for (auto last = recent_.end(); bytes_ > options_.max_bytes && last != recent_.begin();) {
+        --last;
+        const auto old = slots_.find(*last);
+        if (old->second == slot || old->second->bytes == 0) continue;
+        bytes_ -= old->second->bytes;
+        slots_.erase(old);
+        last = recent_.erase(last);
+    }
+}
+
+void KernelBank::prepare(double least_coc_px, double largest_coc_px, int threads) const {
+    const int first = step_of(least_coc_px), last = step_of(largest_coc_px);
+    const int cells = options_.columns * options_.rows;
+    // Large kernels first: they take longest.
+    parallel_for((last - first + 1) * cells, threads, [&](int i) {
+        const int k = i / cells;
+        const int step = k % 2 == 0 ? first + k / 2 : last - k / 2;
+        {
+            const std::lock_guard lock(mutex_);
+            if (bytes_ > options_.max_bytes * 9 / 10) return;
+        }
+        kernel_of(step, i % cells);
+    });
+}
+
+std::size_t KernelBank::kernels_held() const {
+    const std::lock_guard lock(mutex_);
+    return slots_.size();
+}
+
+std::size_t KernelBank::bytes_held() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+}
+
+}  // namespace petzval::kernel

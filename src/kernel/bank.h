@@ -1,0 +1,71 @@
+// A bank of kernels: an engine asks for the kernel of a defocus at a place, and the work is done once.
+//
+// Signed radii are rounded to steps of `least_step_px` near focus and of `relative_step` beyond, places to
+// the middle of their image cell. What a key holds depends on the key alone, so the bits are the same for any
+// thread count and order of asking, also when a kernel was dropped for memory and is made again.
+#pragma once
+
+#include "kernel/lens_model.h"
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+namespace petzval::kernel {
+
+struct BankOptions {
+    int columns = 9, rows = 6;    // image cells; one cell for lenses that do not vary over the field
+    double aspect = 16.0 / 9;     // width / height of the picture, to find cells from field positions; > 0
+    double relative_step = 0.03;  // > 0
+    double least_step_px = 0.25;  // > 0
+    std::size_t max_bytes = std::size_t(512) << 20;  // kernels kept; the least recently used go first
+};
+
+class KernelBank {
+public:
+    // `lens` outlives the bank.
+    explicit KernelBank(const LensModel& lens, const BankOptions& options = {});
+
+    // Thread-safe. Of two threads that ask for the same new kernel one makes it and the other waits for it.
+    // The kernel stays alive as long as the caller holds it.
+    std::shared_ptr<const PointSpread> kernel(double coc_radius_px, FieldPosition field) const;
+
+    // Makes all kernels between two signed radii, for every cell, as far as the memory limit allows.
+    // threads 0: all that may be used.
+    void prepare(double least_coc_px, double largest_coc_px, int threads = 0) const;
+
+    double rounded_radius_px(double coc_radius_px) const { return radius_of(step_of(coc_radius_px)); }
+    FieldPosition cell_middle(FieldPosition field) const { return middle_of(cell_of(field)); }
+    std::size_t kernels_held() const;
+    std::size_t bytes_held() const;
+
+private:
+    struct Slot {
+        std::mutex making;
+        std::shared_ptr<const PointSpread> kernel;
+        std::list<std::uint64_t>::iterator place;
+        std::size_t bytes = 0;  // 0: being made
+    };
+
+    int step_of(double coc_radius_px) const;
+    double radius_of(int step) const;
+    int cell_of(FieldPosition field) const;
+    FieldPosition middle_of(int cell) const;
+    std::shared_ptr<const PointSpread> kernel_of(int step, int cell) const;
+    void keep(const std::shared_ptr<Slot>& slot) const;
+
+    const LensModel& lens_;
+    BankOptions options_;
+    int linear_steps_;  // steps of even width on either side of focus; beyond, each is `relative_step` wider
+    double linear_end_px_;
+    double half_width_, half_height_;  // of the picture, in half diagonals
+
+    mutable std::mutex mutex_;  // of all below
+    mutable std::unordered_map<std::uint64_t, std::shared_ptr<Slot>> slots_;
+    mutable std::list<std::uint64_t> recent_;  // keys, most recently used first
+    mutable std::size_t bytes_ = 0;
+};
+
+}  // namespace petzval::kernel
