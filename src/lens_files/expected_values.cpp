@@ -16,6 +16,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFloor = 1e-12;
+// Share of a value that counts as its digits' doubt where no recomputation states a difference: the source's
+// own indices and rounded radii are not known to more.
+constexpr double kUnstated = 2e-6;
 
 // What every quantity may ask of the lens.
 struct Subject {
@@ -132,29 +135,26 @@ ExpectedCheck& Checker::add(const std::string& part, double published, double ou
 double Checker::allowed(const Json& number) const {
     if (const Json* tolerance = entry_->find("tolerance")) return std::abs(tolerance->number);
     const Json* difference = entry_->find("difference");
-    return (difference ? std::abs(difference->number) : 0) + half_last_digit(number.string);
+    if (!difference) return half_last_digit(number.string) + kUnstated * std::abs(number.number);
+    // The difference itself is rounded to three digits.
+    return 1.005 * std::abs(difference->number) + half_last_digit(number.string);
 }
 
-// allowed_each 0: half a unit of the finest digit in the list.
+// allowed_each 0: as for single numbers.
 Status Checker::list(const Json& value, const std::vector<double>& ours, double allowed_each) {
     if (!value.is(Json::Type::Array) || value.items.size() != ours.size()) return wrong_form(value);
-    double finest = 1;
-    for (const Json& item : value.items) finest = std::min(finest, half_last_digit(item.string));
     for (std::size_t i = 0; i < ours.size(); ++i)
         add(quantity_ + ", " + std::to_string(i + 1), value.items[i].number, ours[i],
-            allowed_each > 0 ? allowed_each : finest);
+            allowed_each > 0 ? allowed_each : allowed(value.items[i]));
     return Done{};
 }
 
 Status Checker::members(const Json& value, const std::map<std::string, double>& ours) {
     if (!value.is(Json::Type::Object)) return wrong_form(value);
-    double finest = 1;
-    for (const auto& [name, number] : value.members)
-        finest = std::min(finest, half_last_digit(number.string));
     for (const auto& [name, number] : value.members) {
         const auto found = ours.find(name);
         if (found == ours.end()) return wrong_form(number);
-        add(name, number.number, found->second, finest);
+        add(name, number.number, found->second, allowed(number));
     }
     return Done{};
 }
@@ -249,7 +249,8 @@ Status Checker::rays(const Json& value) {
 // The share of the pupil's radius that rims cut from above (sign +1) or below (-1) at a field, rays unaimed.
 // The stop's own rim counts, as vignetting factors describe the whole beam.
 double vignetted_share(const Subject& s, double field_deg, double sign) {
-    const auto at = optics::at_wavelength(s.lens, s.lens.primary_um);
+    auto at = optics::at_wavelength(s.lens, s.lens.primary_um);
+    at.stop = -1;
     const auto passes = [&](double py) {
         const auto end =
             optics::trace(at, optics::paraxial_pupil_ray(s.lens, s.first, field_deg, 0, sign * py));

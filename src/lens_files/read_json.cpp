@@ -349,7 +349,9 @@ Result<LensFile> Reader::read(const Json& root) {
 Result<LensFile> read_json_lens(const std::string& text) {
     const auto root = parse_json(text);
     if (!root) return root.error();
-    return Reader().read(*root);
+    return read_json_lens(*root);
 }
+
+Result<LensFile> read_json_lens(const Json& root) { return Reader().read(root); }
 
 }  // namespace petzval::lens_files
