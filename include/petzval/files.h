@@ -57,8 +57,13 @@ struct Frame {
     double pixel_aspect = 1;           // width / height of a pixel
     Picture colour;                    // size of data_window; scene-linear Rec.709, premultiplied
     bool has_alpha = false;            // false: colour.a is 1 everywhere
-    Plane depth;       // size of data_window, values as stored (see depth_to_planar_metres); may be empty
-    DeepPicture deep;  // all samples of a deep input, else empty; colour and depth are then its front view
+    // Size of data_window, values as stored (see depth_to_planar_metres), +infinity where a depth of another
+    // window covers nothing; may be empty.
+    Plane depth;
+    // All samples of a deep input with depths as stored (see deep_to_planar_metres), else empty. colour and
+    // depth are then what it looks like from the front: samples one over the other, and the depth at which
+    // coverage first reaches half of the pixel's: thin fog does not claim the pixel of the wall behind it.
+    DeepPicture deep;
     FoundCamera camera;
     bool display_referred = false;  // read from PNG: 1.0 is clipped highlights
     std::size_t non_finite_colour =
@@ -123,7 +128,8 @@ PETZVAL_API Status write_exr_planes(const std::string& path, const Rect& display
                                     const Rect& data_window, const std::vector<NamedPlane>& planes,
                                     const WriteOptions& options = {});
 
-// A deep scanline EXR: half R, G, B, A and float Z, ZBack (left out where no sample has a thickness).
+// A deep scanline EXR: half R, G, B, A (float with PixelType::Float) and float Z, ZBack (left out where no
+// sample has a thickness). Compression none, rle or zips, the only ones for deep files; empty: zips.
 PETZVAL_API Status write_deep_exr(const std::string& path, const Rect& display_window,
                                   const Rect& data_window, const DeepPicture& deep,
                                   const WriteOptions& options = {});

@@ -111,7 +111,8 @@ Result<DepthChoice> named_channel(const std::string& path, const Layout& layout,
                 if (name == wanted) quality = 0;
                 if (quality > 1 && lower(name) == lower(wanted)) quality = 1;
             }
-            if (quality == 9 || !part.readable || c.subsampled()) continue;
+            const bool deep_elsewhere = part.deep && !(colour && p == colour->part);
+            if (quality == 9 || !part.readable || c.subsampled() || deep_elsewhere) continue;
             const int distance = colour ? view_distance(c.view, colour->view) : 0;
             const auto order = std::tuple(quality, distance, colour && p != colour->part, p);
             if (!best || order < best_order) best = &c, best_part = p, best_order = order;

@@ -147,4 +147,9 @@ Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t
     return exr;
 }
 
+Status ExrFile::check_complete(std::size_t part) const {
+    if (parts->partComplete(int(part))) return Done{};
+    return invalid_file(file->path(), "is incomplete: it was cut off or is still being written");
+}
+
 }  // namespace petzval

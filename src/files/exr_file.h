@@ -22,6 +22,8 @@ struct ExrFile {
 
     // Errors: InvalidFile for anything that is not a sound header.
     static Result<ExrFile> open(std::shared_ptr<const InputFile> file, std::size_t max_pixels);
+    // Errors: InvalidFile if the part's table of chunks has gaps.
+    Status check_complete(std::size_t part) const;
 };
 
 std::vector<NumericAttribute> numeric_attributes(const Imf::Header& header);

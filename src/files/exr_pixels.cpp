@@ -59,11 +59,10 @@ Plane depth_of_positions(const std::array<Plane, 3>& position, const Imath::M44f
 }  // namespace
 
 Status read_floats(const ExrFile& exr, std::size_t part, const std::vector<FloatTarget>& targets) {
+    if (Status s = exr.check_complete(part); !s) return s;
     return guarded(exr.file->path(), [&]() -> Status {
         const Rect window = exr.layout.parts[part].data_window;
         Imf::InputPart input(*exr.parts, int(part));
-        if (!input.isComplete())
-            return invalid_file(exr.file->path(), "is incomplete: it was cut off or is still being written");
         Imf::FrameBuffer buffer;
         for (const FloatTarget& t : targets) {
             // OpenEXR addresses pixels by their place in the frame, so the base lies outside of the plane.

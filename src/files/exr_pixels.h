@@ -7,11 +7,19 @@
 #include "files/channel_choice.h"
 #include "files/exr_file.h"
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace petzval {
+
+// Replaces NaN by 0 and infinities by the largest half; false if there was nothing to replace.
+inline bool made_finite(float& v) {
+    if (std::isfinite(v)) return false;
+    v = std::isnan(v) ? 0 : std::copysign(kLargestHalf, v);
+    return true;
+}
 
 // Where a channel's samples go: the first pixel of the part's data window, and the steps between pixels and
 // rows in floats.

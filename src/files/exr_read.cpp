@@ -2,12 +2,10 @@
 
 #include "base/parallel.h"
 #include "files/carried.h"
+#include "files/exr_deep.h"
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
 #include "files/wording.h"
-
-#include <cmath>
-#include <limits>
 
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfHeader.h>
@@ -15,8 +13,6 @@
 
 namespace petzval {
 namespace {
-
-constexpr float kLargestHalf = 65504.f;
 
 std::vector<PartSummary> summaries_of(const Layout& layout) {
     std::vector<PartSummary> summaries;
@@ -111,6 +107,35 @@ Status choose_depth_of(const ExrFile& exr, const ReadOptions& options, bool pixe
     return Done{};
 }
 
+// Deep samples bring their own depth, and their part is written back flat.
+Status check_deep(const ExrFile& exr, const Choices& choices, const ReadOptions& options, Frame& frame) {
+    const std::string& path = exr.file->path();
+    if (!options.depth_file.empty())
+        return Error{
+            ErrorCode::InvalidArgument,
+            printable(path, 4096) + ": is deep, its samples have their own depth; leave out --depth"};
+    if (!choices.depth || choices.depth->part != choices.colour.part)
+        return invalid_file(path, "is deep but its samples have no Z of their own");
+    std::vector<std::string> dropped;
+    const ColourChoice& c = choices.colour;
+    for (const Channel& channel : exr.layout.parts[c.part].channels)
+        if (channel.layer != c.layer || channel.view != c.view) dropped.push_back(channel.name);
+    if (!dropped.empty())
+        frame.warnings.push_back("deep channels cannot be kept in a flat output: " + listed(dropped));
+    return Done{};
+}
+
+Status read_deep_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions& options,
+                        Frame& frame) {
+    const std::size_t most_samples = 2 * options.max_pixels;
+    Result<DeepPicture> deep =
+        read_deep(exr, choices.colour, *choices.depth, most_samples, frame.non_finite_colour);
+    if (!deep) return deep.error();
+    frame.deep = std::move(*deep);
+    frame.detected.push_back("deep: " + std::to_string(frame.deep.sample_count()) + " samples");
+    return Done{};
+}
+
 Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions& options, Frame& frame) {
     const bool together =
         choices.depth && choices.depth->part == choices.colour.part && !choices.depth->is_position();
@@ -134,23 +159,19 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
     return Done{};
 }
 
-}  // namespace
-
 std::size_t replace_non_finite(Picture& colour) {
     std::vector<std::size_t> of_row(std::size_t(colour.height()));
     parallel_for(colour.height(), 0, [&](int y) {
         Rgba* p = colour.row(y);
         for (int x = 0; x < colour.width(); ++x)
-            for (float* v : {&p[x].r, &p[x].g, &p[x].b, &p[x].a})
-                if (!std::isfinite(*v)) {
-                    *v = std::isnan(*v) ? 0 : std::copysign(kLargestHalf, *v);
-                    ++of_row[std::size_t(y)];
-                }
+            for (float* v : {&p[x].r, &p[x].g, &p[x].b, &p[x].a}) of_row[std::size_t(y)] += made_finite(*v);
     });
     std::size_t sum = 0;
     for (std::size_t n : of_row) sum += n;
     return sum;
 }
+
+}  // namespace
 
 Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels) {
     Result<ExrFile> opened = ExrFile::open(file, options.max_pixels);
@@ -178,14 +199,23 @@ Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOp
     frame.detected.push_back(colour->line);
     describe_view(exr.layout, *colour, options, frame.detected);
     if (Status s = choose_depth_of(exr, options, pixels, choices, frame); !s) return s.error();
+    if (part.deep)
+        if (Status s = check_deep(exr, choices, options, frame); !s) return s.error();
     frame.camera = camera_of(exr, colour->part);
     describe_camera(frame.camera, frame.detected);
     const auto primaries = primaries_of(exr, colour->part, frame);
     if (!pixels) return frame;
 
-    if (Status s = read_pixels(exr, choices, options, frame); !s) return s.error();
-    frame.non_finite_colour = replace_non_finite(frame.colour);
-    if (primaries) convert(frame.colour, primaries->to_rec709);
+    if (part.deep) {
+        if (Status s = read_deep_pixels(exr, choices, options, frame); !s) return s.error();
+        if (primaries)
+            for (DeepSample& s : frame.deep.samples()) s.colour = transformed(primaries->to_rec709, s.colour);
+        flatten(frame.deep, frame.colour, frame.depth);
+    } else {
+        if (Status s = read_pixels(exr, choices, options, frame); !s) return s.error();
+        frame.non_finite_colour = replace_non_finite(frame.colour);
+        if (primaries) convert(frame.colour, primaries->to_rec709);
+    }
     const bool own_depth = choices.depth && choices.depth->part == colour->part;
     frame.carried = std::make_shared<CarriedContent>(CarriedContent{
         file, exr.layout, *colour, own_depth ? choices.depth->channel : "", primaries, options.max_pixels});

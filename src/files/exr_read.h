@@ -17,7 +17,4 @@ Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOp
 Result<Plane> read_depth_file(const ReadOptions& options, const Rect& display_window, const Rect& data_window,
                               std::vector<std::string>& detected);
 
-// Replaces NaN by 0 and infinities by the largest half; returns how many.
-std::size_t replace_non_finite(Picture& colour);
-
 }  // namespace petzval

@@ -5,8 +5,7 @@
 #include "files/exr_bands.h"
 #include "files/exr_file.h"
 #include "files/exr_header.h"
-#include "files/exr_stream.h"
-#include "files/output_file.h"
+#include "files/exr_output.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -28,8 +27,6 @@
 
 namespace petzval {
 namespace {
-
-constexpr float kLargestHalf = 65504.f;
 
 // Colour as it is stored: in the file's primaries, finite, inside half's range. Counts what had to change.
 class ColourSource {
@@ -53,18 +50,17 @@ public:
 private:
     template <typename Sample>
     void fill_row(Sample* to, const Rgba* from, int part_of_colour, float largest) {
-        std::size_t clamped = 0, non_finite = 0;
+        WriteReport row;
         for (int x = 0; x < frame_.colour.width(); ++x) {
             const Rgba c = primaries_ ? transformed(primaries_->from_rec709, from[x]) : from[x];
-            float v = part_of_colour == 0 ? c.r : part_of_colour == 1 ? c.g : part_of_colour == 2 ? c.b : c.a;
-            if (!(std::abs(v) <= largest)) {
-                ++(std::isfinite(v) ? clamped : non_finite);
-                v = std::isnan(v) ? 0 : std::copysign(kLargestHalf, v);
-            }
-            to[x] = Sample(v);
+            const float v = part_of_colour == 0   ? c.r
+                            : part_of_colour == 1 ? c.g
+                            : part_of_colour == 2 ? c.b
+                                                  : c.a;
+            to[x] = Sample(storable(v, largest, row));
         }
-        if (clamped) clamped_ += clamped;
-        if (non_finite) non_finite_ += non_finite;
+        if (row.clamped_to_half) clamped_ += row.clamped_to_half;
+        if (row.non_finite) non_finite_ += row.non_finite;
     }
 
     const Frame& frame_;
@@ -86,31 +82,6 @@ Status check_size(const Frame& frame) {
         return Error{ErrorCode::InvalidArgument,
                      "the depth of a frame must have the size of its data window"};
     return Done{};
-}
-
-// Opens the output, lets `body` write to it, and puts it in place if all went well.
-Status write_file(const std::string& path, bool overwrite, const std::function<Status(Imf::OStream&)>& body) {
-    Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path, overwrite);
-    if (!file) return file.error();
-    start_exr_threads();
-    Status written = Done{};
-    {
-        ExrOutputStream stream(**file);
-        written = guarded(path, [&] { return body(stream); });
-    }
-    // A full disk is the cause, whatever OpenEXR made of it.
-    if ((*file)->failed()) return (*file)->error();
-    if (!written) {
-        if (written.error().code != ErrorCode::InvalidFile) return written;
-        return Error{ErrorCode::OutputFailed, written.error().message};
-    }
-    return (*file)->commit();
-}
-
-Channel plain_channel(const std::string& name, SampleType type) {
-    Channel c = split_channel_name(name, {});
-    c.type = type;
-    return c;
 }
 
 void copy_floats(BandChannel& to, View<const float> plane, int first_row) {
@@ -161,7 +132,8 @@ class CarriedSource {
 public:
     CarriedSource(const ExrFile& exr, std::size_t part, const std::vector<Channel>& channels, const Rect& out,
                   std::string depth_channel)
-        : input_(*exr.parts, int(part)),
+        : path_(exr.file->path()),
+          input_(*exr.parts, int(part)),
           in_(exr.layout.parts[part].data_window),
           out_(out),
           depth_channel_(std::move(depth_channel)) {
@@ -188,8 +160,12 @@ private:
         resize_band(staged_, in_.width(), y1 - y0);
         Imf::FrameBuffer buffer;
         for (const BandChannel& c : staged_) buffer.insert(c.channel.name, slice_of(c, in_.x0, y0));
-        input_.setFrameBuffer(buffer);
-        input_.readPixels(y0, y1 - 1);
+        const Status read = guarded(path_, [&]() -> Status {
+            input_.setFrameBuffer(buffer);
+            input_.readPixels(y0, y1 - 1);
+            return Done{};
+        });
+        if (!read) throw Failure(read.error());
     }
 
     void paste(BandChannel& from, BandChannel& to, int y0, int y1, int band_y0) const {
@@ -211,6 +187,7 @@ private:
                         std::numeric_limits<float>::infinity());
     }
 
+    std::string path_;
     Imf::InputPart input_;
     Rect in_, out_;
     std::string depth_channel_;
@@ -305,7 +282,7 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
 
 Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options) {
     if (Status s = check_size(frame); !s) return s;
-    return write_file(path, options.overwrite, [&](Imf::OStream& stream) {
+    return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) {
         return frame.carried ? write_carried(stream, frame, options) : write_new(stream, frame, options);
     });
 }
@@ -322,7 +299,7 @@ Status write_exr_planes(const std::string& path, const Rect& display_window, con
                          "plane '" + printable(p.channel) + "' needs a name and the size of the data window"};
         channels.push_back(plain_channel(p.channel, SampleType::Float));
     }
-    return write_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {
+    return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {
         Imf::Header header = new_header(display_window, data_window, 1, channels);
         if (Status s = apply(options, display_window, header); !s) return s;
         Imf::MultiPartOutputFile output(stream, &header, 1);

@@ -11,6 +11,7 @@
 namespace petzval {
 
 enum class SampleType { Uint, Half, Float };
+inline constexpr float kLargestHalf = 65504.f;
 
 // Channel `forward.left.u` has layer "forward", view "left" and base "u".
 struct Channel {

@@ -1,0 +1,27 @@
+// Deep EXR parts: every sample, and the flat picture they look like from the front.
+#pragma once
+
+#include "petzval/deep.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+#include "files/channel_choice.h"
+#include "files/exr_file.h"
+
+#include <cstddef>
+
+namespace petzval {
+
+// All samples, nearest first, depths as stored. Colours that are not finite are replaced and counted; a depth
+// that is NaN becomes +infinity. Without ZBack a sample ends where it starts; without alpha it is opaque.
+// Errors: InvalidFile, also for more samples than `most_samples` or than a file of this size could hold.
+Result<DeepPicture> read_deep(const ExrFile& exr, const ColourChoice& colour, const DepthChoice& depth,
+                              std::size_t most_samples, std::size_t& non_finite);
+
+// What the samples look like: colours one over the other, nearest first, and the depth at which the coverage
+// first reaches half of what the pixel has in the end. So thin fog in front does not claim a pixel that shows
+// the wall behind it, and inside a volume depth is where half of it is seen through. A pixel of samples
+// without any coverage (pure glow) has the depth of its nearest sample; a pixel without samples is a miss.
+void flatten(const DeepPicture& deep, Picture& colour, Plane& depth);
+
+}  // namespace petzval
