@@ -88,10 +88,11 @@ bool is_called(const Group& g, const Part& part, const std::string& wanted) {
     return false;
 }
 
+constexpr int kData = 4;
 // Smaller is a better guess.
 int rank(const Group& g, const Part& part) {
     const std::string name = last_component(g.layer.empty() ? part.label : g.layer);
-    if (is_data_name(name)) return 4;
+    if (is_data_name(name)) return kData;
     if (g.layer.empty() && (name.empty() || is_beauty_name(name))) return 0;
     if (is_beauty_name(name)) return 1;
     return g.layer.empty() ? 2 : 3;
@@ -159,7 +160,8 @@ const char* type_name(SampleType type) {
     return type == SampleType::Half ? "half" : type == SampleType::Float ? "float" : "uint";
 }
 
-std::string line_of(const ColourChoice& c, const Part& part, const std::string& why) {
+std::string line_of(const ColourChoice& c, const Part& part, const std::string& why,
+                    bool coverage_per_colour) {
     std::vector<std::string> names;
     for (const std::string& n : {c.red, c.green, c.blue, c.luminance, c.chroma_r, c.chroma_b, c.alpha})
         if (!n.empty()) names.push_back(n);
@@ -171,6 +173,7 @@ std::string line_of(const ColourChoice& c, const Part& part, const std::string& 
     if (c.is_luminance())
         line += c.chroma_r.empty() ? "; luminance only, read as grey" : "; luminance and chroma";
     if (c.alpha.empty()) line += "; no alpha, taken as opaque";
+    if (coverage_per_colour) line += " (RA, GA, BA are not used)";
     return line;
 }
 
@@ -180,12 +183,17 @@ Result<ColourChoice> choose_colour(const std::string& path, const Layout& layout
                                    const ReadOptions& options) {
     std::vector<Group> candidates = groups_of(layout);
     std::erase_if(candidates, [&](const Group& g) { return !g.is_colour(layout.parts[g.part].deep); });
+    const std::size_t with_data = candidates.size();
+    if (options.layer.empty())
+        std::erase_if(candidates, [&](const Group& g) { return rank(g, layout.parts[g.part]) == kData; });
     if (candidates.empty()) {
         std::vector<std::string> names;
         for (const Part& p : layout.parts)
             for (const Channel& c : p.channels) names.push_back(c.name);
+        const char* hint = with_data ? "its layers hold other data, --layer takes one all the same"
+                                     : "R, G, B or Y are needed";
         return invalid_file(path,
-                            "has no colour: R, G, B or Y are needed, its channels are " + listed(names));
+                            std::string("has no colour: ") + hint + "; its channels are " + listed(names));
     }
     Result<std::vector<Group>> of_layer = of_wanted_layer(path, layout, options.layer, candidates);
     if (!of_layer) return of_layer.error();
@@ -201,7 +209,7 @@ Result<ColourChoice> choose_colour(const std::string& path, const Layout& layout
                           [&](const Group& p, const Group& q) { return order(p) < order(q); });
     const Part& part = layout.parts[best.part];
     ColourChoice choice = choice_of(best);
-    choice.line = line_of(choice, part, reason(best, part, options, candidates.size()));
+    choice.line = line_of(choice, part, reason(best, part, options, candidates.size()), best.has("ra"));
     return choice;
 }
 

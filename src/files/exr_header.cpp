@@ -4,6 +4,7 @@
 #include "files/wording.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -26,24 +27,6 @@ Imf::ChannelList channel_list(const std::vector<Channel>& channels) {
     return list;
 }
 
-// Whether decoding and encoding again changes samples. B44 packs every half channel, DWA those named like
-// colour; PXR24 rounds floats to 24 bits, which a second time changes nothing.
-bool loses_again(Imf::Compression compression, const Channel& channel) {
-    switch (compression) {
-        case Imf::B44_COMPRESSION:
-        case Imf::B44A_COMPRESSION:
-            return channel.type == SampleType::Half;
-        case Imf::DWAA_COMPRESSION:
-        case Imf::DWAB_COMPRESSION: {
-            const std::string base = lower(channel.base);
-            constexpr std::array lossy{"r", "g", "b", "y", "ry", "by", "red", "green", "blue"};
-            return std::find(lossy.begin(), lossy.end(), base) != lossy.end();
-        }
-        default:
-            return false;
-    }
-}
-
 std::optional<Imf::Compression> compression_of(const std::string& name) {
     for (int c = 0; c < Imf::NUM_COMPRESSION_METHODS; ++c)
         if (compression_name(c) == lower(name)) return Imf::Compression(c);
@@ -57,6 +40,14 @@ void put(Imf::Header& header, const std::string& name, const Imf::Attribute& att
 }
 
 }  // namespace
+
+bool loses_again(const std::string& compression, const Channel& channel) {
+    if (compression == "b44" || compression == "b44a") return channel.type == SampleType::Half;
+    if (compression != "dwaa" && compression != "dwab") return false;
+    const std::string base = lower(channel.base);
+    constexpr std::array lossy{"r", "g", "b", "y", "ry", "by", "red", "green", "blue"};
+    return std::find(lossy.begin(), lossy.end(), base) != lossy.end();
+}
 
 Imath::Box2i box_of(const Rect& r) { return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}}; }
 
@@ -95,7 +86,8 @@ Imf::Header colour_header(const Imf::Header& input, const Frame& frame, const st
         header.setTileDescription(tiles);
     }
     for (std::size_t i = colours; i < channels.size(); ++i)
-        if (loses_again(header.compression(), channels[i])) header.compression() = Imf::ZIP_COMPRESSION;
+        if (loses_again(compression_name(header.compression()), channels[i]))
+            header.compression() = Imf::ZIP_COMPRESSION;
     return header;
 }
 

@@ -3,9 +3,12 @@
 #include "base/parallel.h"
 #include "files/carried.h"
 #include "files/exr_deep.h"
+#include "files/exr_header.h"
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
 #include "files/wording.h"
+
+#include <algorithm>
 
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfHeader.h>
@@ -55,7 +58,8 @@ void describe_view(const Layout& layout, const ColourChoice& colour, const ReadO
                    std::vector<std::string>& detected) {
     if (layout.views.empty()) return;
     std::string line = "view: " + (colour.view.empty() ? "none" : printable(colour.view));
-    line += options.view_name.empty() ? ", not asked for" : ", asked for with --view-name";
+    if (layout.views.size() == 1) return detected.push_back(line + ", the only one");
+    line += options.view_name.empty() ? ", the first that fits" : ", asked for with --view-name";
     detected.push_back(line + "; the file has " + listed(layout.views));
 }
 
@@ -136,6 +140,19 @@ Status read_deep_pixels(const ExrFile& exr, const Choices& choices, const ReadOp
     return Done{};
 }
 
+// Compression that would eat a little of the carried channels each time a file passes through.
+void warn_of_lossy_compression(const Part& part, const ColourChoice& colour, Frame& frame) {
+    std::vector<std::string> losing;
+    for (const Channel& c : part.channels) {
+        const auto names = {colour.red, colour.green, colour.blue, colour.alpha, colour.luminance};
+        const bool is_colour = std::find(names.begin(), names.end(), c.name) != names.end();
+        if (!is_colour && loses_again(part.compression, c)) losing.push_back(c.name);
+    }
+    if (!losing.empty() && !part.deep)
+        frame.warnings.push_back("its compression " + part.compression + " would change " + listed(losing) +
+                                 " again; written as zip");
+}
+
 Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions& options, Frame& frame) {
     const bool together =
         choices.depth && choices.depth->part == choices.colour.part && !choices.depth->is_position();
@@ -197,6 +214,7 @@ Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOp
     frame.data_window = part.data_window;
     frame.has_alpha = !colour->alpha.empty();
     frame.detected.push_back(colour->line);
+    warn_of_lossy_compression(part, *colour, frame);
     describe_view(exr.layout, *colour, options, frame.detected);
     if (Status s = choose_depth_of(exr, options, pixels, choices, frame); !s) return s.error();
     if (part.deep)
