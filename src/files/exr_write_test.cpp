@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
@@ -121,6 +122,200 @@ TEST(WriteExr, EveryOtherChannelPartAndAttributeIsKept) {
             EXPECT_EQ(b->colour(3, 3).g, 2 * a->colour(3, 3).g);
         }
     }
+}
+
+Result<Frame> depth_named(const std::string& path, const std::string& channel) {
+    ReadOptions options;
+    options.depth_channel = channel;
+    return read_frame(path, options);
+}
+
+TEST(WriteExr, AGrownDataWindowKeepsCarriedChannelsWhereTheyWere) {
+    const TemporaryFolder folder;
+    QuickPart part = quick_rgbaz({2, 3, 12, 500});
+    part.channels.push_back({"id", Imf::UINT, [](int x, int y) { return 1000 * y + x; }});
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    for (const Rect window : {Rect{-4, -5, 20, 507}, Rect{5, 100, 8, 300}, Rect{30, 30, 40, 40}}) {
+        Result<Frame> frame = read_frame(folder / "in.exr");
+        ASSERT_TRUE(frame);
+        frame->data_window = window;
+        frame->colour = Picture(window.width(), window.height(), {1, 1, 1, 1});
+        frame->depth = Plane();
+        const Status written = write_exr(folder / "out.exr", *frame);
+        ASSERT_TRUE(written) << written.error().message;
+        const Result<Frame> id = depth_named(folder / "out.exr", "id"),
+                            z = depth_named(folder / "out.exr", "Z");
+        const Result<Frame> z_in = depth_named(folder / "in.exr", "Z");
+        ASSERT_TRUE(id && z && z_in);
+        EXPECT_EQ(id->data_window, window);
+        for (int y = window.y0; y < window.y1; ++y)
+            for (int x = window.x0; x < window.x1; ++x) {
+                const bool known = part.data_window.contains(x, y);
+                ASSERT_EQ(id->depth(x - window.x0, y - window.y0), known ? float(1000 * y + x) : 0.f);
+                ASSERT_EQ(z->depth(x - window.x0, y - window.y0),
+                          known ? z_in->depth(x - 2, y - 3) : std::numeric_limits<float>::infinity());
+            }
+    }
+}
+
+TEST(WriteExr, ColourInOtherPrimariesIsConvertedForWorkAndWrittenBackInThem) {
+    const TemporaryFolder folder;
+    QuickPart part = quick_rgbaz();
+    part.with = [](Imf::Header& h) {
+        Imf::addChromaticities(h, Imf::Chromaticities({0.713f, 0.293f}, {0.165f, 0.830f}, {0.128f, 0.044f},
+                                                      {0.32168f, 0.33767f}));
+    };
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    const Result<Frame> frame = read_frame(folder / "in.exr");
+    ASSERT_TRUE(frame);
+    EXPECT_THAT(frame->detected, testing::Contains(testing::HasSubstr("to Rec.709")));
+    EXPECT_GT(std::abs(frame->colour(0, 0).r - 1), 0.1f);
+    ASSERT_TRUE(write_exr(folder / "out.exr", *frame));
+    Imf::InputFile out((folder / "out.exr").c_str());
+    EXPECT_TRUE(Imf::hasChromaticities(out.header()));
+    const Result<Frame> back = read_frame(folder / "out.exr");
+    ASSERT_TRUE(back);
+    for (std::size_t i = 0; i < frame->colour.size(); ++i)
+        EXPECT_NEAR(back->colour.pixels()[i].r, frame->colour.pixels()[i].r, 4e-3);
+}
+
+TEST(WriteExr, TypeAndCompressionAreKeptOrChosen) {
+    const TemporaryFolder folder;
+    QuickPart part = quick_rgbaz();
+    for (auto& c : part.channels) c.type = Imf::FLOAT;
+    part.compression = Imf::PIZ_COMPRESSION;
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    const Result<Frame> frame = read_frame(folder / "in.exr");
+    ASSERT_TRUE(frame);
+    WriteOptions options;
+    ASSERT_TRUE(write_exr(folder / "kept.exr", *frame, options));
+    options.type = PixelType::Half;
+    options.compression = "zips";
+    ASSERT_TRUE(write_exr(folder / "chosen.exr", *frame, options));
+    const Result<Frame> kept = read_frame_header(folder / "kept.exr"),
+                        chosen = read_frame_header(folder / "chosen.exr");
+    EXPECT_EQ(kept->parts[0].compression, "piz");
+    EXPECT_THAT(kept->parts[0].channels, testing::Contains("R float"));
+    EXPECT_EQ(chosen->parts[0].compression, "zips");
+    EXPECT_THAT(chosen->parts[0].channels, testing::IsSupersetOf({"R half", "Z float"}));
+    options.compression = "jpeg";
+    EXPECT_EQ(write_exr(folder / "wrong.exr", *frame, options).error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(folder.files(), 3u);
+}
+
+TEST(WriteExr, LossyCompressionDoesNotEatIntoCarriedChannels) {
+    const TemporaryFolder folder;
+    for (const Imf::Compression lossy : {Imf::B44_COMPRESSION, Imf::DWAA_COMPRESSION}) {
+        QuickPart part = quick_rgbaz({0, 0, 64, 64});
+        part.compression = lossy;
+        part.channels.push_back(
+            {"diffuse.R", Imf::HALF, [](int x, int y) { return std::sin(x * y * 0.37) + 0.01 * x; }});
+        write_quick_exr(folder / "in.exr", kWindow, {part});
+        const Result<Frame> frame = depth_named(folder / "in.exr", "diffuse.R");
+        ASSERT_TRUE(frame);
+        EXPECT_THAT(frame->warnings, testing::Contains(testing::HasSubstr("diffuse.R")));
+        ASSERT_TRUE(write_exr(folder / "out.exr", *frame));
+        const Result<Frame> back = depth_named(folder / "out.exr", "diffuse.R");
+        ASSERT_TRUE(back);
+        EXPECT_EQ(back->parts[0].compression, "zip");
+        for (std::size_t i = 0; i < frame->depth.size(); ++i)
+            ASSERT_EQ(back->depth.pixels()[i], frame->depth.pixels()[i]);
+    }
+}
+
+TEST(WriteExr, EveryLosslessCompressionKeepsCarriedHalfFloatAndUintBits) {
+    const TemporaryFolder folder;
+    for (int c = 0; c < Imf::NUM_COMPRESSION_METHODS; ++c)
+        for (const int tile : {0, 16}) {
+            QuickPart part = quick_rgbaz({-5, 3, 60, 50});
+            part.compression = Imf::Compression(c);
+            part.tile = tile;
+            part.channels.push_back({"m.half", Imf::HALF, [](int x, int y) { return std::cos(x * y); }});
+            part.channels.push_back(
+                {"m.float", Imf::FLOAT, [](int x, int y) { return std::cos(x + y * 0.1); }});
+            part.channels.push_back(
+                {"m.uint", Imf::UINT, [](int x, int y) { return 65521.0 * (x + 5) + y; }});
+            write_quick_exr(folder / "in.exr", kWindow, {part});
+            const Result<Frame> frame = read_frame(folder / "in.exr");
+            ASSERT_TRUE(frame);
+            ASSERT_TRUE(write_exr(folder / "out.exr", *frame));
+            for (const char* name : {"m.half", "m.float", "m.uint", "Z"}) {
+                const Result<Frame> a = depth_named(folder / "in.exr", name),
+                                    b = depth_named(folder / "out.exr", name);
+                ASSERT_TRUE(a && b);
+                for (std::size_t i = 0; i < a->depth.size(); ++i)
+                    ASSERT_EQ(a->depth.pixels()[i], b->depth.pixels()[i]) << name << " compression " << c;
+            }
+        }
+}
+
+TEST(WriteExr, LuminanceAndChromaAreReadAndBecomeRgb) {
+    const TemporaryFolder folder;
+    const auto grey = [](int, int) { return 0.5; };
+    const auto none = [](int, int) { return 0.0; };
+    QuickPart part{"",
+                   "",
+                   {0, 0, 16, 16},
+                   {{"Y", Imf::HALF, grey}, {"RY", Imf::HALF, none, 2}, {"BY", Imf::HALF, none, 2}}};
+    part.channels.push_back({"Z", Imf::FLOAT, [](int x, int y) { return 1 + x + y; }});
+    part.channels.push_back({"half_size", Imf::FLOAT, [](int x, int y) { return x * y; }, 2});
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    Result<Frame> frame = read_frame(folder / "in.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_NEAR(frame->colour(7, 7).r, 0.5f, 1e-3);
+    EXPECT_NEAR(frame->colour(7, 7).b, 0.5f, 1e-3);
+    EXPECT_EQ(frame->depth(3, 4), 8);
+    frame->colour(7, 7) = {1, 2, 3, 1};
+    const Status written = write_exr(folder / "out.exr", *frame);
+    ASSERT_TRUE(written) << written.error().message;
+    const Result<Frame> back = read_frame(folder / "out.exr");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->colour(7, 7), (Rgba{1, 2, 3, 1}));
+    EXPECT_THAT(back->parts[0].channels,
+                testing::UnorderedElementsAre("R half", "G half", "B half", "Z float", "half_size float"));
+}
+
+TEST(WriteExr, AnExistingFileIsKeptWhereOverwritingIsOff) {
+    const TemporaryFolder folder;
+    Frame frame;
+    frame.display_window = frame.data_window = kWindow;
+    frame.colour = Picture(8, 6);
+    ASSERT_TRUE(write_exr(folder / "a.exr", frame));
+    const std::string before = test::bytes_of(folder / "a.exr");
+    frame.colour(0, 0).r = 1;
+    WriteOptions options;
+    options.overwrite = false;
+    EXPECT_EQ(write_exr(folder / "a.exr", frame, options).error().code, ErrorCode::OutputFailed);
+    EXPECT_EQ(test::bytes_of(folder / "a.exr"), before);
+}
+
+TEST(WriteExr, TheInputItselfMayBeTheOutput) {
+    const TemporaryFolder folder;
+    write_quick_exr(folder / "a.exr", kWindow, {quick_rgbaz()});
+    Result<Frame> frame = read_frame(folder / "a.exr");
+    ASSERT_TRUE(frame);
+    frame->colour(1, 1) = {9, 9, 9, 1};
+    ASSERT_TRUE(write_exr(folder / "a.exr", *frame));
+    ASSERT_TRUE(write_exr(folder / "a.exr", *frame));
+    const Result<Frame> back = read_frame(folder / "a.exr");
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->colour(1, 1), (Rgba{9, 9, 9, 1}));
+    EXPECT_EQ(back->depth(1, 1), frame->depth(1, 1));
+}
+
+TEST(WriteExr, SizesThatDoNotMatchAreRefused) {
+    const TemporaryFolder folder;
+    Frame frame;
+    EXPECT_EQ(write_exr(folder / "a.exr", frame).error().code, ErrorCode::InvalidArgument);
+    frame.display_window = frame.data_window = kWindow;
+    frame.colour = Picture(3, 3);
+    EXPECT_EQ(write_exr(folder / "a.exr", frame).error().code, ErrorCode::InvalidArgument);
+    const Plane plane(2, 2);
+    EXPECT_EQ(write_exr_planes(folder / "a.exr", kWindow, kWindow, {{"Z", plane}}).error().code,
+              ErrorCode::InvalidArgument);
+    EXPECT_EQ(write_exr_planes(folder / "a.exr", kWindow, kWindow, {}).error().code,
+              ErrorCode::InvalidArgument);
+    EXPECT_EQ(folder.files(), 0u);
 }
 
 }  // namespace

@@ -3,12 +3,19 @@
 
 #include "petzval/image.h"
 
+#include "base/parallel.h"
+#include "files/exr_file.h"
+
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <Imath/half.h>
@@ -18,6 +25,7 @@
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledOutputPart.h>
 
 namespace petzval::test {
@@ -25,7 +33,10 @@ namespace petzval::test {
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "petzval-XXXXXX").string();
+        // In memory where possible: thousands of small files are slow on a disk.
+        const bool shm = ::access("/dev/shm", W_OK) == 0;
+        std::string name =
+            (shm ? "/dev/shm" : std::filesystem::temp_directory_path().string()) + "/petzval-XXXXXX";
         folder_ = ::mkdtemp(name.data());
     }
     ~TemporaryFolder() { std::filesystem::remove_all(folder_); }
@@ -44,12 +55,40 @@ private:
     std::string folder_;
 };
 
+// OpenEXR without its thread pool: thousands of tiny files would spend their time on waking threads.
+class WithoutExrThreads {
+public:
+    WithoutExrThreads() {
+        start_exr_threads();
+        Imf::setGlobalThreadCount(0);
+    }
+    ~WithoutExrThreads() { Imf::setGlobalThreadCount(usable_threads()); }
+    WithoutExrThreads(const WithoutExrThreads&) = delete;
+    WithoutExrThreads& operator=(const WithoutExrThreads&) = delete;
+};
+
 inline std::string bytes_of(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 inline void write_bytes(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// Calls `look(bytes)` with `count` copies of a file of which a few bytes were changed at random; headers,
+// where most harm can be done, are hit as often as pixels. Seeded: the same mutations on every run.
+inline void mutate(const std::string& good, int count, const std::function<void(const std::string&)>& look) {
+    std::mt19937 random(20);
+    constexpr std::array<char, 8> nasty{0, 1, -1, 127, -128, 2, 64, 16};
+    for (int i = 0; i < count; ++i) {
+        std::string bad = good;
+        const std::size_t range = random() % 2 ? bad.size() : std::min<std::size_t>(bad.size(), 600);
+        for (unsigned n = random() % 4 + 1; n > 0; --n) {
+            char& byte = bad[random() % range];
+            byte = random() % 2 ? nasty[random() % nasty.size()] : char(random());
+        }
+        look(bad);
+    }
 }
 
 // One channel; `value(x, y)` is asked with coordinates of the frame.

@@ -1,0 +1,171 @@
+#include "files/output_file.h"
+
+#include "petzval/files.h"
+
+#include "files/test_exr.h"
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+using test::bytes_of;
+using test::TemporaryFolder;
+using test::write_bytes;
+using testing::HasSubstr;
+
+Frame small_frame(int size) {
+    Frame frame;
+    frame.display_window = frame.data_window = {0, 0, size, size};
+    frame.colour = Picture(size, size);
+    for (std::size_t i = 0; i < frame.colour.size(); ++i)
+        frame.colour.pixels()[i] = {float(i * 7919 % 1009), float(i * 104729 % 997), float(i % 13), 1};
+    return frame;
+}
+
+TEST(OutputFile, NothingIsThereBeforeCommitAndNothingBesideItAfterwards) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "a", "old");
+    {
+        auto file = OutputFile::create(folder / "a", true);
+        ASSERT_TRUE(file);
+        ASSERT_TRUE((*file)->write_at(0, "newer", 5));
+        EXPECT_EQ(bytes_of(folder / "a"), "old");
+        EXPECT_EQ(folder.files(), 2u);
+        ASSERT_TRUE((*file)->commit());
+    }
+    EXPECT_EQ(bytes_of(folder / "a"), "newer");
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(OutputFile, AnAbandonedFileLeavesNoTrace) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "a", "old");
+    {
+        auto file = OutputFile::create(folder / "a", true);
+        ASSERT_TRUE((*file)->write_at(0, "new", 3));
+    }
+    EXPECT_EQ(bytes_of(folder / "a"), "old");
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(OutputFile, AFileThatAppearedMeanwhileIsNotOverwrittenWhenItMayNotBe) {
+    const TemporaryFolder folder;
+    auto file = OutputFile::create(folder / "a", false);
+    ASSERT_TRUE(file);
+    write_bytes(folder / "a", "theirs");
+    const Status committed = (*file)->commit();
+    ASSERT_FALSE(committed);
+    EXPECT_EQ(committed.error().code, ErrorCode::OutputFailed);
+    EXPECT_EQ(bytes_of(folder / "a"), "theirs");
+}
+
+TEST(OutputFile, ALinkIsFollowedAndTheRightsOfTheOldFileAreKept) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "real", "old");
+    ::chmod((folder / "real").c_str(), 0640);
+    std::filesystem::create_symlink(folder / "real", folder / "link");
+    auto file = OutputFile::create(folder / "link", true);
+    ASSERT_TRUE((*file)->write_at(0, "new", 3) && (*file)->commit());
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(bytes_of(folder / "real"), "new");
+    struct stat status = {};
+    ::stat((folder / "real").c_str(), &status);
+    EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST(OutputFile, PlacesThatCannotBeWrittenAreErrorsThatNameThem) {
+    const TemporaryFolder folder;
+    for (const std::string& path : {folder.path(), folder / "no/such/folder/a.exr", std::string("/dev/null"),
+                                    std::string("/proc/a.exr"), std::string()}) {
+        const auto file = OutputFile::create(path, true);
+        ASSERT_FALSE(file) << path;
+        EXPECT_EQ(file.error().code, ErrorCode::OutputFailed);
+        EXPECT_THAT(file.error().message, HasSubstr(path));
+    }
+    struct stat status = {};
+    ASSERT_EQ(::stat("/dev/null", &status), 0);
+    EXPECT_TRUE(S_ISCHR(status.st_mode));
+}
+
+// A limit on the size of files stands for a full disk: writes fail half-way with the same kind of error.
+class FullDisk {
+public:
+    explicit FullDisk(rlim_t bytes) {
+        ::signal(SIGXFSZ, SIG_IGN);
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const struct rlimit limit = {bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+private:
+    struct rlimit before_ = {};
+};
+
+TEST(OutputFile, AFullDiskLeavesTheOldFileAndNothingElse) {
+    const TemporaryFolder folder;
+    const Frame frame = small_frame(300);
+    ASSERT_TRUE(write_exr(folder / "in.exr", frame));
+    ReadOptions no_depth;
+    no_depth.need_depth = false;
+    WriteOptions raw;
+    raw.compression = "none";
+    const Result<Frame> carried = read_frame(folder / "in.exr", no_depth);
+    ASSERT_TRUE(carried);
+    for (const char* name : {"a.exr", "b.exr", "c.exr", "d.exr", "e.png"}) write_bytes(folder / name, "old");
+    const DeepPicture deep(1, 1, {0, 9999}, std::vector<DeepSample>(9999, {{1, 2, 3, 1}, 1, 2}));
+    const Plane plane(300, 300, 1);
+    PngPixels png{300, 300, 3, 16, {}};
+    for (int i = 0; i < 300 * 300 * 3; ++i) png.samples.push_back(std::uint16_t(i * 40503));
+    for (const rlim_t bytes : {1u, 100u, 1200u}) {
+        const FullDisk full(bytes);
+        const std::array failures{
+            write_exr(folder / "a.exr", frame), write_exr(folder / "b.exr", *carried),
+            write_exr_planes(folder / "c.exr", {0, 0, 9, 9}, frame.data_window, {{"Z", plane}}, raw),
+            write_deep_exr(folder / "d.exr", {0, 0, 1, 1}, {0, 0, 1, 1}, deep, raw),
+            write_png(folder / "e.png", png)};
+        for (const Status& failure : failures) {
+            ASSERT_FALSE(failure);
+            EXPECT_EQ(failure.error().code, ErrorCode::OutputFailed) << failure.error().message;
+            EXPECT_THAT(failure.error().message, HasSubstr("File too large"));
+        }
+    }
+    for (const char* name : {"a.exr", "b.exr", "c.exr", "d.exr", "e.png"})
+        EXPECT_EQ(bytes_of(folder / name), "old");
+    EXPECT_EQ(folder.files(), 6u);
+}
+
+TEST(OutputFile, ASignalHandlerCanRemoveWhatIsNotFinished) {
+    const TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::signal(SIGTERM, [](int) {
+            remove_unfinished_outputs();
+            ::_exit(143);
+        });
+        auto a = OutputFile::create(folder / "a.exr", true), b = OutputFile::create(folder / "b.exr", true);
+        if (!a || !b || folder.files() != 2) ::_exit(1);
+        ::raise(SIGTERM);
+        ::_exit(2);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 143);
+    EXPECT_EQ(folder.files(), 0u);
+}
+
+}  // namespace
+}  // namespace petzval
