@@ -10,8 +10,9 @@
 namespace petzval::scene {
 namespace {
 
-constexpr int kSharpSamples = 1024;
-constexpr float kSharpReach = 3;  // px; few pixels, so they can afford it
+constexpr int kFirstSamples = 64;    // where these agree (all of the lamp seen, or none), no more are taken
+constexpr int kSharpSamples = 1024;  // of a lamp that is nearly sharp: few pixels, but very bright ones
+constexpr float kSharpRadius = 3;    // px
 
 }  // namespace
 
@@ -51,20 +52,22 @@ LampShare LampLight::at(const LampImage& image, int x, int y, std::uint32_t seed
                          : solved == Solved::Lens ? lamp_area / blur_area
                                                   : 1;
 
-    const SobolPoints& points = image.reach_px() < kSharpReach ? sharp_points_ : disc_points_;
-    int met = 0, seen = 0;
-    for (int i = 0; i < points.count(); i += kPacket) {
+    const SobolPoints& points = std::abs(image.coc_radius_px) < kSharpRadius ? sharp_points_ : disc_points_;
+    int met = 0, seen = 0, done = 0;
+    while (done < points.count() && !(done == kFirstSamples && met == done && (seen == done || seen == 0))) {
         Packet packet(world_);
         bool set[kPacket] = {};
-        for (int lane = 0; lane < std::min(kPacket, points.count() - i); ++lane) {
+        const int lanes = std::min(kPacket, points.count() - done);
+        for (int lane = 0; lane < lanes; ++lane) {
             LensRays::Ray ray;
-            set[lane] = aim(solved, image, x, y, points.at(i + lane, seed), ray);
+            set[lane] = aim(solved, image, x, y, points.at(done + lane, seed), ray);
             if (set[lane]) packet.set(lane, ray, image.centre.z * (1 - 1e-4f)), ++met;
         }
         packet.test_occlusion();
         for (int lane = 0; lane < kPacket; ++lane) seen += set[lane] && !packet.blocked(lane);
+        done += lanes;
     }
-    const float per_ray = factor / float(points.count());
+    const float per_ray = factor / float(done);
     return {per_ray * float(met), per_ray * float(seen)};
 }
 

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kTile = 8;
 constexpr int kFirstSamples = 64;
-// Mean difference between two independent halves, relative to 1 + the value, at which a tile is done: 0.0015
-// of white is 56 dB.
-constexpr float kTolerance = 0.0015f;
+// Mean difference between two independent halves, relative to 1 + the value, at which a tile is done: 0.002
+// of white is 54 dB.
+constexpr float kTolerance = 0.002f;
 
 struct Tile {
     Rect area;
@@ -98,7 +98,7 @@ bool render_truth(const Pass& pass, Picture& truth) {
     truth = Picture::uninitialised(pass.width, pass.height);
     const SobolPoints points(pass.samples);
     const std::vector<LampImage> lamps = lamp_images(pass.world, pass.lens, pass.width, pass.height);
-    const LampLight light(pass.world, pass.lens, std::max(kFirstSamples, pass.samples / 8));
+    const LampLight light(pass.world, pass.lens, std::max(kFirstSamples, pass.samples / 2));
     const int columns = (pass.width + kTile - 1) / kTile, rows = (pass.height + kTile - 1) / kTile;
     parallel_for(columns * rows, pass.threads, [&](int index) {
         if (pass.progress.cancelled()) return;
