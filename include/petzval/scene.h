@@ -42,7 +42,10 @@ struct RenderedScene {
     Plane depth_m;   // planar, one unfiltered sample at the pixel centre; +infinity for a miss
     Picture truth;   // through the lens, when asked for
     // Depth-peeled samples when asked for: every surface hidden behind the visible one, each with its own
-    // coverage; in pixels where several surfaces show, also the visible ones with their own coverage.
+    // coverage; in pixels where several surfaces show, also the visible ones with their own coverage. So the
+    // visible picture comes first where the first sample lies behind depth_m, and is contained in the samples
+    // elsewhere. A sample's depth is the mean of its surface in the pixel (of 1/depth); surfaces of one
+    // object less than 1 % of their depth apart count as one; what is seen of the sky lies at +infinity.
     DeepPicture layers;
 };
 

@@ -63,6 +63,7 @@ private:
         double inverse_depth = 0;
         Vec3 radiance = {};
         int rays = 0, first_rays = 0;
+        double depth_m() const { return rays / inverse_depth; }  // mean of 1/depth, in which CoC is linear
     };
 
     int rays() const { return tools_.points.count(); }
@@ -156,11 +157,18 @@ std::vector<Row::Group> Row::groups() {
 }
 
 void Row::collect_surfaces() {
-    for (const Group& group : groups()) {
-        if (group.first_rays == rays()) continue;                    // the visible picture says it all
-        const float mean = float(group.rays / group.inverse_depth);  // CoC is linear in 1/depth
+    const std::vector<Group> found = groups();
+    // Where one surface alone shows, the visible picture says it all; what follows it closely would only be
+    // mistaken for it.
+    double behind_m = 0;
+    for (const Group& group : found)
+        if (group.first_rays == rays()) behind_m = group.depth_m() * double(1 + kDepthGap);
+    for (const Group& group : found) {
+        if (group.depth_m() < behind_m) continue;
+        const float depth_m = float(group.depth_m());
         const Vec3 colour = group.radiance / float(rays());
-        samples.push_back({{colour.x, colour.y, colour.z, float(group.rays) / float(rays())}, mean, mean});
+        samples.push_back(
+            {{colour.x, colour.y, colour.z, float(group.rays) / float(rays())}, depth_m, depth_m});
     }
 }
 

@@ -89,7 +89,7 @@ public:
     };
     RTCScene rays() const { return rays_; }
     const std::vector<Lamp>& lamps() const { return lamps_; }
-    bool is_lamp(std::uint32_t object) const { return object == lamp_object_; }
+    bool is_lamp(std::uint32_t object) const { return object == lamp_object_ && object != kSky; }
     // A surface that can never be seen from this side.
     bool is_inside(const Hit& hit) const;
     Vec3 radiance(const Hit& hit) const;
