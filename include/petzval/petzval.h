@@ -11,5 +11,6 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
+#include "petzval/lens_facts.h"
 #include "petzval/result.h"
 #include "petzval/version.h"

@@ -1,0 +1,88 @@
+// What there is to know about a lens before a picture is taken with it: the lenses that ship, and the numbers
+// of any lens or lens file.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/result.h"
+
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+enum class LensModelKind {
+    Ideal,         // a flat disc
+    Curves,        // longitudinal aberration curves
+    Prescription,  // surfaces and glass, traced
+};
+
+struct LensSummary {
+    std::string name;                   // as --lens takes it
+    std::string title;                  // what it is, in one line
+    std::string kind;                   // "triplet", "double gauss", …; may be empty
+    std::string year, source, history;  // may be empty
+    LensModelKind model = LensModelKind::Prescription;
+    double focal_length_mm = 0, f_number = 0;  // as built; it may be scaled to any focal length. 0: any
+};
+
+// Every lens that --lens knows by name: the ideal one, the curves, the prescriptions.
+PETZVAL_API std::vector<LensSummary> lens_list();
+
+// Third-order sums in mm, Welford's form; undercorrected spherical aberration has s1 > 0. c1, c2: axial and
+// lateral colour between the short and the long wavelength.
+struct SeidelFacts {
+    double s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, c1 = 0, c2 = 0;
+};
+
+// Where axial rays cross the axis, from the paraxial focus of the primary wavelength; negative is nearer the
+// lens.
+struct LongitudinalAberrationFacts {
+    std::vector<double> zones;  // share of the entrance pupil's radius
+    std::vector<double> wavelengths_um;
+    std::vector<std::vector<double>> shift_mm;  // [wavelength][zone]; NaN where no ray passes
+};
+
+// Real rays, aimed at the stop, of one field angle; object at infinity, sensor in the paraxial focus.
+struct FieldFacts {
+    double field_deg = 0;
+    double image_height_mm = 0;
+    double tangential_focus_mm = 0,
+           sagittal_focus_mm = 0;   // from the sensor, + away from the lens; NaN: no ray
+    double distortion_percent = 0;  // against f tan(field); NaN from 89 degrees
+    double lateral_colour_mm = 0;   // short minus long wavelength
+    double unvignetted_share = 0;   // of the light through the stop
+};
+
+// Of a prescription, at its primary wavelength; lengths in mm, + towards the image. A lens known by its
+// curves alone has efl_mm, f_number and longitudinal_aberration, and has_prescription false.
+struct LensFacts {
+    LensSummary summary;
+    std::string format;  // of the file it was read from
+    std::vector<std::string> notes, warnings;
+    bool has_prescription = false;
+
+    double efl_mm = 0, bfl_mm = 0, f_number = 0;
+    double front_focal_position_mm = 0;                                     // from the first vertex
+    double entrance_pupil_position_mm = 0, entrance_pupil_diameter_mm = 0;  // from the first vertex
+    double exit_pupil_position_mm = 0, exit_pupil_diameter_mm = 0;          // from the last vertex
+    double vertex_length_mm = 0, petzval_radius_mm = 0, lagrange_invariant_mm = 0;
+    double object_distance_mm = 0;  // from the first vertex, infinity as a rule
+    double image_distance_mm = 0;   // last vertex to the paraxial image of that object
+    double magnification = 0;       // 0 for an object at infinity
+    double field_deg = 0;           // largest half field
+    double seidel_field_deg = 0;    // half field of the sums below
+    double short_um = 0, primary_um = 0, long_um = 0;
+
+    SeidelFacts seidel;
+    std::vector<SeidelFacts> seidel_per_surface;
+    bool seidel_complete = true;  // false: odd aspheric powers below 4, which these sums cannot describe
+    LongitudinalAberrationFacts longitudinal_aberration;
+    std::vector<FieldFacts> field;  // from the axis to field_deg; ends where no ray passes the stop's centre
+};
+
+// Errors: InvalidArgument for a name that is neither a lens nor a file (the message lists the lenses);
+// InvalidFile for a file that is damaged, holds something unsupported, or describes no lens that forms an
+// image.
+PETZVAL_API Result<LensFacts> lens_facts(const std::string& name_or_file);
+
+}  // namespace petzval
