@@ -130,7 +130,7 @@ Status Reader::aperture(const Json& value) {
     } else if (kind == "STOP_SEMI_APERTURE") {
         lens.aperture_kind = ApertureKind::StopRadius;
         lens.aperture *= mm_;
-    } else if (kind == "OBJECT_NA" || kind == "NAO") {
+    } else if (kind == "OBJECT_NA") {
         lens.aperture_kind = ApertureKind::ObjectNA;
     } else {
         return at_line(type->line, "aperture type " + quoted(type->string) +

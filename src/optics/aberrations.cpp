@@ -96,7 +96,7 @@ std::optional<CloseBundle> coddington(const LensAtWavelength& lens, const Ray& r
         if (step.fate != RayFate::Passed) return std::nullopt;
         const Vec3 hit = step.ray.position;
         const double path = dot(hit - before.position, before.direction);
-        const double r = std::hypot(hit.x, hit.y);
+        const double r = radius(hit);
 
         const double slope = r > 0 ? s.slope(r) / r : 0;
         const Vec3 normal = normalised({-slope * hit.x, -slope * hit.y, 1});

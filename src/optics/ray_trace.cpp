@@ -58,7 +58,7 @@ std::optional<Vec3> refine_on_asphere(const RefractingSurface& surface, const Ra
     const Vec3& d = ray.direction;
     Vec3 p = guess;
     for (int iteration = 0; iteration < 50; ++iteration) {
-        const double r = std::hypot(p.x, p.y);
+        const double r = radius(p);
         const double gap = p.z - surface.sag_mm(r);
         const double across = r > 0 ? surface.slope(r) * (p.x * d.x + p.y * d.y) / r : 0;
         const double rate = d.z - across;
@@ -76,7 +76,7 @@ Vec3 normal_at(const RefractingSurface& surface, Vec3 p) {
         const double c = surface.curvature_per_mm;
         return normalised({c * p.x, c * p.y, c * (1 + surface.conic) * p.z - 1});
     }
-    const double r = std::hypot(p.x, p.y);
+    const double r = radius(p);
     if (r == 0) return {0, 0, -1};
     const double per_r = surface.slope(r) / r;
     return normalised({per_r * p.x, per_r * p.y, -1});
@@ -87,7 +87,7 @@ std::optional<Vec3> refract(Vec3 direction, Vec3 normal, double index_ratio) {
     const double cos_in = -dot(normal, direction);
     const double cos_out_squared = 1 - index_ratio * index_ratio * (1 - cos_in * cos_in);
     if (!(cos_out_squared >= 0) || !(cos_in > 0)) return std::nullopt;
-    return normalised(index_ratio * direction + (index_ratio * cos_in - std::sqrt(cos_out_squared)) * normal);
+    return index_ratio * direction + (index_ratio * cos_in - std::sqrt(cos_out_squared)) * normal;
 }
 
 }  // namespace
@@ -160,8 +160,7 @@ TracedRay trace(const LensAtWavelength& lens, Ray ray, int first, int end) noexc
         }
         result.ray.position = *hit;
         if (i != lens.stop)
-            result.clearance =
-                std::max(result.clearance, std::hypot(hit->x, hit->y) / surface.clear_radius_mm);
+            result.clearance = std::max(result.clearance, radius(*hit) / surface.clear_radius_mm);
 
         if (surface.index_before == surface.index_after) continue;
         const auto bent = refract(result.ray.direction, normal_at(surface, *hit),

@@ -23,6 +23,7 @@ struct Vec3 {
 };
 inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline double radius(Vec3 a) { return std::sqrt(a.x * a.x + a.y * a.y); }  // from the axis
 inline Vec3 normalised(Vec3 a) { return (1 / length(a)) * a; }
 
 // Position in mm in the frame of some surface; direction of unit length.
