@@ -26,6 +26,8 @@ struct Found {
     const Rgba& colour() const { return patch[0]; }
 };
 
+constexpr int kBlock = 4;  // pixels on a side share one distance to the nearest silhouette
+
 using Hits = std::array<std::array<Found, kHits>, kDirections>;
 
 struct Direction {
@@ -58,10 +60,12 @@ public:
         lay_paths();
     }
 
+    float widest_blur_px() const { return largest_ + std::abs(farthest_); }
+
     // What lies behind (x, y), if any surface nearby does.
     bool fill(int x, int y, std::vector<Hidden>& hidden) const {
         const float own = coc_(x, y);
-        if (beyond_(x, y) > std::abs(own) + kPastEdgePx) return false;
+        if (beyond_(x / kBlock, y / kBlock) > std::abs(own) + kPastEdgePx) return false;
         Hits hits;
         bool any = false;
         const Slope slope = slope_at(coc_, connected_, x, y);
@@ -74,23 +78,27 @@ public:
     }
 
 private:
-    // Distance to each silhouette of a pixel's own surface, less the blur of what lies behind it, the
-    // smallest: a two-sweep chamfer transform (G. Borgefors, "Distance transformations in digital images",
-    // 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own blur need no
-    // search.
+    // Per block of pixels: distance to each silhouette of a surface in the block, less the blur of what lies
+    // behind it, the smallest. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
+    // digital images", 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own
+    // blur need no search.
     void measure_distances() {
-        const int width = coc_.width(), height = coc_.height();
+        const int width = (coc_.width() + kBlock - 1) / kBlock,
+                  height = (coc_.height() + kBlock - 1) / kBlock;
         beyond_ = Plane(width, height, 1e9f);
-        Plane far(width, height, -1e30f);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                if (const Mixture* m = mixtures_.at(x, y))
-                    beyond_(x, y) = -std::abs(m->far_coc_px), far(x, y) = m->far_coc_px;
-        constexpr float kSide = 0.955f, kDiagonal = 1.3693f;
+        Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
+        for (int y = 0; y < coc_.height(); ++y)
+            for (int x = 0; x < coc_.width(); ++x) {
+                const int bx = x / kBlock, by = y / kBlock;
+                nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
+                if (const Mixture* m = mixtures_.at(x, y); m && m->far_coc_px > far(bx, by))
+                    beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
+            }
+        constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
         const auto relax = [&](int x, int y, int dx, int dy) {
             if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
             const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
-            if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= coc_(x, y) + kBehindPx) return;
+            if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + kBehindPx) return;
             beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
         };
         for (int y = 0; y < height; ++y)
@@ -246,29 +254,59 @@ private:
     float farthest_ = 0, largest_ = 0;  // of silhouettes: radius behind, |radius| in front
 };
 
+// Where blurs are wide, what is hidden is seen only through them: pixels of one surface then share what is
+// found for the first of them in a square of so many.
+int sharing_step(float widest_blur_px) { return widest_blur_px < 40 ? 1 : widest_blur_px < 120 ? 2 : 4; }
+
 }  // namespace
 
 HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
                          const Sparse<Mixture>& mixtures, int threads) {
-    const Filler filler(colour, coc, connected, mixtures);
     const int width = coc.width(), height = coc.height();
-    std::vector<std::vector<Hidden>> rows(static_cast<std::size_t>(height));
-    Image<int> first(width, height);
-    parallel_for(height, threads, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            first(x, y) = int(rows[std::size_t(y)].size());
-            if (mixtures.index(x, y) < 0) filler.fill(x, y, rows[std::size_t(y)]);
+    HiddenLayers layers;
+    if (mixtures.values.empty()) return layers;
+    const Filler filler(colour, coc, connected, mixtures);
+    const int step = sharing_step(filler.widest_blur_px());
+    const int bands = (height + step - 1) / step;
+    struct Range {
+        int begin, end;
+    };
+    std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
+    Image<Range> ranges(width, height, Range{0, 0});  // of each pixel, in its band
+    parallel_for(bands, threads, [&](int band) {
+        std::vector<Hidden>& here = found[std::size_t(band)];
+        const int y0 = band * step, y1 = std::min(height, y0 + step);
+        for (int x0 = 0; x0 < width; x0 += step) {
+            const int x1 = std::min(width, x0 + step);
+            float surface = 1e30f;  // radius of the surface that was asked for last
+            Range range{0, 0};
+            for (int y = y0; y < y1; ++y)
+                for (int x = x0; x < x1; ++x) {
+                    if (mixtures.index(x, y) >= 0) continue;
+                    if (std::abs(coc(x, y) - surface) > kBehindPx / 2) {
+                        surface = coc(x, y);
+                        range.begin = int(here.size());
+                        filler.fill(x, y, here);
+                        range.end = int(here.size());
+                    }
+                    ranges(x, y) = range;
+                }
         }
     });
-    HiddenLayers layers;
-    layers.width = width;
-    layers.first.reserve(first.size() + 1);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x)
-            layers.first.push_back(layers.samples.size() + std::size_t(first(x, y)));
-        layers.samples.insert(layers.samples.end(), rows[std::size_t(y)].begin(), rows[std::size_t(y)].end());
+    std::vector<std::size_t> starts;
+    for (const auto& band : found) {
+        starts.push_back(layers.samples.size());
+        layers.samples.insert(layers.samples.end(), band.begin(), band.end());
     }
-    layers.first.push_back(layers.samples.size());
+    layers.ranges = Image<HiddenLayers::Range>::uninitialised(width, height);
+    parallel_for(height, threads, [&](int y) {
+        const std::size_t start = starts[std::size_t(y / step)];
+        for (int x = 0; x < width; ++x) {
+            const Range r = ranges(x, y);
+            layers.ranges(x, y) = {std::uint32_t(start + std::size_t(r.begin)),
+                                   std::uint32_t(r.end - r.begin)};
+        }
+    });
     return layers;
 }
 

@@ -6,6 +6,7 @@
 
 #include "depth/connectivity.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -44,15 +45,16 @@ struct Hidden {
     float coc_px = 0;
 };
 
-// Hidden samples of every pixel, nearest first.
+// Hidden samples of every pixel, nearest first; pixels may share theirs.
 struct HiddenLayers {
-    int width = 0;
-    std::vector<std::size_t> first;  // per pixel, row by row, and one more; empty: nothing is hidden
+    struct Range {
+        std::uint32_t begin = 0, count = 0;
+    };
+    Image<Range> ranges;  // empty: nothing is hidden anywhere
     std::vector<Hidden> samples;
     std::span<const Hidden> at(int x, int y) const {
-        if (first.empty()) return {};
-        const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-        return {samples.data() + first[i], first[i + 1] - first[i]};
+        if (ranges.empty()) return {};
+        return {samples.data() + ranges(x, y).begin, ranges(x, y).count};
     }
 };
 

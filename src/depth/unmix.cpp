@@ -104,7 +104,8 @@ Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const u
     // the far side's account.
     const float far_share = 1 - m.near_share;
     Rgba rest = c - far_share * m.far_colour;
-    rest = {std::max(0.0f, rest.r), std::max(0.0f, rest.g), std::max(0.0f, rest.b), std::clamp(rest.a, 0.0f, 1.0f)};
+    rest = {std::max(0.0f, rest.r), std::max(0.0f, rest.g), std::max(0.0f, rest.b),
+            std::clamp(rest.a, 0.0f, 1.0f)};
     if (far_share > 0.05f) {
         const Rgba far = (c - rest) * (1 / far_share);
         m.far_colour = {std::max(0.0f, far.r), std::max(0.0f, far.g), std::max(0.0f, far.b), m.far_colour.a};

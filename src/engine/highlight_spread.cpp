@@ -68,22 +68,66 @@ private:
     Plane covered_;
 };
 
+// A lens that sees squares of pixels instead of points: each kernel averaged over `size` x `size` places of
+// its source, of which the first is the top-left pixel.
+class SquareLens final : public kernel::LensModel {
+public:
+    SquareLens(const kernel::LensModel& lens, int size) : lens_(lens), size_(size) {}
+
+    PointSpread point_spread(double coc_radius_px, kernel::FieldPosition field) const override {
+        PointSpread point = lens_.point_spread(coc_radius_px, field);
+        if (size_ == 1) return point;
+        const Rect e = point.extent;
+        const int width = e.width(), height = e.height(), more = size_ - 1;
+        Picture wide(width + more, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int i = 0; i < size_; ++i) wide(x + i, y) += point.weights(x, y);
+        Picture square(width + more, height + more);
+        const float share = 1 / float(size_ * size_);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width + more; ++x)
+                for (int i = 0; i < size_; ++i) square(x, y + i) += share * wide(x, y);
+        return {Rect{e.x0, e.y0, e.x1 + more, e.y1 + more}, std::move(square), point.neutral};
+    }
+    std::vector<kernel::PupilRay> rays(int count, kernel::FieldPosition field,
+                                       std::uint64_t seed) const override {
+        return lens_.rays(count, field, seed);
+    }
+    double reach_px(double coc_radius_px) const override { return lens_.reach_px(coc_radius_px) + size_; }
+    bool varies_over_field() const override { return lens_.varies_over_field(); }
+    std::string description() const override { return lens_.description(); }
+
+private:
+    const kernel::LensModel& lens_;
+    int size_;
+};
+
+constexpr int kSizes[] = {1, 2, 4, 8};
+
 class Spreader {
 public:
     Spreader(const Input& input, const CocSamples& samples)
         : input_(input),
           samples_(samples),
           blocks_(samples, input.threads),
-          stretch_(float(std::max(1.0, input.lens(0).reach_px(1)))),
-          bank_(input.lens(0), {.columns = 32,
-                                .rows = 18,
-                                .aspect = double(input.width()) / input.frame_height,
-                                .relative_step = 0.005,
-                                .least_step_px = 0.0625,
-                                .max_bytes = std::size_t(256) << 20}) {}
+          stretch_(float(std::max(1.0, input.lens(0).reach_px(1)))) {
+        const kernel::BankOptions options{.columns = 32,
+                                          .rows = 18,
+                                          .aspect = double(input.width()) / input.frame_height,
+                                          .relative_step = 0.005,
+                                          .least_step_px = 0.0625,
+                                          .max_bytes = std::size_t(64) << 20};
+        for (const int size : kSizes) {
+            lenses_.push_back(std::make_unique<const SquareLens>(input.lens(0), size));
+            banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), options));
+        }
+    }
 
     std::shared_ptr<const PointSpread> kernel(const Highlight& h) const {
-        auto open = bank_.kernel(double(h.coc_px), input_.field_at(h.x, h.y));
+        std::size_t bank = 0;
+        while (kSizes[bank] < h.size) ++bank;
+        auto open = banks_[bank]->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
         if (blocks_.overall() >= h.coc_px - kOwnSurfacePx) return open;
         // As fine as the taps where they are many, finer than they are where they are few.
         PupilShadow shadow(std::max(16, 2 * int(std::ceil(std::abs(h.coc_px)))));
@@ -94,14 +138,19 @@ public:
 private:
     bool collect(const Highlight& h, PupilShadow& shadow) const {
         bool any = false;
-        for (int by = 0; by < blocks_.blocks().height(); ++by)
-            for (int bx = 0; bx < blocks_.blocks().width(); ++bx) {
+        const auto reach_of = [&](float c) { return (h.coc_px - c) * stretch_ + 1 + float(h.size); };
+        const int farthest = int(reach_of(blocks_.overall())) + kBlock;
+        const Rect near = Rect{(h.x - farthest) / kBlock, (h.y - farthest) / kBlock,
+                               (h.x + farthest) / kBlock + 1, (h.y + farthest) / kBlock + 1}
+                              .intersected(blocks_.blocks().rect());
+        for (int by = near.y0; by < near.y1; ++by)
+            for (int bx = near.x0; bx < near.x1; ++bx) {
                 const float c = blocks_.blocks()(bx, by);
                 if (c >= h.coc_px - kOwnSurfacePx) continue;
-                const float reach = (h.coc_px - c) * stretch_ + 1;
                 const int dx = std::max({bx * kBlock - h.x, h.x - (bx + 1) * kBlock + 1, 0});
                 const int dy = std::max({by * kBlock - h.y, h.y - (by + 1) * kBlock + 1, 0});
-                if (float(dx * dx + dy * dy) <= reach * reach) any = collect_block(h, bx, by, shadow) || any;
+                if (float(dx * dx + dy * dy) <= reach_of(c) * reach_of(c))
+                    any = collect_block(h, bx, by, shadow) || any;
             }
         return any;
     }
@@ -117,9 +166,13 @@ private:
                     const float apart = h.coc_px - s.coc_px;
                     if (apart < kOwnSurfacePx) break;  // nearest first
                     const float per_px = 1 / apart;
-                    const float u = float(x - h.x) * per_px, v = float(y - h.y) * per_px;
-                    if (u * u + v * v > (1 + per_px) * (1 + per_px) * stretch_ * stretch_) continue;
-                    shadow.cover(u, v, per_px, s.colour.a);
+                    const float middle = 0.5f * float(h.size - 1), side = float(h.size) * per_px;
+                    const float u = (float(x - h.x) - middle) * per_px,
+                                v = (float(y - h.y) - middle) * per_px;
+                    if (u * u + v * v > (1 + side) * (1 + side) * stretch_ * stretch_) continue;
+                    // From every pixel of the highlight a square of per_px; on average, a wider and thinner
+                    // one.
+                    shadow.cover(u, v, side, s.colour.a / float(h.size * h.size));
                     any = true;
                 }
         return any;
@@ -130,15 +183,15 @@ private:
         const Rect e = open.extent;
         Plane seen(e.width(), e.height()), all(e.width(), e.height());
         float seen_total = 0, all_total = 0;
+        const float middle = 0.5f * float(h.size - 1);
         const float per_cell = 2 / float(shadow.cells());
         for (int y = 0; y < shadow.cells(); ++y)
             for (int x = 0; x < shadow.cells(); ++x) {
                 const float u = (float(x) + 0.5f) * per_cell - 1, v = (float(y) + 0.5f) * per_cell - 1;
-                if (u * u + v * v > 1) continue;
                 const float visible = shadow.visible(x, y);
-                seen_total += visible, all_total += 1;
-                const int tx = int(std::floor(h.coc_px * u + 0.5f)) - e.x0,
-                          ty = int(std::floor(h.coc_px * v + 0.5f)) - e.y0;
+                if (u * u + v * v <= 1) seen_total += visible, all_total += 1;
+                const int tx = int(std::floor(h.coc_px * u + middle + 0.5f)) - e.x0;
+                const int ty = int(std::floor(h.coc_px * v + middle + 0.5f)) - e.y0;
                 if (!all.rect().contains(tx, ty)) continue;
                 seen(tx, ty) += visible, all(tx, ty) += 1;
             }
@@ -153,16 +206,18 @@ private:
     const CocSamples& samples_;
     NearestBlocks blocks_;
     float stretch_;
-    kernel::KernelBank bank_;
+    std::vector<std::unique_ptr<const SquareLens>> lenses_;
+    std::vector<std::unique_ptr<const kernel::KernelBank>> banks_;
 };
 
 void add(const PointSpread& spread, const Highlight& h, const Rect& rows, View<Rgba> out) {
     const Rect e = spread.extent;
     const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
+    const Rgba light = h.colour * float(h.size * h.size);
     for (int y = place.y0; y < place.y1; ++y) {
         const Rgba* weights = spread.weights.row(y - h.y - e.y0) - h.x - e.x0;
         Rgba* sums = out.row(y);
-        for (int x = place.x0; x < place.x1; ++x) sums[x] += weights[x] * h.colour;
+        for (int x = place.x0; x < place.x1; ++x) sums[x] += weights[x] * light;
     }
 }
 

@@ -53,35 +53,130 @@ HighlightSplit::HighlightSplit(View<const Rgba> picture, const HighlightRule& ru
     });
 }
 
+float HighlightSplit::floor_at(float coc_px) const {
+    const float radius = std::abs(coc_px);
+    return std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
+}
+
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
-    const float radius = std::abs(coc_px);
-    const float cheapest = rule_.least_floor * light.a;
-    if (brightness <= cheapest || radius < rule_.least_radius_px) return light;
-    const float floor = std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
-    const float bound = light.a * (floor + rule_.factor * surroundings_(x / kCell, y / kCell));
+    if (brightness <= rule_.least_floor * light.a) return light;
+    const float bound = light.a * (floor_at(coc_px) + rule_.factor * surroundings_(x / kCell, y / kCell));
     if (brightness <= bound) return light;
     const Rgba scaled = light * (bound / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};
 }
 
-std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int threads) {
-    const int width = samples.width, height = samples.height();
-    std::vector<std::vector<Highlight>> rows(static_cast<std::size_t>(height));
-    parallel_for(height, threads, [&](int y) {
-        std::size_t i = std::size_t(y) * std::size_t(width);
-        for (int x = 0; x < width; ++x, ++i)
-            for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
-                CocSample& sample = samples.samples[k];
-                const Rgba base = split.base(x, y, sample.coc_px, sample.colour);
-                if (base == sample.colour) continue;
-                rows[std::size_t(y)].push_back({x, y, sample.coc_px, sample.colour - base});
-                sample.colour = base;
+namespace {
+
+constexpr int kLargestSquare = 8;
+constexpr float kSquaresPerRadius = 4;
+constexpr float kSameRadius = 0.01f;  // pixels of a square differ by less than this share of their radius
+
+// What was taken from one sample.
+struct Taken {
+    Rgba colour;
+    std::size_t sample = 0;
+};
+
+// The front-most bright samples of a block of kLargestSquare pixels on a side, to be taken apart into
+// squares.
+class Block {
+public:
+    Block(int x, int y) : x_(x), y_(y) {}
+
+    bool empty() const { return empty_; }
+    void put(int x, int y, float coc_px, const Taken& taken) {
+        Cell& c = cell(x - x_, y - y_);
+        c = {taken, coc_px, true};
+        empty_ = false;
+    }
+    // Takes squares of `size` that have light in common.
+    void take_squares(int size, const HighlightSplit& split, std::vector<Highlight>& out) {
+        for (int y = 0; y < kLargestSquare; y += size)
+            for (int x = 0; x < kLargestSquare; x += size) {
+                Rgba common = cell(x, y).taken.colour;
+                const float coc = cell(x, y).coc_px;
+                bool all = true;
+                for_square(x, y, size, [&](const Cell& c) {
+                    all = all && c.lit && std::abs(c.coc_px - coc) <= kSameRadius * std::abs(coc) + 0.02f;
+                    common = {std::min(common.r, c.taken.colour.r), std::min(common.g, c.taken.colour.g),
+                              std::min(common.b, c.taken.colour.b), 0};
+                });
+                // A wide square in a small disc would smear the shadows that nearer things throw into it.
+                const bool narrow = float(size) * kSquaresPerRadius <= std::abs(coc);
+                if (!all || !narrow || split.may_stay(luminance(common), coc)) continue;
+                for_square(x, y, size, [&](Cell& c) { c.taken.colour -= common; });
+                out.push_back({x_ + x, y_ + y, size, coc, common});
             }
+    }
+    // What is left: pixel by pixel, or back to the base.
+    void finish(const HighlightSplit& split, CocSamples& samples, std::vector<Highlight>& out) {
+        for (int y = 0; y < kLargestSquare; ++y)
+            for (int x = 0; x < kLargestSquare; ++x) {
+                const Cell& c = cell(x, y);
+                if (!c.lit || c.taken.colour == Rgba{}) continue;
+                if (split.may_stay(luminance(c.taken.colour), c.coc_px) &&
+                    samples.samples[c.taken.sample].colour.a > kLeastAlpha)
+                    samples.samples[c.taken.sample].colour += c.taken.colour;
+                else
+                    out.push_back({x_ + x, y_ + y, 1, c.coc_px, c.taken.colour});
+            }
+    }
+
+private:
+    struct Cell {
+        Taken taken;
+        float coc_px = 0;
+        bool lit = false;
+    };
+    Cell& cell(int x, int y) { return cells_[y * kLargestSquare + x]; }
+    template <typename Visit>
+    void for_square(int x0, int y0, int size, const Visit& visit) {
+        for (int y = y0; y < y0 + size; ++y)
+            for (int x = x0; x < x0 + size; ++x) visit(cell(x, y));
+    }
+    int x_, y_;
+    bool empty_ = true;
+    Cell cells_[kLargestSquare * kLargestSquare];
+};
+
+}  // namespace
+
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int largest_square,
+                                       int threads) {
+    const int width = samples.width, height = samples.height();
+    const int bands = (height + kLargestSquare - 1) / kLargestSquare;
+    std::vector<std::vector<Highlight>> found(static_cast<std::size_t>(bands));
+    parallel_for(bands, threads, [&](int band) {
+        std::vector<Highlight>& out = found[std::size_t(band)];
+        const int y0 = band * kLargestSquare;
+        for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
+            Block block(x0, y0);
+            for (int y = y0; y < std::min(height, y0 + kLargestSquare); ++y)
+                for (int x = x0; x < std::min(width, x0 + kLargestSquare); ++x) {
+                    const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+                    bool in_block = false;
+                    for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
+                        CocSample& sample = samples.samples[k];
+                        const Rgba base = split.base(x, y, sample.coc_px, sample.colour);
+                        if (base == sample.colour) continue;
+                        const Rgba taken = sample.colour - base;
+                        sample.colour = base;
+                        if (in_block)
+                            out.push_back({x, y, 1, sample.coc_px, taken});
+                        else
+                            block.put(x, y, sample.coc_px, {taken, k}), in_block = true;
+                    }
+                }
+            if (block.empty()) continue;
+            for (int size = largest_square; size > 1; size /= 2) block.take_squares(size, split, out);
+            block.finish(split, samples, out);
+        }
     });
     std::vector<Highlight> highlights;
-    for (const auto& row : rows) highlights.insert(highlights.end(), row.begin(), row.end());
+    for (const auto& band : found) highlights.insert(highlights.end(), band.begin(), band.end());
     return highlights;
 }
 

@@ -7,10 +7,12 @@
 
 namespace petzval::engine {
 
+// A square of pixels of one radius and one colour.
 struct Highlight {
-    int x = 0, y = 0;
+    int x = 0, y = 0;  // its top-left pixel
+    int size = 1;      // pixels on a side
     float coc_px = 0;
-    Rgba colour;  // what was taken out; a is 0: the surface itself stays in the base
+    Rgba colour;  // what was taken out of each of its pixels; a is 0: the surface itself stays in the base
 };
 
 // How far a pixel may stand out before it counts as a highlight: luminance above
@@ -33,14 +35,21 @@ public:
     HighlightSplit(View<const Rgba> picture, const HighlightRule& rule, int threads);
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
+    // Whether light so bright, left over at this radius, may stay whatever surrounds it.
+    bool may_stay(float brightness, float coc_px) const { return brightness <= floor_at(coc_px); }
 
 private:
+    float floor_at(float coc_px) const;
+
     HighlightRule rule_;
     Plane surroundings_;  // per cell of kCell x kCell pixels
     static constexpr int kCell = 4;
 };
 
-// Splits every sample in place; returns what was taken, row by row, nearest first.
-std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int threads);
+// Splits every sample in place; returns what was taken. Bright areas are taken as few squares: what all
+// pixels of a square of 8, then 4, then 2 have in common goes first, and what is then left of a pixel and no
+// longer stands out stays in the base. largest_square = 1 takes pixels alone.
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int largest_square,
+                                       int threads);
 
 }  // namespace petzval::engine

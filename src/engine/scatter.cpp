@@ -52,7 +52,7 @@ Result<Output> run_scatter(const Input& input) {
     // taken out only for the shadows in them.
     const HighlightSplit split(input.colour, {.factor = 2, .floor_at_1px = 0.006f, .least_floor = 0.25f},
                                input.threads);
-    const std::vector<Highlight> highlights = take_highlights(samples, split, input.threads);
+    const std::vector<Highlight> highlights = take_highlights(samples, split, 8, input.threads);
     watch.lap("split", output.stages);
 
     const std::vector<SourceLevel> levels =
