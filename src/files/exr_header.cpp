@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
@@ -33,10 +34,31 @@ std::optional<Imf::Compression> compression_of(const std::string& name) {
     return std::nullopt;
 }
 
+// A copy that lacks some attributes. Header::erase() of OpenEXR 3.1 forgets to free what it takes out.
+Imf::Header without(const Imf::Header& input, const std::vector<std::string>& names) {
+    Imf::Header header;
+    for (auto a = input.begin(); a != input.end(); ++a)
+        if (std::find(names.begin(), names.end(), a.name()) == names.end())
+            header.insert(a.name(), a.attribute());
+    return header;
+}
+
 // Replaces an attribute whatever its type was; inserting another type would throw.
 void put(Imf::Header& header, const std::string& name, const Imf::Attribute& attribute) {
-    header.erase(name);
+    const auto old = header.find(name);
+    if (old != header.end() && std::string_view(old.attribute().typeName()) != attribute.typeName())
+        header = without(header, {name});
     header.insert(name, attribute);
+}
+
+// `flat`: what only deep parts have is left out.
+Imf::Header copied_header(const Imf::Header& input, const Frame& frame, bool flat) {
+    std::vector<std::string> unwanted{"chunkCount"};  // OpenEXR counts anew
+    if (flat) unwanted.insert(unwanted.end(), {"version", "maxSamplesPerPixel"});
+    Imf::Header header = without(input, unwanted);
+    header.displayWindow() = box_of(frame.display_window);
+    if (!header.hasType()) header.setType(header.hasTileDescription() ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+    return header;
 }
 
 }  // namespace
@@ -61,25 +83,18 @@ Imf::Header new_header(const Rect& display_window, const Rect& data_window, doub
 }
 
 Imf::Header kept_header(const Imf::Header& input, const Frame& frame) {
-    Imf::Header header = input;
-    header.erase("chunkCount");  // OpenEXR counts anew
-    header.displayWindow() = box_of(frame.display_window);
-    if (!header.hasType()) header.setType(header.hasTileDescription() ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
-    return header;
+    return copied_header(input, frame, false);
 }
 
 Imf::Header colour_header(const Imf::Header& input, const Frame& frame, const std::vector<Channel>& channels,
                           std::size_t colours) {
-    Imf::Header header = kept_header(input, frame);
+    const bool deep = input.hasType() && Imf::isDeepData(input.type());
+    Imf::Header header = copied_header(input, frame, deep);
     header.dataWindow() = box_of(frame.data_window);
     header.channels() = channel_list(channels);
     header.lineOrder() = Imf::INCREASING_Y;
     const bool tiled = Imf::isTiled(header.type());
-    if (Imf::isDeepData(header.type())) {
-        header.erase("version");
-        header.erase("maxSamplesPerPixel");
-        header.setType(tiled ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
-    }
+    if (deep) header.setType(tiled ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
     if (tiled) {
         Imf::TileDescription tiles = header.tileDescription();
         tiles.mode = Imf::ONE_LEVEL;

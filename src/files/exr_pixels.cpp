@@ -126,7 +126,10 @@ Result<Plane> read_depth(const ExrFile& exr, const DepthChoice& choice) {
         std::vector<FloatTarget> targets;
         for (std::size_t i = 0; i < 3; ++i) targets.push_back(target(choice.position[i], position[i]));
         if (Status s = read_floats(exr, choice.part, targets); !s) return s.error();
-        return depth_of_positions(position, Imf::worldToCamera(exr.parts->header(int(choice.part))));
+        for (int p = 0; p < exr.parts->parts(); ++p)
+            if (Imf::hasWorldToCamera(exr.parts->header(p)))
+                return depth_of_positions(position, Imf::worldToCamera(exr.parts->header(p)));
+        return invalid_file(exr.file->path(), "has positions but no worldToCamera to make depth of them");
     }
     Plane depth;
     if (Status s = read_floats(exr, choice.part, {target(choice.channel, depth)}); !s) return s.error();

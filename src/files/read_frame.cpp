@@ -19,13 +19,19 @@ Error neither(const InputFile& file) {
 Result<Frame> read(const std::string& path, const ReadOptions& options, bool pixels) {
     const auto file = InputFile::open(path);
     if (!file) return file.error();
-    try {
-        if (starts_like_exr(**file)) return read_exr_frame(*file, options, pixels);
-        if (starts_like_png(**file)) return read_png_frame(*file, options, pixels);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::OutOfMemory, printable(path, 4096) + ": does not fit into memory"};
-    }
-    return neither(**file);
+    std::optional<Result<Frame>> frame;
+    // The room's door: whatever libraries threw and nobody caught further in stops here.
+    const Status sound = guarded(path, [&]() -> Status {
+        if (starts_like_exr(**file))
+            frame = read_exr_frame(*file, options, pixels);
+        else if (starts_like_png(**file))
+            frame = read_png_frame(*file, options, pixels);
+        else
+            frame = neither(**file);
+        return Done{};
+    });
+    if (!sound) return sound.error();
+    return std::move(*frame);
 }
 
 // The share of full scale, never through a transfer curve.

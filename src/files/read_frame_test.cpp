@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <limits>
 
+#include <Imath/ImathMatrix.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
 namespace petzval {
@@ -104,6 +106,29 @@ TEST(ReadFrame, DepthOfAnotherPartIsPastedAndMissesWhereItCoversNothing) {
     EXPECT_EQ(frame->depth(1, 0), std::numeric_limits<float>::infinity());
     EXPECT_EQ(frame->depth(4, 3), std::numeric_limits<float>::infinity());
     EXPECT_THAT(frame->detected, Contains(HasSubstr("'depth_left'")));
+}
+
+TEST(ReadFrame, AWorldPositionAndTheCameraMatrixMakeDepthWhereThereIsNone) {
+    const TemporaryFolder folder;
+    // The camera stands at (1, 2, 3) and looks along +x of the world.
+    const Imath::M44f camera_from_world = Imath::M44f().setTranslation(Imath::V3f(-1, -2, -3)) *
+                                          Imath::M44f(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1);
+    const auto part_with = [&](const char* x, const char* y, const char* z) {
+        QuickPart part{"", "", kWindow, {{"R"}, {"G"}, {"B"}}};
+        part.channels.push_back({x, Imf::FLOAT, [](int px, int) { return px == 7 ? 0 : 11 + px; }});
+        part.channels.push_back({y, Imf::FLOAT, [](int px, int) { return px == 7 ? 0 : 5; }});
+        part.channels.push_back({z, Imf::FLOAT, [](int px, int) { return px == 7 ? 0 : 6; }});
+        part.with = [=](Imf::Header& h) { Imf::addWorldToCamera(h, camera_from_world); };
+        return part;
+    };
+    for (const auto& part : {part_with("P.X", "P.Y", "P.Z"), part_with("Pworld.R", "Pworld.G", "Pworld.B")}) {
+        write_quick_exr(folder / "a.exr", kWindow, {part});
+        const Result<Frame> frame = read_frame(folder / "a.exr");
+        ASSERT_TRUE(frame) << frame.error().message;
+        EXPECT_FLOAT_EQ(frame->depth(2, 3), 12);
+        EXPECT_EQ(frame->depth(7, 3), std::numeric_limits<float>::infinity());
+        EXPECT_THAT(frame->detected, Contains(HasSubstr("worldToCamera")));
+    }
 }
 
 TEST(ReadFrame, HeaderAloneNamesPartsChannelsAndCamera) {
