@@ -32,13 +32,15 @@ std::array<double, 3> tristimulus(double wavelength_nm) {
 SpectralBand integrated(double from_nm, double to_nm) {
     const int steps = std::max(1, int(std::ceil(to_nm - from_nm)));
     const double step = (to_nm - from_nm) / steps;
-    double x = 0, y = 0, z = 0;
+    double x = 0, y = 0, z = 0, moment = 0;
     for (int i = 0; i < steps; ++i) {
-        const auto [dx, dy, dz] = tristimulus(from_nm + (i + 0.5) * step);
+        const double wavelength_nm = from_nm + (i + 0.5) * step;
+        const auto [dx, dy, dz] = tristimulus(wavelength_nm);
         x += step * dx, y += step * dy, z += step * dz;
+        moment += step * (dx + dy + dz) * wavelength_nm;
     }
     // IEC 61966-2-1: XYZ (D65) to linear Rec.709.
-    return {0.5 * (from_nm + to_nm), 3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
+    return {moment / (x + y + z), 3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
             -0.9692660 * x + 1.8760108 * y + 0.0415560 * z, 0.0556434 * x - 0.2040259 * y + 1.0572252 * z, y};
 }
 

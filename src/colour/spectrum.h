@@ -9,7 +9,7 @@ namespace petzval::colour {
 // A slice of the visible spectrum. Over all slices r, g, b and luminance each sum to 1, so that a lens that
 // treats all wavelengths alike is neutral. Single slices lie outside the gamut: r, g or b may be negative.
 struct SpectralBand {
-    double wavelength_nm = 0;  // middle of the slice
+    double wavelength_nm = 0;  // the slice's centre of gravity under X + Y + Z
     double r = 0, g = 0, b = 0;
     double luminance = 0;
 };

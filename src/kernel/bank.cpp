@@ -13,6 +13,23 @@ std::uint64_t key_of(int step, int cell) {
     return (std::uint64_t(std::uint32_t(step)) << 32) | std::uint32_t(cell);
 }
 
+// Mirrors never leave gaps: pixel 0 stays where it is.
+PointSpread mirrored(const PointSpread& from, bool left_right, bool up_down) {
+    const Rect e = from.extent;
+    PointSpread to{{left_right ? 1 - e.x1 : e.x0, up_down ? 1 - e.y1 : e.y0, left_right ? 1 - e.x0 : e.x1,
+                    up_down ? 1 - e.y0 : e.y1},
+                   Image<Rgba>::uninitialised(e.width(), e.height()),
+                   from.neutral};
+    for (int y = 0; y < e.height(); ++y) {
+        const Rgba* row = from.weights.row(up_down ? e.height() - 1 - y : y);
+        if (left_right)
+            std::reverse_copy(row, row + e.width(), to.weights.row(y));
+        else
+            std::copy_n(row, e.width(), to.weights.row(y));
+    }
+    return to;
+}
+
 }  // namespace
 
 KernelBank::KernelBank(const LensModel& lens, const BankOptions& options) : lens_(lens), options_(options) {
@@ -77,11 +94,22 @@ std::shared_ptr<const PointSpread> KernelBank::kernel_of(int step, int cell) con
     }
     const std::lock_guard making(slot->making);
     if (!slot->kernel) {
-        slot->kernel =
-            std::make_shared<const PointSpread>(lens_.point_spread(radius_of(step), middle_of(cell)));
+        slot->kernel = std::make_shared<const PointSpread>(made(step, cell));
         keep(slot);
     }
     return slot->kernel;
+}
+
+// Cells right of and above the middle mirror those on the other side, where the lens allows it.
+PointSpread KernelBank::made(int step, int cell) const {
+    const int column = cell % options_.columns, row = cell / options_.columns;
+    const Mirrors mirrors = lens_.mirrors();
+    const bool left_right = mirrors.left_right && 2 * column > options_.columns - 1;
+    const bool up_down = mirrors.up_down && 2 * row > options_.rows - 1;
+    if (!left_right && !up_down) return lens_.point_spread(radius_of(step), middle_of(cell));
+    const int twin = (up_down ? options_.rows - 1 - row : row) * options_.columns +
+                     (left_right ? options_.columns - 1 - column : column);
+    return mirrored(*kernel_of(step, twin), left_right, up_down);
 }
 
 // Counts a new kernel and drops the ones that were not asked for longest. A slot that is being made is not

@@ -54,6 +54,7 @@ private:
     int cell_of(FieldPosition field) const;
     FieldPosition middle_of(int cell) const;
     std::shared_ptr<const PointSpread> kernel_of(int step, int cell) const;
+    PointSpread made(int step, int cell) const;
     void keep(const std::shared_ptr<Slot>& slot) const;
 
     const LensModel& lens_;

@@ -3,6 +3,7 @@
 #include "kernel/mesh_kernel.h"
 #include "kernel/ray_set.h"
 #include "kernel/ring_kernel.h"
+#include "kernel/sector_kernel.h"
 #include "kernel/spread.h"
 
 #include <algorithm>
@@ -12,13 +13,13 @@
 namespace petzval::kernel {
 namespace {
 
-constexpr int kLadder[] = {7, 15, 31, 62, 124, 248};
+constexpr int kLadder[] = {1, 7, 15, 31, 62, 124, 248};
 // Neighbouring bands may land this far apart before their rims show as separate lines.
-constexpr double kBandStepPx = 0.4;
+constexpr double kBandStepPx = 0.7;
+// Bands that all land within this are one.
+constexpr double kNoColourPx = 0.02;
 // Light outside carries under 1 % of the luminance; it does not decide how many bands are needed.
-constexpr int kLeastRingBands = 31, kLeastMeshBands = 7, kLeastRayBands = 62;
-// A chord of the outline may leave its arc by this much on the image.
-constexpr double kChordTolerancePx = 0.02;
+constexpr int kLeastRingBands = 31, kLeastSectorBands = 15, kLeastMeshBands = 7, kLeastRayBands = 62;
 constexpr double kSeenFrom_nm = 430, kSeenTo_nm = 670;
 
 // Units of LensChoice::coma and ::astigmatism, focal lengths (petzval/lens.h).
@@ -43,7 +44,7 @@ std::string describe(const AberrationCurves& curves, const Camera& camera) {
     return text;
 }
 
-BandWeight weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band.b}; }
+Light weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band.b}; }
 
 }  // namespace
 
@@ -91,7 +92,8 @@ void CurveLens::measure_curves() {
 }
 
 const std::vector<CurveLens::Band>& CurveLens::bands_for(int at_least) const {
-    const double needed = std::max(double(at_least), colour_spread_ * aberration_px_ / kBandStepPx);
+    const double spread_px = colour_spread_ * aberration_px_;
+    const double needed = spread_px < kNoColourPx ? 1 : std::max(double(at_least), spread_px / kBandStepPx);
     for (const std::vector<Band>& rung : ladder_)
         if (double(rung.size()) >= needed) return rung;
     return ladder_.back();
@@ -118,11 +120,7 @@ bool CurveLens::varies_over_field() const {
            choice_.distortion != 0;
 }
 
-bool CurveLens::same_in_all_directions(FieldPosition field) const {
-    const bool on_axis = field.x == 0 && field.y == 0;
-    return pupil_.is_disc(field) && pixel_aspect_ == 1 &&
-           (on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0));
-}
+Mirrors CurveLens::mirrors() const { return pupil_.mirrors(); }
 
 double CurveLens::reach_px(double coc_radius_px) const {
     const double off_axis = 3 * std::abs(coma_px_) + std::abs(astigmatism_px_);
@@ -132,7 +130,18 @@ double CurveLens::reach_px(double coc_radius_px) const {
 }
 
 PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
-    return same_in_all_directions(field) ? ring_spread(coc_radius_px) : mesh_spread(coc_radius_px, field);
+    const bool on_axis = field.x == 0 && field.y == 0;
+    const bool same_around_the_axis =
+        on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0);
+    if (!same_around_the_axis) return mesh_spread(coc_radius_px, field);
+    if (pupil_.is_disc(field) && pixel_aspect_ == 1) {
+        const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
+        return ring_kernel(rings.bands, rings.reach_px);
+    }
+    const Rings rings = rings_of(coc_radius_px, kLeastSectorBands);
+    const std::vector<Point> outline = pupil_.outline(field, mesh_tolerance(rings.reach_px));
+    if (!is_star_about_axis(outline)) return mesh_spread(coc_radius_px, field);
+    return sector_kernel(outline, rings.bands, rings.reach_px, pixel_aspect_);
 }
 
 PointSpread CurveLens::point_spread(double coc_radius_px, FieldPosition field) const {
@@ -141,32 +150,35 @@ PointSpread CurveLens::point_spread(double coc_radius_px, FieldPosition field) c
     return spread;
 }
 
-PointSpread CurveLens::ring_spread(double coc_radius_px) const {
-    std::vector<RingBand> bands;
-    double reach = 0;
-    for (const Band& band : bands_for(kLeastRingBands)) {
+CurveLens::Rings CurveLens::rings_of(double coc_radius_px, int least_bands) const {
+    Rings rings;
+    for (const Band& band : bands_for(least_bands)) {
         const auto landing = [this, coc_radius_px, &band](double area) {
             return std::sqrt(area) * (coc_radius_px - aberration_px_ * (band.shift(area) - focus_));
         };
         const std::size_t last = band.shift.samples().size() - 1;
         for (std::size_t i = 0; i <= last; ++i)
-            reach = std::max(reach, std::abs(landing(double(i) / double(last))));
-        bands.push_back({weight_of(band.spectrum), landing});
+            rings.reach_px = std::max(rings.reach_px, std::abs(landing(double(i) / double(last))));
+        rings.bands.push_back({weight_of(band.spectrum), landing});
     }
-    return ring_kernel(bands, reach);
+    return rings;
 }
 
 PointSpread CurveLens::mesh_spread(double coc_radius_px, FieldPosition field) const {
     const FieldAxis axis(field);
-    const double size = reach_px(coc_radius_px);
+    // Aberrations bend faster across the pupil than they reach.
+    const double aberration = aberration_px_ * largest_seen_, coma = 3 * std::abs(coma_px_) * axis.size;
+    const double size = std::abs(coc_radius_px) + aberration + coma;
+    const double bend = std::abs(coc_radius_px) + 3 * aberration + 4 * coma;
     MeshPupil pupil;
-    pupil.outline = subdivided(pupil_.outline(field, kChordTolerancePx / std::max(size, 1.0)), 0.1);
-    pupil.rings = rings_for(size);
+    pupil.outline = subdivided(pupil_.outline(field, mesh_tolerance(bend)), mesh_step(bend));
+    pupil.rings = mesh_rings(size);
     std::vector<MeshBand> bands;
     for (const Band& band : bands_for(kLeastMeshBands))
-        bands.push_back({weight_of(band.spectrum), [&, coc_radius_px](Point p) {
-                             return landing_px(band.shift, coc_radius_px, axis, p);
-                         }});
+        bands.push_back(
+            {weight_of(band.spectrum), [&, coc_radius_px](std::span<const Point> points, Point* landed) {
+                 for (const Point& p : points) *landed++ = landing_px(band.shift, coc_radius_px, axis, p);
+             }});
     return mesh_kernel(pupil, bands);
 }
 

@@ -12,6 +12,7 @@
 #include "kernel/aberration_curves.h"
 #include "kernel/lens_model.h"
 #include "kernel/pupil.h"
+#include "kernel/ring_kernel.h"
 
 #include <cmath>
 
@@ -40,6 +41,7 @@ public:
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override;
+    Mirrors mirrors() const override;
     std::string description() const override { return description_; }
 
 private:
@@ -50,8 +52,11 @@ private:
     void measure_curves();
     const std::vector<Band>& bands_for(int at_least) const;
     Point landing_px(const ZoneShift& shift, double coc_radius_px, const FieldAxis& axis, Point pupil) const;
-    bool same_in_all_directions(FieldPosition field) const;
-    PointSpread ring_spread(double coc_radius_px) const;
+    struct Rings {
+        std::vector<RingBand> bands;
+        double reach_px = 0;
+    };
+    Rings rings_of(double coc_radius_px, int least_bands) const;
     PointSpread mesh_spread(double coc_radius_px, FieldPosition field) const;
 
     std::string description_;
@@ -63,6 +68,7 @@ private:
     double coma_px_;                         // sagittal coma of the rim at full field
     double astigmatism_px_;                  // half the distance between both foci at full field, times K
     double largest_shift_ = 0;               // of rho |shift - s| over pupil and wavelengths
+    double largest_seen_ = 0;                // the same of wavelengths that count
     double colour_spread_ = 0;               // of shift between wavelengths that count, over the pupil
     std::vector<std::vector<Band>> ladder_;  // the spectrum cut finer and finer
 };

@@ -9,7 +9,7 @@ namespace {
 // A chord of the outline may leave its arc by this much on the image.
 constexpr double kChordTolerancePx = 2e-4;
 
-PointSpread normalised(CoverageBuffer& coverage) {
+PointSpread normalised(CoverageBuffer<double>& coverage) {
     const Rect extent = coverage.extent();
     PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), true};
     std::vector<const double*> rows;
@@ -41,7 +41,7 @@ PointSpread IdealLens::point_spread(double coc_radius_px, FieldPosition field) c
     }
     const Rect extent = pixels_touched(low, high);
     if (extent.width() == 1 && extent.height() == 1) return {extent, {1, 1, Rgba{1, 1, 1, 1}}, true};
-    CoverageBuffer coverage(extent);
+    CoverageBuffer<double> coverage(extent);
     coverage.add_polygon(outline, 1);
     return normalised(coverage);
 }

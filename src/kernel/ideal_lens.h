@@ -15,6 +15,7 @@ public:
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override { return pupil_.varies_over_field(); }
+    Mirrors mirrors() const override { return pupil_.mirrors(); }
     std::string description() const override { return "ideal: no aberration, a flat disc"; }
 
 private:

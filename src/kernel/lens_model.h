@@ -41,6 +41,12 @@ struct PupilRay {
     Rgba weight;
 };
 
+// Whether the kernel at a mirrored field position is the mirrored kernel.
+struct Mirrors {
+    bool left_right = false;  // (-x, y) against (x, y)
+    bool up_down = false;     // (x, -y) against (x, y)
+};
+
 // A lens mounted on a camera, for pictures of one size. Immutable; safe to use from many threads.
 class LensModel {
 public:
@@ -63,6 +69,8 @@ public:
 
     // False: point_spread and rays are the same for every field position.
     virtual bool varies_over_field() const = 0;
+
+    virtual Mirrors mirrors() const { return {}; }
 
     virtual std::string description() const = 0;
 };

@@ -55,16 +55,17 @@ private:
 // The image of the mesh in one wavelength, drawn into a buffer.
 class Drawing {
 public:
-    Drawing(const Mesh& mesh, const std::vector<Point>& landed, CoverageBuffer& buffer)
-        : mesh_(mesh), landed_(landed), buffer_(buffer) {}
+    Drawing(const Mesh& mesh, CoverageBuffer<Light>& buffer)
+        : mesh_(mesh), buffer_(buffer), density_(mesh.light().size()) {}
 
-    void draw() {
+    void draw(const Point* landed, const Light& weight) {
+        landed_ = landed, weight_ = weight;
         find_densities();
         for (int j = 0; j < mesh_.rings(); ++j)
             for (int k = 0; k < mesh_.spokes(); ++k) {
                 const Halves& here = density_[mesh_.at(j, k)];
-                const Point a = landed_[mesh_.at(j, k)], d = landed_[mesh_.at(j + 1, k)];
-                const Point c = landed_[mesh_.at(j + 1, k + 1)];
+                const Point a = landed[mesh_.at(j, k)], d = landed[mesh_.at(j + 1, k)];
+                const Point c = landed[mesh_.at(j + 1, k + 1)];
                 const int before = k == 0 ? mesh_.spokes() - 1 : k - 1;
                 const double beyond = j + 1 < mesh_.rings() ? density_[mesh_.at(j + 1, k)].inner : 0;
                 // Every edge is drawn once, with what lies on its one side less what lies on the other.
@@ -75,12 +76,13 @@ public:
     }
 
 private:
-    void draw_edge(Point from, Point to, double weight) {
-        if (weight != 0) buffer_.add_edge(from, to, weight);
+    static constexpr double kLeastArea = 1e-9;  // px^2; above, doubles lose nothing to the division
+
+    void draw_edge(Point from, Point to, double density) {
+        if (density != 0) buffer_.add_edge(from, to, density * weight_);
     }
 
     void find_densities() {
-        density_.resize(mesh_.light().size());
         for (int j = 0; j < mesh_.rings(); ++j)
             for (int k = 0; k < mesh_.spokes(); ++k) {
                 const Halves& light = mesh_.light()[mesh_.at(j, k)];
@@ -88,37 +90,36 @@ private:
                 const Point c = landed_[mesh_.at(j + 1, k + 1)], d = landed_[mesh_.at(j + 1, k)];
                 const double outer = signed_area(a, d, c), inner = signed_area(a, c, b);
                 Halves& density = density_[mesh_.at(j, k)];
-                if (outer * inner > 0) {
+                if (outer * inner >= 0 && std::abs(outer + inner) >= kLeastArea) {
                     density.outer = density.inner = (light.outer + light.inner) / (outer + inner);
-                    if (std::abs(outer + inner) >= kLeastArea) continue;
+                } else {
+                    density.outer = spread(light.outer, outer, a, d, c);
+                    density.inner = spread(light.inner, inner, a, c, b);
                 }
-                density = {spread(light.outer, outer, a, d, c), spread(light.inner, inner, a, c, b)};
             }
     }
 
-    // Light per signed area: a triangle that was turned over counts negative twice, once here and once drawn.
-    // One without area, as on a caustic or at a perfect focus, leaves its light in the pixel where it lies.
-    double spread(double light, double signed_area_px, Point a, Point b, Point c) {
-        if (std::abs(signed_area_px) >= kLeastArea) return light / signed_area_px;
-        if (light != 0) buffer_.add_point((1.0 / 3) * (a + b + c), light);
+    // Light per signed area: a triangle that was turned over counts negative twice, here and when drawn. One
+    // without area, as on a caustic or at a perfect focus, leaves its light in the pixel where it lies.
+    double spread(double light, double area_px, Point a, Point b, Point c) {
+        if (std::abs(area_px) >= kLeastArea) return light / area_px;
+        if (light != 0) buffer_.add_point((1.0 / 3) * (a + b + c), light * weight_);
         return 0;
     }
 
-    static constexpr double kLeastArea = 1e-9;  // px^2; above, doubles lose nothing to the division
-
     const Mesh& mesh_;
-    const std::vector<Point>& landed_;
-    CoverageBuffer& buffer_;
+    CoverageBuffer<Light>& buffer_;
+    const Point* landed_ = nullptr;
+    Light weight_;
     std::vector<Halves> density_;
 };
 
-Rect extent_of(const std::vector<std::vector<Point>>& landed) {
-    Point low = landed[0][0], high = low;
-    for (const std::vector<Point>& points : landed)
-        for (const Point& p : points) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
+Rect extent_of(const std::vector<Point>& points) {
+    Point low = points[0], high = points[0];
+    for (const Point& p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
     return pixels_touched(low, high);
 }
 
@@ -126,29 +127,30 @@ Rect extent_of(const std::vector<std::vector<Point>>& landed) {
 
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands) {
     const Mesh mesh(pupil);
-    std::vector<std::vector<Point>> landed(bands.size());
-    for (std::size_t i = 0; i < bands.size(); ++i)
-        for (const Point& p : mesh.points()) landed[i].push_back(bands[i].landing_px(p));
+    const std::size_t count = mesh.points().size();
+    std::vector<Point> landed(count * bands.size());
+    for (std::size_t i = 0; i < bands.size(); ++i) bands[i].land(mesh.points(), &landed[i * count]);
 
     const Rect extent = extent_of(landed);
-    CoverageBuffer buffer(extent);
-    PointSpread spread{extent, Image<Rgba>(extent.width(), extent.height()), false};
-    for (std::size_t i = 0; i < bands.size(); ++i) {
-        buffer.clear();
-        Drawing(mesh, landed[i], buffer).draw();
-        const BandWeight& w = bands[i].weight;
-        for (int y = 0; y < extent.height(); ++y) {
-            const double* covered = buffer.resolve_row(y);
-            Rgba* row = spread.weights.row(y);
-            for (int x = 0; x < extent.width(); ++x)
-                row[x] += {float(w.r * covered[x]), float(w.g * covered[x]), float(w.b * covered[x]), 0};
-        }
+    CoverageBuffer<Light> buffer(extent);
+    Drawing drawing(mesh, buffer);
+    for (std::size_t i = 0; i < bands.size(); ++i) drawing.draw(&landed[i * count], bands[i].weight);
+
+    PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), false};
+    for (int y = 0; y < extent.height(); ++y) {
+        const Light* covered = buffer.resolve_row(y);
+        for (int x = 0; x < extent.width(); ++x)
+            spread.weights(x, y) = {float(covered[x].r), float(covered[x].g), float(covered[x].b), 0};
     }
     normalise(spread);
     return spread;
 }
 
-int rings_for(double size_px) { return std::clamp(int(std::ceil(8 + size_px / 1.5)), 12, 192); }
+int mesh_rings(double size_px) { return std::clamp(int(std::ceil(8 + size_px / 1.8)), 10, 192); }
+
+double mesh_tolerance(double size_px) { return 0.04 / std::max(size_px, 4.0); }
+
+double mesh_step(double size_px) { return std::sqrt(8 * mesh_tolerance(size_px)); }
 
 std::vector<Point> subdivided(const std::vector<Point>& outline, double longest) {
     std::vector<Point> fine;

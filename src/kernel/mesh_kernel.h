@@ -9,14 +9,10 @@
 #include "kernel/spread.h"
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace petzval::kernel {
-
-struct MeshBand {
-    BandWeight weight;
-    std::function<Point(Point)> landing_px;  // of a point of the pupil
-};
 
 struct MeshPupil {
     std::vector<Point> outline;                 // convex, positive area, edges of even length
@@ -24,11 +20,21 @@ struct MeshPupil {
     int rings = 16;
 };
 
+struct MeshBand {
+    Light weight;  // share of the channels
+    // Where points of the pupil land, in pixels; landed has room for one per point.
+    std::function<void(std::span<const Point> pupil, Point* landed)> land;
+};
+
 // Channels sum to 1; colours are not mapped.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands);
 
-// Rings that keep cells of a kernel of this size at most about 1.5 pixels thick.
-int rings_for(double size_px);
+// How fine a mesh must be for a kernel that reaches size_px: cells two pixels thick, chords 0.04 px off their
+// arcs. Rings; the longest distance of a chord of the outline from its arc, and its longest edge, pupil
+// radii.
+int mesh_rings(double size_px);
+double mesh_tolerance(double size_px);
+double mesh_step(double size_px);
 
 // Cuts edges longer than `longest` into equal parts.
 std::vector<Point> subdivided(const std::vector<Point>& outline, double longest);

@@ -44,6 +44,15 @@ std::vector<Point> Pupil::outline(FieldPosition field, double tolerance) const {
     return outline;
 }
 
+Mirrors Pupil::mirrors() const {
+    if (shape_.blades < 3 || shape_.curvature == 1) return {true, true};
+    // Vertices stand at rotation + k step; mirrored they are the same set if twice the angle to the axis is a
+    // whole number of steps.
+    const double step = 360.0 / shape_.blades;
+    const auto whole = [](double steps) { return std::abs(steps - std::round(steps)) < 1e-9; };
+    return {whole((180 - 2 * shape_.rotation_deg) / step), whole(2 * shape_.rotation_deg / step)};
+}
+
 bool Pupil::is_disc(FieldPosition field) const {
     const bool round = shape_.blades < 3 || shape_.curvature == 1;
     return round && shape_.squeeze == 1 && (cats_eye_ == 0 || (field.x == 0 && field.y == 0));

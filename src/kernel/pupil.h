@@ -21,6 +21,7 @@ public:
     // tolerance: largest distance of a chord from its arc, in pupil radii.
     std::vector<Point> outline(FieldPosition field, double tolerance) const;
     bool varies_over_field() const { return cats_eye_ > 0; }
+    Mirrors mirrors() const;
     // A full, round, open disc as seen from `field`.
     bool is_disc(FieldPosition field) const;
 

@@ -5,6 +5,7 @@
 // profile, and the profile is integrated over the squares of the pixels.
 #pragma once
 
+#include "kernel/coverage.h"
 #include "kernel/spread.h"
 
 #include <functional>
@@ -15,7 +16,7 @@ namespace petzval::kernel {
 // A wavelength band: its share of the channels, and the signed radius in pixels at which the light of pupil
 // radius sqrt(area) lands, area in 0…1. A negative radius lies on the other side of the axis.
 struct RingBand {
-    BandWeight weight;
+    Light weight;
     std::function<double(double area)> landing_px;
 };
 

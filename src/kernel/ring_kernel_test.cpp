@@ -12,19 +12,27 @@
 namespace petzval::kernel {
 namespace {
 
+const Light kWhite{1, 1, 1};
+
+PointSpread mesh_of(const MeshPupil& pupil, const std::function<Point(Point)>& landing) {
+    return mesh_kernel(pupil, {{kWhite, [&](std::span<const Point> points, Point* landed) {
+                                    for (const Point& p : points) *landed++ = landing(p);
+                                }}});
+}
+
 // Third order: v = a rho + b rho^3.
 double cubic(double a, double b, double area) { return std::sqrt(area) * (a + b * area); }
 
 PointSpread cubic_rings(double a, double b) {
     double reach = std::abs(a + b);
     if (a * b < 0 && -a / (3 * b) < 1) reach = std::max(reach, std::abs(cubic(a, b, -a / (3 * b))));
-    return ring_kernel({{{}, [=](double area) { return cubic(a, b, area); }}}, reach);
+    return ring_kernel({{kWhite, [=](double area) { return cubic(a, b, area); }}}, reach);
 }
 
 PointSpread cubic_mesh(double a, double b) {
     const double size = std::abs(a) + std::abs(b);
-    MeshPupil pupil{aperture_outline({}, 0.02 / size), {}, rings_for(size)};
-    return mesh_kernel(pupil, {{{}, [=](Point p) { return (a + b * (p.x * p.x + p.y * p.y)) * p; }}});
+    MeshPupil pupil{aperture_outline({}, mesh_tolerance(size)), {}, mesh_rings(size)};
+    return mesh_of(pupil, [=](Point p) { return (a + b * (p.x * p.x + p.y * p.y)) * p; });
 }
 
 TEST(RingKernel, WithoutAberrationItIsTheAntiAliasedDisc) {
@@ -76,8 +84,8 @@ TEST(RingKernel, NothingIsNegativeAndNothingIsLost) {
 TEST(MeshKernel, AgreesWithExactRings) {
     for (const auto& [a, b] : {std::pair{20.0, 0.0}, {30.0, -9.0}, {20.0, 10.0}, {6.0, 3.0}}) {
         const PointSpread rings = cubic_rings(a, b), mesh = cubic_mesh(a, b);
-        EXPECT_LT(largest_difference(rings, mesh), 0.03 * brightest(rings)) << a << " " << b;
-        EXPECT_NEAR(moments(mesh).xx, moments(rings).xx, 5e-3 * moments(rings).xx);
+        EXPECT_LT(largest_difference(rings, mesh), 0.04 * brightest(rings)) << a << " " << b;
+        EXPECT_NEAR(moments(mesh).xx, moments(rings).xx, 1e-2 * moments(rings).xx);
         EXPECT_NEAR(sums(mesh).g, 1, 1e-6);
     }
 }
@@ -92,14 +100,14 @@ TEST(MeshKernel, IsSmoothWithoutGrain) {
 
 TEST(MeshKernel, APerfectFocusLeavesAllLightInItsPixel) {
     MeshPupil pupil{aperture_outline({}, 0.01), {}, 8};
-    const PointSpread s = mesh_kernel(pupil, {{{}, [](Point) { return Point{}; }}});
+    const PointSpread s = mesh_of(pupil, [](Point) { return Point{}; });
     EXPECT_NEAR(double(weight_at(s, 0, 0).g), 1, 1e-6);
 }
 
 TEST(MeshKernel, DarkCellsSendNoLight) {
     MeshPupil pupil{subdivided(aperture_outline({}, 1e-3), 0.05), [](Point p) { return p.x > 0 ? 1.0 : 0.0; },
                     40};
-    const PointSpread s = mesh_kernel(pupil, {{{}, [](Point p) { return 20 * p; }}});
+    const PointSpread s = mesh_of(pupil, [](Point p) { return 20 * p; });
     EXPECT_NEAR(sums(s).g, 1, 1e-6);
     EXPECT_NEAR(double(weight_at(s, -10, 0).g), 0, 1e-9);
     EXPECT_NEAR(double(weight_at(s, 10, 0).g) * 0.5 * std::numbers::pi * 400, 1, 0.01);

@@ -6,6 +6,24 @@ namespace petzval::kernel {
 
 PointSpread single_pixel() { return {{0, 0, 1, 1}, {1, 1, Rgba{1, 1, 1, 1}}, true}; }
 
+void trim(PointSpread& spread) {
+    Rect lit{spread.extent.x1, spread.extent.y1, spread.extent.x0, spread.extent.y0};
+    for (int y = 0; y < spread.weights.height(); ++y)
+        for (int x = 0; x < spread.weights.width(); ++x) {
+            const Rgba w = spread.weights(x, y);
+            if (w.r == 0 && w.g == 0 && w.b == 0) continue;
+            const int px = x + spread.extent.x0, py = y + spread.extent.y0;
+            lit = {std::min(lit.x0, px), std::min(lit.y0, py), std::max(lit.x1, px + 1),
+                   std::max(lit.y1, py + 1)};
+        }
+    if (lit.empty() || lit == spread.extent) return;
+    Image<Rgba> kept = Image<Rgba>::uninitialised(lit.width(), lit.height());
+    for (int y = 0; y < kept.height(); ++y)
+        std::copy_n(spread.weights.row(y + lit.y0 - spread.extent.y0) + (lit.x0 - spread.extent.x0),
+                    kept.width(), kept.row(y));
+    spread = {lit, std::move(kept), spread.neutral};
+}
+
 void normalise(PointSpread& spread) {
     double r = 0, g = 0, b = 0;
     for (std::size_t i = 0; i < spread.weights.size(); ++i) {

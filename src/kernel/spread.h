@@ -5,13 +5,11 @@
 
 namespace petzval::kernel {
 
-// One wavelength band's share in each channel.
-struct BandWeight {
-    double r = 1, g = 1, b = 1;
-};
-
 // All light on the pixel of the source.
 PointSpread single_pixel();
+
+// Drops border rows and columns that hold no light.
+void trim(PointSpread& spread);
 
 // Scales r, g, b to sum to 1 each, sets a to their luminance, and notes whether all are equal.
 // Requires: each channel's sum is positive.
