@@ -54,8 +54,8 @@ private:
 void add_street_lamps(City& city) {
     for (int i = 0; i < 9; ++i) {
         const float z = 34 + 13 * float(i);
-        city.lamp({street(-5.2f, z), 4.9f, z}, 0.05f, light::kSodium, 2.2f);
-        city.lamp({street(5.4f, z + 5), 4.9f, z + 5}, 0.05f, light::kSodium, 2.0f);
+        city.lamp({street(-5.2f, z), 4.9f, z}, 0.05f, light::kSodium, 1.2f);
+        city.lamp({street(5.4f, z + 5), 4.9f, z + 5}, 0.05f, light::kSodium, 1.0f);
     }
     for (int i = 0; i < 6; ++i) {  // lanterns along the quay
         const float z = 15 + 5.5f * float(i);
@@ -76,7 +76,7 @@ void add_traffic(City& city) {
         for (const float side : {-half, half}) {
             if (i % 2 == 0)
                 city.lamp({street(-lane + side, z), height, z}, 0.06f,
-                          mix(light::kWhite, light::kCool, city.random(4)), 2.4f);
+                          mix(light::kWhite, light::kCool, city.random(4)), 1.7f);
             else
                 city.lamp({street(lane + side, z), height + 0.15f, z}, 0.05f, light::kRed, 0.9f);
         }
@@ -119,13 +119,13 @@ void add_far_lights(City& city) {
     const Vec3 colours[] = {light::kSodium, light::kWarm, light::kWhite, light::kSodium,
                             light::kCool,   light::kWarm, light::kAmber, light::kCyan};
     for (int i = 0; i < 130; ++i) {
-        const float z = 85 + 140 * city.random(7);
+        const float z = 48 + 60 * city.random(7);
         const float x = 0.185f * z * (2 * city.random(8) - 1);
         const float rise = city.random(9);
         const float y = kEyeHeight + z * (0.002f + 0.075f * rise * rise);
         const float faint = city.random(10);
-        city.lamp({x, y, z}, 0.08f, colours[int(8 * city.random(11))],
-                  0.05f + 0.75f * faint * faint * faint * faint);
+        city.lamp({x, y, z}, 0.045f, colours[int(8 * city.random(11))],
+                  0.04f + 0.8f * faint * faint * faint * faint);
     }
 }
 
@@ -145,9 +145,9 @@ Vec3 windows(float along, float up, int house) {
 
 void add_houses(World& world) {
     for (int i = 0; i < 26; ++i) {
-        const float z = 75 + 5.2f * float(i), width = 0.05f * z + 4 * cell_value(i, 0, 17);
+        const float z = 112 + 5.2f * float(i), width = 0.05f * z + 4 * cell_value(i, 0, 17);
         const float x = 0.2f * z * (2 * cell_value(i, 1, 17) - 1),
-                    height = z * (0.03f + 0.075f * cell_value(i, 2, 17));
+                    height = z * (0.025f + 0.060f * cell_value(i, 2, 17));
         world.add(
             patch({x - width, 0, z}, {2 * width, 0, 0}, {0, height, 0}, 4, 4),
             [=](const SurfacePoint& p) {
@@ -253,12 +253,13 @@ void build(World& world, float time) {
     world.view.position = {0.35f * time, kEyeHeight, 0};
     world.sky = [](Vec3 d) {
         const float rise = std::max(0.0f, d.y / std::max(d.z, 0.05f));
-        return mix(Vec3{0.055f, 0.030f, 0.028f}, Vec3{0.006f, 0.010f, 0.024f}, smoothstep(0, 0.11f, rise));
+        return mix(Vec3{0.085f, 0.050f, 0.050f}, Vec3{0.012f, 0.026f, 0.070f}, smoothstep(0, 0.10f, rise));
     };
     world.ambient_above = {0.030f, 0.036f, 0.055f}, world.ambient_below = {0.016f, 0.012f, 0.010f};
-    world.lights.push_back({{-2.4f, 3.2f, 2.9f}, {17, 10.5f, 5.6f}, 0.12f});  // the lamp over the quay
-    world.lights.push_back({{2.9f, 1.9f, 7.3f}, {10.5f, 3.2f, 6.4f}, 0.2f});  // a sign behind, to the right
-    world.lights.push_back({{-3.4f, 2.2f, 7.8f}, {2.4f, 5.4f, 8.0f}, 0.2f});  // and a cold one to the left
+    world.lights.push_back({{-2.4f, 3.2f, 2.9f}, {24, 15, 8.2f}, 0.12f});       // the lamp over the quay
+    world.lights.push_back({{2.9f, 1.9f, 7.3f}, {10.5f, 3.2f, 6.4f}, 0.2f});    // a sign behind, to the right
+    world.lights.push_back({{-3.4f, 2.2f, 7.8f}, {2.4f, 5.4f, 8.0f}, 0.2f});    // and a cold one to the left
+    world.lights.push_back({{-1.1f, 1.5f, 0.5f}, {1.5f, 1.15f, 0.75f}, 0.1f});  // a shop window behind us
     City city(world);
     add_street_lamps(city);
     add_traffic(city);

@@ -164,7 +164,8 @@ Rgba composed(const RenderedScene& r, int x, int y) {
 }
 
 TEST(SceneLayers, ComposedInOrderTheyMakeThePinholePicture) {
-    // Small pictures are the hard ones: more pixels hold a lamp and the edge before it, whose covers correlate.
+    // Small pictures are the hard ones: more pixels hold a lamp and the edge before it, whose covers
+    // correlate.
     SceneSettings s;
     s.width = 256, s.height = 144, s.want_layers = true;
     for (const char* name : {"bars", "fence"}) {
