@@ -164,7 +164,7 @@ void add_distance(World& world) {
 }
 
 void build(World& world, float time) {
-    world.view.position = {0.12f * time, kEyeHeight, 0};
+    world.view.position = {0.10f * time, kEyeHeight, 0};
     world.sky = [](Vec3 d) {
         return mix(Vec3{0.75f, 0.80f, 0.85f}, Vec3{0.28f, 0.45f, 0.75f}, smoothstep(0, 0.5f, d.y));
     };

@@ -250,7 +250,7 @@ void add_quay(World& world) {
 }
 
 void build(World& world, float time) {
-    world.view.position = {0.35f * time, kEyeHeight, 0};
+    world.view.position = {0.12f * time, kEyeHeight, 0};
     world.sky = [](Vec3 d) {
         const float rise = std::max(0.0f, d.y / std::max(d.z, 0.05f));
         return mix(Vec3{0.085f, 0.050f, 0.050f}, Vec3{0.012f, 0.026f, 0.070f}, smoothstep(0, 0.10f, rise));
