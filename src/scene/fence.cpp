@@ -149,7 +149,7 @@ void add_distance(World& world) {
         Sides::Sheet);
     for (int i = 0; i < 7; ++i) {
         const float x = 2.6f + 1.3f * float(i % 4) + 0.4f * cell_value(i, 0, 61),
-                    z = 10 + 1.6f * float(i / 2);
+                    z = 10 + 1.6f * std::floor(0.5f * float(i));
         const float size = 0.9f + 0.5f * cell_value(i, 1, 61);
         world.add(
             sphere({x, 1.4f + 0.8f * cell_value(i, 2, 61), z}, {size, 1.2f * size, size}, 24, 14),

@@ -163,7 +163,7 @@ void add_houses(World& world) {
 // in which a streak has the same size wherever it lies.
 class GroundGlow {
 public:
-    explicit GroundGlow(const City& city) : texels_(kWidth * kHeight) {
+    explicit GroundGlow(const City& city) : texels_(std::size_t(kWidth) * kHeight) {
         for (const City::Reflection& r : city.reflections()) add(r);
     }
     Vec3 at(Vec3 p) const {

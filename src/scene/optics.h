@@ -19,14 +19,17 @@ struct LensRays {
     float inverse_focus_per_m = 0;
 
     // Requires a camera that CircleOfConfusion::make accepts.
-    LensRays(const Camera& camera, int width, int height) {
-        const double f = camera.focal_length_mm, focus_mm = 1000 * camera.focus_distance_m;
-        const double image_distance_mm =
-            camera.image_scale == ImageScale::ThinLens ? f / (1 - f / focus_mm) : f;
-        pixel = float(camera.sensor_width_mm / width / image_distance_mm);
-        centre_x = 0.5f * float(width), centre_y = 0.5f * float(height);
-        aperture_radius_m = float(0.5 * f / camera.f_number / 1000);
-        inverse_focus_per_m = float(1 / camera.focus_distance_m);
+    LensRays(const Camera& camera, int width, int height)
+        : pixel(float(camera.sensor_width_mm / width / image_distance_mm(camera))),
+          centre_x(0.5f * float(width)),
+          centre_y(0.5f * float(height)),
+          aperture_radius_m(float(0.5 * camera.focal_length_mm / camera.f_number / 1000)),
+          inverse_focus_per_m(float(1 / camera.focus_distance_m)) {}
+
+    static double image_distance_mm(const Camera& camera) {
+        const double f_mm = camera.focal_length_mm;
+        if (camera.image_scale == ImageScale::Rendered) return f_mm;
+        return f_mm / (1 - f_mm / (1000 * camera.focus_distance_m));
     }
 
     struct Ray {

@@ -72,6 +72,7 @@ private:
     }
     void trace_pixel(int x);
     void follow(Packet& packet, int first_ray, int lanes);
+    bool note_hit(const Packet& packet, int lane, int ray, bool is_first);
     void collect_surfaces();
     Vec3 collect_lamp(const LampImage& lamp, int x);
     std::vector<Group> groups();
@@ -103,28 +104,32 @@ void Row::trace_pixel(int x) {
 
 void Row::follow(Packet& packet, int first_ray, int lanes) {
     int found[kPacket] = {}, going = lanes;
-    bool active[kPacket];
-    for (int lane = 0; lane < kPacket; ++lane) active[lane] = lane < lanes;
+    bool active[kPacket] = {};
+    std::fill_n(active, lanes, true);
     for (int step = 0; step < kMaxSteps && going > 0; ++step) {
         packet.intersect();
         for (int lane = 0; lane < lanes; ++lane) {
             if (!active[lane]) continue;
-            const World::Hit hit = packet.hit(lane);
-            if (!pass_.world.is_inside(hit)) {
-                const bool lamp = pass_.world.is_lamp(hit.object);
-                const Vec3 radiance = lamp ? Vec3{} : pass_.world.radiance(hit);
-                const PeeledHit peeled{hit.object, first_ray + lane, packet.depth(lane), radiance};
-                if (found[lane]++ == 0) first_hits_.push_back(peeled);
-                if (!lamp) hits_.push_back(peeled);
-            }
-            if (packet.missed(lane) || found[lane] == layers_) {
-                active[lane] = false, --going;
-                packet.retire(lane);
-            } else {
+            if (note_hit(packet, lane, first_ray + lane, found[lane] == 0)) ++found[lane];
+            active[lane] = !packet.missed(lane) && found[lane] < layers_;
+            if (active[lane]) {
                 packet.step_behind(lane);
+            } else {
+                packet.retire(lane), --going;
             }
         }
     }
+}
+
+// False for what cannot be seen: solids from inside.
+bool Row::note_hit(const Packet& packet, int lane, int ray, bool is_first) {
+    const World::Hit hit = packet.hit(lane);
+    if (pass_.world.is_inside(hit)) return false;
+    const bool lamp = pass_.world.is_lamp(hit.object);
+    const PeeledHit peeled{hit.object, ray, packet.depth(lane), lamp ? Vec3{} : pass_.world.radiance(hit)};
+    if (is_first) first_hits_.push_back(peeled);
+    if (!lamp) hits_.push_back(peeled);
+    return true;
 }
 
 // Hits of one object without a gap in depth between them. Of a ray that hits a group more than once (tubes

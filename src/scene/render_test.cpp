@@ -23,7 +23,7 @@ Mesh facing_sheet(float x0, float x1, float y0, float y1, float z) {
     return patch({x0, y0, z}, {x1 - x0, 0, 0}, {0, y1 - y0, 0}, 1, 1);
 }
 
-RenderedScene rendered(World& world, SceneSettings s, const Camera& camera = kCamera) {
+RenderedScene rendered(World& world, const SceneSettings& s, const Camera& camera = kCamera) {
     EXPECT_TRUE(world.commit(2));
     return render(world, camera, s).value();
 }

@@ -53,7 +53,7 @@ TEST(BuiltInScenes, AnUnknownNameIsAnsweredWithTheList) {
 }
 
 TEST(BuiltInScenes, NumbersOutOfRangeAreNamed) {
-    const auto message = [](SceneSettings s) {
+    const auto message = [](const SceneSettings& s) {
         const auto r = render_scene("bars", s);
         return r ? std::string() : r.error().message;
     };

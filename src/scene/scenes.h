@@ -10,7 +10,7 @@ namespace petzval::scene {
 struct BuiltInScene {
     SceneSummary summary;
     // Fills an empty world as it stands at `time`, 0 at the first frame and 1 at the last.
-    void (*build)(World& world, float time);
+    void (*build)(World& world, float time) = nullptr;
 };
 
 BuiltInScene night();

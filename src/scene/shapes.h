@@ -30,7 +30,7 @@ Mesh sphere(Vec3 centre, Vec3 radii, int around, int up);
 struct Tubes {
     struct Point {
         Vec3 position;
-        float radius;
+        float radius = 0;
     };
     std::vector<Point> points;
     std::vector<std::uint32_t> segments;  // index of the first point of each

@@ -75,8 +75,8 @@ void add_books(World& world, float x, float z) {
 }
 
 struct Ball {
-    float x, z, radius;
-    int kind;
+    float x = 0, z = 0, radius = 0;
+    int kind = 0;
     Vec3 colour, second;
 };
 

@@ -4,10 +4,6 @@
 
 namespace petzval::scene {
 
-void Packet::clear() {
-    for (int& v : valid_) v = 0;
-}
-
 void Packet::set(int lane, const LensRays::Ray& ray, float far) {
     const Vec3 o = world_.view.position + world_.view.to_world(ray.origin);
     const Vec3 d = world_.view.to_world(ray.direction);
@@ -25,14 +21,14 @@ void Packet::intersect() {
         packet_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         if (valid_[i]) packet_.ray.tfar[i] = std::numeric_limits<float>::infinity();
     }
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect16(valid_, world_.rays(), &context, &packet_);
 }
 
 void Packet::test_occlusion() {
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded16(valid_, world_.rays(), &context, &packet_.ray);

@@ -16,8 +16,7 @@ constexpr int kPacket = 16;
 // Up to sixteen rays of camera space on their way through the world.
 class Packet {
 public:
-    explicit Packet(const World& world) : world_(world) { clear(); }
-    void clear();
+    explicit Packet(const World& world) : world_(world) {}
     void set(int lane, const LensRays::Ray& ray, float far = std::numeric_limits<float>::infinity());
     // Finds the nearest hit of each set lane beyond where it stands.
     void intersect();
@@ -34,8 +33,8 @@ public:
 
 private:
     const World& world_;
-    RTCRayHit16 packet_;
-    alignas(64) int valid_[kPacket];
+    RTCRayHit16 packet_{};
+    alignas(64) int valid_[kPacket] = {};
 };
 
 inline Rgba opaque(Vec3 c) { return {c.x, c.y, c.z, 1}; }
@@ -44,11 +43,11 @@ inline Rgba opaque(Vec3 c) { return {c.x, c.y, c.z, 1}; }
 struct Pass {
     const World& world;
     LensRays lens;
-    int width, height, samples;
-    std::uint32_t seed;
-    int threads;
+    int width = 0, height = 0, samples = 0;
+    std::uint32_t seed = 0;
+    int threads = 0;
     Progress& progress;
-    double share;  // of the whole work
+    double share = 0;  // of the whole work
 };
 
 // Pinhole colour and depth, and the layers (see RenderedScene) when `layers` is not null.

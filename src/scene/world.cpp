@@ -149,7 +149,7 @@ void World::bake_vertex(Object& object, std::size_t vertex, std::uint32_t seed) 
 
 Vec3 World::baked_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const {
     const Vec3 from = position + 1e-3f * normal;
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     Vec3 sum;
     for (int i = 0; i < kBakeRays; ++i) {
