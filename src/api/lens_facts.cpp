@@ -5,13 +5,9 @@
 #include "optics/aberrations.h"
 #include "optics/seidel.h"
 
-#include <cmath>
-#include <limits>
-
 namespace petzval {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kZones = 10, kFieldPoints = 11;
 
 LensSummary ideal_summary() {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace petzval::lens_files {
 namespace {
@@ -120,8 +121,8 @@ private:
             if (!next_is(':')) return fail("':' is missing after \"" + key + "\"");
             ++at_;
             skip_space();
-            out.members.emplace_back(std::move(key), Json{});
-            if (!value(out.members.back().second, depth + 1)) return false;
+            out.members.push_back({std::move(key), {}});
+            if (!value(out.members.back().value, depth + 1)) return false;
             skip_space();
             if (next_is('}')) return ++at_, true;
             if (!next_is(',')) return fail("',' or '}' is missing in an object before " + excerpt());

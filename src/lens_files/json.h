@@ -6,10 +6,11 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace petzval::lens_files {
+
+struct JsonMember;
 
 struct Json {
     enum class Type { Null, Bool, Number, String, Array, Object };
@@ -18,13 +19,18 @@ struct Json {
     int line = 0;  // where the value starts, from 1
     bool boolean = false;
     double number = 0;
-    std::string string;                                 // of a string; of a number, its digits as written
-    std::vector<Json> items;                            // of an array
-    std::vector<std::pair<std::string, Json>> members;  // of an object, as written
+    std::string string;               // of a string; of a number, its digits as written
+    std::vector<Json> items;          // of an array
+    std::vector<JsonMember> members;  // of an object, as written
 
     bool is(Type wanted) const { return type == wanted; }
     // The member of that name; nullptr when there is none or this is no object.
     const Json* find(std::string_view name) const;
+};
+
+struct JsonMember {
+    std::string key;
+    Json value;
 };
 
 inline constexpr int kDeepestJson = 32;
