@@ -2,6 +2,8 @@
 
 Usage: check_headers.py [repository root]. The only include path is include/, as it is for those who install us.
 """
+import concurrent.futures
+import os
 import pathlib
 import shutil
 import subprocess
@@ -25,7 +27,10 @@ def main(root):
     headers = sorted((root / "include").rglob("*.h"))
     if not compilers or not headers:
         sys.exit("headers: no compiler or no header found")
-    failed = [f"{h.name} ({c})" for c in compilers for h in headers if not compiles(c, root, h)]
+    pairs = [(c, h) for c in compilers for h in headers]
+    with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        fine = pool.map(lambda pair: compiles(pair[0], root, pair[1]), pairs)
+    failed = [f"{h.name} ({c})" for (c, h), ok in zip(pairs, fine) if not ok]
     print(f"headers: not alone: {', '.join(failed)}" if failed
           else f"headers: ok ({len(headers)} with {', '.join(compilers)})")
     sys.exit(bool(failed))
