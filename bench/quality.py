@@ -45,7 +45,8 @@ def petzval(*words):
 
 def engine_names():
     """As the program's own help lists them."""
-    return re.search(r"--engine NAME\s+(.*?);", petzval("defocus", "--help"), re.DOTALL)[1].replace(",", " ").split()
+    listed = re.search(r"--engine NAME\s+(.*?);", petzval("defocus", "--help"), re.DOTALL)[1]
+    return [name for name in re.findall(r"\w+", listed) if name != "and"]
 
 
 def built_in_names():

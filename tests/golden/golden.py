@@ -13,7 +13,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 NEW = HERE.parents[1] / "build/golden"
 MIN_PSNR_DB = 60  # both measures: linear, clipped to 1, and logarithmic up to 64
-SIZE = ["--width", "160", "--height", "90"]
+SIZE = ["--width", "96", "--height", "54"]
 SCENES = ["night", "fence", "table", "slant", "bars"]
 # name of the picture -> the scene it is made of and the flags of `petzval defocus`
 DEFOCUSED = {
