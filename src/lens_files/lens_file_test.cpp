@@ -193,6 +193,18 @@ TEST(LensFile, JsonMayBringItsOwnGlassAndUnits) {
     EXPECT_TRUE(warns(file, "vignettes nothing"));
 }
 
+TEST(LensFile, ANearObjectIsReadWithItsHeight) {
+    const std::string surfaces = R"("aperture": {"type": "EPD", "value": 4}, "surfaces": [
+        {"radius": 50, "thickness": 2, "medium": {"nd": 1.5, "Vd": 60}}, {"radius": -50, "thickness": 90}])";
+    const LensFile file = read("{\"object\": {\"distance\": 120, \"height\": 7}, " + surfaces + "}");
+    EXPECT_EQ(file.lens.object_distance_mm, 120);
+    EXPECT_EQ(file.lens.field_kind, optics::FieldKind::ObjectHeight);
+    EXPECT_EQ(file.lens.field, 7);
+    EXPECT_EQ(read("{\"object\": 80, " + surfaces + "}").lens.object_distance_mm, 80);
+    EXPECT_TRUE(std::isinf(read("{\"object\": \"infinity\", " + surfaces + "}").lens.object_distance_mm));
+    EXPECT_NE(refusal("{\"object\": \"far\", " + surfaces + "}").find("\"object\""), std::string::npos);
+}
+
 TEST(LensFile, ErrorsNameTheFileTheLineAndWhatIsNotUnderstood) {
     const std::string zmx = as_zmx(rich_lens()), seq = as_seq(rich_lens()),
                       bench = as_optical_bench(rich_lens());

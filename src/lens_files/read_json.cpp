@@ -54,6 +54,7 @@ private:
     Ignored ignored_;
     bool has_stop_ = false, has_aperture_ = false;
     double mm_ = 1;  // millimetres per unit of the file
+    double object_height_mm_ = 0;
 };
 
 Result<double> number(const Json& value, const std::string& what) {
@@ -98,9 +99,11 @@ Status Reader::scale(const Json& value) {
     return Done{};
 }
 
-// "infinity", a number, or {"distance": number}: in front of the first vertex.
+// "infinity", a number, or {"distance": number, "height": number}: in front of the first vertex.
 Status Reader::object(const Json& value) {
     double& distance = file_.lens.object_distance_mm;
+    for (const char* key : {"height", "height_mm"})
+        if (const Json* height = value.find(key)) object_height_mm_ = std::abs(height->number) * mm_;
     const Json* number = &value;
     if (value.is(Json::Type::Null) || is_infinite_word(value)) return Done{};
     for (const char* key : {"distance", "distance_mm", "object_distance"})
@@ -282,7 +285,7 @@ Status Reader::surfaces(const Json& list) {
 Status Reader::top_level(const Json& root) {
     for (const auto& [key, value] : root.members) {
         Status status = Done{};
-        if (key == "object" || key == "object_distance")
+        if (key == "object" || key == "object_distance" || key == "object_distance_mm")
             status = object(value);
         else if (key == "aperture")
             status = aperture(value);
@@ -319,6 +322,10 @@ Status Reader::finish(const Json& root) {
         if (std::isinf(lens.aperture))
             return at_line(root.line, "there is neither an \"aperture\" nor a \"semi_aperture\" at the stop");
         file_.warnings.push_back("no aperture is given; the stop's clear radius is taken");
+    }
+    if (lens.field == 0 && object_height_mm_ > 0) {
+        lens.field_kind = FieldKind::ObjectHeight;
+        lens.field = object_height_mm_;
     }
     bool any_rim = false;
     for (const Surface& surface : lens.surfaces) any_rim = any_rim || std::isfinite(surface.clear_radius_mm);

@@ -104,6 +104,21 @@ TEST(TracedLens, BeamsAreMirrorSymmetric) {
     EXPECT_NEAR(left.flux, right.flux, 1e-12);
 }
 
+TEST(TracedLens, AStopAfterANegativeThicknessIsAimedAtAsWell) {
+    // The stop's plane is written down behind the lens, 4 mm in front of where it stands in the list.
+    Prescription lens = singlet();
+    lens.surfaces[1].thickness_mm = -4;
+    lens.surfaces.push_back(surface(0, 100, 1, 0, 20));
+    lens.stop = 2;
+    const auto beam = traced(lens).beam(kLineD_um, 5 * kDegree);
+    ASSERT_TRUE(beam) << beam.error().message;
+    const Vec3 hit = stop_crossing(lens, *beam, 0.6, -0.7);
+    EXPECT_NEAR(hit.x, 0.6, 1e-8);
+    EXPECT_NEAR(hit.y, -0.7, 1e-8);
+    EXPECT_NEAR(beam->ray(0, 0).y_mm, traced(lens).first_order().focal_length_mm * std::tan(5 * kDegree),
+                0.1);
+}
+
 TEST(TracedLens, ScalingTheLensScalesEveryLanding) {
     const TracedLens small = traced(double_gauss(), {.focus_distance_mm = 1000});
     const TracedLens large = traced(scaled(double_gauss(), 3), {.focus_distance_mm = 3000});
