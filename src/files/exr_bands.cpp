@@ -44,11 +44,18 @@ void resize_band(std::vector<BandChannel>& channels, int width, int rows) {
     }
 }
 
-int band_rows(const std::vector<Channel>& channels, int height) {
-    constexpr int kRows = 480;
-    for (const Channel& c : channels)
-        if (kRows % c.y_sampling != 0) return height;
-    return kRows;
+int band_rows(const std::vector<Channel>& channels, int width, int height) {
+    constexpr double kBytes = 64 << 20;
+    double row_bytes = 0;
+    for (const Channel& c : channels) row_bytes += double(width) * (c.type == SampleType::Half ? 2 : 4);
+    // Multiples of the 32 lines that most compressions pack together, largest first.
+    for (const int rows : {480, 160, 32}) {
+        const bool fits = rows == 32 || rows * row_bytes <= kBytes;
+        const bool whole = std::all_of(channels.begin(), channels.end(),
+                                       [&](const Channel& c) { return rows % c.y_sampling == 0; });
+        if (fits && whole) return rows;
+    }
+    return height;
 }
 
 void write_bands(Imf::MultiPartOutputFile& output, int part, const std::vector<Channel>& channels,
@@ -59,7 +66,7 @@ void write_bands(Imf::MultiPartOutputFile& output, int part, const std::vector<C
     std::vector<BandChannel> band;
     for (const Channel& c : channels) band.push_back({c, {}, 0});
 
-    int rows = std::min(band_rows(channels, height), height);
+    int rows = std::min(band_rows(channels, width, height), height);
     const bool tiled = header.hasType() && Imf::isTiled(header.type());
     if (tiled) {
         const int tile_rows = int(std::min<unsigned>(header.tileDescription().ySize, unsigned(height)));

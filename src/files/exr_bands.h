@@ -38,6 +38,6 @@ Imf::Slice slice_of(const BandChannel& channel, int x0, int y0);
 // Prepares buffers of `width` x `rows` pixels.
 void resize_band(std::vector<BandChannel>& channels, int width, int rows);
 // Rows per band: few for memory, many for threads, and a multiple of the common subsampling rates.
-int band_rows(const std::vector<Channel>& channels, int height);
+int band_rows(const std::vector<Channel>& channels, int width, int height);
 
 }  // namespace petzval

@@ -66,6 +66,7 @@ Layout layout_of(const Imf::MultiPartInputFile& file) {
         std::vector<std::string> declared;
         if (Imf::hasMultiView(header)) declared = Imf::multiView(header);
         layout.parts.push_back(part_of(header, declared));
+        layout.parts.back().complete = file.partComplete(p);
         add_view(layout.parts.back().view);
         for (const std::string& view : declared) add_view(view);
     }
@@ -148,7 +149,7 @@ Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t
 }
 
 Status ExrFile::check_complete(std::size_t part) const {
-    if (parts->partComplete(int(part))) return Done{};
+    if (layout.parts[part].complete) return Done{};
     return invalid_file(file->path(), "is incomplete: it was cut off or is still being written");
 }
 

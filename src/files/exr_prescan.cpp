@@ -64,6 +64,7 @@ struct HeaderFacts {
     double data_pixels = -1;
     double bytes_per_pixel = 0;
     int compression = 0;
+    std::int64_t chunks = 0;
     bool deep = false;
 };
 
@@ -107,12 +108,13 @@ void look_at_attribute(Cursor& in, const std::string& name, const std::string& t
     if (name == "displayWindow" && size == 16) pixels_of_window(in, "display", max_pixels);
     if (name == "channels" && type == "chlist") facts.bytes_per_pixel = bytes_of_channels(in, end);
     if (name == "compression" && size == 1) facts.compression = in.byte();
+    if (name == "chunkCount" && size == 4) facts.chunks = in.int32();
     if (name == "type" && size == 12) facts.deep = in.byte() == 'd';  // "deepscanline"
     if (name == "type" && size == 8) facts.deep = in.byte() == 'd';   // "deeptile"
 }
 
-// False where the list of headers ends.
-bool look_at_header(Cursor& in, std::uint64_t file_bytes, std::size_t max_pixels) {
+// False where the list of headers ends. `chunks` grows by those the part declares.
+bool look_at_header(Cursor& in, std::uint64_t file_bytes, std::size_t max_pixels, std::int64_t& chunks) {
     HeaderFacts facts;
     std::string name = in.name();
     if (name.empty()) return false;
@@ -130,7 +132,19 @@ bool look_at_header(Cursor& in, std::uint64_t file_bytes, std::size_t max_pixels
         throw Damaged{"its header promises " + byte_count(std::uint64_t(promised)) +
                       " of pixels, which cannot be in a file of " + byte_count(file_bytes) +
                       "; it is cut off"};
+    if (facts.chunks < 0) throw Damaged{"a part has an impossible number of chunks"};
+    chunks += facts.chunks;
     return true;
+}
+
+// The parts that pass through untouched are read only when the result is written; that they were cut off is
+// known here already.
+void look_at_chunk_tables(Cursor& in, std::uint64_t file_bytes, std::int64_t chunks) {
+    if (std::uint64_t(chunks) > in.left() / 8) throw Damaged{"its table of chunks is cut off"};
+    for (; chunks > 0; --chunks) {
+        const std::uint64_t low = std::uint32_t(in.int32()), high = std::uint32_t(in.int32());
+        if ((low | high << 32) >= file_bytes) throw Damaged{"pixels are missing at its end; it is cut off"};
+    }
 }
 
 }  // namespace
@@ -142,13 +156,15 @@ std::optional<std::string> refuse_exr(const InputFile& file, std::size_t max_pix
         const std::uint32_t version = std::uint32_t(in.int32());
         if ((version & 0xff) != 2)
             return "is of OpenEXR version " + std::to_string(version & 0xff) + ", not 2";
+        std::int64_t chunks = 0;
         if (!(version & kMultiPart)) {
-            if (!look_at_header(in, file.bytes(), max_pixels)) return "has no header";
+            if (!look_at_header(in, file.bytes(), max_pixels, chunks)) return "has no header";
             return std::nullopt;
         }
         int parts = 0;
-        while (look_at_header(in, file.bytes(), max_pixels))
+        while (look_at_header(in, file.bytes(), max_pixels, chunks))
             if (++parts > kMostParts) return "has more than " + std::to_string(kMostParts) + " parts";
+        look_at_chunk_tables(in, file.bytes(), chunks);
         return std::nullopt;
     } catch (const Damaged& damaged) {
         return damaged.what;

@@ -153,6 +153,14 @@ void warn_of_lossy_compression(const Part& part, const ColourChoice& colour, Fra
                                  " again; written as zip");
 }
 
+void warn_of_lost_parts(const Layout& layout, Frame& frame) {
+    for (const Part& part : layout.parts) {
+        if (!part.readable)
+            frame.warnings.push_back(part.title + " is of an unknown type and will not be kept");
+        if (!part.complete) frame.warnings.push_back(part.title + " is incomplete and will not be kept");
+    }
+}
+
 Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions& options, Frame& frame) {
     const bool together =
         choices.depth && choices.depth->part == choices.colour.part && !choices.depth->is_position();
@@ -215,6 +223,7 @@ Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOp
     frame.has_alpha = !colour->alpha.empty();
     frame.detected.push_back(colour->line);
     warn_of_lossy_compression(part, *colour, frame);
+    warn_of_lost_parts(exr.layout, frame);
     describe_view(exr.layout, *colour, options, frame.detected);
     if (Status s = choose_depth_of(exr, options, pixels, choices, frame); !s) return s.error();
     if (part.deep)

@@ -235,6 +235,8 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
     if (!opened) return opened.error();
     ExrFile& exr = *opened;
     const std::size_t part = carried.colour.part;
+    if (!same_pixels(exr.layout, carried.layout))
+        return invalid_file(carried.file->path(), "changed since it was read");
     const OutputChannels channels = channels_of(carried, frame, options.type);
     const bool same_window = exr.layout.parts[part].data_window == frame.data_window;
     for (const Channel& c : channels.all)
@@ -247,7 +249,8 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
     std::vector<int> source;  // part of the input for each part of the output
     std::size_t colour_out = 0;
     for (int p = 0; p < exr.parts->parts(); ++p) {
-        if (!exr.layout.parts[std::size_t(p)].readable) continue;
+        const Part& description = exr.layout.parts[std::size_t(p)];
+        if (!description.readable || !description.complete) continue;
         if (std::size_t(p) == part) colour_out = headers.size();
         headers.push_back(std::size_t(p) == part
                               ? colour_header(exr.parts->header(p), frame, channels.all, channels.colours)

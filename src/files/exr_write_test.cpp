@@ -249,6 +249,42 @@ TEST(WriteExr, EveryLosslessCompressionKeepsCarriedHalfFloatAndUintBits) {
         }
 }
 
+TEST(WriteExr, OfMipLevelsTheFirstIsReadAndWrittenBack) {
+    const TemporaryFolder folder;
+    QuickPart part = quick_rgbaz({0, 0, 64, 40});
+    part.tile = 16;
+    part.with = [](Imf::Header& h) {
+        h.setTileDescription(Imf::TileDescription(16, 16, Imf::MIPMAP_LEVELS));
+    };
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    const Result<Frame> frame = read_frame(folder / "in.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    ASSERT_TRUE(write_exr(folder / "out.exr", *frame));
+    const Result<Frame> back = read_frame(folder / "out.exr");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->parts[0].type, "tiledimage");
+    for (std::size_t i = 0; i < frame->colour.size(); ++i) {
+        ASSERT_EQ(frame->colour.pixels()[i], back->colour.pixels()[i]);
+        ASSERT_EQ(frame->depth.pixels()[i], back->depth.pixels()[i]);
+    }
+}
+
+TEST(WriteExr, ManyWideLayersPassThroughInNarrowBands) {
+    const TemporaryFolder folder;
+    QuickPart part = quick_rgbaz({0, 0, 6000, 70});
+    for (int i = 0; i < 18; ++i)
+        part.channels.push_back(
+            {"aov" + std::to_string(i), Imf::FLOAT, [i](int x, int y) { return i + x % 7 + y; }});
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    const Result<Frame> frame = read_frame(folder / "in.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    ASSERT_TRUE(write_exr(folder / "out.exr", *frame));
+    const Result<Frame> a = depth_named(folder / "in.exr", "aov13"),
+                        b = depth_named(folder / "out.exr", "aov13");
+    ASSERT_TRUE(a && b);
+    for (std::size_t i = 0; i < a->depth.size(); ++i) ASSERT_EQ(a->depth.pixels()[i], b->depth.pixels()[i]);
+}
+
 TEST(WriteExr, LuminanceAndChromaAreReadAndBecomeRgb) {
     const TemporaryFolder folder;
     const auto grey = [](int, int) { return 0.5; };

@@ -89,8 +89,8 @@ TEST(HostileFile, EveryTruncationOfASmallFileIsAnError) {
         for (std::size_t length = 1; length < good.size(); ++length) {
             write_bytes(folder / "bad.exr", good.substr(0, length));
             const Result<Frame> frame = read_frame(folder / "bad.exr");
-            // The second part of a file may be cut where the first is whole.
-            if (frame && named.size() > 1) continue;
+            // Of the last chunk of another part only its beginning is known to be there.
+            if (frame && named.size() > 1 && length + 200 > good.size()) continue;
             ASSERT_FALSE(frame) << length << " of " << good.size();
             ASSERT_EQ(frame.error().code, ErrorCode::InvalidFile) << frame.error().message;
             ASSERT_THAT(frame.error().message, HasSubstr("bad.exr"));
@@ -226,6 +226,22 @@ TEST(HostileFile, NoDepthAndNoColourAreSaidWithWhatThereIs) {
     write_quick_exr(folder / "a.exr", kWindow, {{"", "", kWindow, {{"Z"}, {"mask"}}}});
     expect_refused(folder / "a.exr", "no colour");
     EXPECT_TRUE(read_frame_header(folder / "a.exr"));
+}
+
+TEST(HostileFile, AnInputReplacedByAnotherPictureIsNoticedBeforeAnythingIsWritten) {
+    const TemporaryFolder folder;
+    QuickPart a = quick_rgbaz(), b = quick_rgbaz();
+    a.name = "a", b.name = "b";
+    b.channels.resize(3);
+    write_quick_exr(folder / "a.exr", kWindow, {b, a});
+    const Result<Frame> frame = read_frame(folder / "a.exr");
+    ASSERT_TRUE(frame);
+    write_quick_exr(folder / "b.exr", kWindow, {quick_rgbaz()});
+    write_bytes(folder / "a.exr", bytes_of(folder / "b.exr"));
+    const Status written = write_exr(folder / "c.exr", *frame);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::InvalidFile);
+    EXPECT_EQ(folder.files(), 2u);
 }
 
 TEST(HostileFile, AnInputThatChangesBeforeItIsWrittenBackIsAnErrorAndLeavesNoFile) {

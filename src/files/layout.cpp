@@ -12,6 +12,14 @@ const Channel* Part::find(const std::string& channel_name) const {
     return nullptr;
 }
 
+bool same_pixels(const Layout& a, const Layout& b) {
+    return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
+                      [](const Part& p, const Part& q) {
+                          return p.type == q.type && p.data_window == q.data_window &&
+                                 p.channels == q.channels && p.complete == q.complete;
+                      });
+}
+
 Channel split_channel_name(const std::string& name, const std::vector<std::string>& views) {
     Channel channel;
     channel.name = name;

@@ -19,6 +19,7 @@ struct Channel {
     SampleType type = SampleType::Half;
     int x_sampling = 1, y_sampling = 1;
 
+    friend bool operator==(const Channel&, const Channel&) = default;
     bool subsampled() const { return x_sampling != 1 || y_sampling != 1; }
 };
 
@@ -27,7 +28,9 @@ struct Part {
     std::string label;  // the name without its view: "depth_left" -> "depth"
     std::string view, type, compression;
     Rect data_window;
-    bool deep = false, tiled = false, readable = true;
+    bool deep = false, tiled = false;
+    bool readable = true;  // false: of a type this OpenEXR does not know
+    bool complete = true;  // false: chunks are missing, it was cut off or is still being written
     std::vector<Channel> channels;
 
     const Channel* find(const std::string& channel_name) const;
@@ -44,6 +47,9 @@ struct Layout {
     std::vector<Part> parts;
     std::vector<std::string> views;  // in the file's order; the first is its default
 };
+
+// Whether both describe files with the same pixels in the same places.
+bool same_pixels(const Layout& a, const Layout& b);
 
 // Splits a channel name. `views` are those the part declares for its channels (attribute multiView), default
 // first. OpenEXR's rule: the last component but one may be the view, and a name without any dot belongs to

@@ -152,7 +152,8 @@ inline void write_quick_exr(const std::string& path, const Rect& display,
         if (p.tile) {
             Imf::TiledOutputPart out(file, int(n));
             out.setFrameBuffer(buffer);
-            out.writeTiles(0, out.numXTiles() - 1, 0, out.numYTiles() - 1);
+            for (int l = 0; l < out.numLevels(); ++l)
+                out.writeTiles(0, out.numXTiles(l) - 1, 0, out.numYTiles(l) - 1, l);
         } else {
             Imf::OutputPart out(file, int(n));
             out.setFrameBuffer(buffer);
