@@ -11,8 +11,9 @@ constexpr float kLeastShare = 1e-3f;
 
 bool is_opaque(const CocSample& sample) { return sample.colour.a > 1 - kLeastShare; }
 
-// Ends every pixel whose farthest sample can be seen through in emptiness.
-CocSamples with_emptiness(const CocSamples& stated) {
+// Ends every pixel that the picture shows to be transparent in emptiness. (Coverages of a pixel's samples
+// need not sum to 1 where it is opaque: surfaces that meet in it share it.)
+CocSamples with_emptiness(const CocSamples& stated, View<const Rgba> picture) {
     CocSamples all;
     all.width = stated.width;
     all.first.reserve(stated.first.size());
@@ -22,19 +23,18 @@ CocSamples with_emptiness(const CocSamples& stated) {
         const auto begin = stated.samples.begin() + std::ptrdiff_t(stated.first[i]);
         const auto end = stated.samples.begin() + std::ptrdiff_t(stated.first[i + 1]);
         all.samples.insert(all.samples.end(), begin, end);
-        if (begin == end)
-            all.samples.push_back({});
-        else if (!is_opaque(*(end - 1)))
-            all.samples.push_back({{}, (end - 1)->coc_px, (end - 1)->coc_px});
+        const float alpha = picture(int(i % std::size_t(stated.width)), int(i / std::size_t(stated.width))).a;
+        if (alpha > 1 - kLeastShare) continue;
+        const float coc = begin == end ? 0 : (end - 1)->coc_px;
+        all.samples.push_back({{}, coc, coc});
     }
     all.first.push_back(all.samples.size());
     return all;
 }
-
 }  // namespace
 
 CocSamples completed(const Input& input) {
-    if (!input.deep.empty()) return with_emptiness(stated_samples(input));
+    if (!input.deep.empty()) return with_emptiness(stated_samples(input), input.colour);
     const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
     const auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
     const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures, input.threads);

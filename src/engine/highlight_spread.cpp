@@ -12,8 +12,9 @@ namespace {
 
 using kernel::PointSpread;
 
-// What is nearer by less than this cannot be told from the highlight's own surface.
-constexpr float kOwnSurfacePx = 0.75f;
+// What is nearer by less than this is the highlight's own surface. (The next pixels of a surface that slopes
+// by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
+constexpr float kOwnSurfacePx = 0.02f;
 constexpr int kBlock = 16;
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
@@ -169,7 +170,7 @@ private:
                     const float middle = 0.5f * float(h.size - 1), side = float(h.size) * per_px;
                     const float u = (float(x - h.x) - middle) * per_px,
                                 v = (float(y - h.y) - middle) * per_px;
-                    if (u * u + v * v > (1 + side) * (1 + side) * stretch_ * stretch_) continue;
+                    if (std::max(std::abs(u), std::abs(v)) - 0.5f * side >= stretch_) continue;
                     // From every pixel of the highlight a square of per_px; on average, a wider and thinner
                     // one.
                     shadow.cover(u, v, side, s.colour.a / float(h.size * h.size));

@@ -6,8 +6,8 @@
 namespace petzval::engine {
 namespace {
 
-// What is nearer by less than this cannot be told from the source's own surface.
-constexpr double kOwnSurfacePx = 0.75;
+// What is nearer by less than this is the source's own surface, or as good as that.
+constexpr double kOwnSurfacePx = 0.02;
 // Below this radius a tap is as wide as much of the pupil: rays are counted instead of taps probed.
 constexpr double kFewTapsPx = 4;
 constexpr int kRays = 1024;

@@ -3,9 +3,8 @@
 // For each output pixel and each of many pupil points u, the ray  q(c) = p - c u  is followed to the first
 // surface it meets. Instead of walking every ray, all rays of one pupil point are answered at once: seen
 // through u, a facet at signed radius c stands at its place + c u, so the facets of a tile are drawn there,
-// nearest in front, and every pixel looks up what covers its sample. The sample position inside the pixel
-// moves with u, which is the box filter. A facet that covers only part of its pixel is there for that share
-// of the pupil points.
+// nearest in front, and every pixel looks up what covers its centre. Facets are a pixel wide: that is the box
+// filter, once. A facet that covers only part of its pixel is there for that share of the pupil points.
 //
 // Bright points would be hit by few pupil points and come out dotted; they are taken out first and spread
 // with the lens's exact kernel, each tap dimmed by the share of its rays that a nearer surface stops.
@@ -22,9 +21,8 @@
 namespace petzval::engine {
 namespace {
 
-// Where pupil points cannot be seen singly: 1 px of radius times this is far below a pixel.
 constexpr int kTile = 128;
-constexpr int kTileFieldVaries = 32;
+constexpr int kTileFieldVaries = 32;  // one set of rays for so many pixels on a side
 // Light above 1.5 x its surroundings + 0.25 of diffuse white is spread exactly; the rest is smooth enough for
 // rays.
 constexpr HighlightRule kHighlights{.factor = 1.5f, .floor_at_1px = 0};
@@ -32,26 +30,20 @@ constexpr double kShareOfRays = 0.8, kShareOfHighlights = 0.2;  // of the progre
 
 double fraction(double x) { return x - std::floor(x); }
 
-// Digits of k mirrored at the point (van der Corput), 0…1. Bases 5, 7 and 11 have nothing in common with each
-// other or with the sequences lenses spread their rays by, so no direction of the pupil meets the same sample
-// twice.
+// Digits of k mirrored at the point (van der Corput), 0…1.
 double radical_inverse(int k, int base) {
     double value = 0, digit = 1.0 / base;
     for (; k > 0; k /= base, digit /= base) value += (k % base) * digit;
     return value;
 }
 
-// Position of the sample inside its pixel for ray k; a single ray looks at the centre.
-struct InPixel {
-    double x, y;
-};
-InPixel in_pixel(int k) {
-    return {fraction(0.5 + radical_inverse(k, 5)), fraction(0.5 + radical_inverse(k, 7))};
-}
-
-// Whether a facet that covers part of its pixel is there for ray k; over all rays it is, for just its share.
-bool is_there(const Facet& facet, std::uint32_t index, double chance) {
-    return facet.coverage >= 1 || fraction(index * 0.7320508075688772 + chance) < double(facet.coverage);
+// Whether a facet that covers part of its pixel is there for a ray; over all rays it is, for just its share.
+// Partly covering facets of one pixel lie beside each other as long as there is room (two surfaces that meet
+// in a pixel), so each takes the part of the unit interval that follows those in front of it. `place`: where
+// the pixel's begins.
+bool is_there(const Facet& facet, double place, double chance) {
+    return facet.coverage >= 1 ||
+           fraction(chance + place - double(facet.coverage_in_front)) < double(facet.coverage);
 }
 
 // One tile of the output, drawn once per pupil point.
@@ -112,15 +104,16 @@ private:
     }
 
     void draw_block(const Rect& block, const kernel::PupilRay& ray, int k) {
-        const InPixel sample = in_pixel(k);
+        // Base 11: unrelated to the sequences that lenses spread their rays by.
         const double chance = radical_inverse(k, 11);
-        const float shift_x = ray.offset_x_px - float(sample.x) - float(area_.x0);
-        const float shift_y = ray.offset_y_px - float(sample.y) - float(area_.y0);
+        const float shift_x = ray.offset_x_px - 0.5f - float(area_.x0);
+        const float shift_y = ray.offset_y_px - 0.5f - float(area_.y0);
         for (int y = block.y0; y < block.y1; ++y)
             for (int x = block.x0; x < block.x1; ++x) {
                 std::uint32_t index = surfaces_.first(x, y);
+                const double place = fraction(index * 0.7320508075688772);
                 for (const Facet& facet : surfaces_.at(x, y)) {
-                    if (is_there(facet, index, chance))
+                    if (is_there(facet, place, chance))
                         draw(facet, index, float(x) + shift_x, float(y) + shift_y, ray);
                     ++index;
                 }

@@ -22,6 +22,8 @@ float share_on_level(float coc_px, int l, const LevelRule& rule) {
     return (l == 0 ? 1.0f : passed(l - 1)) - passed(l);
 }
 
+constexpr float kOpaque = 0.97f;
+
 bool is_emptiness(const CocSample& s) { return s.colour == Rgba{}; }
 
 // The change of weight per pixel away from a source: a facet of a slanted surface is seen larger from one
@@ -80,10 +82,16 @@ public:
         // Beyond a closed edge there is emptiness, beyond an open one the outermost pixels are repeated.
         const bool outside = (u != x && !(x < 0 ? open_.left : open_.right)) ||
                              (v != y && !(y < 0 ? open_.top : open_.bottom));
+        // What an opaque sample of the same pixel hides comes after it, also where both fall into one
+        // interval.
+        int least_layer = std::numeric_limits<int>::min();
         for (const CocSample& s : samples_.at(u, v)) {
+            const bool empty = outside || is_emptiness(s);
+            const int layer = empty ? kEmptyLayer : std::max(least_layer, layer_of(s.coc_px));
+            if (s.colour.a > kOpaque && layer < kEmptyLayer) least_layer = layer + 1;
             const float share = share_on_level(s.coc_px, level, rule_);
             if (share <= 0) continue;
-            if (outside || is_emptiness(s)) {
+            if (empty) {
                 emit(kEmptyLayer, Rgba{0, 0, 0, share}, s.coc_px, depth::Slope{});
                 if (outside) break;
                 continue;
@@ -91,7 +99,7 @@ public:
             // Only what is seen has a known slope.
             const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
             const depth::Slope slope = visible ? depth::slope_at(coc_px_, connected_, u, v) : depth::Slope{};
-            emit(layer_of(s.coc_px), share * s.colour, s.coc_px, tilt_of(slope, s.coc_px));
+            emit(layer, share * s.colour, s.coc_px, tilt_of(slope, s.coc_px));
         }
     }
 

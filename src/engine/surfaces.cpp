@@ -15,7 +15,7 @@ constexpr float kLeastCoverage = 1e-4f;
 
 Facet facet_of(Rgba colour, float coc_px) {
     const float coverage = std::clamp(colour.a, 0.0f, 1.0f);
-    Facet facet{colour * (1 / coverage), coverage, coc_px, {coc_px, coc_px, coc_px, coc_px}};
+    Facet facet{colour * (1 / coverage), coverage, 0, coc_px, {coc_px, coc_px, coc_px, coc_px}};
     facet.colour.a = 1;
     return facet;
 }
@@ -40,9 +40,14 @@ void Surfaces::gather(const CocSamples& samples) {
     for (int y = area_.y0; y < area_.y1; ++y)
         for (int x = area_.x0; x < area_.x1; ++x) {
             first_.push_back(std::uint32_t(facets_.size()));
+            float covered = 0;
             for (const CocSample& s :
                  view.at(std::clamp(x, 0, samples.width - 1), std::clamp(y, 0, samples.height() - 1)))
-                if (s.colour.a > kLeastCoverage) facets_.push_back(facet_of(s.colour, s.coc_px));
+                if (s.colour.a > kLeastCoverage) {
+                    facets_.push_back(facet_of(s.colour, s.coc_px));
+                    facets_.back().coverage_in_front = covered;
+                    covered += facets_.back().coverage;
+                }
         }
     first_.push_back(std::uint32_t(facets_.size()));
 }

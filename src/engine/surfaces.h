@@ -13,10 +13,11 @@
 namespace petzval::engine {
 
 struct Facet {
-    Rgba colour;             // what a ray that hits it sees: straight colour, a = 1
-    float coverage = 1;      // share of the pixel the facet fills, 0…1
-    float coc_px = 0;        // signed radius at the centre
-    float corner_coc_px[4];  // at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
+    Rgba colour;                  // what a ray that hits it sees: straight colour, a = 1
+    float coverage = 1;           // share of the pixel the facet fills, 0…1
+    float coverage_in_front = 0;  // sum of the coverages of nearer facets of the pixel
+    float coc_px = 0;             // signed radius at the centre
+    float corner_coc_px[4];       // at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
 };
 
 // Facets of the picture and of a border of `margin` pixels around it. Beyond an open edge the outermost
