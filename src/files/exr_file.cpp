@@ -6,6 +6,7 @@
 
 #include <array>
 #include <mutex>
+#include <system_error>
 
 #include <Imath/ImathVec.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -112,6 +113,10 @@ Status guarded(const std::string& path, const std::function<Status()>& body) {
         return body();
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::OutOfMemory, printable(path, 4096) + ": does not fit into memory"};
+    } catch (const std::system_error& e) {
+        // OpenEXR starts threads, whose stacks may not fit; nothing is wrong with the file.
+        return Error{ErrorCode::OutOfMemory,
+                     printable(path, 4096) + ": no memory or threads left to read it: " + e.code().message()};
     } catch (const std::exception& e) {
         // OpenEXR repeats the path in quotes; once is enough.
         std::string what = printable(e.what(), 500);
