@@ -1,0 +1,179 @@
+// petzval compare: how far a picture is from a reference.
+#include "petzval/compare.h"
+
+#include "console.h"
+#include "input.h"
+#include "report.h"
+#include "run_flags.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+struct CompareFlags {
+    InputFlags reference;  // --layer and --view-name hold for both
+    std::string test, mask;
+    double exposure = 1;
+    RunFlags run;
+};
+
+// The picture over the whole display window, empty where the file has no pixels.
+Picture over_display_window(Frame frame) {
+    if (frame.data_window == frame.display_window) return std::move(frame.colour);
+    Picture whole(frame.display_window.width(), frame.display_window.height());
+    const Rect shared = frame.data_window.intersected(frame.display_window);
+    for (int y = shared.y0; y < shared.y1; ++y)
+        for (int x = shared.x0; x < shared.x1; ++x)
+            whole(x - frame.display_window.x0, y - frame.display_window.y0) =
+                frame.colour(x - frame.data_window.x0, y - frame.data_window.y0);
+    return whole;
+}
+
+std::string size_text(int width, int height) {
+    return std::to_string(width) + " x " + std::to_string(height);
+}
+
+bool is_png(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 4> start{};
+    file.read(start.data(), start.size());
+    return file && std::string_view(start.data(), start.size()) == "\x89PNG";
+}
+
+// A PNG's first channel as stored, or the luminance of an EXR.
+Result<Plane> read_mask(const std::string& path) {
+    if (is_png(path)) {
+        const auto png = read_png(path);
+        if (!png) return png.error();
+        Plane mask(png->width, png->height);
+        const float white = float((1 << png->bits) - 1);
+        for (std::size_t i = 0; i < mask.size(); ++i)
+            mask.pixels()[i] = float(png->samples[i * std::size_t(png->channels)]) / white;
+        return mask;
+    }
+    ReadOptions options;
+    options.need_depth = false;
+    auto frame = read_frame(path, options);
+    if (!frame) return frame.error();
+    const Picture colour = over_display_window(std::move(*frame));
+    Plane mask(colour.width(), colour.height());
+    for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = luminance(colour.pixels()[i]);
+    return mask;
+}
+
+Status check_sizes(const CompareFlags& flags, const Picture& reference, const Picture& test,
+                   const Plane& mask) {
+    const auto differs = [&](const std::string& path, int width, int height) -> Status {
+        if (width == reference.width() && height == reference.height()) return Done{};
+        return Error{ErrorCode::InvalidArgument, path + " has " + size_text(width, height) + " pixels, but " +
+                                                     flags.reference.path + " has " +
+                                                     size_text(reference.width(), reference.height())};
+    };
+    if (const Status same = differs(flags.test, test.width(), test.height()); !same) return same;
+    return mask.empty() ? Status(Done{}) : differs(flags.mask, mask.width(), mask.height());
+}
+
+std::string table(const Comparison& c) {
+    std::array<char, 512> text{};
+    std::snprintf(text.data(), text.size(),
+                  "%-16s%10s%10s%10s\n"
+                  "%-16s%10.2f%10.2f%10.2f\n"
+                  "%-16s%10.4f%10.4f\n"
+                  "%-16s%10.4g  at pixel %d,%d\n"
+                  "%-16s%10.6f\n",
+                  "", "linear", "sRGB", "log", "PSNR, dB", c.psnr_lin, c.psnr_srgb, c.psnr_log, "SSIM",
+                  c.ssim_lin, c.ssim_srgb, "largest error", c.max_error, c.max_error_x, c.max_error_y,
+                  "energy ratio", c.energy_ratio);
+    return text.data();
+}
+
+Json report_of(const Comparison& c, const CompareFlags& flags) {
+    Json report = new_report("compare");
+    report["input"] = {flags.reference.path, flags.test};
+    report["exposure"] = flags.exposure;
+    report["mask"] = flags.mask.empty() ? Json(nullptr) : Json(flags.mask);
+    report["psnr_lin"] = number(c.psnr_lin);
+    report["ssim_lin"] = number(c.ssim_lin);
+    report["psnr_srgb"] = number(c.psnr_srgb);
+    report["ssim_srgb"] = number(c.ssim_srgb);
+    report["psnr_log"] = number(c.psnr_log);
+    report["max_error"] = number(c.max_error);
+    report["max_error_at"] = {c.max_error_x, c.max_error_y};
+    report["energy_ratio"] = number(c.energy_ratio);
+    return report;
+}
+
+Status compare_files(const CompareFlags& flags) {
+    const Stopwatch watch;
+    InputFlags test_input = flags.reference;
+    test_input.path = flags.test;
+    auto first = load_input(flags.reference, CameraFlags{});
+    if (!first) return first.error();
+    auto second = load_input(test_input, CameraFlags{});
+    if (!second) return second.error();
+    const std::size_t broken = first->frame.non_finite_colour + second->frame.non_finite_colour;
+    for (const Input* input : {&*first, &*second})
+        for (const auto& line : input->warnings) warning(line);
+    const Picture reference = over_display_window(std::move(first->frame));
+    const Picture test = over_display_window(std::move(second->frame));
+    Plane mask;
+    if (!flags.mask.empty()) {
+        auto read = read_mask(flags.mask);
+        if (!read) return read.error();
+        mask = std::move(*read);
+    }
+    if (const Status same = check_sizes(flags, reference, test, mask); !same) return same;
+    const double read_s = watch.seconds();
+    const auto result =
+        compare(reference.view(), test.view(), {.exposure = flags.exposure, .mask = mask.view()});
+    if (!result) return result.error();
+    if (flags.run.json != "-" && !print(table(*result)))
+        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
+    if (flags.run.json.empty()) return Done{};
+    Json report = report_of(*result, flags);
+    report["non_finite"]["colour"] = broken;
+    report["seconds"]["read"] = read_s;
+    report["seconds"]["compute"] = watch.seconds() - read_s;
+    report["seconds"]["total"] = watch.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report, flags.run.json);
+}
+
+}  // namespace
+
+void add_compare(Verb& program, Action& chosen) {
+    Verb& verb = add_verb(program, "compare",
+                          "how far a picture is from a reference: PSNR, SSIM, largest error, energy",
+                          "petzval compare truth.exr out.exr\n"
+                          "petzval compare truth.exr out.exr --exposure 0.8 --json - | jq .psnr_lin");
+    auto flags = std::make_shared<CompareFlags>();
+    FlagGroup(verb, "Input")
+        .argument("REF", "the reference: EXR or PNG", flags->reference.path)
+        .argument("TEST", "the picture to judge, of the same size", flags->test)
+        .value("--layer", "NAME", "colour layer or part, of both", parse_text, flags->reference.read.layer)
+        .value("--view-name", "NAME", "view of stereo files, of both", parse_text,
+               flags->reference.read.view_name)
+        .value("--exposure", "FACTOR", "multiply both by this before they are clipped to 1", parse_positive,
+               flags->exposure)
+        .value("--mask", "FILE", "count only pixels where this picture is above one half", parse_text,
+               flags->mask);
+    flags->run.add_json_to(verb);
+    flags->run.add_log_to(verb, false);
+    when_typed(verb, [flags, &verb, &chosen] {
+        require_argument(verb, flags->reference.path, "REF and TEST");
+        require_argument(verb, flags->test, "TEST, the picture to judge");
+        flags->run.apply();
+        flags->reference.read.need_depth = false;
+        chosen = [flags] { return compare_files(*flags); };
+    });
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,33 @@
+// What people read: one line at a time on standard error. Standard output is left to results.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace petzval::cli {
+
+enum class Verbosity { Quiet, Normal, Verbose };
+
+// Set once, when the flags have been read.
+void set_verbosity(Verbosity verbosity);
+
+// True if standard error is a terminal and NO_COLOR is not set (no-color.org).
+bool colour_wanted();
+
+void note(const std::string& line);     // unless -q
+void detail(const std::string& line);   // with -v
+void warning(const std::string& line);  // unless -q; "petzval: warning: …"
+void failure(const std::string& line);  // always; "petzval: …"
+
+// The text with control characters and what is not UTF-8 made harmless, line breaks kept.
+std::string printable(const std::string& text);
+// The text with line breaks and other control characters made harmless: file names may hold anything.
+std::string one_line(const std::string& text);
+
+// Writes to standard output. Returns false if it could not be written (full disk, closed pipe).
+bool print(const std::string& text);
+
+// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& words);
+
+}  // namespace petzval::cli

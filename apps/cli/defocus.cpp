@@ -1,0 +1,345 @@
+// petzval defocus: the main job.
+#include "petzval/defocus.h"
+
+#include "camera.h"
+#include "console.h"
+#include "defocus_views.h"
+#include "input.h"
+#include "interrupt.h"
+#include "lens.h"
+#include "output.h"
+#include "report.h"
+#include "run_flags.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+struct DefocusFlags {
+    InputFlags input;
+    CameraFlags camera;
+    FocusFlags focus;
+    LensFlags lens;
+    std::string engine = "scatter";
+    Quality quality = Quality::Standard;
+    std::optional<int> pupil_points;
+    std::size_t max_memory_bytes = 0;
+    std::uint64_t seed = 1;
+    std::string output;
+    ViewKind view = ViewKind::Beauty;
+    DevelopFlags develop;
+    OverwriteFlags overwrite;
+    RunFlags run;
+
+    void add_to(Verb& verb);
+    void add_engine_to(Verb& verb);
+    void add_output_to(Verb& verb);
+    void check(const Verb& verb);
+    void check_coc_input() const;
+    std::vector<std::string> input_files() const;
+};
+
+const std::vector<std::pair<std::string, Quality>> kQualities{
+    {"draft", Quality::Draft}, {"standard", Quality::Standard}, {"final", Quality::Final}};
+
+std::string quality_name(Quality quality) {
+    for (const auto& [name, value] : kQualities)
+        if (value == quality) return name;
+    return "?";
+}
+
+void DefocusFlags::add_engine_to(Verb& verb) {
+    FlagGroup(verb, "Engine")
+        .value(
+            "--engine", "NAME", listed(engine_names()) + "; scatter is the default",
+            [](const std::string& text) -> Result<std::string> {
+                const auto names = engine_names();
+                if (std::find(names.begin(), names.end(), text) != names.end()) return text;
+                return Error{ErrorCode::InvalidArgument, "not one of " + listed(names)};
+            },
+            engine)
+        .value(
+            "--quality", "NAME",
+            "draft, standard (default) or final: accuracy only, never the size of the blur",
+            [](const std::string& text) { return parse_name(text, kQualities); }, quality)
+        .value("--pupil-points", "N", "rays per pixel of --engine reference (default 4096)", parse_count,
+               pupil_points)
+        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, seed)
+        .value("--max-memory", "BYTES", "use at most this much for the work, as 2G", parse_bytes,
+               max_memory_bytes);
+}
+
+void DefocusFlags::add_output_to(Verb& verb) {
+    FlagGroup(verb, "Output")
+        .value("-o,--output", "OUT",
+               "the result: .exr holds scene-linear light and all else the input held, .png "
+               "a display picture",
+               parse_text, output)
+        .value(
+            "--view", "NAME",
+            "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha",
+            [](const std::string& text) { return parse_name(text, view_names()); }, view);
+}
+
+void DefocusFlags::add_to(Verb& verb) {
+    input.add_to(verb);
+    input.add_depth_to(verb);
+    input.add_behind_to(verb);
+    camera.add_to(verb, "file");
+    focus.add_to(verb);
+    lens.add_to(verb);
+    add_engine_to(verb);
+    add_output_to(verb);
+    run.add_json_to(verb);
+    overwrite.add_to(verb, true);
+    develop.add_to(verb);
+    run.add_threads_to(verb);
+    run.add_log_to(verb, true);
+}
+
+// Radii are given: whatever else would make them has no effect.
+void DefocusFlags::check_coc_input() const {
+    std::vector<std::string> idle = camera.given();
+    for (const std::string& name : focus.given()) idle.push_back(name);
+    if (view == ViewKind::Depth) idle.push_back("--view depth");
+    if (!idle.empty())
+        throw UsageError(listed(idle) +
+                         " cannot be used with --depth-kind coc-px: blur radii are given, not depth");
+}
+
+void DefocusFlags::check(const Verb& verb) {
+    require_argument(verb, input.path, "an input picture");
+    require_argument(verb, output, "-o OUT");
+    run.apply();
+    overwrite.check();
+    input.check();
+    lens.check();
+    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
+    if (focus.focus_falloff && !focus.focus_range_m)
+        throw UsageError("--focus-falloff has no effect without --focus-range, as --focus-range 1.8m,3m");
+    if (pupil_points && engine != "reference")
+        throw UsageError("--pupil-points is for --engine reference; " + engine + " takes --quality");
+    if (input.depth_is_coc()) check_coc_input();
+    const auto kind = kind_of_output(output);
+    if (!kind) throw UsageError(kind.error().message);
+    const bool developed = *kind == FileKind::Png && (view == ViewKind::Beauty || view == ViewKind::Focus);
+    if (develop.exposure_stops && !developed)
+        throw UsageError("--exposure is for display pictures: --view beauty or focus with -o FILE.png");
+    if (develop.tone && !developed)
+        throw UsageError("--tone is for display pictures: --view beauty or focus with -o FILE.png");
+}
+
+std::vector<std::string> DefocusFlags::input_files() const {
+    std::vector<std::string> files{input.path};
+    if (!input.read.depth_file.empty()) files.push_back(input.read.depth_file);
+    if (!input.behind.empty()) files.push_back(input.behind);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(lens.name, ignored)) files.push_back(lens.name);
+    return files;
+}
+
+DefocusJob job_for(const DefocusFlags& flags, const Input& input, const Camera& camera) {
+    DefocusJob job;
+    job.colour = input.frame.colour.view();
+    job.depth_m = input.frame.depth.view();
+    job.depth_is_coc = flags.input.depth_is_coc();
+    if (!input.frame.deep.empty()) job.deep = &input.frame.deep;
+    if (!input.behind.empty()) job.behind = &input.behind;
+    job.display_window = input.frame.display_window;
+    job.data_window = input.frame.data_window;
+    job.pixel_aspect = input.frame.pixel_aspect;
+    job.camera = camera;
+    job.coc = flags.focus.controls();
+    job.lens = flags.lens.choice();
+    job.engine = flags.engine;
+    job.quality = flags.quality;
+    job.pupil_points = flags.pupil_points.value_or(job.pupil_points);
+    job.threads = flags.run.threads;
+    job.max_memory_bytes = flags.max_memory_bytes;
+    job.seed = flags.seed;
+    return job;
+}
+
+Json parameters_json(const DefocusJob& job, const DefocusFlags& flags) {
+    return {{"view", name_of(flags.view)},
+            {"quality", quality_name(job.quality)},
+            {"pupil_points", job.pupil_points},
+            {"threads", job.threads},
+            {"max_memory_bytes", job.max_memory_bytes},
+            {"seed", job.seed},
+            {"near_scale", job.coc.near_scale},
+            {"far_scale", job.coc.far_scale},
+            {"max_radius_px", number(job.coc.max_radius_px)},
+            {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
+            {"focus_falloff", job.coc.focus_falloff}};
+}
+
+// One run of the verb: its flags, what was read, and the report that grows.
+class Run {
+public:
+    explicit Run(const DefocusFlags& flags) : flags_(flags) {}
+    Status operator()();
+
+private:
+    Status read();
+    Status choose_camera();
+    Status compute();
+    Status render(DefocusJob job);
+    Status write();
+    Status finish();
+    void warn(const std::vector<std::string>& lines);
+
+    ImageScale image_scale() const { return flags_.camera.image_scale.value_or(ImageScale::Rendered); }
+    bool needs_camera() const { return !flags_.input.depth_is_coc() && flags_.view != ViewKind::Depth; }
+
+    const DefocusFlags& flags_;
+    Stopwatch total_;
+    Json report_ = new_report("defocus");
+    Input input_;
+    Camera camera_;
+    ViewSource view_;  // what compute() made and write() needs
+};
+
+Status Run::operator()() {
+    const auto inputs = flags_.input_files();
+    if (const auto reason = flags_.overwrite.reason_to_skip({flags_.output}, inputs)) {
+        note(*reason);
+        report_["skipped"] = *reason;
+        return finish();
+    }
+    for (const std::string& path : {flags_.output, flags_.run.json})
+        if (!path.empty() && path != "-")
+            if (const Status fine = check_output(path, inputs); !fine) return fine;
+    for (const auto step : {&Run::read, &Run::choose_camera, &Run::compute, &Run::write, &Run::finish}) {
+        if (const Status done = (this->*step)(); !done) return done;
+        if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
+    }
+    return Done{};
+}
+
+Status Run::read() {
+    const Stopwatch watch;
+    auto loaded = load_input(flags_.input, flags_.camera);
+    if (!loaded) return loaded.error();
+    input_ = std::move(*loaded);
+    for (const auto& line : input_.detected_in_picture()) note(line);
+    warn(input_.warnings);
+    report_["seconds"]["read"] = watch.seconds();
+    report_["detected"] = input_.detected;
+    report_["non_finite"] = {{"colour", input_.frame.non_finite_colour}, {"depth", input_.depth.non_finite}};
+    report_["depth"] = depth_json(input_.depth, flags_.input.depth_kind.value_or(DepthKind::Planar));
+    return Done{};
+}
+
+void Run::warn(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) {
+        warning(line);
+        report_["warnings"].push_back(line);
+    }
+}
+
+Status Run::choose_camera() {
+    if (!needs_camera()) return Done{};
+    if (flags_.focus.focus_at)
+        if (const Status done = focus_on_pixel(input_, *flags_.focus.focus_at); !done) return done;
+    auto camera = complete_camera(input_.camera, image_scale(), flags_.input.path, flags_.output);
+    if (!camera) return camera.error();
+    camera_ = *camera;
+    note(camera_line(input_.camera, image_scale()));
+    report_["camera"] = camera_json(input_.camera, image_scale());
+    return Done{};
+}
+
+Status Run::compute() {
+    DefocusJob job = job_for(flags_, input_, camera_);
+    report_["lens"] = lens_json(job.lens, "");
+    report_["parameters"] = parameters_json(job, flags_);
+    if (flags_.view == ViewKind::Depth) return Done{};
+    if (flags_.view == ViewKind::Beauty || flags_.view == ViewKind::Alpha) return render(std::move(job));
+    const Stopwatch watch;
+    auto coc = circle_of_confusion(job);
+    if (!coc) return coc.error();
+    view_.coc_radius_px = std::move(*coc);
+    report_["seconds"]["compute"] = watch.seconds();
+    return Done{};
+}
+
+Status Run::render(DefocusJob job) {
+    const Stopwatch watch;
+    auto done = [&] {
+        ProgressLine progress(flags_.run.progress, flags_.run.quiet, "defocus");
+        job.progress = [&](double share) { return progress(share); };
+        return defocus(job);
+    }();
+    if (!done) return done.error();
+    const double seconds = watch.seconds();
+    double kernels = 0;
+    for (const StageTime& stage : done->stages) {
+        if (stage.stage == "kernels") kernels += stage.seconds;
+        report_["stages"].push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+        detail(stage.stage + ": " + plain(stage.seconds, 3) + " s");
+    }
+    warn(done->warnings);
+    report_["seconds"]["kernels"] = kernels;
+    report_["seconds"]["compute"] = seconds - kernels;
+    report_["engine"] = done->engine;
+    report_["device"] = done->device;
+    report_["lens"]["description"] = done->lens;
+    report_["radius_px"] = {{"farthest_behind", number(done->largest_radius_px)},
+                            {"farthest_in_front", number(done->smallest_radius_px)}};
+    note(done->engine + " on " + done->device + ", " + done->lens + ": radius " +
+         plain(done->smallest_radius_px, 3) + " to " + plain(done->largest_radius_px, 3) + " px, " +
+         plain(seconds, 3) + " s");
+    input_.frame.colour = std::move(done->image);
+    return Done{};
+}
+
+Status Run::write() {
+    const Stopwatch watch;
+    std::vector<std::string> warnings;
+    const ViewSettings settings{
+        .output = flags_.output,
+        .overwrite = !flags_.overwrite.no_clobber,
+        .develop = flags_.develop.settings(input_.frame.display_referred, flags_.run.threads),
+        .camera = input_.camera,
+        .depth = input_.depth,
+        .warnings = &warnings};
+    if (const Status done = write_view(flags_.view, input_.frame, view_, settings); !done) return done;
+    warn(warnings);
+    report_["seconds"]["write"] = watch.seconds();
+    detail("peak memory: " + plain(double(peak_memory_bytes()) / (1 << 20), 4) + " MiB");
+    note("wrote " + flags_.output);
+    return Done{};
+}
+
+Status Run::finish() {
+    if (flags_.run.json.empty()) return Done{};
+    report_["input"] = flags_.input.path;
+    report_["output"] = flags_.output;
+    report_["seconds"]["total"] = total_.seconds();
+    report_["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report_, flags_.run.json);
+}
+
+}  // namespace
+
+void add_defocus(Verb& program, Action& chosen) {
+    Verb& verb =
+        add_verb(program, "defocus", "the picture that a lens would have taken, from a sharp one with depth",
+                 "petzval defocus beauty.exr -o out.exr --focal-length 85mm --sensor-width 36mm --fstop 2 "
+                 "--focus 3.2m\n"
+                 "petzval defocus beauty.exr -o focus.png --view focus --focus-at 960,540");
+    auto flags = std::make_shared<DefocusFlags>();
+    flags->add_to(verb);
+    when_typed(verb, [flags, &verb, &chosen] {
+        flags->check(verb);
+        chosen = [flags] { return Run(*flags)(); };
+    });
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,142 @@
+#include "defocus_views.h"
+
+#include "console.h"
+#include "focus_view.h"
+#include "output.h"
+#include "values.h"
+
+#include <cmath>
+
+namespace petzval::cli {
+namespace {
+
+bool is_exr(const ViewSettings& settings) { return *kind_of_output(settings.output) == FileKind::Exr; }
+
+WriteOptions exr_options(const ViewSettings& settings) {
+    WriteOptions options;
+    options.overwrite = settings.overwrite;
+    return options;
+}
+
+Status write_plane(const std::string& channel, View<const float> plane, const Frame& frame,
+                   const ViewSettings& settings, WriteOptions options) {
+    options.type = PixelType::Float;
+    return write_exr_planes(settings.output, frame.display_window, frame.data_window, {{channel, plane}},
+                            options);
+}
+
+// "FOCUS 4 M  85 MM F/4"
+std::string legend_title(const FoundCamera& camera) {
+    std::string title = "BLUR";
+    if (camera.focus_distance_m) title = "FOCUS " + plain(camera.focus_distance_m->value, 4) + " M";
+    if (camera.focal_length_mm) title += "  " + plain(camera.focal_length_mm->value, 4) + " MM";
+    if (camera.f_number) title += " F/" + plain(camera.f_number->value, 3);
+    return title;
+}
+
+// A picture meant for displays: as PNG it goes out as it is, as EXR its light is display-linear.
+Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& settings) {
+    if (!is_exr(settings)) {
+        DevelopSettings as_it_is = settings.develop;
+        as_it_is.tone = ToneCurve::None;
+        as_it_is.exposure_stops = 0;
+        return write_developed(settings.output, picture.view(), as_it_is, settings.overwrite);
+    }
+    Frame drawn;
+    drawn.display_window = frame.display_window;
+    drawn.data_window = frame.data_window;
+    drawn.pixel_aspect = frame.pixel_aspect;
+    drawn.colour = std::move(picture);
+    return write_exr(settings.output, drawn, exr_options(settings));
+}
+
+Status write_beauty(Frame& frame, const ViewSettings& settings) {
+    if (!is_exr(settings))
+        return write_developed(settings.output, frame.colour.view(), settings.develop, settings.overwrite);
+    WriteReport changed;
+    WriteOptions options = exr_options(settings);
+    options.report = &changed;
+    const Status done = write_exr(settings.output, frame, options);
+    if (changed.clamped_to_half > 0)
+        settings.warnings->push_back(std::to_string(changed.clamped_to_half) +
+                                     " colour values are too large for half float and were written as 65504");
+    return done;
+}
+
+Status write_coc(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
+    if (!is_exr(settings))
+        return write_display_picture(coc_map(source.coc_radius_px.view(), legend_title(settings.camera)),
+                                     frame, settings);
+    WriteOptions options = exr_options(settings);
+    options.attributes.emplace_back("petzval:coc", "signed radius, px, + is far");
+    options.camera = settings.camera;
+    return write_plane("coc_radius_px", source.coc_radius_px.view(), frame, settings, options);
+}
+
+Status write_focus(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
+    const auto codes = develop(frame.colour.view(), settings.develop);
+    const double largest = (1 << settings.develop.bits) - 1;
+    Picture display(frame.colour.width(), frame.colour.height());
+    const auto light = [&](std::size_t i) { return float(srgb_decode(codes[i] / largest)); };
+    for (std::size_t i = 0; i < display.size(); ++i)
+        display.pixels()[i] = {light(3 * i), light(3 * i + 1), light(3 * i + 2), 1};
+    return write_display_picture(
+        focus_overlay(display.view(), source.coc_radius_px.view(), legend_title(settings.camera)), frame,
+        settings);
+}
+
+// As PNG: nearest/z, so that infinity is 0 and the file can be read again as inverse depth.
+Status write_depth(Frame& frame, const ViewSettings& settings) {
+    if (is_exr(settings)) {
+        WriteOptions options = exr_options(settings);
+        options.camera = settings.camera;
+        return write_plane("Z", frame.depth.view(), frame, settings, options);
+    }
+    const float nearest = settings.depth.nearest_m;
+    Plane inverse(frame.depth.width(), frame.depth.height());
+    for (std::size_t i = 0; i < inverse.size(); ++i) inverse.pixels()[i] = nearest / frame.depth.pixels()[i];
+    note("code 65535 is " + plain(nearest) + " m, 0 is infinity; read it with --depth " + settings.output +
+         " --depth-kind inverse --unit-scale " + plain(nearest));
+    return write_grey_png(settings.output, inverse.view(), settings.overwrite);
+}
+
+Status write_alpha(Frame& frame, const ViewSettings& settings) {
+    Plane alpha(frame.colour.width(), frame.colour.height());
+    for (std::size_t i = 0; i < alpha.size(); ++i) alpha.pixels()[i] = frame.colour.pixels()[i].a;
+    if (is_exr(settings)) return write_plane("A", alpha.view(), frame, settings, exr_options(settings));
+    return write_grey_png(settings.output, alpha.view(), settings.overwrite);
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, ViewKind>>& view_names() {
+    static const std::vector<std::pair<std::string, ViewKind>> table{{"beauty", ViewKind::Beauty},
+                                                                     {"coc", ViewKind::Coc},
+                                                                     {"focus", ViewKind::Focus},
+                                                                     {"depth", ViewKind::Depth},
+                                                                     {"alpha", ViewKind::Alpha}};
+    return table;
+}
+
+const char* name_of(ViewKind view) {
+    for (const auto& [name, value] : view_names())
+        if (value == view) return name.c_str();
+    return "?";
+}
+
+Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const ViewSettings& settings) {
+    switch (view) {
+        case ViewKind::Coc:
+            return write_coc(frame, source, settings);
+        case ViewKind::Focus:
+            return write_focus(frame, source, settings);
+        case ViewKind::Depth:
+            return write_depth(frame, settings);
+        case ViewKind::Alpha:
+            return write_alpha(frame, settings);
+        default:
+            return write_beauty(frame, settings);
+    }
+}
+
+}  // namespace petzval::cli

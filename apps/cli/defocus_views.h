@@ -1,0 +1,38 @@
+// What --view shows, and how each is written as EXR or PNG.
+#pragma once
+
+#include "petzval/depth.h"
+#include "petzval/develop.h"
+#include "petzval/files.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval::cli {
+
+enum class ViewKind { Beauty, Coc, Focus, Depth, Alpha };
+
+const std::vector<std::pair<std::string, ViewKind>>& view_names();
+const char* name_of(ViewKind view);
+
+struct ViewSource {
+    Plane coc_radius_px;  // for Coc and Focus
+};
+
+struct ViewSettings {
+    std::string output;
+    bool overwrite = true;
+    DevelopSettings develop;
+    FoundCamera camera;
+    DepthReport depth;
+    std::vector<std::string>* warnings = nullptr;  // what writing had to change
+};
+
+// `frame` holds the defocused colour for Beauty and Alpha, else the sharp one, and planar depth. It is used
+// up. Errors: OutputFailed.
+Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const ViewSettings& settings);
+
+}  // namespace petzval::cli

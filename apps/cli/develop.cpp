@@ -1,0 +1,97 @@
+// petzval develop: scene-linear light to a display picture.
+#include "petzval/develop.h"
+
+#include "console.h"
+#include "input.h"
+#include "output.h"
+#include "report.h"
+#include "run_flags.h"
+#include "verbs.h"
+
+#include <memory>
+
+namespace petzval::cli {
+namespace {
+
+struct DevelopVerbFlags {
+    InputFlags input;
+    std::string output;
+    DevelopFlags develop;
+    bool no_dither = false;
+    OverwriteFlags overwrite;
+    RunFlags run;
+};
+
+Status develop_file(const DevelopVerbFlags& flags) {
+    const Stopwatch total;
+    if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {flags.input.path})) {
+        note(*reason);
+        return Done{};
+    }
+    if (const Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
+    const auto input = load_input(flags.input, CameraFlags{});
+    if (!input) return input.error();
+    for (const auto& line : input->detected_in_picture()) note(line);
+    for (const auto& line : input->warnings) warning(line);
+    const double read_s = total.seconds();
+    DevelopSettings settings = flags.develop.settings(input->frame.display_referred, flags.run.threads);
+    settings.dither = !flags.no_dither;
+    const Status done =
+        write_developed(flags.output, input->frame.colour.view(), settings, !flags.overwrite.no_clobber);
+    if (!done) return done;
+    note("wrote " + flags.output);
+    if (flags.run.json.empty()) return Done{};
+    Json report = new_report("develop");
+    report["input"] = flags.input.path;
+    report["output"] = flags.output;
+    report["detected"] = input->detected;
+    report["warnings"] = input->warnings;
+    report["non_finite"]["colour"] = input->frame.non_finite_colour;
+    report["parameters"] = {{"exposure_stops", settings.exposure_stops},
+                            {"tone", settings.tone == ToneCurve::Filmic ? "filmic" : "none"},
+                            {"bits", settings.bits},
+                            {"dither", settings.dither}};
+    report["seconds"]["read"] = read_s;
+    report["seconds"]["write"] = total.seconds() - read_s;
+    report["seconds"]["total"] = total.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report, flags.run.json);
+}
+
+void check(DevelopVerbFlags& flags, const Verb& verb) {
+    require_argument(verb, flags.input.path, "an input picture");
+    require_argument(verb, flags.output, "-o OUT.png");
+    flags.run.apply();
+    flags.overwrite.check();
+    const auto kind = kind_of_output(flags.output);
+    if (!kind || *kind != FileKind::Png)
+        throw UsageError("-o " + flags.output + ": the name must end in .png");
+    flags.input.read.need_depth = false;
+}
+
+}  // namespace
+
+void add_develop(Verb& program, Action& chosen) {
+    Verb& verb = add_verb(program, "develop",
+                          "scene-linear light to a display picture: exposure, tone curve, sRGB, dither",
+                          "petzval develop out.exr -o out.png\n"
+                          "petzval develop out.exr -o out.png --exposure 1.5 --bits 16");
+    auto flags = std::make_shared<DevelopVerbFlags>();
+    flags->input.add_to(verb);
+    FlagGroup(verb, "Output")
+        .value("-o,--output", "OUT.png", "the display picture", parse_text, flags->output);
+    flags->run.add_json_to(verb);
+    flags->overwrite.add_to(verb, true);
+    flags->develop.add_to(verb);
+    FlagGroup(verb, "Display picture (PNG)")
+        .value("--bits", "N", "8 (default) or 16 per channel", parse_bits, flags->develop.bits)
+        .on("--no-dither", "round without the noise that hides bands", flags->no_dither);
+    flags->run.add_threads_to(verb);
+    flags->run.add_log_to(verb, false);
+    when_typed(verb, [flags, &verb, &chosen] {
+        check(*flags, verb);
+        chosen = [flags] { return develop_file(*flags); };
+    });
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,228 @@
+#include "flags.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+namespace petzval::cli {
+namespace {
+
+constexpr const char* kHelpHeading = "Help";  // comes last
+
+// "petzval defocus"
+std::string full_name(const Verb& verb) {
+    return verb.get_parent() ? full_name(*verb.get_parent()) + " " + verb.get_name() : verb.get_name();
+}
+
+// "defocus", for messages, which begin with the program's name anyway.
+std::string short_name(const Verb& verb) {
+    const std::string name = full_name(verb);
+    return name.substr(name.find(' ') + 1);
+}
+
+std::string first_example(const Verb& verb) {
+    const std::string& examples = verb.get_footer();
+    return examples.substr(0, examples.find('\n'));
+}
+
+// The verb that was being read, however deep.
+const Verb& current(const Verb& app) {
+    const auto parsed = app.get_subcommands();
+    return parsed.empty() ? app : current(*parsed.front());
+}
+
+// Example first; then what to type, what it does, and the flags by group.
+class Help : public CLI::FormatterBase {
+    std::string make_help(const CLI::App* verb, std::string, CLI::AppFormatMode) const override {
+        std::ostringstream out;
+        if (!verb->get_footer().empty()) out << "Example\n" << indented(verb->get_footer()) << "\n";
+        out << full_name(*verb) << usage(*verb) << "\n" << verb->get_description() << "\n";
+        const auto verbs = verb->get_subcommands({});
+        if (!verbs.empty()) out << "\nVerbs\n";
+        for (const CLI::App* sub : verbs) out << row(sub->get_name(), sub->get_description());
+        std::vector<std::string> groups = verb->get_groups();
+        std::stable_partition(groups.begin(), groups.end(), [](const auto& g) { return g != kHelpHeading; });
+        for (const std::string& group : groups) {
+            const auto flags =
+                verb->get_options([&](const CLI::Option* o) { return o->get_group() == group; });
+            if (group.empty() || flags.empty()) continue;
+            out << "\n" << group << "\n";
+            for (const CLI::Option* flag : flags)
+                out << row(flag->get_positional() ? flag->get_name() : flag_name(*flag),
+                           flag->get_description());
+        }
+        return out.str();
+    }
+
+    static std::string usage(const Verb& verb) {
+        std::string text;
+        if (!verb.get_subcommands({}).empty()) return " VERB …";
+        for (const CLI::Option* flag : verb.get_options())
+            if (flag->get_positional()) text += " " + flag->get_name();
+        const CLI::Option* output = verb.get_option_no_throw("-o");
+        if (output) text += " -o " + output->get_option_text();
+        return text + " [flags]";
+    }
+
+    static std::string flag_name(const CLI::Option& flag) {
+        std::string text;
+        for (const std::string& name : flag.get_snames()) text += (text.empty() ? "-" : ", -") + name;
+        for (const std::string& name : flag.get_lnames()) text += (text.empty() ? "--" : ", --") + name;
+        return text + (flag.get_option_text().empty() ? "" : " " + flag.get_option_text());
+    }
+
+    static std::string indented(const std::string& lines) {
+        std::istringstream in(lines);
+        std::string line, text;
+        while (std::getline(in, line)) text += "  " + line + "\n";
+        return text;
+    }
+
+    // Two columns; the right one is wrapped.
+    static std::string row(const std::string& left, const std::string& right) {
+        constexpr std::size_t kColumn = 30, kWidth = 100;
+        std::string text = "  " + left;
+        std::size_t length = text.size();
+        if (length + 2 > kColumn) text += "\n", length = 0;
+        std::istringstream words(right);
+        std::string word;
+        for (bool first = true; words >> word; first = false) {
+            if (first || length + 1 + word.size() > kWidth) {
+                if (!first) text += "\n", length = 0;
+                text += std::string(kColumn - length, ' '), length = kColumn;
+            } else {
+                text += " ", ++length;
+            }
+            text += word, length += word.size();
+        }
+        return text + "\n";
+    }
+};
+
+// Number of single-letter edits from a to b (Levenshtein, 1966).
+std::size_t edits(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t(0));
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+// " (did you mean X?)" if something known is near.
+std::string suggestion(const std::string& given, const std::vector<std::string>& known) {
+    std::string best;
+    std::size_t least = 3;
+    for (const std::string& name : known) {
+        const bool begins = given.size() > 4 && name.starts_with(given);
+        const std::size_t distance = begins ? 0 : edits(given, name);
+        const bool nearer = distance < least || (begins && least == 0 && name.size() < best.size());
+        if (nearer && distance * 3 <= given.size()) best = name, least = distance;
+    }
+    return best.empty() ? "" : " (did you mean " + best + "?)";
+}
+
+std::string unknown_argument(const Verb& verb) {
+    const auto extras = verb.remaining(true);
+    auto odd = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with("-"); });
+    if (odd == extras.end()) odd = extras.begin();
+    const std::string word = odd == extras.end() ? "?" : odd->substr(0, odd->find('='));
+    std::vector<std::string> known;
+    if (word.starts_with("-")) {
+        for (const CLI::Option* flag : verb.get_options())
+            for (const std::string& name : flag->get_lnames()) known.push_back("--" + name);
+        return "unknown flag " + word + suggestion(word, known) + "; " + full_name(verb) +
+               " --help lists the flags";
+    }
+    for (const CLI::App* sub : verb.get_subcommands({})) known.push_back(sub->get_name());
+    if (known.empty())
+        return "unexpected argument " + word + "; " + full_name(verb) + " --help shows how it is used";
+    return "unknown verb " + word + suggestion(word, known) + "; there are " + listed(known);
+}
+
+}  // namespace
+
+Verb& add_verb(Verb& parent, const std::string& name, const std::string& purpose,
+               const std::string& example) {
+    Verb& verb = *parent.add_subcommand(name, purpose);
+    verb.footer(example);
+    verb.require_subcommand(0, 1);
+    verb.set_help_flag("-h,--help", "this page")->group(kHelpHeading);
+    return verb;
+}
+
+void when_typed(Verb& verb, std::function<void()> choose) { verb.callback(std::move(choose)); }
+
+void require_verb(const Verb& verb) {
+    if (!verb.get_subcommands().empty()) return;
+    std::vector<std::string> names;
+    for (const Verb* sub : verb.get_subcommands({})) names.push_back(sub->get_name());
+    throw UsageError(full_name(verb) + " needs one of " + listed(names) +
+                     "; for example: " + first_example(verb));
+}
+
+void use_our_help(Verb& program) { program.formatter(std::make_shared<Help>()); }
+
+void FlagGroup::add(const std::string& name, const std::string& placeholder, const std::string& help,
+                    std::function<void(const std::string&)> take) {
+    CLI::Option* flag = verb_.add_option(
+        name,
+        [spoken = long_name(name), take = std::move(take)](const CLI::results_t& texts) {
+            if (texts.size() > 1) throw UsageError(spoken + " is given more than once");
+            if (texts.front().starts_with("--"))
+                throw UsageError(spoken + " needs a value, but is followed by " + texts.front());
+            take(texts.front());
+            return true;
+        },
+        help);
+    // All, so that the callback sees repetitions and can name them.
+    flag->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    flag->option_text(placeholder)->group(heading_);
+}
+
+FlagGroup& FlagGroup::on(const std::string& name, const std::string& help, bool& target) {
+    const auto take = [spoken = long_name(name), &target](std::int64_t count) {
+        if (count > 1) throw UsageError(spoken + " is given more than once");
+        target = count == 1;
+    };
+    verb_.add_flag_function(name, take, help)->group(heading_);
+    return *this;
+}
+
+FlagGroup& FlagGroup::argument(const std::string& name, const std::string& help, std::string& target) {
+    verb_.add_option(name, target, help)->option_text(" ")->group(heading_);
+    return *this;
+}
+
+std::string FlagGroup::long_name(const std::string& names) { return names.substr(0, names.find(',')); }
+
+void require_argument(const Verb& verb, const std::string& given, const std::string& name) {
+    if (given.empty())
+        throw UsageError(short_name(verb) + " needs " + name + "; for example: " + first_example(verb));
+}
+
+void refuse_both(bool first, const std::string& first_name, bool second, const std::string& second_name) {
+    if (first && second)
+        throw UsageError(first_name + " and " + second_name + " contradict each other; give one");
+}
+
+std::string usage_message(const CLI::ParseError& error, const Verb& program) {
+    const Verb& verb = current(program);
+    const std::string text = error.what();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_argument(verb);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))  // "--focus: 1 required M missing"
+        return text.substr(0, text.find_first_of(": ")) + " needs a value; " + full_name(verb) +
+               " --help says which";
+    return text + "; " + full_name(verb) + " --help shows how it is used";
+}
+
+}  // namespace petzval::cli

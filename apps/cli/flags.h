@@ -1,0 +1,81 @@
+// The flags of a verb: declared in groups, each with one value and given at most once, told as help and
+// refused in one line.
+#pragma once
+
+#include "petzval/result.h"
+
+#include "console.h"
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace petzval::cli {
+
+// A verb, or the program itself: what flags are added to. CLI11 stays behind this name, in flags.cpp and
+// main.cpp.
+using Verb = CLI::App;
+
+// A command line that cannot be meant. Thrown while flags are read, shown by main as one line, exit code 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// What a command line asks for; main runs it once all of the line has been understood.
+using Action = std::function<Status()>;
+
+// A verb of the program. `example` is what its --help shows first, one command per line.
+Verb& add_verb(Verb& parent, const std::string& name, const std::string& purpose, const std::string& example);
+// Once the whole line has been read without an error: checks the flags, throws UsageError, or chooses an
+// action.
+void when_typed(Verb& verb, std::function<void()> choose);
+// Throws UsageError unless one of the verb's own verbs was typed too.
+void require_verb(const Verb& verb);
+// Help in this program's form, for the program itself and all its verbs.
+void use_our_help(Verb& program);
+
+// Flags that stand together under one heading of the help.
+class FlagGroup {
+public:
+    FlagGroup(Verb& verb, std::string heading) : verb_(verb), heading_(std::move(heading)) {}
+
+    // "--name VALUE". `parse` turns the text into Result<a type that fits `target`>.
+    template <typename Parse, typename Target>
+    FlagGroup& value(const std::string& name, const std::string& placeholder, const std::string& help,
+                     Parse parse, Target& target) {
+        add(name, placeholder, help, [name = long_name(name), parse, &target](const std::string& text) {
+            auto parsed = parse(text);
+            if (!parsed) throw UsageError(name + " " + text + ": " + parsed.error().message);
+            target = std::move(parsed.value());
+        });
+        return *this;
+    }
+    // "--name", without a value.
+    FlagGroup& on(const std::string& name, const std::string& help, bool& target);
+    // A plain argument, without a name.
+    FlagGroup& argument(const std::string& name, const std::string& help, std::string& target);
+
+private:
+    void add(const std::string& name, const std::string& placeholder, const std::string& help,
+             std::function<void(const std::string&)> take);
+    static std::string long_name(const std::string& names);  // "-o,--output" is spoken of as "-o"
+
+    Verb& verb_;
+    std::string heading_;
+};
+
+// Throws UsageError unless `given` is not empty.
+void require_argument(const Verb& verb, const std::string& given, const std::string& name);
+// Throws UsageError if both were given.
+void refuse_both(bool first, const std::string& first_name, bool second, const std::string& second_name);
+
+// One line for what CLI11 found wrong with a command line.
+std::string usage_message(const CLI::ParseError& error, const Verb& program);
+
+}  // namespace petzval::cli

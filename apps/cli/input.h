@@ -1,0 +1,56 @@
+// A picture as a command gets it: read, depth turned into metres, camera put together, hidden layers beside
+// it.
+#pragma once
+
+#include "petzval/deep.h"
+#include "petzval/depth.h"
+#include "petzval/files.h"
+#include "petzval/result.h"
+
+#include "camera.h"
+#include "flags.h"
+#include "values.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval::cli {
+
+// Flags that say what a file holds; empty means "find out and say so".
+struct InputFlags {
+    std::string path;
+    ReadOptions read;
+    std::optional<DepthKind> depth_kind;
+    std::optional<Interval> depth_range;
+    std::optional<double> unit_scale_m;
+    std::string behind;
+
+    void add_to(Verb& verb);         // IN, the layer and the view
+    void add_depth_to(Verb& verb);   // all that says what depth is
+    void add_behind_to(Verb& verb);  // --behind
+    // Throws UsageError for depth flags that contradict each other.
+    void check() const;
+    bool depth_is_coc() const { return depth_kind == DepthKind::CocPx; }
+};
+
+struct Input {
+    Frame frame;         // depth, also that of deep samples, is planar metres, or radii if depth_is_coc
+    DeepPicture behind;  // empty without --behind
+    FoundCamera camera;  // flags over file
+    DepthReport depth;   // zeros if there is none, or radii
+    std::vector<std::string> detected, warnings;
+
+    // Detected lines without those on camera numbers, which have their own line.
+    std::vector<std::string> detected_in_picture() const;
+};
+
+// Errors: those of read_frame and depth_to_planar_metres; InvalidFile if --behind does not fit.
+Result<Input> load_input(const InputFlags& flags, const CameraFlags& camera);
+
+// Sets the focus distance to what the pixel shows. Errors: InvalidArgument if the picture has no such pixel.
+Status focus_on_pixel(Input& input, Pixel pixel);
+
+const char* name_of(DepthKind kind);
+
+}  // namespace petzval::cli

@@ -1,0 +1,178 @@
+// petzval inspect: what was found in a file, and where.
+#include "camera.h"
+#include "console.h"
+#include "input.h"
+#include "report.h"
+#include "run_flags.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <sstream>
+
+namespace petzval::cli {
+namespace {
+
+struct InspectFlags {
+    InputFlags input;
+    RunFlags run;
+};
+
+// R, G, B, A in this order, then the rest as the file has it: by the alphabet.
+void sort_as_read(std::vector<std::string>& names) {
+    const auto place = [](const std::string& name) {
+        return std::min(std::string("RGBA").find(name), std::size_t(4));
+    };
+    std::stable_sort(names.begin(), names.end(),
+                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+// One line for each layer and type: "ViewLayer. R G B A  (half)".
+std::string channel_summary(const PartSummary& part) {
+    std::vector<std::string> order;
+    std::map<std::string, std::vector<std::string>> names;  // by "layer type"
+    for (const std::string& channel : part.channels) {
+        const std::size_t space = channel.rfind(' '), dot = channel.rfind('.', space);
+        const std::string layer = dot == std::string::npos ? "" : channel.substr(0, dot) + ".";
+        const std::string key = layer + '\n' + channel.substr(space + 1);
+        if (!names.contains(key)) order.push_back(key);
+        names[key].push_back(channel.substr(layer.size(), space - layer.size()));
+    }
+    std::string text;
+    for (const std::string& key : order) {
+        const std::size_t split = key.find('\n');
+        const std::string layer = key.substr(0, split);
+        sort_as_read(names[key]);
+        text += "\n    " + layer;
+        for (const std::string& name : names[key]) text += (text.back() == ' ' ? "" : " ") + name;
+        text += "  (" + key.substr(split + 1) + ")";
+    }
+    return text;
+}
+
+std::string window_text(const Rect& r) {
+    return std::to_string(r.width()) + " x " + std::to_string(r.height()) + " at " + std::to_string(r.x0) +
+           "," + std::to_string(r.y0);
+}
+
+void describe_parts(const Frame& frame, std::ostream& out) {
+    for (std::size_t i = 0; i < frame.parts.size(); ++i) {
+        const PartSummary& part = frame.parts[i];
+        out << "  part " << i << (part.name.empty() ? "" : " \"" + part.name + "\"") << ": " << part.type;
+        if (!part.compression.empty()) out << ", " << part.compression;
+        if (!part.view.empty()) out << ", view " << part.view;
+        out << ", " << window_text(part.data_window) << channel_summary(part) << "\n";
+    }
+}
+
+void describe_depth(const Input& input, const InputFlags& flags, std::ostream& out) {
+    if (input.frame.depth.empty()) {
+        out << "depth\n  none\n";
+        return;
+    }
+    out << "depth\n  read as " << name_of(flags.depth_kind.value_or(DepthKind::Planar));
+    if (flags.depth_is_coc()) {
+        out << "\n";
+        return;
+    }
+    out << ", " << plain(flags.unit_scale_m.value_or(1)) << " m per unit: " << plain(input.depth.nearest_m)
+        << " m to " << plain(input.depth.farthest_finite_m) << " m, " << input.depth.misses << " of "
+        << input.frame.depth.size() << " pixels are misses\n";
+}
+
+void describe_camera(const FoundCamera& camera, std::ostream& out) {
+    const auto line = [&](const char* what, const std::optional<FoundNumber>& found, const char* unit,
+                          const char* flag) {
+        out << "  " << what;
+        if (found)
+            out << plain(found->value) << unit << "  (" << found->origin << ")\n";
+        else
+            out << "not in the file; give " << flag << "\n";
+    };
+    out << "camera\n";
+    line("focal length    ", camera.focal_length_mm, " mm", "--focal-length");
+    line("sensor width    ", camera.sensor_width_mm, " mm", "--sensor-width");
+    line("f-number        ", camera.f_number, "", "--fstop");
+    line("focus distance  ", camera.focus_distance_m, " m", "--focus");
+}
+
+void describe_list(const char* heading, const std::vector<std::string>& lines, std::ostream& out) {
+    if (!lines.empty()) out << heading << "\n";
+    for (const std::string& line : lines) out << "  " << one_line(line) << "\n";
+}
+
+std::string description(const Input& input, const InputFlags& flags) {
+    std::ostringstream out;
+    const Frame& frame = input.frame;
+    out << one_line(flags.path) << "\n  display window " << window_text(frame.display_window);
+    if (frame.pixel_aspect != 1) out << ", pixel aspect " << plain(frame.pixel_aspect);
+    if (frame.display_referred) out << ", display-referred";
+    out << "\n";
+    describe_parts(frame, out);
+    describe_list("detected", input.detected_in_picture(), out);
+    describe_depth(input, flags, out);
+    describe_camera(input.camera, out);
+    if (!frame.deep.empty()) out << "deep\n  " << frame.deep.sample_count() << " samples\n";
+    if (frame.non_finite_colour > 0) out << "non-finite colour values\n  " << frame.non_finite_colour << "\n";
+    describe_list("warnings", input.warnings, out);
+    return printable(out.str());
+}
+
+Json report_of(const Input& input, const InputFlags& flags) {
+    Json report = new_report("inspect");
+    const Frame& frame = input.frame;
+    report["input"] = flags.path;
+    report["display_window"] = window_json(frame.display_window);
+    report["data_window"] = window_json(frame.data_window);
+    report["pixel_aspect"] = frame.pixel_aspect;
+    report["display_referred"] = frame.display_referred;
+    report["has_alpha"] = frame.has_alpha;
+    report["parts"] = Json::array();
+    for (const PartSummary& part : frame.parts) report["parts"].push_back(part_json(part));
+    report["depth"] = frame.depth.empty()
+                          ? Json(nullptr)
+                          : depth_json(input.depth, flags.depth_kind.value_or(DepthKind::Planar));
+    report["deep_samples"] = frame.deep.sample_count();
+    report["camera"] = camera_json(input.camera, ImageScale::Rendered);
+    report["detected"] = input.detected;
+    report["warnings"] = input.warnings;
+    report["non_finite"] = {{"colour", frame.non_finite_colour}, {"depth", input.depth.non_finite}};
+    return report;
+}
+
+Status inspect(const InspectFlags& flags) {
+    const Stopwatch watch;
+    const auto input = load_input(flags.input, CameraFlags{});
+    if (!input) return input.error();
+    if (flags.run.json != "-" && !print(description(*input, flags.input)))
+        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
+    if (flags.run.json.empty()) return Done{};
+    Json report = report_of(*input, flags.input);
+    report["seconds"]["read"] = report["seconds"]["total"] = watch.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report, flags.run.json);
+}
+
+}  // namespace
+
+void add_inspect(Verb& program, Action& chosen) {
+    Verb& verb = add_verb(program, "inspect",
+                          "what a file holds: parts, layers, depth, camera numbers, and what was taken",
+                          "petzval inspect beauty.exr\n"
+                          "petzval inspect beauty.exr --json - | jq .camera");
+    auto flags = std::make_shared<InspectFlags>();
+    flags->input.add_to(verb);
+    flags->input.add_depth_to(verb);
+    flags->run.add_json_to(verb);
+    flags->run.add_log_to(verb, false);
+    when_typed(verb, [flags, &verb, &chosen] {
+        require_argument(verb, flags->input.path, "a file");
+        flags->run.apply();
+        flags->input.check();
+        flags->input.read.need_depth = false;
+        chosen = [flags] { return inspect(*flags); };
+    });
+}
+
+}  // namespace petzval::cli

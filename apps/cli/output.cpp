@@ -1,0 +1,156 @@
+#include "output.h"
+
+#include "console.h"
+#include "values.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error cannot_write(const std::string& path, const std::string& why) {
+    return {ErrorCode::OutputFailed, "cannot write " + path + ": " + why};
+}
+
+std::string folder_of(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    return folder.empty() ? "." : folder.string();
+}
+
+bool write_all(int file, const std::string& text) {
+    for (std::size_t done = 0; done < text.size();) {
+        const ssize_t n = ::write(file, text.data() + done, text.size() - done);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) return false;
+        done += std::size_t(n);
+    }
+    return ::fsync(file) == 0;
+}
+
+}  // namespace
+
+Result<FileKind> kind_of_output(const std::string& path) {
+    std::string extension = fs::path(path).extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".exr") return FileKind::Exr;
+    if (extension == ".png") return FileKind::Png;
+    return Error{ErrorCode::InvalidArgument, "-o " + path + ": the name must end in .exr or .png"};
+}
+
+Status check_output(const std::string& path, const std::vector<std::string>& inputs) {
+    std::error_code ignored;
+    const std::string folder = folder_of(path);
+    if (!fs::exists(folder, ignored)) return cannot_write(path, "there is no folder " + folder);
+    if (!fs::is_directory(folder, ignored)) return cannot_write(path, folder + " is not a folder");
+    if (fs::is_directory(path, ignored)) return cannot_write(path, "it is a folder");
+    // The file is replaced by renaming, so that the folder is what must be writable.
+    if (::access(folder.c_str(), W_OK) != 0) return cannot_write(path, std::strerror(errno));
+    for (const std::string& input : inputs)
+        if (fs::equivalent(path, input, ignored))
+            return Error{ErrorCode::InvalidArgument,
+                         "the output " + path + " would replace the input; give another name"};
+    return Done{};
+}
+
+void OverwriteFlags::add_to(Verb& verb, bool with_update) {
+    FlagGroup group(verb, "Output");
+    group.on("--overwrite", "replace files that are there (default)", overwrite)
+        .on("--no-clobber", "leave files that are there alone, and succeed", no_clobber);
+    if (with_update) group.on("-u,--update", "do nothing if the output is newer than all inputs", update);
+}
+
+void OverwriteFlags::check() const {
+    refuse_both(overwrite, "--overwrite", no_clobber, "--no-clobber");
+    refuse_both(update, "-u", no_clobber, "--no-clobber");
+}
+
+std::optional<std::string> OverwriteFlags::reason_to_skip(const std::vector<std::string>& outputs,
+                                                          const std::vector<std::string>& inputs) const {
+    std::error_code missing;
+    const auto exists = [&](const std::string& path) { return fs::exists(path, missing); };
+    if ((!no_clobber && !update) || !std::all_of(outputs.begin(), outputs.end(), exists)) return std::nullopt;
+    if (no_clobber) return listed(outputs) + ": already there, left alone (--no-clobber)";
+    auto oldest = fs::file_time_type::max();
+    for (const auto& path : outputs) oldest = std::min(oldest, fs::last_write_time(path, missing));
+    for (const auto& path : inputs) {
+        const auto changed = fs::last_write_time(path, missing);
+        if (missing || changed >= oldest) return std::nullopt;  // a missing input is reported when it is read
+    }
+    return listed(outputs) + ": newer than " + listed(inputs) + ", nothing to do (-u)";
+}
+
+void DevelopFlags::add_to(Verb& verb) {
+    FlagGroup(verb, "Display picture (PNG)")
+        .value("--exposure", "STOPS", "brighter by this many stops, as 1.5 or -2", parse_number,
+               exposure_stops)
+        .value(
+            "--tone", "NAME",
+            "filmic: mid-grey kept, highlights roll off and pale, hue kept (default; none for PNG input); "
+            "none: clip",
+            [](const std::string& text) {
+                return parse_name<ToneCurve>(text,
+                                             {{"filmic", ToneCurve::Filmic}, {"none", ToneCurve::None}});
+            },
+            tone);
+}
+
+DevelopSettings DevelopFlags::settings(bool display_referred, int threads) const {
+    return {.exposure_stops = exposure_stops.value_or(0),
+            .tone = tone.value_or(display_referred ? ToneCurve::None : ToneCurve::Filmic),
+            .bits = bits,
+            .threads = threads};
+}
+
+Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
+                       bool overwrite) {
+    return write_png(path,
+                     {.width = picture.width(),
+                      .height = picture.height(),
+                      .channels = 3,
+                      .bits = settings.bits,
+                      .samples = develop(picture, settings)},
+                     overwrite);
+}
+
+Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite) {
+    PngPixels grey{
+        .width = plane.width(), .height = plane.height(), .channels = 1, .bits = 16, .samples = {}};
+    grey.samples.reserve(std::size_t(plane.width()) * std::size_t(plane.height()));
+    for (int y = 0; y < plane.height(); ++y)
+        for (int x = 0; x < plane.width(); ++x) {
+            const float value = plane(x, y) > 0 ? std::min(plane(x, y), 1.0f) : 0.0f;
+            grey.samples.push_back(std::uint16_t(std::lround(65535 * value)));
+        }
+    return write_png(path, grey, overwrite);
+}
+
+Status write_text(const std::string& path, const std::string& text) {
+    if (path == "-")
+        return print(text) ? Status(Done{}) : cannot_write("standard output", std::strerror(errno));
+    std::string beside = path + ".XXXXXX";
+    const int file = ::mkstemp(beside.data());
+    if (file < 0) return cannot_write(path, std::strerror(errno));
+    const bool written = write_all(file, text);
+    int failed = written ? 0 : errno;
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    ::fchmod(file, 0666 & ~mask);  // mkstemp gives 0600; a result is as readable as any other file
+    if (::close(file) != 0 && failed == 0) failed = errno;
+    if (failed == 0 && ::rename(beside.c_str(), path.c_str()) != 0) failed = errno;
+    if (failed == 0) return Done{};
+    ::unlink(beside.c_str());
+    return cannot_write(path, std::strerror(failed));
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,56 @@
+// Where results go: names are checked before the work, files are written in the form their name asks for.
+#pragma once
+
+#include "petzval/develop.h"
+#include "petzval/files.h"
+#include "petzval/result.h"
+
+#include "flags.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval::cli {
+
+enum class FileKind { Exr, Png };
+
+// From the name's extension. Errors: InvalidArgument naming what is accepted.
+Result<FileKind> kind_of_output(const std::string& path);
+
+// Fails before minutes of work are spent: the folder is there and may be written, the name is not a folder,
+// and the file is none of the inputs. Errors: OutputFailed, InvalidArgument.
+Status check_output(const std::string& path, const std::vector<std::string>& inputs);
+
+// What to do with files that are already there.
+struct OverwriteFlags {
+    bool overwrite = false, no_clobber = false, update = false;
+
+    void add_to(Verb& verb, bool with_update);
+    void check() const;  // throws UsageError for contradictions
+    // A line that says why nothing needs to be done, or nothing: all outputs exist and --no-clobber, or all
+    // are newer than all inputs and -u.
+    std::optional<std::string> reason_to_skip(const std::vector<std::string>& outputs,
+                                              const std::vector<std::string>& inputs) const;
+};
+
+// From scene-linear light to a display picture; only for PNG.
+struct DevelopFlags {
+    std::optional<double> exposure_stops;
+    std::optional<ToneCurve> tone;
+    int bits = 8;
+
+    void add_to(Verb& verb);
+    // A picture that was display-referred keeps its look unless told otherwise.
+    DevelopSettings settings(bool display_referred, int threads) const;
+};
+
+// Errors: OutputFailed.
+Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
+                       bool overwrite);
+// A plane as 16-bit grey: 0…1 becomes 0…65535, anything else the nearer end, NaN 0.
+Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite);
+// Text beside its final name, synced, renamed; "-" is standard output.
+Status write_text(const std::string& path, const std::string& text);
+
+}  // namespace petzval::cli

@@ -1,0 +1,108 @@
+#include "report.h"
+
+#include "petzval/version.h"
+
+#include "input.h"
+#include "output.h"
+
+#include <cmath>
+#include <sys/resource.h>
+
+namespace petzval::cli {
+namespace {
+
+constexpr int kSchema = 1;
+// A text that no report holds otherwise; as JSON it is  "\u0001infinity"  and is replaced by a number.
+const std::string kInfinity = "\x01infinity", kMinusInfinity = "\x01-infinity";
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+Json new_report(const std::string& verb) {
+    return {{"schema", kSchema},
+            {"program", "petzval " PETZVAL_VERSION},
+            {"verb", verb},
+            {"input", nullptr},
+            {"output", nullptr},
+            {"engine", nullptr},
+            {"device", nullptr},
+            {"lens", nullptr},
+            {"camera", Json::object()},
+            {"seconds", {{"read", 0.0}, {"kernels", 0.0}, {"compute", 0.0}, {"write", 0.0}, {"total", 0.0}}},
+            {"peak_memory_bytes", 0},
+            {"detected", Json::array()},
+            {"warnings", Json::array()},
+            {"non_finite", {{"colour", 0}, {"depth", 0}}},
+            {"stages", Json::array()}};
+}
+
+Json number(double value) {
+    if (std::isnan(value)) return nullptr;
+    if (std::isinf(value)) return value > 0 ? kInfinity : kMinusInfinity;
+    return value;
+}
+
+Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
+    Json json = Json::object(), origins = Json::object();
+    const auto add = [&](const char* key, const std::optional<FoundNumber>& found) {
+        json[key] = found ? number(found->value) : Json(nullptr);
+        if (found) origins[key] = found->origin;
+    };
+    add("focal_length_mm", camera.focal_length_mm);
+    add("sensor_width_mm", camera.sensor_width_mm);
+    add("f_number", camera.f_number);
+    add("focus_distance_m", camera.focus_distance_m);
+    json["image_scale"] = image_scale == ImageScale::ThinLens ? "thin-lens" : "rendered";
+    json["origins"] = origins;
+    return json;
+}
+
+Json lens_json(const LensChoice& lens, const std::string& description) {
+    return {{"name", lens.name},
+            {"description", description},
+            {"blades", lens.aperture.blades},
+            {"blade_rotation_deg", lens.aperture.rotation_deg},
+            {"blade_curvature", lens.aperture.curvature},
+            {"squeeze", lens.aperture.squeeze},
+            {"cats_eye", lens.cats_eye}};
+}
+
+Json window_json(const Rect& window) {
+    return {{"x", window.x0}, {"y", window.y0}, {"width", window.width()}, {"height", window.height()}};
+}
+
+Json part_json(const PartSummary& part) {
+    return {{"name", part.name},
+            {"type", part.type},
+            {"view", part.view},
+            {"compression", part.compression},
+            {"data_window", window_json(part.data_window)},
+            {"channels", part.channels}};
+}
+
+Json depth_json(const DepthReport& depth, DepthKind kind) {
+    return {{"kind", name_of(kind)},
+            {"nearest_m", number(depth.nearest_m)},
+            {"farthest_finite_m", number(depth.farthest_finite_m)},
+            {"misses", depth.misses}};
+}
+
+std::size_t peak_memory_bytes() {
+    struct rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::size_t(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+}
+
+Status write_report(const Json& report, const std::string& path) {
+    // File names need not be UTF-8: what is not becomes U+FFFD.
+    std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    replace_all(text, "\"\\u0001infinity\"", "1e999");
+    replace_all(text, "\"\\u0001-infinity\"", "-1e999");
+    return write_text(path, text);
+}
+
+}  // namespace petzval::cli

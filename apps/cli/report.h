@@ -1,0 +1,47 @@
+// What was done, for programs: the --json report. Keys are described in docs/command-line.md.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/depth.h"
+#include "petzval/files.h"
+#include "petzval/lens.h"
+#include "petzval/result.h"
+
+#include <chrono>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace petzval::cli {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order in which they are set
+
+// Seconds since its making.
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+// schema, program, verb, and every key that a report always holds, with nothing in them yet.
+Json new_report(const std::string& verb);
+
+// JSON has no infinity; see write_report.
+Json number(double value);
+Json camera_json(const FoundCamera& camera, ImageScale image_scale);
+Json lens_json(const LensChoice& lens, const std::string& description);
+Json part_json(const PartSummary& part);
+Json depth_json(const DepthReport& depth, DepthKind kind);
+Json window_json(const Rect& window);
+
+// Largest resident memory of this process so far.
+std::size_t peak_memory_bytes();
+
+// Writes it to a file, or "-" for standard output. Infinite numbers are written as 1e999: valid JSON that
+// readers take as infinity. Errors: OutputFailed.
+Status write_report(const Json& report, const std::string& path);
+
+}  // namespace petzval::cli

@@ -1,0 +1,45 @@
+#include "run_flags.h"
+
+#include "console.h"
+#include "values.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace petzval::cli {
+
+void RunFlags::add_json_to(Verb& verb) {
+    FlagGroup(verb, "Output")
+        .value("--json", "FILE", "write what was done as JSON; - is standard output", parse_text, json);
+}
+
+void RunFlags::add_threads_to(Verb& verb) {
+    FlagGroup(verb, "Run")
+        .value("--threads", "N", "threads; 0 is all (default). The result never depends on it", parse_threads,
+               threads);
+}
+
+void RunFlags::add_log_to(Verb& verb, bool with_progress) {
+    FlagGroup group(verb, "Run");
+    if (with_progress)
+        group.value(
+            "--progress", "NAME",
+            "auto: a bar on a terminal, else one plain line a second (default); plain, json, off",
+            [](const std::string& text) {
+                return parse_name<ProgressMode>(text, {{"auto", ProgressMode::Auto},
+                                                       {"plain", ProgressMode::Plain},
+                                                       {"json", ProgressMode::JsonLines},
+                                                       {"off", ProgressMode::Off}});
+            },
+            progress);
+    group.on("-v,--verbose", "say more", verbose).on("-q,--quiet", "say nothing but errors", quiet);
+}
+
+void RunFlags::apply() {
+    refuse_both(verbose, "-v", quiet, "-q");
+    set_verbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
+    const int most = int(std::thread::hardware_concurrency());  // counts what this process may use
+    if (most > 0) threads = std::min(threads, most);
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,239 @@
+// petzval scene: the built-in test scenes.
+#include "petzval/scene.h"
+
+#include "camera.h"
+#include "console.h"
+#include "interrupt.h"
+#include "output.h"
+#include "progress.h"
+#include "report.h"
+#include "run_flags.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+struct MakeFlags {
+    std::string name, output, truth, layers;
+    SceneSettings scene;
+    CameraFlags camera;
+    OverwriteFlags overwrite;
+    RunFlags run;
+
+    void add_to(Verb& verb);
+    void check(const Verb& verb);
+    std::vector<std::string> outputs() const;
+};
+
+FoundCamera camera_of_scene(const Camera& camera, const std::string& origin) {
+    FoundCamera found;
+    found.focal_length_mm = FoundNumber{camera.focal_length_mm, origin};
+    found.sensor_width_mm = FoundNumber{camera.sensor_width_mm, origin};
+    found.f_number = FoundNumber{camera.f_number, origin};
+    found.focus_distance_m = FoundNumber{camera.focus_distance_m, origin};
+    return found;
+}
+
+const SceneSummary* find_scene(const std::string& name) {
+    for (const SceneSummary& scene : scene_list())
+        if (scene.name == name) return &scene;
+    return nullptr;
+}
+
+void MakeFlags::add_to(Verb& verb) {
+    FlagGroup(verb, "Scene")
+        .argument("NAME", "one of petzval scene list", name)
+        .value("--width", "PX", "width of the picture (default 960)", parse_size_px, scene.width)
+        .value("--height", "PX", "height of the picture (default 540)", parse_size_px, scene.height)
+        .value("--frame", "N", "frame of a moving scene (default 0)", parse_index, scene.frame)
+        .value("--samples", "N", "lens samples per pixel of the truth (default 1024)", parse_count,
+               scene.truth_samples)
+        .value("--pinhole-samples", "N", "samples per pixel of the sharp picture (default 64)", parse_count,
+               scene.samples)
+        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, scene.seed);
+    camera.add_to(verb, "scene");
+    FlagGroup(verb, "Output")
+        .value("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", parse_text,
+               output)
+        .value("--truth", "FILE.exr", "also what the lens of the same camera records", parse_text, truth)
+        .value("--layers", "FILE.exr", "also the hidden surfaces, as a deep EXR for defocus --behind",
+               parse_text, layers);
+    run.add_json_to(verb);
+    overwrite.add_to(verb, false);
+    run.add_threads_to(verb);
+    run.add_log_to(verb, true);
+}
+
+std::vector<std::string> MakeFlags::outputs() const {
+    std::vector<std::string> files{output};
+    if (!truth.empty()) files.push_back(truth);
+    if (!layers.empty()) files.push_back(layers);
+    return files;
+}
+
+void MakeFlags::check(const Verb& verb) {
+    require_argument(verb, name, "the NAME of a scene");
+    require_argument(verb, output, "-o FILE.exr");
+    run.apply();
+    overwrite.check();
+    if (!find_scene(name)) {
+        std::vector<std::string> names;
+        for (const SceneSummary& known : scene_list()) names.push_back(known.name);
+        throw UsageError("there is no scene " + name + "; there are " + listed(names));
+    }
+    auto files = outputs();
+    for (const std::string& file : files) {
+        const auto kind = kind_of_output(file);
+        if (!kind || *kind != FileKind::Exr) throw UsageError(file + ": the name must end in .exr");
+    }
+    std::sort(files.begin(), files.end());
+    if (std::adjacent_find(files.begin(), files.end()) != files.end())
+        throw UsageError("-o, --truth and --layers must be different files");
+    scene.want_truth = !truth.empty();
+    scene.want_layers = !layers.empty();
+    scene.threads = run.threads;
+}
+
+Camera complete(const FoundCamera& found, ImageScale image_scale) {
+    return {.focal_length_mm = found.focal_length_mm->value,
+            .sensor_width_mm = found.sensor_width_mm->value,
+            .f_number = found.f_number->value,
+            .focus_distance_m = found.focus_distance_m->value,
+            .image_scale = image_scale};
+}
+
+// A frame that fills its display window.
+Frame whole_frame(Picture colour) {
+    Frame frame;
+    frame.display_window = frame.data_window = colour.rect();
+    frame.has_alpha = true;
+    frame.colour = std::move(colour);
+    return frame;
+}
+
+Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamera& camera) {
+    WriteOptions options;
+    options.overwrite = !flags.overwrite.no_clobber;
+    options.camera = camera;
+    Frame sharp = whole_frame(std::move(scene.colour));
+    sharp.depth = std::move(scene.depth_m);
+    if (const Status done = write_exr(flags.output, sharp, options); !done) return done;
+    if (!flags.truth.empty())
+        if (const Status done = write_exr(flags.truth, whole_frame(std::move(scene.truth)), options); !done)
+            return done;
+    if (!flags.layers.empty()) {
+        const Status done =
+            write_deep_exr(flags.layers, sharp.display_window, sharp.data_window, scene.layers, options);
+        if (!done) return done;
+    }
+    for (const std::string& file : flags.outputs()) note("wrote " + file);
+    return Done{};
+}
+
+Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale image_scale,
+              const Stopwatch& total, double compute_s) {
+    if (flags.run.json.empty()) return Done{};
+    Json report = new_report("scene make");
+    report["input"] = flags.name;
+    report["output"] = flags.outputs();
+    report["camera"] = camera_json(camera, image_scale);
+    report["parameters"] = {{"width", flags.scene.width},
+                            {"height", flags.scene.height},
+                            {"frame", flags.scene.frame},
+                            {"samples", flags.scene.truth_samples},
+                            {"pinhole_samples", flags.scene.samples},
+                            {"seed", flags.scene.seed}};
+    report["seconds"]["compute"] = compute_s;
+    report["seconds"]["write"] = total.seconds() - compute_s;
+    report["seconds"]["total"] = total.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report, flags.run.json);
+}
+
+Status make_scene(const MakeFlags& flags) {
+    const Stopwatch total;
+    const auto outputs = flags.outputs();
+    if (const auto reason = flags.overwrite.reason_to_skip(outputs, {})) {
+        note(*reason);
+        return Done{};
+    }
+    for (const std::string& path : outputs)
+        if (const Status fine = check_output(path, {}); !fine) return fine;
+    const SceneSummary& summary = *find_scene(flags.name);
+    const FoundCamera camera =
+        merged_camera(camera_of_scene(summary.camera, "scene " + flags.name), flags.camera);
+    const ImageScale image_scale = flags.camera.image_scale.value_or(summary.camera.image_scale);
+    SceneSettings settings = flags.scene;
+    settings.camera = complete(camera, image_scale);
+    note(camera_line(camera, image_scale));
+    auto scene = [&] {
+        ProgressLine progress(flags.run.progress, flags.run.quiet, "scene");
+        settings.progress = [&](double share) { return progress(share); };
+        return render_scene(flags.name, settings);
+    }();
+    if (!scene) return scene.error();
+    if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
+    const double compute_s = total.seconds();
+    if (const Status done = write_scene(flags, std::move(*scene), camera); !done) return done;
+    return finish(flags, camera, image_scale, total, compute_s);
+}
+
+Status list_scenes(const RunFlags& run) {
+    std::string text;
+    Json scenes = Json::array();
+    for (const SceneSummary& scene : scene_list()) {
+        const Camera& c = scene.camera;
+        text += scene.name + std::string(scene.name.size() < 10 ? 10 - scene.name.size() : 1, ' ') +
+                scene.purpose + "\n          " + plain(c.focal_length_mm) + " mm f/" + plain(c.f_number) +
+                ", focus " + plain(c.focus_distance_m) + " m, sensor " + plain(c.sensor_width_mm) + " mm" +
+                (scene.frames > 1 ? ", " + std::to_string(scene.frames) + " frames" : "") + "\n";
+        scenes.push_back({{"name", scene.name},
+                          {"purpose", scene.purpose},
+                          {"frames", scene.frames},
+                          {"camera", camera_json(camera_of_scene(c, "scene " + scene.name), c.image_scale)}});
+    }
+    if (run.json != "-" && !print(text))
+        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
+    if (run.json.empty()) return Done{};
+    Json report = new_report("scene list");
+    report["scenes"] = scenes;
+    return write_report(report, run.json);
+}
+
+void add_list(Verb& scene, Action& chosen) {
+    Verb& verb =
+        add_verb(scene, "list", "the scenes and the cameras they are meant for", "petzval scene list");
+    auto run = std::make_shared<RunFlags>();
+    run->add_json_to(verb);
+    when_typed(verb, [run, &chosen] { chosen = [run] { return list_scenes(*run); }; });
+}
+
+void add_make(Verb& scene, Action& chosen) {
+    Verb& verb = add_verb(
+        scene, "make", "a sharp picture with depth and camera numbers, and what a lens makes of it",
+        "petzval scene make night -o night.exr\n"
+        "petzval scene make fence -o fence.exr --truth truth.exr --width 480 --height 270 --fstop 4");
+    auto flags = std::make_shared<MakeFlags>();
+    flags->add_to(verb);
+    when_typed(verb, [flags, &verb, &chosen] {
+        flags->check(verb);
+        chosen = [flags] { return make_scene(*flags); };
+    });
+}
+
+}  // namespace
+
+void add_scene(Verb& program, Action& chosen) {
+    Verb& scene = add_verb(program, "scene", "the built-in test scenes: list and make",
+                           "petzval scene list\n"
+                           "petzval scene make night -o night.exr");
+    add_list(scene, chosen);
+    add_make(scene, chosen);
+    when_typed(scene, [&scene] { require_verb(scene); });
+}
+
+}  // namespace petzval::cli

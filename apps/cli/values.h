@@ -1,0 +1,71 @@
+// The text of flags turned into values: numbers, lengths with units, pairs, sizes, names.
+//
+// Each returns the value, or a message that completes the sentence "--flag TEXT: …" with what would be
+// accepted.
+#pragma once
+
+#include "petzval/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval::cli {
+
+struct Interval {
+    double low = 0, high = 0;
+};
+struct Pixel {
+    int x = 0, y = 0;
+};
+
+// A number, "inf" included; never NaN.
+Result<double> parse_number(const std::string& text);
+// The same, and more than 0.
+Result<double> parse_positive(const std::string& text);
+Result<double> parse_not_negative(const std::string& text);
+// 0…1.
+Result<double> parse_share(const std::string& text);
+// "2.8" or "f/2.8".
+Result<double> parse_f_number(const std::string& text);
+
+// "85mm", "8.5cm", "0.085m"; a bare number has the unit of the function's name. Positive, "inf" included.
+Result<double> parse_length_mm(const std::string& text);
+Result<double> parse_length_m(const std::string& text);
+
+// "0.1,100": two numbers, in either order.
+Result<Interval> parse_range(const std::string& text);
+// "1.5m,3m": two lengths, the nearer first.
+Result<Interval> parse_range_m(const std::string& text);
+// "480,270".
+Result<Pixel> parse_pixel(const std::string& text);
+
+Result<int> parse_count(const std::string& text);    // 1 and more
+Result<int> parse_threads(const std::string& text);  // 0 (all) … 1024
+Result<int> parse_size_px(const std::string& text);  // 1 … 65536
+Result<int> parse_index(const std::string& text);    // 0 and more
+Result<int> parse_blades(const std::string& text);   // 0 (round) or 3 … 64
+Result<int> parse_bits(const std::string& text);     // 8 or 16
+Result<std::uint64_t> parse_seed(const std::string& text);
+// "2G", "512MiB", "1.5g" (powers of 1024), or plain bytes.
+Result<std::size_t> parse_bytes(const std::string& text);
+
+Result<std::string> parse_text(const std::string& text);  // anything but nothing
+
+// One of the names of a table.
+template <typename T>
+Result<T> parse_name(const std::string& text, const std::vector<std::pair<std::string, T>>& table) {
+    std::string names;
+    for (const auto& [name, value] : table) {
+        if (name == text) return value;
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    return Error{ErrorCode::InvalidArgument, "not one of " + names};
+}
+
+// As a person writes it: up to `digits` significant digits, no trailing zeros, "infinity" spelled out.
+std::string plain(double value, int digits = 6);
+
+}  // namespace petzval::cli

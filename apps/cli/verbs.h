@@ -1,0 +1,15 @@
+// The verbs, one file each. Each adds itself to the program; when it is the one that was typed, `chosen`
+// becomes what it does.
+#pragma once
+
+#include "flags.h"
+
+namespace petzval::cli {
+
+void add_defocus(Verb& program, Action& chosen);
+void add_inspect(Verb& program, Action& chosen);
+void add_scene(Verb& program, Action& chosen);
+void add_compare(Verb& program, Action& chosen);
+void add_develop(Verb& program, Action& chosen);
+
+}  // namespace petzval::cli
