@@ -1,0 +1,157 @@
+"""petzval develop, compare, inspect and scene; and the commands of the README one after another."""
+import math
+import unittest
+
+from pictures import attribute, picture, plane, read_exr, read_png, write_exr, write_png
+from program import CommandLineTest
+
+KEYS = ["psnr_lin", "ssim_lin", "psnr_srgb", "ssim_srgb", "psnr_log", "max_error", "energy_ratio"]
+
+
+def srgb(linear):
+    return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+
+
+class Develop(CommandLineTest):
+    def develop(self, colour, *flags):
+        write_exr(self.path("in.exr"), picture(64, 32, colour, None))
+        self.succeed("develop", "in.exr", "-o", "out.png", *flags)
+        return read_png(self.path("out.png"))
+
+    def test_without_a_tone_curve_it_is_srgb(self):
+        rows, _, bits = self.develop(lambda x, y: x / 64, "--tone", "none", "--no-dither", "--bits", "16")
+        self.assertEqual(bits, 16)
+        for x in range(64):
+            self.assertAlmostEqual(rows[0][3 * x], 65535 * srgb(x / 64), delta=0.51)
+
+    def test_mid_grey_is_kept_in_the_mean_and_dithered(self):
+        rows, _, _ = self.develop(0.18)
+        codes = [code for row in rows for code in row]
+        self.assertAlmostEqual(sum(codes) / len(codes), 255 * srgb(0.18), delta=0.02)
+        self.assertGreater(len(set(codes)), 1)
+
+    def test_exposure_is_in_stops(self):
+        brighter = self.develop(0.1, "--exposure", "2", "--no-dither")
+        self.assertEqual(brighter, self.develop(0.4, "--no-dither"))
+
+    def test_highlights_roll_off_instead_of_clipping(self):
+        rows, _, _ = self.develop(lambda x, y: 0.5 + x / 8, "--no-dither")
+        codes = rows[0][0::3]
+        self.assertEqual(codes, sorted(codes))
+        self.assertLess(codes[-1], 255)
+        self.assertGreater(len(set(codes)), 25)
+
+
+class Compare(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        write_exr(self.path("a.exr"), picture(32, 24, 0.5, None))
+        write_exr(self.path("b.exr"), picture(32, 24, lambda x, y: 0.75 if (x, y) == (20, 7) else 0.6, None))
+
+    def test_values_by_hand(self):
+        report = self.report("compare", "a.exr", "b.exr")
+        mean = (767 * 0.1 ** 2 + 0.25 ** 2) / 768
+        self.assertAlmostEqual(report["psnr_lin"], -10 * math.log10(mean), places=3)
+        self.assertAlmostEqual(report["max_error"], 0.25, places=6)
+        self.assertEqual(report["max_error_at"], [20, 7])
+        self.assertAlmostEqual(report["energy_ratio"], (767 * 0.6 + 0.75) / (768 * 0.5), places=5)
+        for key in KEYS:
+            self.assertIsInstance(report[key], (int, float), key)
+
+    def test_identical_pictures_are_infinitely_alike(self):
+        report = self.report("compare", "a.exr", "a.exr")
+        self.assertEqual(report["psnr_lin"], math.inf)
+        self.assertEqual(report["ssim_lin"], 1)
+        self.assertEqual(report["max_error"], 0)
+        self.assertIn("inf", self.succeed("compare", "a.exr", "a.exr").out)
+
+    def test_a_table_for_people_by_default(self):
+        out = self.succeed("compare", "a.exr", "b.exr").out
+        for word in ("PSNR", "SSIM", "largest error", "20,7", "energy ratio"):
+            self.assertIn(word, out)
+
+    def test_exposure_multiplies_before_clipping(self):
+        self.assertEqual(self.report("compare", "a.exr", "b.exr", "--exposure", "4")["psnr_lin"], math.inf)
+
+    def test_only_pixels_under_the_mask_count(self):
+        write_png(self.path("mask.png"), [[255 if x < 16 else 0 for x in range(32)] for y in range(24)], channels=1)
+        report = self.report("compare", "a.exr", "b.exr", "--mask", "mask.png")
+        self.assertAlmostEqual(report["max_error"], 0.1, places=6)
+        write_exr(self.path("mask.exr"), picture(32, 24, lambda x, y: x < 16, None))
+        self.assertEqual(self.report("compare", "a.exr", "b.exr", "--mask", "mask.exr")["psnr_lin"], report["psnr_lin"])
+        write_png(self.path("small.png"), [[255] * 8] * 8, channels=1)
+        self.refuse(2, "compare", "a.exr", "b.exr", "--mask", "small.png", says=["small.png", "8 x 8"])
+
+    def test_png_and_exr_compare_in_linear_light(self):
+        code = round(255 * srgb(0.5))
+        write_png(self.path("a.png"), [[code] * 96] * 24)
+        self.assertGreater(self.report("compare", "a.exr", "a.png")["psnr_lin"], 45)
+
+    def test_windows_are_lined_up(self):
+        write_exr(self.path("crop.exr"), picture(8, 6, 0.5, None), display=(0, 0, 31, 23), origin=(4, 5))
+        whole = picture(32, 24, lambda x, y: 0.5 if 4 <= x < 12 and 5 <= y < 11 else 0, None)
+        write_exr(self.path("whole.exr"), whole)
+        self.assertEqual(self.report("compare", "whole.exr", "crop.exr")["psnr_lin"], math.inf)
+
+
+class Inspect(CommandLineTest):
+    def test_parts_layers_depth_and_camera_with_origins(self):
+        channels = picture(8, 6, 0.5, lambda x, y: 1e10 if y == 0 else 2 + x)
+        channels["diffuse.R"] = plane(8, 6, 0)
+        write_exr(self.path("in.exr"), channels, half="RGB", attributes=attribute("aperture", "float", b"\0\0\0\x40"))
+        text = self.succeed("inspect", "in.exr").out
+        for words in ("8 x 6", "R G B  (half)", "diffuse. R  (float)", "Z  (float)", "2 m to 9 m", "8 of 48 pixels are misses",
+                      "OpenEXR aperture", "give --focus"):
+            self.assertIn(words, text)
+        report = self.report("inspect", "in.exr")
+        self.assertEqual(report["camera"]["f_number"], 2)
+        self.assertIsNone(report["camera"]["focus_distance_m"])
+        self.assertEqual(report["depth"]["misses"], 8)
+        self.assertEqual(report["parts"][0]["compression"], "none")
+
+
+class Scene(CommandLineTest):
+    SMALL = ["--width", "48", "--height", "27", "--pinhole-samples", "4"]
+
+    def test_list_names_what_make_makes(self):
+        scenes = self.report("scene", "list")["scenes"]
+        text = self.succeed("scene", "list").out
+        self.assertGreaterEqual(len(scenes), 5)
+        for scene in scenes:
+            self.assertIn(scene["name"], text)
+            self.succeed("scene", "make", scene["name"], "-o", scene["name"] + ".exr", *self.SMALL)
+
+    def test_from_a_scene_to_a_picture_without_one_camera_flag(self):
+        self.succeed("scene", "make", "night", "-o", "night.exr", *self.SMALL)
+        report = self.report("defocus", "night.exr", "-o", "out.exr")
+        self.assertEqual(report["warnings"], [])
+        self.succeed("develop", "out.exr", "-o", "out.png")
+        self.succeed("defocus", "night.exr", "-o", "focus.png", "--view", "focus")
+        self.assertLess(self.report("compare", "night.exr", "out.exr")["psnr_lin"], 60)
+
+    def test_truth_and_hidden_layers_fit_the_picture(self):
+        self.succeed("scene", "make", "bars", "-o", "bars.exr", "--truth", "truth.exr", "--layers", "layers.exr",
+                     "--samples", "64", *self.SMALL)
+        self.succeed("defocus", "bars.exr", "-o", "with.exr", "--behind", "layers.exr", "--engine", "reference",
+                     "--pupil-points", "256")
+        sharp = self.report("compare", "truth.exr", "bars.exr")["psnr_lin"]
+        self.assertGreater(self.report("compare", "truth.exr", "with.exr")["psnr_lin"], sharp)
+
+    def test_camera_flags_hold_for_the_scene_and_are_written(self):
+        self.succeed("scene", "make", "slant", "-o", "s.exr", "--fstop", "5.6", "--focus", "150cm", *self.SMALL)
+        camera = self.report("inspect", "s.exr")["camera"]
+        self.assertAlmostEqual(camera["f_number"], 5.6, places=5)
+        self.assertAlmostEqual(camera["focus_distance_m"], 1.5, places=5)
+
+    def test_same_bits_for_any_number_of_threads(self):
+        for threads in ("1", "2"):
+            self.succeed("scene", "make", "slant", "-o", threads + ".exr", "--threads", threads, *self.SMALL)
+        self.assertEqual(read_exr(self.path("1.exr"))[0], read_exr(self.path("2.exr"))[0])
+
+    def test_no_clobber_leaves_a_finished_scene_alone(self):
+        self.succeed("scene", "make", "slant", "-o", "s.exr", *self.SMALL)
+        self.assertIn("left alone", self.succeed("scene", "make", "slant", "-o", "s.exr", "--no-clobber").err)
+
+
+if __name__ == "__main__":
+    unittest.main()
