@@ -127,7 +127,8 @@ bool look_at_header(Cursor& in, std::uint64_t file_bytes, std::size_t max_pixels
         look_at_attribute(in, name, type, end, max_pixels, facts);
         in.seek(end);
     }
-    const double promised = facts.deep ? 0 : facts.data_pixels * facts.bytes_per_pixel;
+    // A deep part stores at least the number of samples of every pixel.
+    const double promised = facts.data_pixels * (facts.deep ? 4 : facts.bytes_per_pixel);
     if (promised > double(file_bytes) * densest(facts.compression))
         throw Damaged{"its header promises " + byte_count(std::uint64_t(promised)) +
                       " of pixels, which cannot be in a file of " + byte_count(file_bytes) +
