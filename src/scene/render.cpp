@@ -12,7 +12,8 @@ namespace scene {
 namespace {
 
 const std::vector<BuiltInScene>& built_in_scenes() {
-    static const std::vector<BuiltInScene> scenes{night(), fence(), table(), slant(), bars()};
+    static const std::vector<BuiltInScene> scenes{night(), fence(), table(),
+                                                  slant(), bars(),  dynamic_range()};
     return scenes;
 }
 

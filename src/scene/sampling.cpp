@@ -70,8 +70,13 @@ DiscPoint disc_point(float u, float v) {
 }
 
 Vec3 cosine_direction(Vec3 normal, float u, float v) {
-    const Vec3 across = std::abs(normal.x) > 0.5f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-    const Vec3 tangent = normalised(cross(across, normal)), bitangent = cross(normal, tangent);
+    // A frame that turns smoothly with the normal (J. R. Frisvad, "Building an orthonormal basis from a 3D
+    // unit vector without normalization", Journal of Graphics Tools 16(3), 2012), singular straight down
+    // only.
+    if (normal.y < -0.9999f) normal = {0, -0.9999f, 0.01414f};
+    const float a = 1 / (1 + normal.y), b = -normal.x * normal.z * a;
+    const Vec3 tangent{1 - normal.x * normal.x * a, -normal.x, b};
+    const Vec3 bitangent{b, -normal.z, 1 - normal.z * normal.z * a};
     const DiscPoint p = disc_point(u, v);
     const float height = std::sqrt(std::max(0.0f, 1 - p.x * p.x - p.y * p.y));
     return p.x * tangent + p.y * bitangent + height * normal;

@@ -93,5 +93,28 @@ TEST(BuiltInScenes, APinholeLensRecordsThePinholePicture) {
     EXPECT_GT(compare(r->colour.view(), r->truth.view())->psnr_lin, 46);
 }
 
+bool is_light(const Picture& p) {
+    for (int y = 0; y < p.height(); ++y)
+        for (int x = 0; x < p.width(); ++x)
+            for (const float c : {p(x, y).r, p(x, y).g, p(x, y).b})
+                if (!(c >= 0) || !std::isfinite(c)) return false;
+    return true;
+}
+
+TEST(BuiltInScenes, EachHoldsFiniteLightAndPositiveDepthEvenInOnePixel) {
+    for (const SceneSummary& scene : scene_list()) {
+        SceneSettings s;
+        s.width = s.height = 1, s.samples = 4, s.truth_samples = 100;
+        s.want_truth = s.want_layers = true;
+        s.frame = scene.frames - 1;
+        const auto r = render_scene(scene.name, s);
+        ASSERT_TRUE(r) << scene.name;
+        EXPECT_TRUE(is_light(r->colour) && is_light(r->truth)) << scene.name;
+        EXPECT_GT(r->depth_m(0, 0), 0) << scene.name;
+        EXPECT_EQ(r->camera.focal_length_mm, scene.camera.focal_length_mm);
+        EXPECT_EQ(r->layers.width(), 1);
+    }
+}
+
 }  // namespace
 }  // namespace petzval

@@ -18,6 +18,7 @@ BuiltInScene fence();
 BuiltInScene table();
 BuiltInScene slant();
 BuiltInScene bars();
+BuiltInScene dynamic_range();
 
 // The three passes over a world that was committed.
 Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings);

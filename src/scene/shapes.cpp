@@ -80,6 +80,26 @@ Mesh sphere(Vec3 centre, Vec3 radii, int around, int up) {
     return mesh;
 }
 
+Mesh lathe(Vec3 base, const std::vector<std::array<float, 2>>& outline, int around) {
+    Mesh mesh;
+    const int up = int(outline.size()) - 1;
+    for (int j = 0; j <= up; ++j) {
+        const auto& before = outline[std::size_t(std::max(0, j - 1))];
+        const auto& after = outline[std::size_t(std::min(up, j + 1))];
+        const float outwards = after[1] - before[1], upwards = before[0] - after[0];
+        const auto [radius, height] = outline[std::size_t(j)];
+        for (int i = 0; i <= around; ++i) {
+            const float u = float(i) / float(around), azimuth = 2 * kPi * u;
+            const Vec3 side{std::sin(azimuth), 0, -std::cos(azimuth)};
+            mesh.positions.push_back(base + radius * side + Vec3{0, height, 0});
+            mesh.normals.push_back(normalised(outwards * side + Vec3{0, upwards, 0}));
+            mesh.uv.push_back({u, float(j) / float(up)});
+        }
+    }
+    connect_grid(mesh, around, up);
+    return mesh;
+}
+
 void Tubes::path(const std::vector<Vec3>& through, float first_radius, float last_radius) {
     for (std::size_t i = 0; i < through.size(); ++i) {
         if (i + 1 < through.size()) segments.push_back(std::uint32_t(points.size()));

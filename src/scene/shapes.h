@@ -26,6 +26,10 @@ Mesh box(Vec3 centre, Vec3 half_size, int cells);
 // u runs around, v from the bottom pole to the top.
 Mesh sphere(Vec3 centre, Vec3 radii, int around, int up);
 
+// A turned body standing at `base`; its outline is radius and height from the bottom upwards. u runs around,
+// v up.
+Mesh lathe(Vec3 base, const std::vector<std::array<float, 2>>& outline, int around);
+
 // Round tubes: every pair of consecutive points of a path is a segment with round ends.
 struct Tubes {
     struct Point {

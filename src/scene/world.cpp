@@ -10,8 +10,6 @@ namespace petzval::scene {
 namespace {
 
 constexpr int kBakeRays = 64;  // per vertex, and per light
-// Bounced light is taken without shadows; this share of it makes up for them.
-constexpr float kBounceShare = 0.6f;
 const SobolPoints& bake_points() {
     static const SobolPoints points(kBakeRays);
     return points;
@@ -127,57 +125,51 @@ Status World::commit(int threads) {
     return Done{};
 }
 
-void World::bake(int threads) {
+// Adds irradiance(position, normal, seed) to each vertex once all are known, so that it may look at the
+// others.
+template <typename Irradiance>
+void World::for_each_vertex(int threads, const Irradiance& irradiance) {
     constexpr int kPiece = 64;  // vertices
+    std::vector<std::vector<Vec3>> added(objects_.size());
     for (std::size_t o = 0; o < objects_.size(); ++o) {
-        Object& object = *objects_[o];
+        const Object& object = *objects_[o];
         const int count = int(object.mesh.positions.size());
-        object.irradiance.resize(std::size_t(count));
+        added[o].resize(std::size_t(count));
         parallel_for((count + kPiece - 1) / kPiece, threads, [&](int piece) {
-            for (int v = piece * kPiece; v < std::min(count, (piece + 1) * kPiece); ++v)
-                bake_vertex(object, std::size_t(v), hash(std::uint32_t(o), std::uint32_t(v)));
+            for (int v = piece * kPiece; v < std::min(count, (piece + 1) * kPiece); ++v) {
+                const Vec3 p = object.mesh.positions[std::size_t(v)], n = object.mesh.normals[std::size_t(v)];
+                // The same rays for all of an object: their error varies as smoothly as the surface.
+                const std::uint32_t seed = hash(std::uint32_t(o), 0);
+                Vec3& sum = added[o][std::size_t(v)];
+                sum = irradiance(p, n, seed);
+                if (object.sides == Sides::Leaf) sum = 0.6f * (sum + irradiance(p, -n, seed));
+            }
         });
     }
+    for (std::size_t o = 0; o < objects_.size(); ++o)
+        for (std::size_t v = 0; v < added[o].size(); ++v) objects_[o]->irradiance[v] += added[o][v];
 }
 
-void World::bake_vertex(Object& object, std::size_t vertex, std::uint32_t seed) const {
-    const Vec3 p = object.mesh.positions[vertex], n = object.mesh.normals[vertex];
-    Vec3 irradiance = baked_irradiance(p, n, seed);
-    if (object.sides == Sides::Leaf) irradiance = 0.6f * (irradiance + baked_irradiance(p, -n, seed));
-    object.irradiance[vertex] = irradiance;
+void World::bake(int threads) {
+    for (auto& object : objects_) object->irradiance.assign(object->mesh.positions.size(), {});
+    for_each_vertex(threads,
+                    [&](Vec3 p, Vec3 n, std::uint32_t seed) { return direct_irradiance(p, n, seed); });
+    for_each_vertex(threads,
+                    [&](Vec3 p, Vec3 n, std::uint32_t seed) { return indirect_irradiance(p, n, seed); });
 }
 
-Vec3 World::baked_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const {
+Vec3 World::direct_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const {
     const Vec3 from = position + 1e-3f * normal;
     RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     Vec3 sum;
-    for (int i = 0; i < kBakeRays; ++i) {
-        const Point4 point = bake_points().at(i, seed);
-        RTCRayHit around{};
-        const Vec3 direction = cosine_direction(normal, point[0], point[1]);
-        around.ray = ray(from, direction, 0, std::numeric_limits<float>::infinity());
-        around.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(rays_, &context, &around);
-        if (around.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-            sum += kPi * sky(direction);
-        } else if (!is_lamp(around.hit.geomID)) {
-            const Hit hit{around.hit.geomID,
-                          around.hit.primID,
-                          around.hit.u,
-                          around.hit.v,
-                          from + around.ray.tfar * direction,
-                          {around.hit.Ng_x, around.hit.Ng_y, around.hit.Ng_z},
-                          direction};
-            const Matter m = matter(hit);
-            const Vec3 facing = normalised(hit.normal) * (dot(hit.normal, direction) > 0 ? -1.0f : 1.0f);
-            sum += kPi * m.emission + kBounceShare * m.albedo * plain_irradiance(hit.position, facing);
-        }
-        const DiscPoint spot = disc_point(point[2], point[3]);
-        for (const Light& light : lights) {
-            const Arrival a = arrival(light, position);
-            const Vec3 across = normalised(cross(a.towards, {0.31f, 0.87f, 0.38f}));
-            const Vec3 other = normalised(cross(a.towards, across));
+    for (const Light& light : lights) {
+        const Arrival a = arrival(light, position);
+        const Vec3 across = normalised(cross(a.towards, {0.31f, 0.87f, 0.38f}));
+        const Vec3 other = normalised(cross(a.towards, across));
+        for (int i = 0; i < kBakeRays; ++i) {
+            const Point4 point = bake_points().at(i, seed);
+            const DiscPoint spot = disc_point(point[2], point[3]);
             const Vec3 towards = a.towards + light.radius * (spot.x * across + spot.y * other);
             const float cosine = dot(normal, normalised(towards));
             if (cosine <= 0) continue;
@@ -190,9 +182,36 @@ Vec3 World::baked_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) con
     return sum / float(kBakeRays);
 }
 
-Vec3 World::plain_irradiance(Vec3 position, Vec3 normal) const {
+// From the sky and from what the direct light already fell on.
+Vec3 World::indirect_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const {
+    const Vec3 from = position + 1e-3f * normal;
+    RTCIntersectContext context{};
+    rtcInitIntersectContext(&context);
+    Vec3 sum;
+    for (int i = 0; i < kBakeRays; ++i) {
+        const Point4 point = bake_points().at(i, seed);
+        const Vec3 direction = cosine_direction(normal, point[0], point[1]);
+        RTCRayHit around{};
+        around.ray = ray(from, direction, 0, std::numeric_limits<float>::infinity());
+        around.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(rays_, &context, &around);
+        if (is_lamp(around.hit.geomID)) continue;
+        const Vec3 arriving = radiance({around.hit.geomID,
+                                        around.hit.primID,
+                                        around.hit.u,
+                                        around.hit.v,
+                                        from + around.ray.tfar * direction,
+                                        {around.hit.Ng_x, around.hit.Ng_y, around.hit.Ng_z},
+                                        direction});
+        sum += std::min(1.0f, brightest_bounce / std::max(luminance(arriving), 1e-9f)) * arriving;
+    }
+    return kPi * sum / float(kBakeRays);
+}
+
+Vec3 World::tube_irradiance(Vec3 position, Vec3 normal) const {
     Vec3 sum = mix(ambient_below, ambient_above, 0.5f + 0.5f * normal.y);
     for (const Light& light : lights) {
+        if (!light.lights_tubes) continue;
         const Arrival a = arrival(light, position);
         sum += std::max(0.0f, dot(normal, normalised(a.towards))) * a.facing;
     }
@@ -238,7 +257,7 @@ Vec3 World::radiance(const Hit& hit) const {
     const Object& object = *objects_[hit.object];
     Vec3 irradiance;
     if (object.mesh.triangles.empty()) {
-        irradiance = plain_irradiance(hit.position, normalised(hit.normal));
+        irradiance = tube_irradiance(hit.position, normalised(hit.normal));
     } else {
         const auto& t = object.mesh.triangles[hit.primitive];
         irradiance = (1 - hit.u - hit.v) * object.irradiance[t[0]] + hit.u * object.irradiance[t[1]] +

@@ -2,7 +2,7 @@
 //
 // Everything is matt or glows by itself, so a point has the same colour from everywhere: a pinhole picture
 // with depth says all there is to say about what is visible, and the truth differs from it by the lens alone.
-// Light is baked once into the vertices (soft shadows and one bounce); tubes are lit without shadows.
+// Light is baked once into the vertices (soft shadows, sky, one bounce); tubes are lit without shadows.
 #pragma once
 
 #include "petzval/result.h"
@@ -42,6 +42,7 @@ struct Light {
     Vec3 position, power;
     float radius = 0.1f;
     bool distant = false;
+    bool lights_tubes = true;  // tubes cast shadows but receive none: false where they stand in the shade
 };
 
 // A small disc parallel to the sensor that glows; tracked one by one, so that its image through the lens can
@@ -71,7 +72,10 @@ public:
     // Building, before commit().
     Viewpoint view;
     std::function<Vec3(Vec3 direction)> sky = [](Vec3) { return Vec3{}; };  // radiance towards a direction
-    Vec3 ambient_above, ambient_below;  // irradiance that tubes and bounced light get besides the lights
+    Vec3 ambient_above, ambient_below;  // irradiance that tubes get besides the lights
+    // What baking takes at most from one ray: a bright spot that few rays find would bake to blotches. Where
+    // it matters (a window), a Light stands for it.
+    float brightest_bounce = 20;
     std::vector<Light> lights;
     void add(Mesh mesh, Paint paint, Sides sides);
     void add(Tubes tubes, Paint paint);
@@ -98,9 +102,11 @@ private:
     struct Object;
     void attach_lamps();
     void bake(int threads);
-    void bake_vertex(Object& object, std::size_t vertex, std::uint32_t seed) const;
-    Vec3 baked_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const;
-    Vec3 plain_irradiance(Vec3 position, Vec3 normal) const;
+    template <typename Irradiance>
+    void for_each_vertex(int threads, const Irradiance& irradiance);
+    Vec3 direct_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const;
+    Vec3 indirect_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const;
+    Vec3 tube_irradiance(Vec3 position, Vec3 normal) const;
     Matter matter(const Hit& hit) const;
 
     RTCDevice device_;
