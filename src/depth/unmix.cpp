@@ -9,7 +9,8 @@
 namespace petzval::depth {
 namespace {
 
-constexpr int kReach = 3;  // clean colours are looked for within so many pixels
+constexpr float kDark = 1e-3f;  // keeps reciprocals finite
+constexpr int kReach = 3;       // clean colours are looked for within so many pixels
 
 bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
     if (connected(x, y) != kAll) return true;
@@ -42,12 +43,15 @@ Sides look_around(View<const Rgba> colour, View<const float> coc, View<const uns
                   int y, float threshold) {
     Sides s;
     const Rect window = Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(coc.rect());
+    const float own_light = std::max(0.0f, luminance(colour(x, y))) + kDark;
     float tent_total = 0;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
             const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
             const bool near = coc(u, v) <= threshold;
-            const float weight = 1 / (1 + d2 * d2);
+            // Far pixels count little, and pixels much brighter than this one too: a lamp nearby is not this
+            // surface.
+            const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour(u, v)))));
             if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) {
                 const float tent = (u == x ? 2.0f : 1.0f) * (v == y ? 2.0f : 1.0f);
                 tent_total += tent;

@@ -16,6 +16,7 @@ using kernel::PointSpread;
 // by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
 constexpr float kOwnSurfacePx = 0.02f;
 constexpr int kBlock = 16;
+constexpr float kBrightDisc = 0.05f;  // share of white
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
 // Smallest radius of any sample in each block of pixels.
@@ -41,18 +42,25 @@ private:
     float overall_ = 1e30f;
 };
 
-// The share of the pupil that nearer samples cover, on a grid over [-1, 1]^2.
+// The share of the pupil that nearer samples cover, on a grid whose cells are the taps of the highlight's
+// disc, or equal parts of them where the disc has few.
 class PupilShadow {
 public:
-    explicit PupilShadow(int cells) : cells_(cells), covered_(cells, cells) {}
+    explicit PupilShadow(float coc_px)
+        : scale_(coc_px < 0 ? std::min(coc_px, -0.5f) : std::max(coc_px, 0.5f)),
+          reach_(int(std::floor(std::abs(coc_px) + 0.5f))),
+          parts_(std::max(1, kLeastCells / (2 * reach_ + 1))),
+          covered_((2 * reach_ + 1) * parts_, (2 * reach_ + 1) * parts_) {}
 
-    // A square of the given side around (u, v), in pupil radii.
+    // A square of the given side around (u, v), in pupil radii. `side` is small against the whole pupil.
     void cover(float u, float v, float side, float coverage) {
-        const float scale = 0.5f * float(cells_);
-        const float x0 = (u - 0.5f * side + 1) * scale, x1 = (u + 0.5f * side + 1) * scale;
-        const float y0 = (v - 0.5f * side + 1) * scale, y1 = (v + 0.5f * side + 1) * scale;
-        const int left = std::max(0, int(std::floor(x0))), right = std::min(cells_, int(std::ceil(x1)));
-        const int top = std::max(0, int(std::floor(y0))), bottom = std::min(cells_, int(std::ceil(y1)));
+        const float per_radius = scale_ * float(parts_), middle = 0.5f * float(covered_.width());
+        const float half = 0.5f * side * std::abs(per_radius);
+        const float x0 = middle + u * per_radius - half, x1 = middle + u * per_radius + half;
+        const float y0 = middle + v * per_radius - half, y1 = middle + v * per_radius + half;
+        const auto limited = [&](float at) { return int(std::clamp(at, 0.0f, float(covered_.width()))); };
+        const int left = limited(std::floor(x0)), right = limited(std::ceil(x1));
+        const int top = limited(std::floor(y0)), bottom = limited(std::ceil(y1));
         for (int y = top; y < bottom; ++y) {
             const float tall = std::min(y1, float(y + 1)) - std::max(y0, float(y));
             for (int x = left; x < right; ++x) {
@@ -61,11 +69,27 @@ public:
             }
         }
     }
-    float visible(int x, int y) const { return 1 - std::min(1.0f, covered_(x, y)); }
-    int cells() const { return cells_; }
+
+    // The share of the rays to the tap at offset (dx, dy) that nothing stops.
+    float visible(int dx, int dy) const {
+        const int x0 = (std::clamp(dx, -reach_, reach_) + reach_) * parts_;
+        const int y0 = (std::clamp(dy, -reach_, reach_) + reach_) * parts_;
+        float inside = 0, inside_count = 0, all = 0;
+        for (int y = y0; y < y0 + parts_; ++y)
+            for (int x = x0; x < x0 + parts_; ++x) {
+                const float seen = 1 - std::min(1.0f, covered_(x, y));
+                const float u = (float(x) + 0.5f - 0.5f * float(covered_.width())) / (scale_ * float(parts_));
+                const float v = (float(y) + 0.5f - 0.5f * float(covered_.width())) / (scale_ * float(parts_));
+                all += seen;
+                if (u * u + v * v <= 1) inside += seen, inside_count += 1;
+            }
+        return inside_count > 0 ? inside / inside_count : all / float(parts_ * parts_);
+    }
 
 private:
-    int cells_;
+    static constexpr int kLeastCells = 16;
+    float scale_;        // signed radius, as taps count it
+    int reach_, parts_;  // taps on either side of the middle; cells along a tap
     Plane covered_;
 };
 
@@ -108,30 +132,37 @@ constexpr int kSizes[] = {1, 2, 4, 8};
 
 class Spreader {
 public:
-    Spreader(const Input& input, const CocSamples& samples)
+    Spreader(const Input& input, const CocSamples& samples, float white)
         : input_(input),
           samples_(samples),
           blocks_(samples, input.threads),
-          stretch_(float(std::max(1.0, input.lens(0).reach_px(1)))) {
+          stretch_(float(std::max(1.0, input.lens(0).reach_px(1)))),
+          white_(white) {
         const kernel::BankOptions options{.columns = 32,
                                           .rows = 18,
                                           .aspect = double(input.width()) / input.frame_height,
                                           .relative_step = 0.005,
                                           .least_step_px = 0.0625,
                                           .max_bytes = std::size_t(64) << 20};
+        kernel::BankOptions fine = options;
+        fine.relative_step = 0.001, fine.least_step_px = 0.02;
         for (const int size : kSizes) {
             lenses_.push_back(std::make_unique<const SquareLens>(input.lens(0), size));
             banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), options));
+            fine_banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), fine));
         }
     }
 
     std::shared_ptr<const PointSpread> kernel(const Highlight& h) const {
         std::size_t bank = 0;
         while (kSizes[bank] < h.size) ++bank;
-        auto open = banks_[bank]->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
+        // The rim of a disc that is bright by itself shows a radius that is off by little.
+        const float on_disc =
+            luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
+        const auto& chosen = on_disc > kBrightDisc * white_ ? fine_banks_[bank] : banks_[bank];
+        auto open = chosen->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
         if (blocks_.overall() >= h.coc_px - kOwnSurfacePx) return open;
-        // As fine as the taps where they are many, finer than they are where they are few.
-        PupilShadow shadow(std::max(16, 2 * int(std::ceil(std::abs(h.coc_px)))));
+        PupilShadow shadow(h.coc_px);
         if (!collect(h, shadow)) return open;
         return std::make_shared<const PointSpread>(dimmed(*open, h, shadow));
     }
@@ -179,27 +210,13 @@ private:
         return any;
     }
 
-    // Pupil cells are counted where they land; taps that none reaches take the mean.
     static PointSpread dimmed(const PointSpread& open, const Highlight& h, const PupilShadow& shadow) {
         const Rect e = open.extent;
-        Plane seen(e.width(), e.height()), all(e.width(), e.height());
-        float seen_total = 0, all_total = 0;
-        const float middle = 0.5f * float(h.size - 1);
-        const float per_cell = 2 / float(shadow.cells());
-        for (int y = 0; y < shadow.cells(); ++y)
-            for (int x = 0; x < shadow.cells(); ++x) {
-                const float u = (float(x) + 0.5f) * per_cell - 1, v = (float(y) + 0.5f) * per_cell - 1;
-                const float visible = shadow.visible(x, y);
-                if (u * u + v * v <= 1) seen_total += visible, all_total += 1;
-                const int tx = int(std::floor(h.coc_px * u + middle + 0.5f)) - e.x0;
-                const int ty = int(std::floor(h.coc_px * v + middle + 0.5f)) - e.y0;
-                if (!all.rect().contains(tx, ty)) continue;
-                seen(tx, ty) += visible, all(tx, ty) += 1;
-            }
+        const int middle = (h.size - 1) / 2;
         PointSpread result{e, open.weights.clone(), open.neutral};
         for (int y = 0; y < e.height(); ++y)
             for (int x = 0; x < e.width(); ++x)
-                result.weights(x, y) *= all(x, y) > 0 ? seen(x, y) / all(x, y) : seen_total / all_total;
+                result.weights(x, y) *= shadow.visible(x + e.x0 - middle, y + e.y0 - middle);
         return result;
     }
 
@@ -208,7 +225,8 @@ private:
     NearestBlocks blocks_;
     float stretch_;
     std::vector<std::unique_ptr<const SquareLens>> lenses_;
-    std::vector<std::unique_ptr<const kernel::KernelBank>> banks_;
+    std::vector<std::unique_ptr<const kernel::KernelBank>> banks_, fine_banks_;
+    float white_;
 };
 
 void add(const PointSpread& spread, const Highlight& h, const Rect& rows, View<Rgba> out) {
@@ -225,9 +243,9 @@ void add(const PointSpread& spread, const Highlight& h, const Rect& rows, View<R
 }  // namespace
 
 void spread_highlights(const Input& input, const CocSamples& samples,
-                       const std::vector<Highlight>& highlights, View<Rgba> out) {
+                       const std::vector<Highlight>& highlights, float white, View<Rgba> out) {
     if (highlights.empty()) return;
-    const Spreader spreader(input, samples);
+    const Spreader spreader(input, samples, white);
     // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
     // threads.
     for (std::size_t begin = 0; begin < highlights.size() && !input.progress->cancelled();) {

@@ -40,8 +40,10 @@ float box_mean(View<const float> cells, int cx, int cy, int reach) {
 
 }  // namespace
 
-HighlightSplit::HighlightSplit(View<const Rgba> picture, const HighlightRule& rule, int threads)
+HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
+                               int threads)
     : rule_(rule) {
+    find_contested(coc_px, threads);
     const Plane reciprocal = reciprocal_cells(picture, kCell, threads);
     surroundings_ = Plane(reciprocal.width(), reciprocal.height());
     parallel_for(reciprocal.height(), threads, [&](int y) {
@@ -51,18 +53,49 @@ HighlightSplit::HighlightSplit(View<const Rgba> picture, const HighlightRule& ru
             surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
         }
     });
+    double sum = 0;
+    for (std::size_t i = 0; i < surroundings_.size(); ++i) sum += double(surroundings_.pixels()[i]);
+    white_ = float(4 * sum / double(surroundings_.size()));
 }
 
-float HighlightSplit::floor_at(float coc_px) const {
+// A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all
+// surfaces, which is a distance transform (two-sweep chamfer, G. Borgefors 1986) of the blocks' nearest
+// radii.
+void HighlightSplit::find_contested(View<const float> coc_px, int threads) {
+    constexpr float kMarginPx = 3;  // what is nearer by less hides next to nothing
+    contested_ =
+        Plane((coc_px.width() + kBlock - 1) / kBlock, (coc_px.height() + kBlock - 1) / kBlock, 1e30f);
+    parallel_for(contested_.height(), threads, [&](int by) {
+        for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_px.height()); ++y)
+            for (int x = 0; x < coc_px.width(); ++x)
+                contested_(x / kBlock, by) = std::min(contested_(x / kBlock, by), coc_px(x, y) + kMarginPx);
+    });
+    const auto relax = [&](int x, int y, int dx, int dy) {
+        if (!contested_.rect().contains(x + dx, y + dy)) return;
+        const float step = (dx != 0 && dy != 0 ? 1.3693f : 0.955f) * kBlock;
+        contested_(x, y) = std::min(contested_(x, y), contested_(x + dx, y + dy) + step);
+    };
+    for (int y = 0; y < contested_.height(); ++y)
+        for (int x = 0; x < contested_.width(); ++x)
+            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
+    for (int y = contested_.height() - 1; y >= 0; --y)
+        for (int x = contested_.width() - 1; x >= 0; --x)
+            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+}
+
+float HighlightSplit::floor_at(int x, int y, float coc_px) const {
+    const bool contested = coc_px > contested_(x / kBlock, y / kBlock);
+    if (contested) return white_ * rule_.contested_floor;
     const float radius = std::abs(coc_px);
-    return std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
+    return white_ * std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
 }
 
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
-    if (brightness <= rule_.least_floor * light.a) return light;
-    const float bound = light.a * (floor_at(coc_px) + rule_.factor * surroundings_(x / kCell, y / kCell));
+    if (brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * light.a) return light;
+    const float bound =
+        light.a * (floor_at(x, y, coc_px) + rule_.factor * surroundings_(x / kCell, y / kCell));
     if (brightness <= bound) return light;
     const Rgba scaled = light * (bound / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};
@@ -106,7 +139,7 @@ public:
                 });
                 // A wide square in a small disc would smear the shadows that nearer things throw into it.
                 const bool narrow = float(size) * kSquaresPerRadius <= std::abs(coc);
-                if (!all || !narrow || split.may_stay(luminance(common), coc)) continue;
+                if (!all || !narrow || split.may_stay(x_ + x, y_ + y, coc, luminance(common))) continue;
                 for_square(x, y, size, [&](Cell& c) { c.taken.colour -= common; });
                 out.push_back({x_ + x, y_ + y, size, coc, common});
             }
@@ -117,7 +150,7 @@ public:
             for (int x = 0; x < kLargestSquare; ++x) {
                 const Cell& c = cell(x, y);
                 if (!c.lit || c.taken.colour == Rgba{}) continue;
-                if (split.may_stay(luminance(c.taken.colour), c.coc_px) &&
+                if (split.may_stay(x_ + x, y_ + y, c.coc_px, luminance(c.taken.colour)) &&
                     samples.samples[c.taken.sample].colour.a > kLeastAlpha)
                     samples.samples[c.taken.sample].colour += c.taken.colour;
                 else

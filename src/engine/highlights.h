@@ -15,16 +15,18 @@ struct Highlight {
     Rgba colour;  // what was taken out of each of its pixels; a is 0: the surface itself stays in the base
 };
 
-// How far a pixel may stand out before it counts as a highlight: luminance above
-//     factor * surroundings + floor(radius)      (scene-linear; light of coverage a is compared with a times
-//     that)
-// where the floor rises with the radius as radius^1.5, because a wider disc hides more of what the levels
-// blur (docs/design/scatter.md gives the law), and is `floor_at_1px` there.
+// What light counts as a highlight: luminance above
+//     factor * surroundings + white * max(least_floor, floor_at_1px * radius^1.5)
+// (scene-linear; light of coverage a is compared with a times that), white being four times the mean of the
+// surroundings over the picture: highlights are a matter of contrast, not of exposure. The floor rises with
+// the radius because a wider disc hides more of what the levels blur (docs/design/scatter.md gives the law).
 struct HighlightRule {
     float factor = 2;
-    float floor_at_1px = 0.25f;
-    float least_floor = 0.25f;  // however small the radius
-    float least_radius_px = 0;  // below it nothing counts
+    float least_floor = 1;
+    float floor_at_1px = 0.006f;
+    // The least floor where nearer things stand in the way of the lens: their shadows are exact in highlights
+    // only.
+    float contested_floor = 0.25f;
 };
 
 // Splits light where it stands out of its surroundings:  base + highlight = light. The surroundings are the
@@ -32,18 +34,27 @@ struct HighlightRule {
 // lamps hardly raise them, surfaces do. Light without alpha (additive glow) is taken out whole.
 class HighlightSplit {
 public:
-    HighlightSplit(View<const Rgba> picture, const HighlightRule& rule, int threads);
+    // coc_px: the nearest radius of every pixel of the picture.
+    HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
+                   int threads);
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
-    // Whether light so bright, left over at this radius, may stay whatever surrounds it.
-    bool may_stay(float brightness, float coc_px) const { return brightness <= floor_at(coc_px); }
+    float white() const { return white_; }
+    // Whether light so bright, left over at this place and radius, may stay whatever surrounds it.
+    bool may_stay(int x, int y, float coc_px, float brightness) const {
+        return brightness <= floor_at(x, y, coc_px);
+    }
 
 private:
-    float floor_at(float coc_px) const;
+    float floor_at(int x, int y, float coc_px) const;
+    void find_contested(View<const float> coc_px, int threads);
 
     HighlightRule rule_;
+    float white_ = 0;
     Plane surroundings_;  // per cell of kCell x kCell pixels
     static constexpr int kCell = 4;
+    Plane contested_;  // per block of kBlock pixels: the radius from which on something nearer is in the way
+    static constexpr int kBlock = 16;
 };
 
 // Splits every sample in place; returns what was taken. Bright areas are taken as few squares: what all

@@ -23,9 +23,10 @@ namespace {
 
 constexpr int kTile = 128;
 constexpr int kTileFieldVaries = 32;  // one set of rays for so many pixels on a side
-// Light above 1.5 x its surroundings + 0.25 of diffuse white is spread exactly; the rest is smooth enough for
+// Light above 1.5 x its surroundings and a quarter of white is spread exactly; the rest is smooth enough for
 // rays.
-constexpr HighlightRule kHighlights{.factor = 1.5f, .floor_at_1px = 0};
+constexpr HighlightRule kHighlights{
+    .factor = 1.5f, .least_floor = 0.25f, .floor_at_1px = 0, .contested_floor = 0.25f};
 constexpr double kShareOfRays = 0.8, kShareOfHighlights = 0.2;  // of the progress bar
 
 double fraction(double x) { return x - std::floor(x); }
@@ -244,7 +245,7 @@ Result<Output> run_reference(const Input& input) {
     };
 
     CocSamples samples = stated_samples(input);
-    const HighlightSplit split(input.colour, kHighlights, input.threads);
+    const HighlightSplit split(input.colour, input.coc_px, kHighlights, input.threads);
     const std::vector<Highlight> highlights = take_highlights(samples, split, 1, input.threads);
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;

@@ -48,10 +48,7 @@ Result<Output> run_scatter(const Input& input) {
     CocSamples samples = completed(input);
     watch.lap("complete", output.stages);
 
-    // Up to the radius at which the first level is left, everything is exact anyway; highlights there are
-    // taken out only for the shadows in them.
-    const HighlightSplit split(input.colour, {.factor = 2, .floor_at_1px = 0.006f, .least_floor = 0.25f},
-                               input.threads);
+    const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
     const std::vector<Highlight> highlights = take_highlights(samples, split, 8, input.threads);
     watch.lap("split", output.stages);
 
@@ -71,7 +68,7 @@ Result<Output> run_scatter(const Input& input) {
     });
     watch.lap("spread", output.stages);
 
-    spread_highlights(input, samples, highlights, output.image);
+    spread_highlights(input, samples, highlights, split.white(), output.image);
     watch.lap("highlights", output.stages);
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     input.progress->advance(0.1);

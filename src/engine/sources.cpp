@@ -34,6 +34,13 @@ depth::Slope tilt_of(depth::Slope slope, float coc_px) {
     return {slope.x / coc_px, slope.y / coc_px};
 }
 
+// The radius of a disc that, averaged over a cell of size x size pixels, is as wide as one of coc_px over a
+// pixel: a square of side a adds a^2/12 to the mean square along each axis, a disc of radius r has r^2/4.
+float narrowed(float coc_px, int size) {
+    const float square = coc_px * coc_px - (float(size * size) - 1) / 3;
+    return std::copysign(std::sqrt(std::max(0.0f, square)), coc_px);
+}
+
 // Sources of one cell of a coarse level, gathered from its pixels: one per layer.
 class Cell {
 public:
@@ -49,8 +56,8 @@ public:
         for (const Sum& s : sums_) {
             if (s.light.a <= 0) continue;
             const float mean = 1 / s.light.a, cells = 1 / float(size);
-            row.push_back({s.light * (cells * cells), s.coc * mean * cells, s.tilt_x * mean * float(size),
-                           s.tilt_y * mean * float(size), x, s.layer});
+            row.push_back({s.light * (cells * cells), narrowed(s.coc * mean, size) * cells,
+                           s.tilt_x * mean * float(size), s.tilt_y * mean * float(size), x, s.layer});
         }
         sums_.clear();
     }

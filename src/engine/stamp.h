@@ -55,7 +55,7 @@ private:
 void stamp(const StampKernel& kernel, int x, int y, Rgba light, float tilt_x, float tilt_y,
            Accumulator& into);
 
-// Adds `coarse`, whose cells are 2^level pixels wide, to `fine`: Catmull-Rom, negative lobes cut off.
+// Adds `coarse`, whose cells are 2^level pixels wide, to `fine`: Catmull-Rom.
 // Requires: coarse covers the cells of fine's area and two more on every side.
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine);
 

@@ -139,7 +139,7 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
             auto sum = hn::Mul(hn::Set(d, w[0]), hn::LoadU(d, in + i));
             for (std::size_t k = 1; k < 4; ++k)
                 sum = hn::MulAdd(hn::Set(d, w[k]), hn::LoadU(d, in + k * stride + std::size_t(i)), sum);
-            hn::StoreU(hn::Add(hn::LoadU(d, out + i), hn::Max(hn::Zero(d), sum)), d, out + i);
+            hn::StoreU(hn::Add(hn::LoadU(d, out + i), sum), d, out + i);
         }
     }
 }

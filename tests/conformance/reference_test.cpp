@@ -1,76 +1,28 @@
-#include "petzval/defocus.h"
+#include "shots.h"
 
 #include <cmath>
-#include <limits>
-#include <random>
+#include <vector>
 
-#include <gtest/gtest.h>
-
-namespace petzval {
+namespace petzval::conformance {
 namespace {
-
-// A picture with given radii, through the ideal lens.
-struct Shot {
-    Picture colour;
-    Plane coc_px;
-    DeepPicture behind;
-    DefocusJob job() const {
-        DefocusJob job;
-        job.colour = colour;
-        job.depth_m = coc_px;
-        job.depth_is_coc = true;
-        job.behind = behind.empty() ? nullptr : &behind;
-        job.display_window = job.data_window = colour.rect();
-        job.engine = "reference";
-        job.pupil_points = 1024;
-        return job;
-    }
-};
-
-Shot flat(int width, int height, Rgba colour, float coc_px) {
-    return {Picture(width, height, colour), Plane(width, height, coc_px), {}};
-}
-
-void paint_noise(Picture& picture, unsigned seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> value(0.1f, 0.9f);
-    for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x)
-            picture(x, y) = {value(random), value(random), value(random), 1};
-}
-
-Picture rendered(const DefocusJob& job) {
-    auto report = defocus(job);
-    EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
-    return std::move(report->image);
-}
-
-double largest_difference(const Picture& a, const Picture& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const Rgba d = a.pixels()[i] - b.pixels()[i];
-        for (const float v : {d.r, d.g, d.b, d.a}) largest = std::max(largest, double(std::abs(v)));
-    }
-    return largest;
-}
 
 TEST(Reference, InFocusIsUntouched) {
     Shot shot = flat(40, 23, {}, 0);
     paint_noise(shot.colour, 1);
-    EXPECT_LT(largest_difference(rendered(shot.job()), shot.colour), 2e-6);
+    EXPECT_LT(largest_difference(rendered(shot.job("reference")), shot.colour), 2e-6);
 }
 
 TEST(Reference, AConstantPictureStaysConstantUpToTheBorder) {
     for (const float coc : {-9.0f, 0.4f, 6.5f}) {
         const Shot shot = flat(31, 20, {0.2f, 0.5f, 0.7f, 1}, coc);
-        EXPECT_LT(largest_difference(rendered(shot.job()), shot.colour), 1e-5) << coc;
+        EXPECT_LT(largest_difference(rendered(shot.job("reference")), shot.colour), 1e-5) << coc;
     }
 }
 
 TEST(Reference, ABrightPointBecomesTheKernelOfTheLens) {
     Shot shot = flat(101, 101, {0, 0, 0, 1}, 40);
     shot.colour(50, 50) = {1000, 1000, 1000, 1};
-    const Picture image = rendered(shot.job());
+    const Picture image = rendered(shot.job("reference"));
     double sum = 0;
     const double inside = 1000 / (M_PI * 40 * 40);
     for (int y = 0; y < 101; ++y)
@@ -96,7 +48,7 @@ TEST(Reference, ASlantedSurfaceDoesNotLeak) {
         }
     first.push_back(samples.size());
     shot.behind = DeepPicture(80, 60, first, samples);
-    const Picture image = rendered(shot.job());
+    const Picture image = rendered(shot.job("reference"));
     for (int y = 0; y < 60; ++y)
         for (int x = 12; x < 68; ++x) EXPECT_NEAR(image(x, y).r, 0.5, 0.004) << x << ", " << y;
 }
@@ -105,7 +57,7 @@ TEST(Reference, NothingBleedsFromBehindOntoAnEdgeInFocus) {
     Shot shot = flat(64, 32, {0.1f, 0.1f, 0.1f, 1}, 0);
     for (int y = 0; y < 32; ++y)
         for (int x = 32; x < 64; ++x) shot.colour(x, y) = {0.9f, 0.9f, 0.9f, 1}, shot.coc_px(x, y) = 8;
-    const Picture image = rendered(shot.job());
+    const Picture image = rendered(shot.job("reference"));
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) EXPECT_NEAR(image(x, y).g, 0.1, 1e-5) << x;
 }
@@ -125,7 +77,7 @@ TEST(Reference, ABlurredEdgeInFrontShowsTheSuppliedBackgroundThroughIt) {
         }
     first.push_back(samples.size());
     shot.behind = DeepPicture(64, 32, first, samples);
-    const Picture image = rendered(shot.job());
+    const Picture image = rendered(shot.job("reference"));
     // Share of a disc of radius 10 on one side of a line at distance d: 1/2 + (asin t + t sqrt(1 - t^2))/pi,
     // t = d/10.
     for (int x = 18; x < 46; ++x) {
@@ -140,7 +92,7 @@ TEST(Reference, ALampBehindATwigShowsTheTwigsShadowInsideItsDisc) {
     shot.colour(50, 50) = {1000, 1000, 1000, 1};
     for (int y = 0; y < 101; ++y)
         for (int x = 54; x < 58; ++x) shot.coc_px(x, y) = -15;  // a dark upright bar in front
-    const Picture image = rendered(shot.job());
+    const Picture image = rendered(shot.job("reference"));
     // The bar at q = x_s + (30 + 15) u covers u in [4/45, 8/45] less half a pixel: landing at 50.5 + 30 u,
     // that is pixels 52.8 to 55.5.
     const double inside = 1000 / (M_PI * 30 * 30);
@@ -153,17 +105,17 @@ TEST(Reference, TheSameBitsForAnyThreadCount) {
     Shot shot = flat(70, 50, {}, 5);
     paint_noise(shot.colour, 2);
     shot.colour(30, 20) = {90, 60, 20, 1};
-    DefocusJob one = shot.job(), two = shot.job();
+    DefocusJob one = shot.job("reference"), two = shot.job("reference");
     one.threads = 1, two.threads = 2;
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 
 TEST(Reference, EmptinessStaysEmpty) {
     Shot shot = flat(40, 40, {0.3f, 0.2f, 0.1f, 0.5f}, 6);
-    const Picture image = rendered(shot.job());
+    const Picture image = rendered(shot.job("reference"));
     EXPECT_NEAR(image(20, 20).a, 0.5, 0.01);
     EXPECT_NEAR(image(20, 20).r, 0.3, 0.006);
 }
 
 }  // namespace
-}  // namespace petzval
+}  // namespace petzval::conformance

@@ -1,0 +1,102 @@
+// Small pictures with given radii, and how to put them through an engine. Shared by the conformance tests.
+#pragma once
+
+#include "petzval/compare.h"
+#include "petzval/defocus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace petzval::conformance {
+
+// A picture with signed radii in place of depth, through the ideal lens; hidden layers where they are known.
+struct Shot {
+    Picture colour;
+    Plane coc_px;
+    DeepPicture behind;
+
+    DefocusJob job(const std::string& engine) const {
+        DefocusJob job;
+        job.colour = colour;
+        job.depth_m = coc_px;
+        job.depth_is_coc = true;
+        job.behind = behind.empty() ? nullptr : &behind;
+        job.display_window = job.data_window = colour.rect();
+        job.engine = engine;
+        job.pupil_points = 1024;
+        return job;
+    }
+};
+
+inline Shot flat(int width, int height, Rgba colour, float coc_px) {
+    return {Picture(width, height, colour), Plane(width, height, coc_px), {}};
+}
+
+inline void paint_noise(Picture& picture, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> value(0.1f, 0.9f);
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x)
+            picture(x, y) = {value(random), value(random), value(random), 1};
+}
+
+// Hard-edged rectangles of 0.03…0.97 over each other.
+inline void paint_rectangles(Picture& picture, unsigned seed) {
+    std::mt19937 random(seed);
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) picture(x, y) = {0.4f, 0.4f, 0.4f, 1};
+    const auto up_to = [&](int n) { return int(random() % unsigned(n)); };
+    for (int i = 0; i < picture.width() * picture.height() / 300; ++i) {
+        const int x = up_to(picture.width()), y = up_to(picture.height());
+        const Rect r = Rect{x, y, x + 4 + up_to(20), y + 4 + up_to(20)}.intersected(picture.rect());
+        const auto level = [&] { return 0.03f + 0.94f * float(up_to(1000)) / 999; };
+        const Rgba colour{level(), level(), level(), 1};
+        for (int v = r.y0; v < r.y1; ++v)
+            for (int u = r.x0; u < r.x1; ++u) picture(u, v) = colour;
+    }
+}
+
+// One sample behind every pixel: colour(x, y) at coc(x, y).
+template <typename Colour, typename Coc>
+void put_behind(Shot& shot, const Colour& colour, const Coc& coc) {
+    std::vector<std::size_t> first;
+    std::vector<DeepSample> samples;
+    for (int y = 0; y < shot.colour.height(); ++y)
+        for (int x = 0; x < shot.colour.width(); ++x) {
+            first.push_back(samples.size());
+            samples.push_back({colour(x, y), coc(x, y), coc(x, y)});
+        }
+    first.push_back(samples.size());
+    shot.behind =
+        DeepPicture(shot.colour.width(), shot.colour.height(), std::move(first), std::move(samples));
+}
+
+inline Picture rendered(const DefocusJob& job) {
+    auto report = defocus(job);
+    EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
+    if (!report) return {};
+    EXPECT_EQ(report->engine, job.engine) << "another engine ran instead";
+    return std::move(report->image);
+}
+
+inline double largest_difference(const Picture& a, const Picture& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Rgba d = a.pixels()[i] - b.pixels()[i];
+        for (const float v : {d.r, d.g, d.b, d.a}) largest = std::max(largest, double(std::abs(v)));
+    }
+    return largest;
+}
+
+// PSNR of the pixels at least `border` away from the frame.
+inline double psnr_inside(const Picture& reference, const Picture& test, int border) {
+    const Rect inside = reference.rect().grown(-border);
+    return compare(reference.view().part(inside), test.view().part(inside))->psnr_lin;
+}
+
+}  // namespace petzval::conformance
