@@ -1,8 +1,9 @@
 # lenses/*.json compiled into the library: one generated file with every text as a string, so that an installed
 # program finds its lenses without looking for files.
 
-file(GLOB lens_paths CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lenses/*.json)
-list(SORT lens_paths)
+file(GLOB lens_names CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/lenses ${PROJECT_SOURCE_DIR}/lenses/*.json)
+list(TRANSFORM lens_names REPLACE "\\.json$" "")
+list(SORT lens_names)
 set(shelf_source "// Generated from lenses/*.json by cmake/petzval_lenses.cmake.
 #include \"lens_files/shelf.h\"
 
@@ -10,9 +11,9 @@ namespace petzval::lens_files {
 namespace {
 ")
 set(shelf_items "")
-foreach(path ${lens_paths})
+foreach(name ${lens_names})
+  set(path ${PROJECT_SOURCE_DIR}/lenses/${name}.json)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
-  get_filename_component(name ${path} NAME_WE)
   file(READ ${path} text)
   string(MAKE_C_IDENTIFIER text_${name} variable)
   string(APPEND shelf_source "constexpr std::string_view ${variable} = R\"lens(${text})lens\";\n")

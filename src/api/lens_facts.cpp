@@ -171,7 +171,13 @@ Result<LensFacts> lens_facts(const std::string& name_or_file) {
     }
     if (const kernel::AberrationCurves* curves = kernel::curve_preset(name_or_file)) return facts_of(*curves);
     const auto file = lens_files::find_lens(name_or_file);
-    if (!file) return file.error();
+    if (!file) {
+        if (file.error().code != ErrorCode::InvalidArgument) return file.error();
+        std::string known;
+        for (const LensSummary& lens : lens_list()) known.append(known.empty() ? "" : ", ").append(lens.name);
+        return Error{ErrorCode::InvalidArgument,
+                     "there is no lens or lens file \"" + name_or_file + "\"; lenses: " + known};
+    }
     auto facts = facts_of(*file);
     if (!facts) return Error{ErrorCode::InvalidFile, name_or_file + ": " + facts.error().message};
     return facts;
