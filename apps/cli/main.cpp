@@ -52,6 +52,7 @@ int run(int argc, const char* const* argv) {
     add_scene(program, chosen);
     add_compare(program, chosen);
     add_develop(program, chosen);
+    add_lens(program, chosen);
     try {
         program.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

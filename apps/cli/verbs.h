@@ -11,5 +11,6 @@ void add_inspect(Verb& program, Action& chosen);
 void add_scene(Verb& program, Action& chosen);
 void add_compare(Verb& program, Action& chosen);
 void add_develop(Verb& program, Action& chosen);
+void add_lens(Verb& program, Action& chosen);
 
 }  // namespace petzval::cli

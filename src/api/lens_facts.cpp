@@ -114,6 +114,23 @@ Status add_field(LensFacts& facts, const optics::Prescription& lens, const optic
     return Done{};
 }
 
+// The lenses a person may have meant: names that begin alike or hold the word; else as many as fit a line.
+Error unknown_lens(const std::string& name) {
+    const std::vector<LensSummary> lenses = lens_list();
+    std::string near_it, some;
+    for (const LensSummary& lens : lenses) {
+        const bool is_near =
+            lens.name.find(name) != std::string::npos || lens.name.substr(0, 4) == name.substr(0, 4);
+        if (is_near && near_it.size() < 250) near_it.append(near_it.empty() ? "" : ", ").append(lens.name);
+        if (some.size() < 250) some.append(some.empty() ? "" : ", ").append(lens.name);
+    }
+    const std::string all = std::to_string(lenses.size());
+    return {ErrorCode::InvalidArgument,
+            "there is no lens or lens file \"" + name.substr(0, 100) + "\"; " +
+                (near_it.empty() ? "of the " + all + " lenses (petzval lens list) some are " + some
+                                 : "near it: " + near_it + " (petzval lens list has all " + all + ")")};
+}
+
 LensFacts facts_of(const kernel::AberrationCurves& curves) {
     LensFacts facts;
     facts.summary = summary_of(curves);
@@ -171,13 +188,8 @@ Result<LensFacts> lens_facts(const std::string& name_or_file) {
     }
     if (const kernel::AberrationCurves* curves = kernel::curve_preset(name_or_file)) return facts_of(*curves);
     const auto file = lens_files::find_lens(name_or_file);
-    if (!file) {
-        if (file.error().code != ErrorCode::InvalidArgument) return file.error();
-        std::string known;
-        for (const LensSummary& lens : lens_list()) known.append(known.empty() ? "" : ", ").append(lens.name);
-        return Error{ErrorCode::InvalidArgument,
-                     "there is no lens or lens file \"" + name_or_file + "\"; lenses: " + known};
-    }
+    if (!file && file.error().code == ErrorCode::InvalidArgument) return unknown_lens(name_or_file);
+    if (!file) return file.error();
     auto facts = facts_of(*file);
     if (!facts) return Error{ErrorCode::InvalidFile, name_or_file + ": " + facts.error().message};
     return facts;

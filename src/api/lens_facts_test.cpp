@@ -45,6 +45,7 @@ TEST(LensFacts, AnUnknownNameListsTheLensesAndADamagedFileItsLine) {
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().code, ErrorCode::InvalidArgument);
     EXPECT_NE(unknown.error().message.find("double-gauss"), std::string::npos);
+    EXPECT_NE(lens_facts("tess").error().message.find("near it: tessar, tessar-laikin"), std::string::npos);
 
     const std::string path = testing::TempDir() + "damaged_lens.json";
     std::ofstream(path) << "{\"surfaces\": [\n{\"radius\": 5,, }]}";

@@ -1,0 +1,297 @@
+// petzval lens: the lenses there are, and the numbers of each.
+#include "petzval/lens_facts.h"
+
+#include "console.h"
+#include "report.h"
+#include "run_flags.h"
+#include "values.h"
+#include "verbs.h"
+
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <memory>
+
+namespace petzval::cli {
+namespace {
+
+// One line of a table, cut at 400 characters.
+[[gnu::format(printf, 1, 2)]] std::string row(const char* format, ...) {
+    std::array<char, 400> text{};
+    std::va_list values;
+    va_start(values, format);
+    std::vsnprintf(text.data(), text.size(), format, values);
+    va_end(values);
+    return std::string(text.data()) + "\n";
+}
+
+// Text broken into lines of at most `width`, each behind `indent`. Works on bytes; UTF-8 is not split in
+// words.
+std::string wrapped(const std::string& text, const std::string& indent, std::size_t width = 96) {
+    std::string out, line;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        const std::string word = text.substr(at, end - at);
+        at = end + 1;
+        if (!line.empty() && indent.size() + line.size() + 1 + word.size() > width) {
+            out += indent + line + "\n";
+            line.clear();
+        }
+        line.append(line.empty() ? "" : " ").append(word);
+    }
+    return line.empty() ? out : out + indent + line + "\n";
+}
+
+const char* model_name(LensModelKind model) {
+    switch (model) {
+        case LensModelKind::Ideal:
+            return "ideal";
+        case LensModelKind::Curves:
+            return "curves";
+        case LensModelKind::Prescription:
+            return "prescription";
+    }
+    return "";
+}
+
+Json summary_json(const LensSummary& lens) {
+    const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
+    const auto known = [](double value) { return value > 0 ? number(value) : Json(nullptr); };
+    return {{"name", lens.name},
+            {"title", lens.title},
+            {"class", text(lens.kind)},
+            {"model", model_name(lens.model)},
+            {"year", text(lens.year)},
+            {"source", text(lens.source)},
+            {"history", text(lens.history)},
+            {"efl_mm", known(lens.focal_length_mm)},
+            {"f_number", known(lens.f_number)}};
+}
+
+Status list_lenses(const RunFlags& run) {
+    std::string text;
+    Json lenses = Json::array();
+    for (const LensSummary& lens : lens_list()) {
+        lenses.push_back(summary_json(lens));
+        const std::string size = lens.focal_length_mm > 0
+                                     ? plain(lens.focal_length_mm, 4) + " mm f/" + plain(lens.f_number, 3)
+                                     : "any";
+        text += row("%-30s %-17s %-24s %s", lens.name.c_str(), size.c_str(), lens.kind.c_str(),
+                    lens.year.c_str());
+        text += wrapped(printable(lens.title), "    ");
+    }
+    if (run.json != "-" && !print(text))
+        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
+    if (run.json.empty()) return Done{};
+    Json report = new_report("lens list");
+    report["lenses"] = lenses;
+    return write_report(report, run.json);
+}
+
+Json seidel_json(const SeidelFacts& s) {
+    return {{"S_I", number(s.s1)}, {"S_II", number(s.s2)}, {"S_III", number(s.s3)}, {"S_IV", number(s.s4)},
+            {"S_V", number(s.s5)}, {"C_I", number(s.c1)},  {"C_II", number(s.c2)}};
+}
+
+// Wavelengths are keys in micrometres with four decimals, as in the lens data.
+Json longitudinal_json(const LongitudinalAberrationFacts& lsa) {
+    Json by_wavelength = Json::object();
+    for (std::size_t w = 0; w < lsa.wavelengths_um.size(); ++w) {
+        std::array<char, 32> key{};
+        std::snprintf(key.data(), key.size(), "%.4f", lsa.wavelengths_um[w]);
+        Json shifts = Json::array();
+        for (const double shift : lsa.shift_mm[w]) shifts.push_back(number(shift));
+        by_wavelength[key.data()] = shifts;
+    }
+    return {{"pupil_zone", lsa.zones}, {"axis_crossing_minus_primary_paraxial_focus", by_wavelength}};
+}
+
+Json field_json(const std::vector<FieldFacts>& field) {
+    Json points = Json::array();
+    for (const FieldFacts& p : field)
+        points.push_back({{"field_deg", number(p.field_deg)},
+                          {"image_height_mm", number(p.image_height_mm)},
+                          {"tangential_focus_mm", number(p.tangential_focus_mm)},
+                          {"sagittal_focus_mm", number(p.sagittal_focus_mm)},
+                          {"distortion_percent", number(p.distortion_percent)},
+                          {"lateral_colour_mm", number(p.lateral_colour_mm)},
+                          {"unvignetted_share", number(p.unvignetted_share)}});
+    return points;
+}
+
+void add_prescription(Json& report, const LensFacts& f) {
+    report["bfl_mm"] = number(f.bfl_mm);
+    report["front_focal_position_mm"] = number(f.front_focal_position_mm);
+    report["entrance_pupil_position_mm"] = number(f.entrance_pupil_position_mm);
+    report["entrance_pupil_diameter_mm"] = number(f.entrance_pupil_diameter_mm);
+    report["exit_pupil_position_mm"] = number(f.exit_pupil_position_mm);
+    report["exit_pupil_diameter_mm"] = number(f.exit_pupil_diameter_mm);
+    report["vertex_length_mm"] = number(f.vertex_length_mm);
+    report["petzval_radius_mm"] = number(f.petzval_radius_mm);
+    report["lagrange_invariant_mm"] = number(f.lagrange_invariant_mm);
+    report["object_distance_mm"] = number(f.object_distance_mm);
+    report["image_distance_mm"] = number(f.image_distance_mm);
+    report["magnification"] = number(f.magnification);
+    report["field_deg"] = number(f.field_deg);
+    report["wavelengths_um"] = {{"short", f.short_um}, {"primary", f.primary_um}, {"long", f.long_um}};
+    report["seidel_field_deg"] = number(f.seidel_field_deg);
+    report["seidel"] = seidel_json(f.seidel);
+    report["seidel_per_surface"] = Json::array();
+    for (const SeidelFacts& surface : f.seidel_per_surface)
+        report["seidel_per_surface"].push_back(seidel_json(surface));
+    report["field"] = field_json(f.field);
+}
+
+Json facts_json(const LensFacts& facts, const std::string& input) {
+    Json report = new_report("lens show");
+    report["input"] = input;
+    report["lens"] = summary_json(facts.summary);
+    report["format"] = facts.format.empty() ? Json(nullptr) : Json(facts.format);
+    report["warnings"] = facts.warnings;
+    report["notes"] = facts.notes;
+    report["efl_mm"] = facts.efl_mm > 0 || facts.has_prescription ? number(facts.efl_mm) : Json(nullptr);
+    report["f_number"] = facts.f_number > 0 ? number(facts.f_number) : Json(nullptr);
+    if (facts.has_prescription) add_prescription(report, facts);
+    report["longitudinal_aberration_mm"] = longitudinal_json(facts.longitudinal_aberration);
+    return report;
+}
+
+std::string first_order_text(const LensFacts& f) {
+    std::string text;
+    text += row("focal length       %12.6g mm    f-number           %12.6g", f.efl_mm, f.f_number);
+    text += row("back focus         %12.6g mm    front focus        %12.6g mm", f.bfl_mm,
+                f.front_focal_position_mm);
+    text += row("entrance pupil at  %12.6g mm    its diameter       %12.6g mm", f.entrance_pupil_position_mm,
+                f.entrance_pupil_diameter_mm);
+    text += row("exit pupil at      %12.6g mm    its diameter       %12.6g mm", f.exit_pupil_position_mm,
+                f.exit_pupil_diameter_mm);
+    text += row("first to last glass%12.6g mm    Petzval radius     %12.6g mm", f.vertex_length_mm,
+                f.petzval_radius_mm);
+    if (std::isfinite(f.object_distance_mm))
+        text += row("object at          %12.6g mm    magnification      %12.6g", f.object_distance_mm,
+                    f.magnification);
+    return text + "(pupils: entrance from the first vertex, exit from the last, + towards the image)\n";
+}
+
+std::string seidel_text(const LensFacts& f) {
+    std::string text = row("\nthird order, mm, at %.4g degrees and full aperture", f.seidel_field_deg);
+    text += row("surface %11s %11s %11s %11s %11s %11s %11s", "S_I", "S_II", "S_III", "S_IV", "S_V", "C_I",
+                "C_II");
+    const auto line = [&](const std::string& label, const SeidelFacts& s) {
+        text += row("%7s %11.6f %11.6f %11.6f %11.6f %11.6f %11.6f %11.6f", label.c_str(), s.s1, s.s2, s.s3,
+                    s.s4, s.s5, s.c1, s.c2);
+    };
+    for (std::size_t i = 0; i < f.seidel_per_surface.size(); ++i)
+        line(std::to_string(i + 1), f.seidel_per_surface[i]);
+    line("sum", f.seidel);
+    return text;
+}
+
+std::string longitudinal_text(const LongitudinalAberrationFacts& lsa) {
+    if (lsa.zones.empty()) return "";
+    std::string text =
+        "\nfocus of each zone, mm from the paraxial one (negative is nearer the lens)\n   zone";
+    for (const double um : lsa.wavelengths_um) {
+        std::array<char, 32> heading{};
+        std::snprintf(heading.data(), heading.size(), "%8.1f nm", um * 1000);
+        text += heading.data();
+    }
+    text += "\n";
+    for (std::size_t z = 0; z < lsa.zones.size(); ++z) {
+        std::array<char, 32> cell{};
+        std::snprintf(cell.data(), cell.size(), "%7.3g", lsa.zones[z]);
+        text += cell.data();
+        for (const auto& shifts : lsa.shift_mm) {
+            std::snprintf(cell.data(), cell.size(), "%11.5f", shifts[z]);
+            text += cell.data();
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+// What is left of zero after rounding, without its sign.
+double clean(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
+
+std::string field_text(const std::vector<FieldFacts>& field) {
+    if (field.empty()) return "";
+    std::string text = "\nover the field, rays aimed at the stop, object at its distance, lens open\n";
+    text += row("%8s %11s %12s %12s %12s %11s %10s", "degrees", "height mm", "tangential", "sagittal",
+                "distortion %", "colour mm", "unvignetted");
+    for (const FieldFacts& p : field)
+        text += row("%8.3f %11.5g %12.5f %12.5f %12.4f %11.5f %9.1f %%", p.field_deg,
+                    clean(p.image_height_mm), clean(p.tangential_focus_mm), clean(p.sagittal_focus_mm),
+                    clean(p.distortion_percent), clean(p.lateral_colour_mm), 100 * p.unvignetted_share);
+    return text;
+}
+
+std::string facts_text(const LensFacts& facts) {
+    const LensSummary& s = facts.summary;
+    std::string text = s.name + ": " + s.title + (s.year.empty() ? "" : ", " + s.year) + "\n";
+    if (!s.history.empty()) text += "\n" + wrapped(s.history, "");
+    if (!s.source.empty()) text += "\nsource:\n" + wrapped(s.source, "  ");
+    for (const std::string& remark : facts.notes) text += wrapped("note: " + remark, "  ");
+    text += "\n";
+    if (facts.has_prescription)
+        text += first_order_text(facts) + seidel_text(facts);
+    else if (facts.efl_mm > 0)
+        text += row("drawn for %g mm f/%g", facts.efl_mm, facts.f_number);
+    text += longitudinal_text(facts.longitudinal_aberration) + field_text(facts.field);
+    return printable(text);
+}
+
+Status show_lens(const std::string& name, const RunFlags& run) {
+    const Stopwatch watch;
+    const auto facts = lens_facts(name);
+    if (!facts) return facts.error();
+    for (const std::string& line : facts->warnings) warning(line);
+    if (run.json != "-" && !print(facts_text(*facts)))
+        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
+    if (run.json.empty()) return Done{};
+    Json report = facts_json(*facts, name);
+    report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report, run.json);
+}
+
+void add_lens_list(Verb& lens, Action& chosen) {
+    Verb& verb = add_verb(lens, "list", "every lens that --lens knows by name", "petzval lens list");
+    auto run = std::make_shared<RunFlags>();
+    run->add_json_to(verb);
+    when_typed(verb, [run, &chosen] { chosen = [run] { return list_lenses(*run); }; });
+}
+
+void add_lens_show(Verb& lens, Action& chosen) {
+    Verb& verb =
+        add_verb(lens, "show", "the numbers of a lens: focal length, pupils, aberrations, its history",
+                 "petzval lens show tessar\n"
+                 "petzval lens show my_lens.zmx --json - | jq .seidel");
+    auto name = std::make_shared<std::string>();
+    auto run = std::make_shared<RunFlags>();
+    FlagGroup(verb, "Lens")
+        .argument("LENS",
+                  "a name of petzval lens list, or a file: JSON, .zmx, .seq, pbrt "
+                  ".dat, Optical Bench text",
+                  *name);
+    run->add_json_to(verb);
+    run->add_log_to(verb, false);
+    when_typed(verb, [name, run, &verb, &chosen] {
+        require_argument(verb, *name, "a lens, as tessar, or a lens file");
+        run->apply();
+        chosen = [name, run] { return show_lens(*name, *run); };
+    });
+}
+
+}  // namespace
+
+void add_lens(Verb& program, Action& chosen) {
+    Verb& lens = add_verb(program, "lens", "lenses: list and show",
+                          "petzval lens list\n"
+                          "petzval lens show double-gauss");
+    add_lens_list(lens, chosen);
+    add_lens_show(lens, chosen);
+    when_typed(lens, [&lens] { require_verb(lens); });
+}
+
+}  // namespace petzval::cli

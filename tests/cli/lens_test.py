@@ -1,0 +1,103 @@
+"""petzval lens list and show: the fixed keys, files of every kind, and what is said of files that are no lens."""
+import json
+import pathlib
+import unittest
+
+from program import CommandLineTest
+
+KEYS = ["efl_mm", "bfl_mm", "f_number", "entrance_pupil_position_mm", "entrance_pupil_diameter_mm",
+        "exit_pupil_position_mm", "exit_pupil_diameter_mm"]
+SUMS = ["S_I", "S_II", "S_III", "S_IV", "S_V", "C_I", "C_II"]
+LENSES = pathlib.Path(__file__).resolve().parents[2] / "lenses"
+
+SINGLET_ZMX = """VERS 1
+MODE SEQ
+UNIT MM X W X CM MR CPMM
+ENPD 10
+FTYP 0 0 1 1
+YFLN 5
+WAVM 1 0.5875618 1
+SURF 0
+  TYPE STANDARD
+  DISZ INFINITY
+SURF 1
+  STOP
+  TYPE STANDARD
+  CURV 0.01934984520123839
+  DISZ 0
+  GLAS ___BLANK 1 0 1.5168 64.17 0 0 0
+  DIAM 6
+SURF 2
+  TYPE STANDARD
+  CURV 0
+  DISZ 100
+SURF 3
+  TYPE STANDARD
+"""
+
+
+class LensList(CommandLineTest):
+    def test_lists_the_ideal_lens_curves_and_prescriptions(self):
+        lenses = {lens["name"]: lens for lens in self.report("lens", "list")["lenses"]}
+        self.assertEqual(lenses["ideal"]["model"], "ideal")
+        self.assertEqual(lenses["doublet"]["model"], "curves")
+        prescriptions = [lens for lens in lenses.values() if lens["model"] == "prescription"]
+        self.assertGreaterEqual(len(prescriptions), 12)
+        for lens in prescriptions:
+            for key in ("title", "class", "source", "history", "efl_mm", "f_number"):
+                self.assertTrue(lens[key], f"{lens['name']} {key}")
+        self.assertIn("double-gauss", self.succeed("lens", "list").out)
+
+
+class LensShow(CommandLineTest):
+    def test_fixed_keys_of_a_lens_that_ships(self):
+        report = self.report("lens", "show", "triplet-sample")
+        for key in KEYS:
+            self.assertIsInstance(report[key], float, key)
+        self.assertEqual(list(report["seidel"]), SUMS)
+        self.assertAlmostEqual(report["efl_mm"], 49.99978307143194, places=10)
+        self.assertAlmostEqual(report["entrance_pupil_position_mm"], 11.51215867374679, places=10)
+        curves = report["longitudinal_aberration_mm"]
+        for shifts in curves["axis_crossing_minus_primary_paraxial_focus"].values():
+            self.assertEqual(len(shifts), len(curves["pupil_zone"]))
+
+    def test_a_file_says_the_same_as_the_name(self):
+        by_name, by_file = (self.report("lens", "show", lens) for lens in ("tessar", str(LENSES / "tessar.json")))
+        for key in KEYS + ["seidel", "longitudinal_aberration_mm", "field"]:
+            self.assertEqual(by_name[key], by_file[key], key)
+
+    def test_an_entry_saved_alone_may_bring_its_own_glass(self):
+        entry = json.loads((LENSES / "triplet-sample.json").read_text())
+        glasses = json.loads((LENSES / "glasses.json").read_text())["glasses"]
+        entry["glasses"] = [dict(glass, name="MY-" + glass["name"]) for glass in glasses]
+        for surface in entry["surfaces"]:
+            if surface["medium"] != "air":
+                surface["medium"] = {"glass": "MY-" + surface["medium"]["glass"]}
+        pathlib.Path(self.path("own.json")).write_text(json.dumps(entry))
+        own, shipped = self.report("lens", "show", "own.json"), self.report("lens", "show", "triplet-sample")
+        self.assertEqual(own["efl_mm"], shipped["efl_mm"])
+        self.assertEqual(own["seidel"], shipped["seidel"])
+
+    def test_zemax_in_utf16_and_latin1(self):
+        for encoding in ("utf-16", "utf-16-be", "latin-1"):
+            pathlib.Path(self.path("singlet.zmx")).write_text(SINGLET_ZMX, encoding=encoding)
+            report = self.report("lens", "show", "singlet.zmx")
+            self.assertAlmostEqual(report["efl_mm"], 100, places=6)
+            self.assertEqual(report["format"], "Zemax .zmx")
+            self.assertTrue(any("nd and Vd" in line for line in report["warnings"]))
+
+    def test_a_damaged_file_is_refused_with_its_line(self):
+        pathlib.Path(self.path("bad.zmx")).write_text(SINGLET_ZMX.replace("CURV 0\n", "CURV zero\n"))
+        self.refuse(3, "lens", "show", "bad.zmx", says=["bad.zmx: line 20", "zero"])
+
+    def test_an_unknown_name_is_a_usage_error_that_lists_the_lenses(self):
+        self.refuse(2, "lens", "show", "no-such-lens", says=["no-such-lens", "double-gauss"])
+
+    def test_people_get_a_table(self):
+        text = self.succeed("lens", "show", "petzval-portrait").out
+        for word in ("Petzval", "focal length", "S_III", "587.6 nm", "tangential", "1840"):
+            self.assertIn(word, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
