@@ -187,18 +187,13 @@ std::vector<PupilRay> CurveLens::rays(int count, FieldPosition field, std::uint6
     const std::vector<Band>& bands = bands_for(kLeastRayBands);
     std::vector<colour::SpectralBand> spectrum;
     for (const Band& band : bands) spectrum.push_back(band.spectrum);
-    const BandPicker picker(spectrum);
-    std::vector<PupilRay> rays;
-    for (const PupilPoint& p : spread_evenly(pupil_.outline(field, 1e-5), count, seed)) {
-        const BandPicker::Pick pick = picker.pick(p.third);
-        const ZoneShift& shift = bands[pick.band].shift;
-        const Point offset = landing_px(shift, 0, axis, p.place);
-        // What the radius alone does: the landing place is linear in it.
-        const Point unit = landing_px(shift, 1, axis, p.place) - offset;
-        rays.push_back({float(unit.x), float(unit.y), float(offset.x), float(offset.y), pick.weight});
-    }
-    balance(rays);
-    return rays;
+    return spread_rays(pupil_.outline(field, 1e-5), spectrum, count, seed,
+                       [&](std::size_t band, Point pupil) {
+                           const ZoneShift& shift = bands[band].shift;
+                           const Point offset = landing_px(shift, 0, axis, pupil);
+                           // What the radius alone does: the landing place is linear in it.
+                           return RayLanding{landing_px(shift, 1, axis, pupil) - offset, offset, 1};
+                       });
 }
 
 }  // namespace petzval::kernel

@@ -10,26 +10,12 @@
 
 #include "colour/spectrum.h"
 #include "kernel/aberration_curves.h"
+#include "kernel/field_axis.h"
 #include "kernel/lens_model.h"
 #include "kernel/pupil.h"
 #include "kernel/ring_kernel.h"
 
-#include <cmath>
-
 namespace petzval::kernel {
-
-// Direction of the field in pixel orientation and its size; any direction serves in the middle.
-struct FieldAxis {
-    Point along{1, 0};
-    double size = 0;
-
-    explicit FieldAxis(FieldPosition field) : size(std::hypot(field.x, field.y)) {
-        if (size > 0) along = {field.x / size, -field.y / size};
-    }
-    // To components along and across, and back.
-    Point to_axis(Point p) const { return {p.x * along.x + p.y * along.y, p.y * along.x - p.x * along.y}; }
-    Point from_axis(Point p) const { return {p.x * along.x - p.y * along.y, p.x * along.y + p.y * along.x}; }
-};
 
 class CurveLens final : public LensModel {
 public:

@@ -2,6 +2,8 @@
 #include "kernel/curve_lens.h"
 #include "kernel/ideal_lens.h"
 #include "kernel/lens_model.h"
+#include "kernel/traced_model.h"
+#include "lens_files/shelf.h"
 
 #include <cmath>
 
@@ -43,6 +45,15 @@ const AberrationCurves& straight_curves() {
     return curves;
 }
 
+// A name that is no file and no lens of ours; damaged files keep their own message.
+Error unknown(const std::string& name, const Error& error) {
+    if (error.code != ErrorCode::InvalidArgument) return error;
+    std::string known = "ideal";
+    for (const std::string& preset : curve_preset_names()) known += ", " + preset;
+    for (const lens_files::ShelfItem& item : lens_files::shelf()) known += ", " + std::string(item.name);
+    return refuse("unknown lens \"" + name + "\"; known are " + known + ", or the path of a lens file");
+}
+
 }  // namespace
 
 Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
@@ -56,9 +67,10 @@ Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
         if (const Status status = check_camera(mount); !status) return status.error();
         return Lens(std::make_unique<CurveLens>(*curves, choice, mount));
     }
-    std::string known = "ideal";
-    for (const std::string& name : curve_preset_names()) known += ", " + name;
-    return refuse("unknown lens \"" + choice.name + "\"; known lenses: " + known);
+    const auto file = lens_files::find_lens(choice.name);
+    if (!file) return unknown(choice.name, file.error());
+    if (const Status status = check_camera(mount); !status) return status.error();
+    return TracedModel::make(file->lens, choice, mount);
 }
 
 }  // namespace petzval::kernel

@@ -137,11 +137,14 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
     for (std::size_t i = 0; i < bands.size(); ++i) drawing.draw(&landed[i * count], bands[i].weight);
 
     PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), false};
+    // What rounding leaves where nothing landed, against light of a few units in all.
+    const auto cleared = [](double light) { return std::abs(light) < 1e-13 ? 0.0f : float(light); };
     for (int y = 0; y < extent.height(); ++y) {
         const Light* covered = buffer.resolve_row(y);
         for (int x = 0; x < extent.width(); ++x)
-            spread.weights(x, y) = {float(covered[x].r), float(covered[x].g), float(covered[x].b), 0};
+            spread.weights(x, y) = {cleared(covered[x].r), cleared(covered[x].g), cleared(covered[x].b), 0};
     }
+    trim(spread);
     normalise(spread);
     return spread;
 }

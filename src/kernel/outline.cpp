@@ -122,6 +122,23 @@ std::vector<Point> clipped(const std::vector<Point>& outline, const Circle& circ
     return kept;
 }
 
+// Edge by edge, what lies to the right of one is dropped (Sutherland and Hodgman, 1974).
+std::vector<Point> clipped(const std::vector<Point>& outline, const std::vector<Point>& inside) {
+    std::vector<Point> kept = outline, previous;
+    for (std::size_t i = 0; i < inside.size() && !kept.empty(); ++i) {
+        const Point from = inside[i], edge = inside[(i + 1) % inside.size()] - from;
+        previous.swap(kept);
+        kept.clear();
+        for (std::size_t k = 0; k < previous.size(); ++k) {
+            const Point p = previous[k], q = previous[(k + 1) % previous.size()];
+            const double of_p = cross(edge, p - from), of_q = cross(edge, q - from);
+            if (of_p >= 0) kept.push_back(p);
+            if ((of_p < 0) != (of_q < 0)) kept.push_back(p + (of_p / (of_p - of_q)) * (q - p));
+        }
+    }
+    return kept;
+}
+
 double area(const std::vector<Point>& outline) {
     double twice = 0;
     for (std::size_t i = 0; i < outline.size(); ++i)

@@ -26,6 +26,9 @@ std::vector<Point> aperture_outline(const ApertureShape& shape, double tolerance
 // The part of a convex outline inside a circle; order and convexity are kept. Empty if nothing is inside.
 std::vector<Point> clipped(const std::vector<Point>& outline, const Circle& circle, double tolerance);
 
+// The part of one convex outline inside another; both turn from +x to +y.
+std::vector<Point> clipped(const std::vector<Point>& outline, const std::vector<Point>& inside);
+
 double area(const std::vector<Point>& outline);  // signed: positive when the turn is from +x to +y
 Point centroid(const std::vector<Point>& outline);
 

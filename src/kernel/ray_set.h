@@ -2,29 +2,26 @@
 #pragma once
 
 #include "colour/spectrum.h"
+#include "kernel/coverage.h"
 #include "kernel/lens_model.h"
 
+#include <functional>
 #include <vector>
 
 namespace petzval::kernel {
 
-// Picks bands as often as they matter, |r| + |g| + |b|, so that no ray weighs much more than another.
-class BandPicker {
-public:
-    explicit BandPicker(const std::vector<colour::SpectralBand>& bands);
-    struct Pick {
-        std::size_t band = 0;
-        Rgba weight;  // a is the luminance
-    };
-    // third: 0 <= third < 1.
-    Pick pick(double third) const;
-
-private:
-    std::vector<colour::SpectralBand> bands_;
-    std::vector<double> up_to_;  // sum of importance up to and including a band
+// Lands at `offset_px` + signed CoC radius x `per_coc`, carrying `light` relative to other rays.
+struct RayLanding {
+    Point per_coc, offset_px;
+    double light = 1;
 };
 
-// Scales the weights of a set to sum to 1 per channel; a set too small for its colours becomes neutral.
-void balance(std::vector<PupilRay>& rays);
+// `count` rays spread evenly over an outline of the pupil, each in one band of the spectrum; bands are picked
+// as often as they matter, |r| + |g| + |b|, so that no ray weighs much more than another. Weights sum to 1
+// per channel; a set too small for its colours is neutral.
+std::vector<PupilRay> spread_rays(const std::vector<Point>& outline,
+                                  const std::vector<colour::SpectralBand>& bands, int count,
+                                  std::uint64_t seed,
+                                  const std::function<RayLanding(std::size_t band, Point pupil)>& landing);
 
 }  // namespace petzval::kernel
