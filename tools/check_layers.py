@@ -27,7 +27,7 @@ ALLOWED = {
 PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
     "compare": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
-    "lens_facts": "api", "defocus": "engine", "files": "files", "scene": "scene", "petzval": "api",
+    "lens_facts": "api", "defocus": "engine", "engine_options": "engine", "files": "files", "scene": "scene", "petzval": "api",
 }
 # Headers of other people and the only files that may see them.
 THIRD_PARTY = {

@@ -3,6 +3,7 @@
 
 #include "petzval/camera.h"
 #include "petzval/deep.h"
+#include "petzval/engine_options.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
@@ -38,6 +39,7 @@ struct DefocusJob {
     std::string engine = "scatter";  // one of engine_names()
     Quality quality = Quality::Standard;
     int pupil_points = 4096;           // reference only
+    GatherOptions gather;              // gather, and sprites over it
     int threads = 0;                   // 0: all this process may use; the result never depends on it
     std::size_t max_memory_bytes = 0;  // 0: no limit
     std::uint64_t seed = 1;

@@ -62,6 +62,8 @@ public:
     float operator()(float depth) const {
         return finite_radius(coc_ ? coc_->radius_px(finite_depth(double(depth))) : double(depth));
     }
+    // 0 where radii are given.
+    float at_infinity_px() const { return coc_ ? finite_radius(coc_->radius_at_infinity_px()) : 0; }
     Plane of(View<const float> depth, int threads) const {
         Plane plane = Plane::uninitialised(depth.width(), depth.height());
         parallel_for(depth.height(), threads, [&](int y) {
@@ -201,6 +203,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.frame_height = colour.height();
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
+    input.gather = job.gather;
+    input.radius_at_infinity_px = radii->at_infinity_px();
     input.threads = job.threads;
     input.max_memory_bytes = job.max_memory_bytes;
     input.seed = job.seed;

@@ -89,6 +89,8 @@ struct Input {
     std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
     Quality quality = Quality::Standard;
     int pupil_points = 4096;
+    GatherOptions gather;
+    float radius_at_infinity_px = 0;  // 0: unknown
     int threads = 0;
     std::size_t max_memory_bytes = 0;
     std::uint64_t seed = 1;
@@ -126,5 +128,6 @@ std::span<const Engine> engines();
 // The engines. Errors: Cancelled, OutOfMemory.
 Result<Output> run_reference(const Input& input);
 Result<Output> run_scatter(const Input& input);
+Result<Output> run_gather(const Input& input);
 
 }  // namespace petzval::engine

@@ -5,6 +5,7 @@ namespace petzval::engine {
 std::span<const Engine> engines() {
     static constexpr Engine kEngines[] = {
         {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter},
+        {"gather", "previews: every pixel collects from kernels of a few sizes, at half resolution", run_gather},
         {"reference", "the definition of a correct result, traced through the lens; slow", run_reference},
     };
     return kEngines;

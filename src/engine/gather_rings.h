@@ -1,0 +1,83 @@
+// The few sizes of kernel that a gather works with, and the kernels of the lens at these sizes.
+//
+// A source of any radius is handed to the two rings around it,
+//     share of the outer = (c^2 - inner^2) / (outer^2 - inner^2),
+// so that the second moment of what arrives is that of the source's own disc.
+#pragma once
+
+#include "engine/engine.h"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace petzval::engine {
+
+struct RingRule {
+    float ratio = 1.15f;    // of one radius to the next
+    float full_res_px = 6;  // rings up to this radius are gathered at full resolution
+    float largest_cells =
+        16;  // rings beyond, at the finest of 1/2, 1/4, … where they are not wider than this
+};
+RingRule ring_rule(Quality quality);
+
+// Radii of the rings: 0, and steps of `ratio` down from the largest radius on either side, so that what lies
+// at infinity has a ring of its own. Numbered from the nearest (most negative) to the farthest.
+class RingSizes {
+public:
+    RingSizes(float nearest_px, float farthest_px, const RingRule& rule);
+
+    int count() const { return int(radii_px_.size()); }
+    float radius_px(int ring) const { return radii_px_[std::size_t(ring)]; }
+    int level(int ring) const { return levels_[std::size_t(ring)]; }  // cells are 2^level pixels wide
+    int levels() const;
+
+    struct Mix {
+        int inner = 0, outer = 0;
+        float outer_share = 0;
+    };
+    Mix mix(float coc_px) const;
+
+private:
+    std::vector<float> radii_px_;
+    std::vector<int> levels_;
+    int zero_ = 0;
+};
+
+// One kernel as the inner loop wants it: where each of its samples lies, and its weight.
+struct RingKernel {
+    struct Tap {
+        int dx, dy;  // from the source to where its light lands, cells
+    };
+    std::vector<Tap> taps;
+    std::vector<Rgba> weights;  // of each tap; a: for coverage
+    bool neutral = true;        // r = g = b = a
+    Rect extent;                // of the taps
+};
+
+// Kernels of all rings for all parts of the picture, made when first asked for. Thread-safe. What a kernel
+// holds depends on its ring and part alone.
+class RingKernels {
+public:
+    // Both outlive this.
+    RingKernels(const Input& input, const RingSizes& sizes);
+    ~RingKernels();
+    RingKernels(const RingKernels&) = delete;
+    RingKernels& operator=(const RingKernels&) = delete;
+
+    int part_of(double x, double y) const;  // of a place in the picture, pixels
+    const RingKernel& at(int ring, int part) const;
+    // Cells by which any kernel of a level reaches.
+    int reach(int level) const { return reach_[std::size_t(level)]; }
+
+private:
+    std::unique_ptr<const RingKernel> made(int ring, int part) const;
+
+    const Input& input_;
+    const RingSizes& sizes_;
+    int parts_x_ = 1, parts_y_ = 1;
+    std::vector<int> reach_;
+    mutable std::vector<std::atomic<const RingKernel*>> kernels_;
+};
+
+}  // namespace petzval::engine
