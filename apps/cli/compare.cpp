@@ -6,6 +6,7 @@
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
+#include "windows.h"
 
 #include <algorithm>
 #include <array>
@@ -26,15 +27,8 @@ struct CompareFlags {
 };
 
 // The picture over the whole display window, empty where the file has no pixels.
-Picture over_display_window(Frame frame) {
-    if (frame.data_window == frame.display_window) return std::move(frame.colour);
-    Picture whole(frame.display_window.width(), frame.display_window.height());
-    const Rect shared = frame.data_window.intersected(frame.display_window);
-    for (int y = shared.y0; y < shared.y1; ++y)
-        for (int x = shared.x0; x < shared.x1; ++x)
-            whole(x - frame.display_window.x0, y - frame.display_window.y0) =
-                frame.colour(x - frame.data_window.x0, y - frame.data_window.y0);
-    return whole;
+Picture over_display_window(const Frame& frame) {
+    return through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
 }
 
 std::string size_text(int width, int height) {
@@ -63,7 +57,7 @@ Result<Plane> read_mask(const std::string& path) {
     options.need_depth = false;
     auto frame = read_frame(path, options);
     if (!frame) return frame.error();
-    const Picture colour = over_display_window(std::move(*frame));
+    const Picture colour = over_display_window(*frame);
     Plane mask(colour.width(), colour.height());
     for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = luminance(colour.pixels()[i]);
     return mask;
@@ -122,8 +116,8 @@ Status compare_files(const CompareFlags& flags) {
     const std::size_t broken = first->frame.non_finite_colour + second->frame.non_finite_colour;
     for (const Input* input : {&*first, &*second})
         for (const auto& line : input->warnings) warning(line);
-    const Picture reference = over_display_window(std::move(first->frame));
-    const Picture test = over_display_window(std::move(second->frame));
+    const Picture reference = over_display_window(first->frame);
+    const Picture test = over_display_window(second->frame);
     Plane mask;
     if (!flags.mask.empty()) {
         auto read = read_mask(flags.mask);

@@ -1,6 +1,8 @@
 // petzval defocus: the main job.
 #include "petzval/defocus.h"
 
+#include "petzval/version.h"
+
 #include "camera.h"
 #include "console.h"
 #include "defocus_views.h"
@@ -224,6 +226,9 @@ Status Run::operator()() {
 
 Status Run::read() {
     const Stopwatch watch;
+    detail("petzval " PETZVAL_VERSION ", " + (flags_.run.threads > 0 ? plain(flags_.run.threads) : "all") +
+           " threads, seed " + std::to_string(flags_.seed) + ", " + quality_name(flags_.quality) +
+           " quality");
     auto loaded = load_input(flags_.input, flags_.camera);
     if (!loaded) return loaded.error();
     input_ = std::move(*loaded);

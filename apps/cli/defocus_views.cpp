@@ -4,8 +4,10 @@
 #include "focus_view.h"
 #include "output.h"
 #include "values.h"
+#include "windows.h"
 
 #include <cmath>
+#include <limits>
 
 namespace petzval::cli {
 namespace {
@@ -16,6 +18,16 @@ WriteOptions exr_options(const ViewSettings& settings) {
     WriteOptions options;
     options.overwrite = settings.overwrite;
     return options;
+}
+
+// An EXR keeps the window of the input; a PNG knows only the display window.
+const Rect& window_of(const Frame& frame, const ViewSettings& settings) {
+    return is_exr(settings) ? frame.data_window : frame.display_window;
+}
+
+template <typename T>
+Image<T> in_output_window(const Image<T>& pixels, const Frame& frame, const ViewSettings& settings, T fill) {
+    return through_window(pixels, frame.data_window, window_of(frame, settings), fill);
 }
 
 Status write_plane(const std::string& channel, View<const float> plane, const Frame& frame,
@@ -52,7 +64,9 @@ Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& 
 
 Status write_beauty(Frame& frame, const ViewSettings& settings) {
     if (!is_exr(settings))
-        return write_developed(settings.output, frame.colour.view(), settings.develop, settings.overwrite);
+        return write_developed(settings.output,
+                               in_output_window(frame.colour, frame, settings, Rgba{}).view(),
+                               settings.develop, settings.overwrite);
     WriteReport changed;
     WriteOptions options = exr_options(settings);
     options.report = &changed;
@@ -65,8 +79,10 @@ Status write_beauty(Frame& frame, const ViewSettings& settings) {
 
 Status write_coc(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
     if (!is_exr(settings))
-        return write_display_picture(coc_map(source.coc_radius_px.view(), legend_title(settings.camera)),
-                                     frame, settings);
+        return write_display_picture(
+            coc_map(in_output_window(source.coc_radius_px, frame, settings, 0.0f).view(),
+                    legend_title(settings.camera)),
+            frame, settings);
     WriteOptions options = exr_options(settings);
     options.attributes.emplace_back("petzval:coc", "signed radius, px, + is far");
     options.camera = settings.camera;
@@ -74,15 +90,17 @@ Status write_coc(Frame& frame, const ViewSource& source, const ViewSettings& set
 }
 
 Status write_focus(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
-    const auto codes = develop(frame.colour.view(), settings.develop);
+    const Picture sharp = in_output_window(frame.colour, frame, settings, Rgba{});
+    const auto codes = develop(sharp.view(), settings.develop);
     const double largest = (1 << settings.develop.bits) - 1;
-    Picture display(frame.colour.width(), frame.colour.height());
+    Picture display(sharp.width(), sharp.height());
     const auto light = [&](std::size_t i) { return float(srgb_decode(codes[i] / largest)); };
     for (std::size_t i = 0; i < display.size(); ++i)
         display.pixels()[i] = {light(3 * i), light(3 * i + 1), light(3 * i + 2), 1};
-    return write_display_picture(
-        focus_overlay(display.view(), source.coc_radius_px.view(), legend_title(settings.camera)), frame,
-        settings);
+    const Plane radii =
+        in_output_window(source.coc_radius_px, frame, settings, std::numeric_limits<float>::quiet_NaN());
+    return write_display_picture(focus_overlay(display.view(), radii.view(), legend_title(settings.camera)),
+                                 frame, settings);
 }
 
 // As PNG: nearest/z, so that infinity is 0 and the file can be read again as inverse depth.
@@ -93,8 +111,8 @@ Status write_depth(Frame& frame, const ViewSettings& settings) {
         return write_plane("Z", frame.depth.view(), frame, settings, options);
     }
     const float nearest = settings.depth.nearest_m;
-    Plane inverse(frame.depth.width(), frame.depth.height());
-    for (std::size_t i = 0; i < inverse.size(); ++i) inverse.pixels()[i] = nearest / frame.depth.pixels()[i];
+    Plane inverse = in_output_window(frame.depth, frame, settings, std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < inverse.size(); ++i) inverse.pixels()[i] = nearest / inverse.pixels()[i];
     note("code 65535 is " + plain(nearest) + " m, 0 is infinity; read it with --depth " + settings.output +
          " --depth-kind inverse --unit-scale " + plain(nearest));
     return write_grey_png(settings.output, inverse.view(), settings.overwrite);
@@ -104,7 +122,8 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
     Plane alpha(frame.colour.width(), frame.colour.height());
     for (std::size_t i = 0; i < alpha.size(); ++i) alpha.pixels()[i] = frame.colour.pixels()[i].a;
     if (is_exr(settings)) return write_plane("A", alpha.view(), frame, settings, exr_options(settings));
-    return write_grey_png(settings.output, alpha.view(), settings.overwrite);
+    return write_grey_png(settings.output, in_output_window(alpha, frame, settings, 0.0f).view(),
+                          settings.overwrite);
 }
 
 }  // namespace

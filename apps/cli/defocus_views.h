@@ -1,4 +1,5 @@
-// What --view shows, and how each is written as EXR or PNG.
+// What --view shows, and how each is written: EXR covers the data window of the input, PNG its display
+// window.
 #pragma once
 
 #include "petzval/depth.h"

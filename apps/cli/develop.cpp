@@ -7,6 +7,7 @@
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
+#include "windows.h"
 
 #include <memory>
 
@@ -36,8 +37,9 @@ Status develop_file(const DevelopVerbFlags& flags) {
     const double read_s = total.seconds();
     DevelopSettings settings = flags.develop.settings(input->frame.display_referred, flags.run.threads);
     settings.dither = !flags.no_dither;
-    const Status done =
-        write_developed(flags.output, input->frame.colour.view(), settings, !flags.overwrite.no_clobber);
+    const Frame& frame = input->frame;
+    const Picture shown = through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
+    const Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
     if (!done) return done;
     note("wrote " + flags.output);
     if (flags.run.json.empty()) return Done{};

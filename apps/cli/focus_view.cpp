@@ -75,6 +75,10 @@ Picture focus_overlay(View<const Rgba> display, View<const float> coc, const std
     for (int y = 0; y < coc.height(); ++y)
         for (int x = 0; x < coc.width(); ++x) {
             const float radius = coc(x, y), light = luminance(display(x, y));
+            if (std::isnan(radius)) {
+                view(x, y) = {0, 0, 0, 1};
+                continue;
+            }
             const bool sharp = std::abs(radius) < kInFocusRadius_px;
             const Rgba tint = sharp ? kInFocus : radius < 0 ? kNear : kFar;
             // Deeper blur is tinted more strongly, each side by its own measure; all of it stays readable.

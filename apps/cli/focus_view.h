@@ -10,7 +10,8 @@ namespace petzval::cli {
 // Radii below this count as in focus: the disc covers no more than about two pixels.
 inline constexpr float kInFocusRadius_px = 1;
 
-// Display-linear 0…1 pictures, the same size as `coc_radius_px` (signed, + is far).
+// Display-linear 0…1 pictures, the same size as `coc_radius_px` (signed, + is far; NaN: nothing there,
+// black).
 //
 // Both use blue for near and orange for far, the pair that people with any common colour blindness tell apart
 // (after Okabe and Ito, "Color universal design", 2008), and carry a legend unless the picture is too small.

@@ -113,7 +113,6 @@ std::string description(const Input& input, const InputFlags& flags) {
     describe_list("detected", input.detected_in_picture(), out);
     describe_depth(input, flags, out);
     describe_camera(input.camera, out);
-    if (!frame.deep.empty()) out << "deep\n  " << frame.deep.sample_count() << " samples\n";
     if (frame.non_finite_colour > 0) out << "non-finite colour values\n  " << frame.non_finite_colour << "\n";
     describe_list("warnings", input.warnings, out);
     return printable(out.str());

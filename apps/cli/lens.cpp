@@ -17,13 +17,25 @@ void LensFlags::add_to(Verb& verb) {
                "the disc is so many times taller than wide, as 2 for an anamorphic lens", parse_positive,
                squeeze)
         .value("--cats-eye", "SHARE", "0 (default) to 1: how far the barrel cuts discs towards the corners",
-               parse_share, cats_eye);
+               parse_share, cats_eye)
+        .value(
+            "--focus-mode", "NAME",
+            "where the sensor stands behind a lens with aberrations: best, least blur at this aperture "
+            "(default); "
+            "paraxial, where light near the axis meets",
+            [](const std::string& text) {
+                return parse_name<FocusMode>(text,
+                                             {{"best", FocusMode::Best}, {"paraxial", FocusMode::Paraxial}});
+            },
+            focus_mode);
 }
 
 void LensFlags::check() const {
     const bool round = blades.value_or(0) == 0;
     if (round && rotation_deg)
         throw UsageError("--blade-rotation has no effect without --blades, as --blades 5");
+    if (name == "ideal" && focus_mode)
+        throw UsageError("--focus-mode has no effect on the ideal lens; give another with --lens");
     if (round && curvature)
         throw UsageError("--blade-curvature has no effect without --blades, as --blades 5");
 }
@@ -35,6 +47,7 @@ LensChoice LensFlags::choice() const {
     lens.aperture.rotation_deg = rotation_deg.value_or(0);
     lens.aperture.curvature = curvature.value_or(0);
     lens.aperture.squeeze = squeeze.value_or(1);
+    lens.focus_mode = focus_mode.value_or(FocusMode::Best);
     lens.cats_eye = cats_eye.value_or(0);
     return lens;
 }

@@ -13,6 +13,7 @@ namespace petzval::cli {
 struct LensFlags {
     std::string name = "ideal";
     std::optional<int> blades;
+    std::optional<FocusMode> focus_mode;
     std::optional<double> rotation_deg, curvature, squeeze, cats_eye;
 
     void add_to(Verb& verb);

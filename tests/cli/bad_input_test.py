@@ -127,6 +127,10 @@ class BadInput(CommandLineTest):
             self.write("huge.exr", head + struct.pack("<16Q", *range(16)))
             self.refuse_input("huge.exr", limits=memory(1024))
 
+    def test_a_huge_display_window_around_a_small_picture(self):
+        self.write("far.exr", exr_bytes(picture(8, 6), display=(0, 0, 200000, 200000)))
+        self.refuse_input("far.exr", says=["200001 x 200001"], limits=memory(1024))
+
     def test_too_little_memory_is_one_line(self):
         self.write("in.exr", exr_bytes(picture(600, 500), half="RGB"))
         codes = set()

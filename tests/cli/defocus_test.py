@@ -105,12 +105,13 @@ class Defocus(CommandLineTest):
         plain = self.beauty()["G"]
         flags = ["--fstop 8", "--focus 3", "--focal-length 150mm", "--sensor-width 30mm", "--image-scale thin-lens",
                  "--max-radius 2", "--near-scale 0.2", "--far-scale 0.2", "--focus-range 1.5,3", "--blades 3",
-                 "--squeeze 2", "--cats-eye 1", "--unit-scale 2", "--depth-kind inverse", "--engine reference"]
+                 "--squeeze 2", "--cats-eye 1", "--lens doublet", "--unit-scale 2", "--depth-kind inverse", "--engine reference"]
         for flag in flags:
             self.assertTrue(self.beauty(*flag.split())["G"] != plain, flag)
         for one, other in (("--focus-range 1.5,3", "--focus-range 1.5,3 --focus-falloff 0.9"),
                            ("--blades 3", "--blades 3 --blade-rotation 45"),
                            ("--blades 3", "--blades 3 --blade-curvature 1"),
+                           ("--lens doublet", "--lens doublet --focus-mode paraxial"),
                            ("--engine reference --pupil-points 16", "--engine reference --pupil-points 64"),
                            ("--engine reference --pupil-points 16", "--engine reference --pupil-points 16 --seed 2")):
             self.assertTrue(self.beauty(*one.split())["G"] != self.beauty(*other.split())["G"], other)
@@ -253,6 +254,19 @@ class Views(CommandLineTest):
         for name, channels in (("focus", "BGR"), ("alpha", "A")):
             self.succeed("defocus", "in.exr", "-o", "v.exr", "--view", name)
             self.assertEqual(sorted(read_exr(self.path("v.exr"))[0]), sorted(channels))
+
+    def test_a_png_covers_the_display_window_and_an_exr_the_data_window(self):
+        write_exr(self.path("crop.exr"), picture(20, 10, 0.5, 2, alpha=1), display=(0, 0, 39, 29), origin=(30, 5),
+                  attributes=camera_attributes(FOCAL_MM, SENSOR_MM, F_NUMBER, FOCUS_M))
+        for view in ("beauty", "coc", "focus", "depth", "alpha"):
+            self.succeed("defocus", "crop.exr", "-o", view + ".png", "--view", view)
+            rows, channels, _ = read_png(self.path(view + ".png"))
+            self.assertEqual((len(rows), len(rows[0]) // channels), (30, 40), view)
+            if view != "coc":  # sharp is black there
+                self.assertGreater(rows[6][35 * channels], 60, view)
+            self.assertEqual(rows[2][2 * channels], 0, view)
+            self.succeed("defocus", "crop.exr", "-o", view + ".exr", "--view", view)
+            self.assertEqual(struct.unpack("<4i", read_exr(self.path(view + ".exr"))[1]["dataWindow"]), (30, 5, 49, 14))
 
     def test_png_in_and_out_keeps_the_look(self):
         rows = [[(x * 3 + c * 5 + y) % 256 for x in range(32) for c in range(3)] for y in range(20)]
