@@ -64,11 +64,11 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner) {
 
 std::vector<std::string> CameraFlags::given() const {
     std::vector<std::string> names;
-    if (focal_length_mm) names.push_back("--focal-length");
-    if (sensor_width_mm) names.push_back("--sensor-width");
-    if (f_number) names.push_back("--fstop");
-    if (focus_distance_m) names.push_back("--focus");
-    if (image_scale) names.push_back("--image-scale");
+    if (focal_length_mm) names.emplace_back("--focal-length");
+    if (sensor_width_mm) names.emplace_back("--sensor-width");
+    if (f_number) names.emplace_back("--fstop");
+    if (focus_distance_m) names.emplace_back("--focus");
+    if (image_scale) names.emplace_back("--image-scale");
     return names;
 }
 
@@ -91,12 +91,12 @@ void FocusFlags::add_to(Verb& verb) {
 
 std::vector<std::string> FocusFlags::given() const {
     std::vector<std::string> names;
-    if (focus_at) names.push_back("--focus-at");
-    if (focus_range_m) names.push_back("--focus-range");
-    if (focus_falloff) names.push_back("--focus-falloff");
-    if (near_scale) names.push_back("--near-scale");
-    if (far_scale) names.push_back("--far-scale");
-    if (max_radius_px) names.push_back("--max-radius");
+    if (focus_at) names.emplace_back("--focus-at");
+    if (focus_range_m) names.emplace_back("--focus-range");
+    if (focus_falloff) names.emplace_back("--focus-falloff");
+    if (near_scale) names.emplace_back("--near-scale");
+    if (far_scale) names.emplace_back("--far-scale");
+    if (max_radius_px) names.emplace_back("--max-radius");
     return names;
 }
 

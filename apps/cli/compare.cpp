@@ -71,7 +71,7 @@ Status check_sizes(const CompareFlags& flags, const Picture& reference, const Pi
                                                      flags.reference.path + " has " +
                                                      size_text(reference.width(), reference.height())};
     };
-    if (const Status same = differs(flags.test, test.width(), test.height()); !same) return same;
+    if (Status same = differs(flags.test, test.width(), test.height()); !same) return same;
     return mask.empty() ? Status(Done{}) : differs(flags.mask, mask.width(), mask.height());
 }
 
@@ -124,7 +124,7 @@ Status compare_files(const CompareFlags& flags) {
         if (!read) return read.error();
         mask = std::move(*read);
     }
-    if (const Status same = check_sizes(flags, reference, test, mask); !same) return same;
+    if (Status same = check_sizes(flags, reference, test, mask); !same) return same;
     const double read_s = watch.seconds();
     const auto result =
         compare(reference.view(), test.view(), {.exposure = flags.exposure, .mask = mask.view()});

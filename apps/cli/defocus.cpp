@@ -107,8 +107,8 @@ void DefocusFlags::add_to(Verb& verb) {
 // Radii are given: whatever else would make them has no effect.
 void DefocusFlags::check_coc_input() const {
     std::vector<std::string> idle = camera.given();
-    for (const std::string& name : focus.given()) idle.push_back(name);
-    if (view == ViewKind::Depth) idle.push_back("--view depth");
+    for (std::string& name : focus.given()) idle.push_back(std::move(name));
+    if (view == ViewKind::Depth) idle.emplace_back("--view depth");
     if (!idle.empty())
         throw UsageError(listed(idle) +
                          " cannot be used with --depth-kind coc-px: blur radii are given, not depth");
@@ -216,9 +216,9 @@ Status Run::operator()() {
     }
     for (const std::string& path : {flags_.output, flags_.run.json})
         if (!path.empty() && path != "-")
-            if (const Status fine = check_output(path, inputs); !fine) return fine;
+            if (Status fine = check_output(path, inputs); !fine) return fine;
     for (const auto step : {&Run::read, &Run::choose_camera, &Run::compute, &Run::write, &Run::finish}) {
-        if (const Status done = (this->*step)(); !done) return done;
+        if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
     return Done{};
@@ -251,7 +251,7 @@ void Run::warn(const std::vector<std::string>& lines) {
 Status Run::choose_camera() {
     if (!needs_camera()) return Done{};
     if (flags_.focus.focus_at)
-        if (const Status done = focus_on_pixel(input_, *flags_.focus.focus_at); !done) return done;
+        if (Status done = focus_on_pixel(input_, *flags_.focus.focus_at); !done) return done;
     auto camera = complete_camera(input_.camera, image_scale(), flags_.input.path, flags_.output);
     if (!camera) return camera.error();
     camera_ = *camera;
@@ -314,7 +314,7 @@ Status Run::write() {
         .camera = input_.camera,
         .depth = input_.depth,
         .warnings = &warnings};
-    if (const Status done = write_view(flags_.view, input_.frame, view_, settings); !done) return done;
+    if (Status done = write_view(flags_.view, input_.frame, view_, settings); !done) return done;
     warn(warnings);
     report_["seconds"]["write"] = watch.seconds();
     detail("peak memory: " + plain(double(peak_memory_bytes()) / (1 << 20), 4) + " MiB");

@@ -70,7 +70,7 @@ Status write_beauty(Frame& frame, const ViewSettings& settings) {
     WriteReport changed;
     WriteOptions options = exr_options(settings);
     options.report = &changed;
-    const Status done = write_exr(settings.output, frame, options);
+    Status done = write_exr(settings.output, frame, options);
     if (changed.clamped_to_half > 0)
         settings.warnings->push_back(std::to_string(changed.clamped_to_half) +
                                      " colour values are too large for half float and were written as 65504");

@@ -29,7 +29,7 @@ Status develop_file(const DevelopVerbFlags& flags) {
         note(*reason);
         return Done{};
     }
-    if (const Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
+    if (Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
     const auto input = load_input(flags.input, CameraFlags{});
     if (!input) return input.error();
     for (const auto& line : input->detected_in_picture()) note(line);
@@ -39,7 +39,7 @@ Status develop_file(const DevelopVerbFlags& flags) {
     settings.dither = !flags.no_dither;
     const Frame& frame = input->frame;
     const Picture shown = through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
-    const Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
+    Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
     if (!done) return done;
     note("wrote " + flags.output);
     if (flags.run.json.empty()) return Done{};

@@ -169,7 +169,7 @@ Result<Input> load_input(const InputFlags& flags, const CameraFlags& camera) {
     }
     input.warnings.insert(input.warnings.end(), input.depth.warnings.begin(), input.depth.warnings.end());
     if (!flags.behind.empty())
-        if (const Status done = load_behind(input, flags, settings); !done) return done.error();
+        if (Status done = load_behind(input, flags, settings); !done) return done.error();
     return input;
 }
 

@@ -65,7 +65,7 @@ int run(int argc, const char* const* argv) {
         return fail(2, error.what());
     }
     if (!chosen) return fail(2, "what is to be done? petzval --help lists the verbs, as defocus and inspect");
-    const Status done = chosen();
+    Status done = chosen();
     if (interrupted_by() != 0) return fail(128 + interrupted_by(), "interrupted");
     return done ? 0 : fail(exit_code(done.error().code), done.error().message);
 }

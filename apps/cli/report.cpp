@@ -95,6 +95,7 @@ Json depth_json(const DepthReport& depth, DepthKind kind) {
 std::size_t peak_memory_bytes() {
     struct rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): the C library's own disguise of a plain field
     return std::size_t(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
 }
 

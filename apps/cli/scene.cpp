@@ -121,12 +121,12 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
     options.camera = camera;
     Frame sharp = whole_frame(std::move(scene.colour));
     sharp.depth = std::move(scene.depth_m);
-    if (const Status done = write_exr(flags.output, sharp, options); !done) return done;
+    if (Status done = write_exr(flags.output, sharp, options); !done) return done;
     if (!flags.truth.empty())
-        if (const Status done = write_exr(flags.truth, whole_frame(std::move(scene.truth)), options); !done)
+        if (Status done = write_exr(flags.truth, whole_frame(std::move(scene.truth)), options); !done)
             return done;
     if (!flags.layers.empty()) {
-        const Status done =
+        Status done =
             write_deep_exr(flags.layers, sharp.display_window, sharp.data_window, scene.layers, options);
         if (!done) return done;
     }
@@ -162,7 +162,7 @@ Status make_scene(const MakeFlags& flags) {
         return Done{};
     }
     for (const std::string& path : outputs)
-        if (const Status fine = check_output(path, {}); !fine) return fine;
+        if (Status fine = check_output(path, {}); !fine) return fine;
     const SceneSummary& summary = *find_scene(flags.name);
     const FoundCamera camera =
         merged_camera(camera_of_scene(summary.camera, "scene " + flags.name), flags.camera);
@@ -178,7 +178,7 @@ Status make_scene(const MakeFlags& flags) {
     if (!scene) return scene.error();
     if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     const double compute_s = total.seconds();
-    if (const Status done = write_scene(flags, std::move(*scene), camera); !done) return done;
+    if (Status done = write_scene(flags, std::move(*scene), camera); !done) return done;
     return finish(flags, camera, image_scale, total, compute_s);
 }
 

@@ -146,7 +146,7 @@ Result<int> parse_index(const std::string& text) {
     return parse_integer(text, 0, 1 << 24, "a whole number of 0 or more");
 }
 Result<int> parse_blades(const std::string& text) {
-    const auto blades = parse_integer(text, 0, 64, "3 to 64, or 0 for a round aperture");
+    auto blades = parse_integer(text, 0, 64, "3 to 64, or 0 for a round aperture");
     if (blades && *blades > 0 && *blades < 3) return no("must be 3 to 64, or 0 for a round aperture");
     return blades;
 }

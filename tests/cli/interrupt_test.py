@@ -8,21 +8,26 @@ import subprocess
 import time
 import unittest
 
-from pictures import camera_attributes, picture, write_exr
+from pictures import camera_attributes, exr_bytes, picture, write_exr
 from program import PETZVAL, CommandLineTest
 
 # A large picture with much to do in each part of it: the signal always comes in the middle, and is soon seen.
-WIDTH, HEIGHT = 3000, 2000
-LONG = ["defocus", "in.exr", "-o", "out.exr", "--engine", "reference", "--pupil-points", "256"]
+WIDTH, HEIGHT = 1500, 1000
+LONG = ["defocus", "in.exr", "-o", "out.exr", "--engine", "reference", "--pupil-points", "1024"]
 SHORT = ["defocus", "small.exr", "-o", "out.exr"]
 
 
 class Interrupt(CommandLineTest):
+    @classmethod
+    def setUpClass(cls):
+        grey, depth = [[0.5] * WIDTH] * HEIGHT, [[1 + x / 200 for x in range(WIDTH)]] * HEIGHT
+        cls.large = exr_bytes({"R": grey, "G": grey, "B": grey, "Z": depth}, half="RGBZ",
+                              attributes=camera_attributes(50, 36, 1.4, 2))
+
     def setUp(self):
         super().setUp()
-        grey, depth = [[0.5] * WIDTH] * HEIGHT, [[1 + x / 200 for x in range(WIDTH)]] * HEIGHT
-        write_exr(self.path("in.exr"), {"R": grey, "G": grey, "B": grey, "Z": depth}, half="RGBZ",
-                  attributes=camera_attributes(50, 36, 1.4, 2))
+        with open(self.path("in.exr"), "wb") as file:
+            file.write(self.large)
         write_exr(self.path("small.exr"), picture(64, 48, depth=lambda x, y: 1 + x / 40),
                   attributes=camera_attributes(50, 36, 1.4, 2))
 
