@@ -17,7 +17,7 @@ ALLOWED = {
     "depth": PIXELS,
     "kernel": PIXELS | {"colour", "optics", "lens_files"},
     "engine": LENS,
-    "glare": PIXELS | {"colour", "optics", "kernel"},
+    "glare": PIXELS | {"colour", "optics", "lens_files", "kernel"},
     "scene": PIXELS | {"optics"},
     "report": LENS,
     "files": PIXELS | {"colour", "optics", "depth"},
@@ -27,7 +27,8 @@ ALLOWED = {
 PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
     "compare": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
-    "lens_facts": "api", "defocus": "engine", "engine_options": "engine", "files": "files", "scene": "scene", "petzval": "api",
+    "lens_facts": "api", "defocus": "engine", "engine_options": "engine", "glare": "glare", "files": "files",
+    "scene": "scene", "petzval": "api",
 }
 # Headers of other people and the only files that may see them.
 THIRD_PARTY = {

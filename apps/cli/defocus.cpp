@@ -6,6 +6,7 @@
 #include "camera.h"
 #include "console.h"
 #include "defocus_views.h"
+#include "glare.h"
 #include "input.h"
 #include "interrupt.h"
 #include "lens.h"
@@ -27,6 +28,7 @@ struct DefocusFlags {
     CameraFlags camera;
     FocusFlags focus;
     LensFlags lens;
+    GlareFlags glare;
     std::string engine = "scatter";
     Quality quality = Quality::Standard;
     std::optional<int> pupil_points;
@@ -95,6 +97,7 @@ void DefocusFlags::add_to(Verb& verb) {
     camera.add_to(verb, "file");
     focus.add_to(verb);
     lens.add_to(verb);
+    glare.add_to(verb);
     add_engine_to(verb);
     add_output_to(verb);
     run.add_json_to(verb);
@@ -127,6 +130,9 @@ void DefocusFlags::check(const Verb& verb) {
     if (pupil_points && engine != "reference")
         throw UsageError("--pupil-points is for --engine reference; " + engine + " takes --quality");
     if (input.depth_is_coc()) check_coc_input();
+    glare.check(lens.choice());
+    if (const auto given = glare.given(); !given.empty() && view != ViewKind::Beauty)
+        throw UsageError(listed(given) + ": glare is part of --view beauty only");
     const auto kind = kind_of_output(output);
     if (!kind) throw UsageError(kind.error().message);
     const bool developed = *kind == FileKind::Png && (view == ViewKind::Beauty || view == ViewKind::Focus);
@@ -192,6 +198,7 @@ private:
     Status choose_camera();
     Status compute();
     Status render(DefocusJob job);
+    Status add_glare();
     Status write();
     Status finish();
     void warn(const std::vector<std::string>& lines);
@@ -216,9 +223,16 @@ Status Run::operator()() {
     }
     for (const std::string& path : {flags_.output, flags_.run.json})
         if (!path.empty() && path != "-")
+<<<<<<< HEAD
             if (Status fine = check_output(path, inputs); !fine) return fine;
     for (const auto step : {&Run::read, &Run::choose_camera, &Run::compute, &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
+=======
+            if (const Status fine = check_output(path, inputs); !fine) return fine;
+    for (const auto step :
+         {&Run::read, &Run::choose_camera, &Run::compute, &Run::add_glare, &Run::write, &Run::finish}) {
+        if (const Status done = (this->*step)(); !done) return done;
+>>>>>>> 6399ef4 (cli: glare and falloff in defocus and develop)
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
     return Done{};
@@ -302,6 +316,15 @@ Status Run::render(DefocusJob job) {
          plain(seconds, 3) + " s");
     input_.frame.colour = std::move(done->image);
     return Done{};
+}
+
+Status Run::add_glare() {
+    report_["glare"] = flags_.glare.json();
+    const Stopwatch watch;
+    const Status done =
+        flags_.glare.apply(input_.frame, input_.camera, flags_.lens.choice(), flags_.run.threads);
+    report_["seconds"]["glare"] = watch.seconds();
+    return done;
 }
 
 Status Run::write() {

@@ -1,8 +1,11 @@
 // petzval develop: scene-linear light to a display picture.
 #include "petzval/develop.h"
 
+#include "camera.h"
 #include "console.h"
+#include "glare.h"
 #include "input.h"
+#include "lens.h"
 #include "output.h"
 #include "report.h"
 #include "run_flags.h"
@@ -16,6 +19,9 @@ namespace {
 
 struct DevelopVerbFlags {
     InputFlags input;
+    CameraFlags camera;
+    LensFlags lens;
+    GlareFlags glare;
     std::string output;
     DevelopFlags develop;
     bool no_dither = false;
@@ -29,12 +35,21 @@ Status develop_file(const DevelopVerbFlags& flags) {
         note(*reason);
         return Done{};
     }
+<<<<<<< HEAD
     if (Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
     const auto input = load_input(flags.input, CameraFlags{});
+=======
+    if (const Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
+    auto input = load_input(flags.input, flags.camera);
+>>>>>>> 6399ef4 (cli: glare and falloff in defocus and develop)
     if (!input) return input.error();
     for (const auto& line : input->detected_in_picture()) note(line);
     for (const auto& line : input->warnings) warning(line);
     const double read_s = total.seconds();
+    const Status glared =
+        flags.glare.apply(input->frame, input->camera, flags.lens.choice(), flags.run.threads);
+    if (!glared) return glared;
+    const double glare_s = total.seconds() - read_s;
     DevelopSettings settings = flags.develop.settings(input->frame.display_referred, flags.run.threads);
     settings.dither = !flags.no_dither;
     const Frame& frame = input->frame;
@@ -54,7 +69,9 @@ Status develop_file(const DevelopVerbFlags& flags) {
                             {"bits", settings.bits},
                             {"dither", settings.dither}};
     report["seconds"]["read"] = read_s;
-    report["seconds"]["write"] = total.seconds() - read_s;
+    report["glare"] = flags.glare.json();
+    report["seconds"]["glare"] = glare_s;
+    report["seconds"]["write"] = total.seconds() - read_s - glare_s;
     report["seconds"]["total"] = total.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
     return write_report(report, flags.run.json);
@@ -65,6 +82,12 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     require_argument(verb, flags.output, "-o OUT.png");
     flags.run.apply();
     flags.overwrite.check();
+    flags.lens.check();
+    flags.glare.check(flags.lens.choice());
+    if (flags.glare.given().empty() && (flags.camera.any() || flags.lens.choice().aperture.blades > 0))
+        throw UsageError(
+            "camera and lens are for glare, as --star 0.1 --blades 6; without it they have no "
+            "effect");
     const auto kind = kind_of_output(flags.output);
     if (!kind || *kind != FileKind::Png)
         throw UsageError("-o " + flags.output + ": the name must end in .png");
@@ -74,14 +97,19 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
 }  // namespace
 
 void add_develop(Verb& program, Action& chosen) {
-    Verb& verb = add_verb(program, "develop",
-                          "scene-linear light to a display picture: exposure, tone curve, sRGB, dither",
-                          "petzval develop out.exr -o out.png\n"
-                          "petzval develop out.exr -o out.png --exposure 1.5 --bits 16");
+    Verb& verb =
+        add_verb(program, "develop",
+                 "scene-linear light to a display picture: glare, exposure, tone curve, sRGB, dither",
+                 "petzval develop out.exr -o out.png\n"
+                 "petzval develop out.exr -o out.png --exposure 1.5 --bits 16\n"
+                 "petzval develop out.exr -o out.png --bloom 0.1 --star 0.1 --blades 6");
     auto flags = std::make_shared<DevelopVerbFlags>();
     flags->input.add_to(verb);
     FlagGroup(verb, "Output")
         .value("-o,--output", "OUT.png", "the display picture", parse_text, flags->output);
+    flags->camera.add_to(verb, "file");
+    flags->lens.add_to(verb);
+    flags->glare.add_to(verb);
     flags->run.add_json_to(verb);
     flags->overwrite.add_to(verb, true);
     flags->develop.add_to(verb);

@@ -9,6 +9,7 @@
 #include "petzval/depth.h"
 #include "petzval/develop.h"
 #include "petzval/export.h"
+#include "petzval/glare.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
 #include "petzval/lens_facts.h"

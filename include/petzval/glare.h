@@ -1,0 +1,86 @@
+// What a lens adds to a picture besides blur: bloom, stars, ghosts and veil, and the light it loses towards
+// the corners. After defocus, in scene-linear light.
+//
+// Glare moves light and never makes any: each amount is the share of light that a part takes from where it
+// was, and every part's spread sums to 1 per channel, so the sum over the picture stays (what is thrown
+// beyond the frame is gone). Formulas: docs/glare.md.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/lens.h"
+#include "petzval/result.h"
+
+#include <string>
+
+namespace petzval {
+
+enum class StarQuality {
+    Draft,  // streaks in a few passes, at a quarter of the size (M. Kawase, GDC 2003)
+    Final,  // the diffraction of the aperture's true outline, wavelength by wavelength
+};
+
+enum class LensCoating {
+    None,         // bare glass, about 4 % a surface
+    SingleLayer,  // a quarter wave of magnesium fluoride at 550 nm, about 1.5 %, purple
+};
+
+// All amounts 0: the picture comes back bit for bit. Their sum may not exceed 1.
+struct GlareSettings {
+    // Gaussian layers, each twice as wide as the one before and all of equal light, so that the glow falls
+    // about as 1/r^2; of the whole picture.
+    double bloom = 0;
+    double bloom_radius = 0.08;  // standard deviation of the widest layer, share of the picture's height
+
+    // Spikes across the aperture's edges, of the light above `threshold`: n for an even number of blades n,
+    // 2n for an odd one. Needs lens.aperture.blades.
+    double star = 0;
+    double star_radius = 0.5;  // where a star's red light ends, share of the picture's height
+    // 550 nm times the f-number, in pixels: the grain of the diffraction pattern. 0 or less than the finest
+    // that is computed (about star_radius / 500 of the height): that finest, whose grain does not show.
+    double diffraction_px = 0;
+    StarQuality star_quality = StarQuality::Final;
+
+    // Reflections between surfaces, of the light above `threshold`. lens.name is a prescription: paraxial
+    // ghosts of every pair of its surfaces with the aperture's true shape; else seven coloured, turned or
+    // upright copies of the lights on the line through the centre (M. Kawase, GDC 2003).
+    double ghosts = 0;
+    LensCoating coating = LensCoating::SingleLayer;
+    Camera camera;  // for the ghosts of a prescription: all four numbers
+
+    double veil = 0;  // spread evenly over the picture
+
+    // A pixel's light above this counts as a highlight, for stars and ghosts: share 1 - threshold / largest
+    // channel. 1 is diffuse white: a matt surface in the scene's own light throws no stars. >= 0.
+    double threshold = 1;
+
+    LensChoice lens;  // the aperture, and the prescription for ghosts
+    // Where the pixels lie in the frame; empty: the picture is the frame. Shares of height are of the display
+    // window's, ghosts mirror about its centre.
+    Rect display_window, data_window;
+    double pixel_aspect = 1;
+    int threads = 0;  // 0: all this process may use; the result never depends on it
+};
+
+// Alpha is kept: glare is light over the picture, not something that covers. Negative and non-finite colour
+// counts as 0 where glare is made, non-finite colour becomes 0 in the result.
+// Errors: InvalidArgument naming the number that is out of range, a star without blades, an unknown lens;
+// ghosts of a prescription without camera numbers.
+PETZVAL_API Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings);
+
+// Of the light in the picture's middle, the share that reaches each place: cos^4 of the field angle, times
+// the share of the pupil left there (the barrel's cat's eye; for a prescription, rays past its rims).
+struct FalloffSettings {
+    Camera camera = {};  // focal length and sensor width; for a prescription also f-number and focus
+    LensChoice lens = {};
+    Rect display_window = {}, data_window = {};  // as above
+    double pixel_aspect = 1;
+    int threads = 0;
+};
+
+// The one function here that loses light. Colour only; alpha is kept.
+// Errors: InvalidArgument for missing camera numbers, an unknown lens.
+PETZVAL_API Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& settings);
+
+}  // namespace petzval

@@ -1,0 +1,34 @@
+// The discrete Fourier transform of pictures whose sides are powers of two (Cooley and Tukey, 1965).
+//
+// Sixteen rows or columns are transformed side by side, which the compiler turns into SIMD.
+#pragma once
+
+#include <complex>
+#include <functional>
+#include <vector>
+
+namespace petzval::glare {
+
+inline constexpr int kLanes = 16;
+
+// Twiddle factors for transforms of n = 2^k points.
+class Fft {
+public:
+    explicit Fft(int n);
+    int size() const { return n_; }
+
+    // kLanes signals at once: point i of lane l is re[i * kLanes + l]. In place. Forward: exponent -i;
+    // inverse: exponent +i, not divided by n.
+    void transform(float* re, float* im, bool inverse) const;
+
+private:
+    int n_;
+    std::vector<float> cos_, sin_;  // of 2 pi k / n, k < n/2
+    std::vector<int> swap_with_;    // bit-reversed index
+};
+
+// In place, `side` x `side` complex numbers, row by row. Inverse is divided by side^2. Requires: side is a
+// power of two and a multiple of kLanes.
+void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, int threads);
+
+}  // namespace petzval::glare
