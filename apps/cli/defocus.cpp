@@ -223,16 +223,10 @@ Status Run::operator()() {
     }
     for (const std::string& path : {flags_.output, flags_.run.json})
         if (!path.empty() && path != "-")
-<<<<<<< HEAD
             if (Status fine = check_output(path, inputs); !fine) return fine;
-    for (const auto step : {&Run::read, &Run::choose_camera, &Run::compute, &Run::write, &Run::finish}) {
-        if (Status done = (this->*step)(); !done) return done;
-=======
-            if (const Status fine = check_output(path, inputs); !fine) return fine;
     for (const auto step :
          {&Run::read, &Run::choose_camera, &Run::compute, &Run::add_glare, &Run::write, &Run::finish}) {
-        if (const Status done = (this->*step)(); !done) return done;
->>>>>>> 6399ef4 (cli: glare and falloff in defocus and develop)
+        if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
     return Done{};
@@ -321,8 +315,7 @@ Status Run::render(DefocusJob job) {
 Status Run::add_glare() {
     report_["glare"] = flags_.glare.json();
     const Stopwatch watch;
-    const Status done =
-        flags_.glare.apply(input_.frame, input_.camera, flags_.lens.choice(), flags_.run.threads);
+    Status done = flags_.glare.apply(input_.frame, input_.camera, flags_.lens.choice(), flags_.run.threads);
     report_["seconds"]["glare"] = watch.seconds();
     return done;
 }

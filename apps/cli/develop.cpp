@@ -35,19 +35,13 @@ Status develop_file(const DevelopVerbFlags& flags) {
         note(*reason);
         return Done{};
     }
-<<<<<<< HEAD
     if (Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
-    const auto input = load_input(flags.input, CameraFlags{});
-=======
-    if (const Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
     auto input = load_input(flags.input, flags.camera);
->>>>>>> 6399ef4 (cli: glare and falloff in defocus and develop)
     if (!input) return input.error();
     for (const auto& line : input->detected_in_picture()) note(line);
     for (const auto& line : input->warnings) warning(line);
     const double read_s = total.seconds();
-    const Status glared =
-        flags.glare.apply(input->frame, input->camera, flags.lens.choice(), flags.run.threads);
+    Status glared = flags.glare.apply(input->frame, input->camera, flags.lens.choice(), flags.run.threads);
     if (!glared) return glared;
     const double glare_s = total.seconds() - read_s;
     DevelopSettings settings = flags.develop.settings(input->frame.display_referred, flags.run.threads);
