@@ -40,6 +40,7 @@ struct DefocusJob {
     Quality quality = Quality::Standard;
     int pupil_points = 4096;           // reference only
     GatherOptions gather;              // gather, and sprites over it
+    GaussianOptions gaussian;          // gaussian, and sprites over it
     int threads = 0;                   // 0: all this process may use; the result never depends on it
     std::size_t max_memory_bytes = 0;  // 0: no limit
     std::uint64_t seed = 1;

@@ -1,6 +1,8 @@
 // What the lighter engines let a user choose. The defaults are what each engine is for.
 #pragma once
 
+#include <optional>
+
 namespace petzval {
 
 // A stop on the way of the published gather method (docs/published/gather.md); its buffer becomes the
@@ -22,6 +24,33 @@ struct GatherOptions {
     int taps = 43;             // of the article's disc: 16, 22, 43 or 71
     bool extreme_coc = false;  // article's prefilter: the CoC largest in size of 2 x 2, not their mean
     bool fill_hidden = true;   // the engine: continue what lies behind near things under their soft edges
+};
+
+enum class GaussianStyle {
+    Layered,  // light spreads from where it is, near and far apart: nothing in focus bleeds or is bled on
+    Plain,    // every pixel mixes the sharp picture and two blurred ones by its own radius
+    Wgld,     // the same by depth, with the weights that were published (docs/published/gaussian.md)
+};
+
+// A buffer of the Gaussian engine in place of its result.
+enum class GaussianView {
+    Result,
+    Sharp,       // the input
+    BlurSmall,   // all of it blurred by the smaller Gaussian
+    BlurLarge,   // and by the larger
+    FocusIndex,  // 1 in focus … 0 wholly blurred, in every channel
+};
+
+struct GaussianOptions {
+    GaussianStyle style = GaussianStyle::Layered;
+    GaussianView view = GaussianView::Result;
+    // What is held sharp. Wgld: width of the band around the middle of normalised depth, 0…1, default 0.2.
+    // Else: radii up to so many pixels, default 0.
+    std::optional<double> focus_band;
+    // Wgld: added to normalised depth; default: what puts the focus distance into the middle of the band.
+    std::optional<double> depth_offset;
+    // Wgld: depths that become 0 and 1; both 0: the nearest and farthest of the picture.
+    double depth_near_m = 0, depth_far_m = 0;
 };
 
 }  // namespace petzval

@@ -204,6 +204,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
     input.gather = job.gather;
+    input.gaussian = job.gaussian;
+    if (!job.depth_is_coc) input.depth_m = job.depth_m, input.focus_distance_m = job.camera.focus_distance_m;
     input.radius_at_infinity_px = radii->at_infinity_px();
     input.threads = job.threads;
     input.max_memory_bytes = job.max_memory_bytes;

@@ -90,6 +90,9 @@ struct Input {
     Quality quality = Quality::Standard;
     int pupil_points = 4096;
     GatherOptions gather;
+    GaussianOptions gaussian;
+    View<const float> depth_m;        // planar, may hold misses; empty where radii were given
+    double focus_distance_m = 0;      // 0: unknown
     float radius_at_infinity_px = 0;  // 0: unknown
     int threads = 0;
     std::size_t max_memory_bytes = 0;
@@ -129,5 +132,6 @@ std::span<const Engine> engines();
 Result<Output> run_reference(const Input& input);
 Result<Output> run_scatter(const Input& input);
 Result<Output> run_gather(const Input& input);
+Result<Output> run_gaussian(const Input& input);
 
 }  // namespace petzval::engine

@@ -5,8 +5,10 @@ namespace petzval::engine {
 std::span<const Engine> engines() {
     static constexpr Engine kEngines[] = {
         {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter},
-        {"gather", "previews: every pixel collects from kernels of a few sizes, at half resolution", run_gather},
-        {"reference", "the definition of a correct result, traced through the lens; slow", run_reference},
+        {"gather", "previews: every pixel collects from a few sizes of the lens's kernel, at half resolution",
+         run_gather},
+        {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
+         run_gaussian},
     };
     return kEngines;
 }

@@ -1,0 +1,207 @@
+// The Gaussian engine against its laws, and its published style against the published formulas.
+#include "shots.h"
+
+namespace petzval::conformance {
+namespace {
+
+const GaussianStyle kStyles[] = {GaussianStyle::Layered, GaussianStyle::Plain, GaussianStyle::Wgld};
+
+DefocusJob job_of(const Shot& shot, GaussianStyle style) {
+    DefocusJob job = shot.job("gaussian");
+    job.gaussian.style = style;
+    return job;
+}
+
+Shot two_depths() {
+    Shot shot = flat(150, 130, {}, 5);
+    paint_noise(shot.colour, 2);
+    for (int y = 0; y < 130; ++y)
+        for (int x = 71; x < 90; ++x) shot.coc_px(x, y) = -17;
+    for (int y = 40; y < 60; ++y)
+        for (int x = 0; x < 40; ++x) shot.coc_px(x, y) = 0;
+    for (int y = 80; y < 100; ++y)
+        for (int x = 0; x < 40; ++x) shot.coc_px(x, y) = 3;
+    shot.colour(95, 100) = {9000, 60, 20, 1};
+    return shot;
+}
+
+// Depth 1…3 m from left to right, focus at 2 m.
+struct DepthShot {
+    Picture colour{100, 40};
+    Plane depth_m{100, 40};
+    DepthShot() {
+        paint_noise(colour, 4);
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 100; ++x) depth_m(x, y) = 1 + 2 * float(x) / 99;
+    }
+    DefocusJob job() const {
+        DefocusJob job;
+        job.colour = colour, job.depth_m = depth_m;
+        job.display_window = job.data_window = colour.rect();
+        job.camera = {.focal_length_mm = 85, .sensor_width_mm = 36, .f_number = 1.4, .focus_distance_m = 2};
+        job.engine = "gaussian";
+        job.gaussian.style = GaussianStyle::Wgld;
+        return job;
+    }
+};
+
+TEST(Gaussian, InFocusIsUntouched) {
+    Shot shot = flat(70, 50, {}, 0);
+    paint_noise(shot.colour, 1);
+    for (const GaussianStyle style : kStyles)
+        EXPECT_EQ(largest_difference(rendered(job_of(shot, style)), shot.colour), 0) << int(style);
+}
+
+TEST(Gaussian, WhatIsInFocusBesideBlurIsUntouchedByBlurFromBehind) {
+    Shot shot = flat(128, 48, {}, 0);
+    paint_noise(shot.colour, 1);
+    for (int y = 0; y < 48; ++y)
+        for (int x = 64; x < 128; ++x) shot.coc_px(x, y) = 20, shot.colour(x, y) = {50, 50, 50, 1};
+    const Picture image = rendered(shot.job("gaussian"));
+    for (int x = 0; x < 64; ++x) EXPECT_NEAR(image(x, 20).g, shot.colour(x, 20).g, 1e-5f) << x;
+    for (int x = 64; x < 128; ++x) EXPECT_NEAR(image(x, 20).g, 50, 0.01) << x;
+}
+
+TEST(Gaussian, AConstantPictureStaysConstantUpToTheBorder) {
+    for (const GaussianStyle style : kStyles)
+        for (const float coc : {-70.0f, -9.0f, 0.7f, 2.5f, 13.0f, 33.0f}) {
+            Shot shot = flat(91, 61, {0.2f, 0.5f, 0.7f, 1}, coc);
+            shot.coc_px(40, 30) = 2 * coc;
+            EXPECT_LT(largest_difference(rendered(job_of(shot, style)), shot.colour), 5e-5)
+                << coc << " style " << int(style);
+        }
+}
+
+// Radius of the disc that has the same mean square distance; a pixel's own square adds 1/6.
+TEST(Gaussian, APointHasTheSecondMomentOfItsDiscAtEveryConstantRadius) {
+    for (const GaussianStyle style : {GaussianStyle::Layered, GaussianStyle::Plain})
+        for (const float coc : {-40.0f, -12.5f, -3.3f, 1.5f, 2.7f, 7.0f, 13.0f, 32.0f}) {
+            double mean_sum = 0, mean_radius = 0;
+            for (int at = 148; at < 156; ++at) {
+                Shot shot = flat(301, 301, {0, 0, 0, 1}, coc);
+                shot.coc_px(0, 0) = 1.4f * coc;  // a larger radius somewhere: this one is mixed
+                shot.colour(at, at) = {100, 100, 100, 1};
+                const Picture image = rendered(job_of(shot, style));
+                double sum = 0, moment = 0;
+                for (int y = 0; y < 301; ++y)
+                    for (int x = 0; x < 301; ++x) {
+                        sum += double(image(x, y).g);
+                        moment += double(image(x, y).g) * (std::pow(x - at, 2) + std::pow(y - at, 2));
+                    }
+                mean_sum += sum / 8, mean_radius += std::sqrt(2 * (moment / sum - 1.0 / 6)) / 8;
+            }
+            EXPECT_NEAR(mean_sum, 100, 1) << coc << " style " << int(style);
+            EXPECT_NEAR(mean_radius, std::abs(coc), 0.02 * std::abs(coc) + 0.05)
+                << coc << " style " << int(style);
+        }
+}
+
+TEST(Gaussian, WhatIsNearSpreadsOverWhatIsInFocus) {
+    Shot shot = flat(128, 64, {0.8f, 0.8f, 0.8f, 1}, 0);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 64; x < 128; ++x) shot.colour(x, y) = {0, 0, 0, 1}, shot.coc_px(x, y) = -12;
+    const Picture layered = rendered(job_of(shot, GaussianStyle::Layered));
+    const Picture plain = rendered(job_of(shot, GaussianStyle::Plain));
+    EXPECT_NEAR(layered(64, 32).g, 0.4, 0.05) << "half of each at the edge";
+    EXPECT_NEAR(layered(60, 32).g, 0.8 * 0.75, 0.06) << "4 px = 0.67 sigma away";
+    EXPECT_EQ(plain(60, 32).g, 0.8f) << "the published way keeps the edge hard";
+}
+
+TEST(Gaussian, PublishedWeightsAndIndexAreThoseOfTheFormula) {
+    const DepthShot shot;
+    DefocusJob job = shot.job();
+    const auto view = [&](GaussianView v) {
+        job.gaussian.view = v;
+        return rendered(job);
+    };
+    for (const double offset : {0.0, 0.2, -0.3}) {
+        job.gaussian.depth_offset = offset;
+        const Picture index = view(GaussianView::FocusIndex), sharp = view(GaussianView::Sharp),
+                      small = view(GaussianView::BlurSmall), large = view(GaussianView::BlurLarge),
+                      result = view(GaussianView::Result);
+        EXPECT_EQ(largest_difference(sharp, shot.colour), 0);
+        for (int x = 0; x < 100; ++x) {
+            const double at = std::clamp(double(x) / 99 + offset, 0.0, 1.0);
+            const double d = at > 0.6 ? 2.5 * (1 - at) : at > 0.4 ? 1 : 2.5 * at;
+            EXPECT_NEAR(index(x, 20).r, d, 1e-5) << x;
+            const double mixed = d * double(sharp(x, 20).g) + d * (1 - d) * double(small(x, 20).g) +
+                                 (1 - d) * (1 - d) * double(large(x, 20).g);
+            EXPECT_NEAR(result(x, 20).g, mixed, 1e-5) << x;
+        }
+    }
+}
+
+TEST(Gaussian, TheFocusDistanceLiesInThePublishedBandUnlessAnOffsetIsGiven) {
+    const DepthShot shot;
+    DefocusJob job = shot.job();
+    job.camera.focus_distance_m = 1.5;  // normalised 0.25: the band is 0.15…0.35
+    job.gaussian.view = GaussianView::FocusIndex;
+    const Picture index = rendered(job);
+    EXPECT_EQ(index(25, 20).r, 1);
+    EXPECT_EQ(index(33, 20).r, 1);
+    EXPECT_LT(index(40, 20).r, 1);
+    EXPECT_LT(index(10, 20).r, 1);
+}
+
+TEST(Gaussian, EveryOptionChangesThePicture) {
+    const Shot shot = two_depths();
+    for (const GaussianStyle style : kStyles) {
+        const Picture plain = rendered(job_of(shot, style));
+        const auto changed = [&](const auto& set) {
+            DefocusJob job = job_of(shot, style);
+            set(job.gaussian);
+            return largest_difference(rendered(job), plain) > 1e-3;
+        };
+        EXPECT_TRUE(changed([](GaussianOptions& o) { o.focus_band = 4.0; }) || style == GaussianStyle::Wgld);
+        EXPECT_TRUE(changed([](GaussianOptions& o) { o.focus_band = 0.6; }) || style != GaussianStyle::Wgld);
+        EXPECT_TRUE(changed([](GaussianOptions& o) { o.depth_offset = 0.3; }) ||
+                    style != GaussianStyle::Wgld);
+        for (const GaussianView view : {GaussianView::Sharp, GaussianView::BlurSmall, GaussianView::BlurLarge,
+                                        GaussianView::FocusIndex})
+            EXPECT_TRUE(changed([&](GaussianOptions& o) { o.view = view; }))
+                << int(style) << " view " << int(view);
+        for (const GaussianStyle other : kStyles)
+            if (other != style) EXPECT_TRUE(changed([&](GaussianOptions& o) { o.style = other; }));
+    }
+    const DepthShot by_depth;
+    DefocusJob job = by_depth.job();
+    const Picture before = rendered(job);
+    job.gaussian.depth_near_m = 0.1, job.gaussian.depth_far_m = 30;
+    EXPECT_GT(largest_difference(rendered(job), before), 1e-3);
+}
+
+TEST(Gaussian, TheSameBitsForAnyThreadCount) {
+    const Shot shot = two_depths();
+    for (const GaussianStyle style : kStyles) {
+        DefocusJob one = job_of(shot, style), two = job_of(shot, style);
+        one.threads = 1, two.threads = 2;
+        EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0) << int(style);
+    }
+}
+
+TEST(Gaussian, AwkwardPicturesStayFinite) {
+    std::mt19937 random(9);
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 17}, {17, 1}, {65, 3}, {257, 130}})
+        for (const GaussianStyle style : kStyles)
+            for (const float largest : {0.6f, 3.0f, 200.0f, 16000.0f}) {
+                Shot shot = flat(width, height, {}, 0);
+                paint_noise(shot.colour, 7);
+                for (std::size_t i = 0; i < shot.coc_px.size(); ++i)
+                    shot.coc_px.pixels()[i] = largest * (float(random() % 400) / 200 - 1);
+                shot.colour(0, 0) = {-3, std::nanf(""), 1e30f, 1};
+                shot.coc_px(width / 2, 0) = std::nanf("");
+                DefocusJob job = job_of(shot, style);
+                job.gaussian.focus_band = largest;
+                for (int pass = 0; pass < 2; ++pass, job.gaussian.focus_band.reset()) {
+                    const Picture image = rendered(job);
+                    for (std::size_t i = 0; i < image.size(); ++i)
+                        for (const float v : {image.pixels()[i].r, image.pixels()[i].g, image.pixels()[i].b,
+                                              image.pixels()[i].a})
+                            ASSERT_TRUE(std::isfinite(v))
+                                << width << "x" << height << " style " << int(style);
+                }
+            }
+}
+
+}  // namespace
+}  // namespace petzval::conformance
