@@ -2,7 +2,12 @@
 // its aberrations.
 #pragma once
 
+#include "petzval/image.h"
+
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace petzval {
 
@@ -12,6 +17,37 @@ struct ApertureShape {
     double rotation_deg = 0;  // first vertex, counter-clockwise from +x, in the far (upright) disc
     double curvature = 0;     // 0 straight edges … 1 circle
     double squeeze = 1;       // the disc is so many times taller than wide, > 0
+    // > 0: the f-number at which the iris is fully open and round; its blades straighten towards `curvature`
+    // over the first stop and a half.
+    double round_at_f_number = 0;
+};
+
+// A circular rim of the barrel, a hood or a filter ring, in front of the entrance pupil (distance > 0) or
+// behind.
+struct BarrelRim {
+    double radius_mm = 0, distance_mm = 0;
+};
+
+// How far each door of a matte box reaches over the pupil from its side, in pupil radii: 0 open, 1 half
+// covered.
+struct BarnDoors {
+    double left = 0, right = 0, top = 0, bottom = 0;  // as seen in the far (upright) disc
+};
+
+// What lies in the pupil; seen best in large discs. Strengths 0 (none) to 1.
+struct PupilTexture {
+    // Transmission 0…1 over the square around the f-stop's circle, upright as the far disc shows it; may be
+    // null.
+    std::shared_ptr<const Plane> image;
+    double dust = 0, scratches = 0;
+    double onion_rings = 0;  // turning marks of moulded aspheres
+    std::uint64_t seed = 1;  // where dust, scratches and rings lie
+};
+
+// A disc photographed or drawn, used as it is instead of a lens; the circle it shows fills the picture. Far:
+// upright. Without `near`, discs in front of focus are the far one turned by 180 degrees.
+struct KernelImages {
+    std::shared_ptr<const Picture> far, near;  // both null: none
 };
 
 // Where the sensor is put, which spherical aberration and colour leave open.
@@ -26,6 +62,10 @@ struct LensChoice {
     std::string name = "ideal";  // a built-in lens (lens list) or the path of a lens file
     ApertureShape aperture;
     double cats_eye = 0;  // 0…1: barrel displaced by cats_eye * field, in pupil radii
+    std::vector<BarrelRim> barrel;
+    BarnDoors barn_doors;
+    PupilTexture texture;
+    KernelImages kernel_images;
 
     FocusMode focus_mode = FocusMode::Best;
     double focus_shift_mm = 0;  // FocusMode::Shift: + away from the lens

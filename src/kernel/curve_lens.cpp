@@ -19,6 +19,8 @@ constexpr double kBandStepPx = 0.7;
 // Bands that all land within this are one.
 constexpr double kNoColourPx = 0.02;
 // Light outside carries under 1 % of the luminance; it does not decide how many bands are needed.
+// Rays see the pupil's texture through a window of this half width, pupil radii.
+constexpr double kRayWidth = 1.0 / 256;
 constexpr int kLeastRingBands = 31, kLeastSectorBands = 15, kLeastMeshBands = 7, kLeastRayBands = 62;
 constexpr double kSeenFrom_nm = 430, kSeenTo_nm = 670;
 
@@ -50,7 +52,7 @@ Light weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band
 
 CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount)
     : description_(describe(curves, mount.camera)),
-      pupil_(choice),
+      pupil_(choice, mount),
       choice_(choice),
       pixel_aspect_(mount.pixel_aspect) {
     const Camera& camera = mount.camera;
@@ -133,7 +135,7 @@ PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition fiel
     const bool on_axis = field.x == 0 && field.y == 0;
     const bool same_around_the_axis =
         on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0);
-    if (!same_around_the_axis) return mesh_spread(coc_radius_px, field);
+    if (!same_around_the_axis || pupil_.has_texture()) return mesh_spread(coc_radius_px, field);
     if (pupil_.is_disc(field) && pixel_aspect_ == 1) {
         const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
         return ring_kernel(rings.bands, rings.reach_px);
@@ -170,9 +172,7 @@ PointSpread CurveLens::mesh_spread(double coc_radius_px, FieldPosition field) co
     const double aberration = aberration_px_ * largest_seen_, coma = 3 * std::abs(coma_px_) * axis.size;
     const double size = std::abs(coc_radius_px) + aberration + coma;
     const double bend = std::abs(coc_radius_px) + 3 * aberration + 4 * coma;
-    MeshPupil pupil;
-    pupil.outline = subdivided(pupil_.outline(field, mesh_tolerance(bend)), mesh_step(bend));
-    pupil.rings = mesh_rings(size);
+    const MeshPupil pupil = mesh_pupil(pupil_, pupil_.outline(field, mesh_tolerance(bend)), size, bend);
     std::vector<MeshBand> bands;
     for (const Band& band : bands_for(kLeastMeshBands))
         bands.push_back(
@@ -192,7 +192,8 @@ std::vector<PupilRay> CurveLens::rays(int count, FieldPosition field, std::uint6
                            const ZoneShift& shift = bands[band].shift;
                            const Point offset = landing_px(shift, 0, axis, pupil);
                            // What the radius alone does: the landing place is linear in it.
-                           return RayLanding{landing_px(shift, 1, axis, pupil) - offset, offset, 1};
+                           return RayLanding{landing_px(shift, 1, axis, pupil) - offset, offset,
+                                             pupil_.transmission(pupil, kRayWidth)};
                        });
 }
 

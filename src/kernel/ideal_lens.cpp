@@ -1,5 +1,8 @@
 #include "kernel/ideal_lens.h"
 
+#include "kernel/ray_set.h"
+#include "kernel/spread.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +12,7 @@ namespace {
 // A chord of the outline may leave its arc by this much on the image.
 constexpr double kChordTolerancePx = 2e-4;
 
-PointSpread normalised(CoverageBuffer<double>& coverage) {
+PointSpread share_of_pixels(CoverageBuffer<double>& coverage) {
     const Rect extent = coverage.extent();
     PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), true};
     std::vector<const double*> rows;
@@ -43,16 +46,29 @@ PointSpread IdealLens::point_spread(double coc_radius_px, FieldPosition field) c
     if (extent.width() == 1 && extent.height() == 1) return {extent, {1, 1, Rgba{1, 1, 1, 1}}, true};
     CoverageBuffer<double> coverage(extent);
     coverage.add_polygon(outline, 1);
-    return normalised(coverage);
+    PointSpread spread = share_of_pixels(coverage);
+    if (pupil_.has_texture()) dim(spread, coc_radius_px);
+    return spread;
+}
+
+// By the texture's mean over each pixel.
+void IdealLens::dim(PointSpread& spread, double coc_radius_px) const {
+    const double half = 0.5 / std::abs(coc_radius_px);
+    for (int y = spread.extent.y0; y < spread.extent.y1; ++y)
+        for (int x = spread.extent.x0; x < spread.extent.x1; ++x) {
+            const Point place{x / coc_radius_px, y / (coc_radius_px * pixel_aspect_)};
+            Rgba& w = spread.weights(x - spread.extent.x0, y - spread.extent.y0);
+            w *= float(pupil_.transmission(place, half));
+        }
+    normalise(spread);
 }
 
 std::vector<PupilRay> IdealLens::rays(int count, FieldPosition field, std::uint64_t seed) const {
-    const float weight = 1 / float(count);
-    std::vector<PupilRay> rays;
-    for (const PupilPoint& p : spread_evenly(pupil_.outline(field, 1e-5), count, seed))
-        rays.push_back(
-            {float(p.place.x), float(p.place.y * pixel_aspect_), 0, 0, {weight, weight, weight, weight}});
-    return rays;
+    return spread_rays(
+        pupil_.outline(field, 1e-5), colour::spectral_bands(1), count, seed,
+        [this](std::size_t, Point pupil) {
+            return RayLanding{{pupil.x, pupil.y * pixel_aspect_}, {}, pupil_.transmission(pupil, 1.0 / 256)};
+        });
 }
 
 double IdealLens::reach_px(double coc_radius_px) const {

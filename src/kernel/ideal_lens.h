@@ -9,7 +9,7 @@ namespace petzval::kernel {
 class IdealLens final : public LensModel {
 public:
     IdealLens(const LensChoice& choice, const Mount& mount)
-        : pupil_(choice), pixel_aspect_(mount.pixel_aspect) {}
+        : pupil_(choice, mount), pixel_aspect_(mount.pixel_aspect) {}
 
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
@@ -19,6 +19,8 @@ public:
     std::string description() const override { return "ideal: no aberration, a flat disc"; }
 
 private:
+    void dim(PointSpread& spread, double coc_radius_px) const;
+
     Pupil pupil_;
     double pixel_aspect_;
 };

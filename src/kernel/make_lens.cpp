@@ -1,6 +1,7 @@
 // From a name to a lens: the registry.
 #include "kernel/curve_lens.h"
 #include "kernel/ideal_lens.h"
+#include "kernel/image_lens.h"
 #include "kernel/lens_model.h"
 #include "kernel/traced_model.h"
 #include "lens_files/shelf.h"
@@ -59,6 +60,12 @@ Error unknown(const std::string& name, const Error& error) {
 Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
     if (const Status status = check_aperture(choice); !status) return status.error();
     if (const Status status = check_residuals(choice); !status) return status.error();
+    if (!choice.barrel.empty() || choice.aperture.round_at_f_number > 0)
+        if (const Status status = check_camera(mount); !status) return status.error();
+    if (choice.kernel_images.far || choice.kernel_images.near) {
+        if (const Status status = check_kernel_images(choice.kernel_images); !status) return status.error();
+        return Lens(std::make_unique<ImageLens>(choice, mount));
+    }
     const bool perfect = choice.coma == 0 && choice.astigmatism == 0 && choice.distortion == 0;
     if (choice.name == "ideal" && perfect) return Lens(std::make_unique<IdealLens>(choice, mount));
 

@@ -43,8 +43,10 @@ public:
 
 private:
     static double light(const MeshPupil& pupil, Point a, Point b, Point c) {
-        const double passed = pupil.transmission ? pupil.transmission((1.0 / 3) * (a + b + c)) : 1;
-        return passed * signed_area(a, b, c);
+        const double whole = signed_area(a, b, c);
+        if (!pupil.transmission) return whole;
+        // The two triangles of a cell fill a square of twice their area.
+        return whole * pupil.transmission((1.0 / 3) * (a + b + c), std::sqrt(0.5 * std::abs(whole)) + 1e-9);
     }
 
     int rings_, spokes_;
@@ -154,6 +156,15 @@ int mesh_rings(double size_px) { return std::clamp(int(std::ceil(8 + size_px / 1
 double mesh_tolerance(double size_px) { return 0.04 / std::max(size_px, 4.0); }
 
 double mesh_step(double size_px) { return std::sqrt(8 * mesh_tolerance(size_px)); }
+
+MeshPupil mesh_pupil(const Pupil& pupil, const std::vector<Point>& outline, double size_px, double bend_px) {
+    MeshPupil mesh{subdivided(outline, mesh_step(bend_px)), {}, mesh_rings(size_px)};
+    if (!pupil.has_texture()) return mesh;
+    mesh.rings = std::clamp(int(1.2 * size_px), 32, 256);
+    mesh.outline = subdivided(outline, 1.2 / mesh.rings);
+    mesh.transmission = [&pupil](Point p, double half_width) { return pupil.transmission(p, half_width); };
+    return mesh;
+}
 
 std::vector<Point> subdivided(const std::vector<Point>& outline, double longest) {
     std::vector<Point> fine;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernel/coverage.h"
+#include "kernel/pupil.h"
 #include "kernel/spread.h"
 
 #include <functional>
@@ -15,8 +16,9 @@
 namespace petzval::kernel {
 
 struct MeshPupil {
-    std::vector<Point> outline;                 // convex, positive area, edges of even length
-    std::function<double(Point)> transmission;  // 0…1; empty: 1 everywhere
+    std::vector<Point> outline;  // convex, positive area, edges of even length
+    // 0…1, mean over a square; empty: 1 everywhere.
+    std::function<double(Point middle, double half_width)> transmission;
     int rings = 16;
 };
 
@@ -35,6 +37,10 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
 int mesh_rings(double size_px);
 double mesh_tolerance(double size_px);
 double mesh_step(double size_px);
+
+// A mesh for `outline`, with the pupil's texture where it has one, and then fine enough to show it.
+// size_px: how far the kernel reaches; bend_px: the same, more where aberrations bend across the pupil.
+MeshPupil mesh_pupil(const Pupil& pupil, const std::vector<Point>& outline, double size_px, double bend_px);
 
 // Cuts edges longer than `longest` into equal parts.
 std::vector<Point> subdivided(const std::vector<Point>& outline, double longest);

@@ -7,28 +7,46 @@
 
 #include "kernel/lens_model.h"
 #include "kernel/outline.h"
+#include "kernel/transmission.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace petzval::kernel {
 
-// Aperture and barrel of one lens on one camera. Coordinates as in outline.h, before pixel aspect.
+// Aperture, barrel and what lies in the pupil, of one lens on one camera. Coordinates as in outline.h, before
+// pixel aspect.
 class Pupil {
 public:
-    explicit Pupil(const LensChoice& choice);
+    // Requires: check_aperture(choice).
+    Pupil(const LensChoice& choice, const Mount& mount);
 
     // tolerance: largest distance of a chord from its arc, in pupil radii.
     std::vector<Point> outline(FieldPosition field, double tolerance) const;
-    bool varies_over_field() const { return cats_eye_ > 0; }
+    bool varies_over_field() const { return cats_eye_ > 0 || !rims_.empty(); }
     Mirrors mirrors() const;
     // A full, round, open disc as seen from `field`.
     bool is_disc(FieldPosition field) const;
 
+    bool has_texture() const { return texture_ != nullptr; }
+    // Share of the light that passes around a point, over a square; 1 without texture.
+    double transmission(Point middle, double half_width) const {
+        return texture_ ? texture_->mean_inside(middle, half_width, half_width) : 1;
+    }
+
 private:
     ApertureShape shape_;
     double cats_eye_;
+    BarnDoors doors_;
+    struct Rim {
+        double radius, shift;  // pupil radii; shift per unit of field, away from it
+    };
+    std::vector<Rim> rims_;
+    std::shared_ptr<const PupilImage> texture_;
 };
+
+// Tangent of the angle at which the camera's pinhole sees the corner of the picture (field size 1).
+double corner_tangent(const Mount& mount);
 
 // Errors: InvalidArgument naming the number that is out of range and what would be accepted.
 Status check_aperture(const LensChoice& choice);

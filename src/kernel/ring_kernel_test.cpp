@@ -105,8 +105,8 @@ TEST(MeshKernel, APerfectFocusLeavesAllLightInItsPixel) {
 }
 
 TEST(MeshKernel, DarkCellsSendNoLight) {
-    MeshPupil pupil{subdivided(aperture_outline({}, 1e-3), 0.05), [](Point p) { return p.x > 0 ? 1.0 : 0.0; },
-                    40};
+    MeshPupil pupil{subdivided(aperture_outline({}, 1e-3), 0.05),
+                    [](Point p, double) { return p.x > 0 ? 1.0 : 0.0; }, 40};
     const PointSpread s = mesh_of(pupil, [](Point p) { return 20 * p; });
     EXPECT_NEAR(sums(s).g, 1, 1e-6);
     EXPECT_NEAR(double(weight_at(s, -10, 0).g), 0, 1e-9);

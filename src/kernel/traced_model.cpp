@@ -21,6 +21,8 @@ constexpr int kOutlineCorners = 96;       // of what the rims leave open
 constexpr double kTraced_nm[] = {420, 455, 495, 540, 590, 640, 690};
 constexpr double kMiddle_nm = 555;
 constexpr int kRayBands = 62;
+constexpr double kRayWidth =
+    1.0 / 256;  // of the window through which rays see the pupil's texture, pupil radii
 // As in curve lenses: rims of neighbouring bands this far apart are not seen singly.
 constexpr double kBandStepPx = 0.7, kNoColourPx = 0.02;
 constexpr int kLadder[] = {7, 15, 31, 62};  // more would be steps of less than 2 % each
@@ -60,6 +62,12 @@ struct Parabola {
     }
 };
 
+double light_at(const RayMap& map, const PupilPowers& powers) {
+    double light = 0;
+    for (std::size_t i = 0; i < map.light.size(); ++i) light += map.light[i] * powers.even[i];
+    return std::max(0.0, light);
+}
+
 // Of the visible spectrum, the luminance in the 10 nm around a wavelength.
 double luminance_at(double wavelength_nm) {
     double sum = 0;
@@ -71,7 +79,7 @@ double luminance_at(double wavelength_nm) {
 }  // namespace
 
 TracedModel::TracedModel(const LensChoice& choice, const Mount& mount)
-    : pupil_(choice), choice_(choice), mount_(mount) {}
+    : pupil_(choice, mount), choice_(choice), mount_(mount) {}
 
 Result<std::unique_ptr<const LensModel>> TracedModel::make(const optics::Prescription& prescription,
                                                            const LensChoice& choice, const Mount& mount) {
@@ -231,41 +239,44 @@ std::vector<Point> TracedModel::outline(const Node& node, const FieldAxis& axis,
     return seen.size() < 3 ? iris : seen;
 }
 
-int TracedModel::bands_needed(const Node& node, const std::vector<Point>& outline,
-                              double coc_radius_px) const {
+TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<Point>& outline,
+                                            double coc_radius_px) const {
     const Displacement red = landing(map_at(node, 670), coc_radius_px),
                        blue = landing(map_at(node, 430), coc_radius_px),
-                       green = landing(map_at(node, 555), coc_radius_px);
+                       green = landing(map_at(node, kMiddle_nm), coc_radius_px);
+    Fineness fine;
     double spread_px = 0;
     for (std::size_t i = 0; i < outline.size(); i += 1 + outline.size() / 24) {
         const PupilPowers powers(outline[i]);
         const Point r = red.at(powers), g = green.at(powers), b = blue.at(powers);
         for (const Point& d : {r - g, g - b, b - r}) spread_px = std::max(spread_px, std::hypot(d.x, d.y));
+        for (const Point& p : {r, g, b}) fine.size_px = std::max(fine.size_px, std::hypot(p.x, p.y));
     }
-    if (choice_.wavelengths > 0) return choice_.wavelengths;
-    if (wavelength_nm_.size() < 3 || spread_px < kNoColourPx) return 1;
-    for (const int count : kLadder)
-        if (count * kBandStepPx >= spread_px) return count;
-    return kLadder[std::size(kLadder) - 1];
+    // Rays inside the rim may land farther out than the rim.
+    fine.size_px = std::max(fine.size_px, std::abs(coc_radius_px));
+    if (choice_.wavelengths > 0) {
+        fine.bands = choice_.wavelengths;
+    } else if (wavelength_nm_.size() >= 3 && spread_px >= kNoColourPx) {
+        fine.bands = kLadder[std::size(kLadder) - 1];
+        for (const int count : kLadder)
+            if (count * kBandStepPx >= spread_px) fine.bands = std::min(fine.bands, count);
+    }
+    return fine;
 }
 
 PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition field) const {
     const FieldAxis axis(field);
     const Node node = at(axis.size);
-    const double size = reach_px(coc_radius_px);
-    MeshPupil pupil;
-    pupil.outline = subdivided(outline(node, axis, field, mesh_tolerance(size)), mesh_step(size));
-    pupil.rings = mesh_rings(size);
+    const Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
     const RayMap middle = map_at(node, kMiddle_nm);
-    pupil.transmission = [&](Point p) {
-        const PupilPowers powers(p);
-        double light = 0;
-        for (std::size_t i = 0; i < middle.light.size(); ++i) light += middle.light[i] * powers.even[i];
-        return std::max(0.0, light);
+    MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(fine.size_px)),
+                                 fine.size_px, 2 * fine.size_px - std::abs(coc_radius_px));
+    pupil.transmission = [&](Point p, double half_width) {
+        const double light = light_at(middle, PupilPowers(p));
+        return pupil_.has_texture() ? light * pupil_.transmission(axis.from_axis(p), half_width) : light;
     };
     std::vector<MeshBand> bands;
-    for (const colour::SpectralBand& band :
-         colour::spectral_bands(bands_needed(node, pupil.outline, coc_radius_px))) {
+    for (const colour::SpectralBand& band : colour::spectral_bands(fine.bands)) {
         const Displacement px = landing(map_at(node, band.wavelength_nm), coc_radius_px);
         bands.push_back(
             {{band.r, band.g, band.b}, [this, px, axis](std::span<const Point> points, Point* landed) {
@@ -294,15 +305,14 @@ std::vector<PupilRay> TracedModel::rays(int count, FieldPosition field, std::uin
         const Point image = axis.from_axis(p);
         return Point{image.x, image.y * mount_.pixel_aspect};
     };
-    return spread_rays(
-        outline(node, axis, field, 1e-4), bands, count, seed, [&](std::size_t band, Point pupil) {
-            const PupilPowers powers(pupil);
-            double light = 0;
-            for (std::size_t i = 0; i < powers.even.size(); ++i)
-                light += maps[band].light[i] * powers.even[i];
-            return RayLanding{picture((1 / image_slope_) * maps[band].slope.at(powers)),
-                              picture(px_per_mm_ * maps[band].offset_mm.at(powers)), std::max(0.0, light)};
-        });
+    return spread_rays(outline(node, axis, field, 1e-4), bands, count, seed,
+                       [&](std::size_t band, Point pupil) {
+                           const PupilPowers powers(pupil);
+                           const double passed = pupil_.transmission(axis.from_axis(pupil), kRayWidth);
+                           return RayLanding{picture((1 / image_slope_) * maps[band].slope.at(powers)),
+                                             picture(px_per_mm_ * maps[band].offset_mm.at(powers)),
+                                             light_at(maps[band], powers) * passed};
+                       });
 }
 
 }  // namespace petzval::kernel

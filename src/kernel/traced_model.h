@@ -50,7 +50,11 @@ private:
     Displacement landing(const RayMap& map, double coc_radius_px) const;
     std::vector<Point> outline(const Node& node, const FieldAxis& axis, FieldPosition field,
                                double tolerance) const;
-    int bands_needed(const Node& node, const std::vector<Point>& outline, double coc_radius_px) const;
+    struct Fineness {
+        int bands = 1;
+        double size_px = 0;  // how far light lands
+    };
+    Fineness fineness(const Node& node, const std::vector<Point>& outline, double coc_radius_px) const;
     std::optional<Node> traced_node(const optics::TracedLens& lens, double field_rad) const;
 
     std::string description_;
