@@ -9,6 +9,7 @@ std::span<const Engine> engines() {
          run_gather},
         {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
          run_gaussian},
+        {"reference", "the definition of a correct result, traced through the lens; slow", run_reference},
     };
     return kEngines;
 }
