@@ -6,6 +6,7 @@
 #include "kernel/lens_model.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -79,6 +80,17 @@ private:
 Rgba finite_colour(Rgba c) {
     const auto fix = [](float v) { return std::isfinite(v) ? v : 0.0f; };
     return {fix(c.r), fix(c.g), fix(c.b), std::clamp(fix(c.a), 0.0f, 1.0f)};
+}
+
+bool is_finite(View<const Rgba> colour, int threads) {
+    std::atomic<bool> finite{true};
+    parallel_for(colour.height(), threads, [&](int y) {
+        bool row_finite = true;
+        for (int x = 0; x < colour.width(); ++x)
+            row_finite = row_finite && finite_colour(colour(x, y)) == colour(x, y);
+        if (!row_finite) finite = false;
+    });
+    return finite;
 }
 
 Picture finite_picture(View<const Rgba> colour, int threads) {
@@ -185,7 +197,9 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     if (!lenses) return lenses.error();
     const double lens_ready = seconds();
 
-    const Picture colour = finite_picture(job.colour, job.threads);
+    Picture repaired;  // stays empty for a picture that needs no repair
+    View<const Rgba> colour = job.colour;
+    if (!is_finite(colour, job.threads)) colour = repaired = finite_picture(job.colour, job.threads);
     const Plane coc_px = radii->of(job.depth_m, job.threads);
     Progress progress(job.progress);
     engine::Input input;
@@ -193,6 +207,12 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.coc_px = coc_px;
     const engine::CocSamples samples = all_samples(job, colour, *radii);
     if (!samples.first.empty()) input.deep = samples;
+    const auto note_radius = [&](float radius_px) {
+        input.nearest_coc_px = std::min(input.nearest_coc_px, radius_px);
+        input.farthest_coc_px = std::max(input.farthest_coc_px, radius_px);
+    };
+    for (std::size_t i = 0; i < coc_px.size(); ++i) note_radius(coc_px.pixels()[i]);
+    for (const engine::CocSample& sample : samples.samples) note_radius(sample.coc_px);
     input.open_edges = open_edges(job);
     input.field_centre_x = 0.5 * (job.display_window.x0 + job.display_window.x1) - job.data_window.x0;
     input.field_centre_y = 0.5 * (job.display_window.y0 + job.display_window.y1) - job.data_window.y0;
@@ -223,10 +243,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     report.stages = {{"kernels", lens_ready}, {"prepare", prepared - lens_ready}};
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
     report.warnings = std::move(output->warnings);
-    for (std::size_t i = 0; i < coc_px.size(); ++i) {
-        report.largest_radius_px = std::max(report.largest_radius_px, double(coc_px.pixels()[i]));
-        report.smallest_radius_px = std::min(report.smallest_radius_px, double(coc_px.pixels()[i]));
-    }
+    report.largest_radius_px = double(input.farthest_coc_px);
+    report.smallest_radius_px = double(input.nearest_coc_px);
     return report;
 }
 

@@ -46,12 +46,13 @@ struct Path {
 class Filler {
 public:
     Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
-           const Sparse<Mixture>& mixtures)
-        : colour_(colour), coc_(coc), connected_(connected), mixtures_(mixtures) {
-        for (const Mixture& m : mixtures.values) {
-            farthest_ = std::max(farthest_, m.far_coc_px);
-            largest_ = std::max(largest_, std::abs(m.near_coc_px));
-        }
+           const Sparse<Mixture>& mixtures, float largest, float farthest)
+        : colour_(colour),
+          coc_(coc),
+          connected_(connected),
+          mixtures_(mixtures),
+          farthest_(farthest),
+          largest_(largest) {
         clean_ = Plane::uninitialised(coc.width(), coc.height());
         for (int y = 0; y < coc.height(); ++y)
             for (int x = 0; x < coc.width(); ++x)
@@ -59,8 +60,6 @@ public:
         measure_distances();
         lay_paths();
     }
-
-    float widest_blur_px() const { return largest_ + std::abs(farthest_); }
 
     // What lies behind (x, y), if any surface nearby does.
     bool fill(int x, int y, std::vector<Hidden>& hidden) const {
@@ -251,7 +250,7 @@ private:
     Plane clean_;   // radius of pixels that touch no silhouette, else far in front
     Plane beyond_;  // see measure_distances
     std::array<Path, kDirections> paths_;
-    float farthest_ = 0, largest_ = 0;  // of silhouettes: radius behind, |radius| in front
+    float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
 };
 
 // Where blurs are wide, what is hidden is seen only through them: pixels of one surface then share what is
@@ -261,12 +260,14 @@ int sharing_step(float widest_blur_px) { return widest_blur_px < 40 ? 1 : widest
 }  // namespace
 
 HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
-                         const Sparse<Mixture>& mixtures, int threads) {
+                         const Sparse<Mixture>& mixtures, float nearest_coc_px, float farthest_coc_px,
+                         int threads) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
     if (mixtures.values.empty()) return layers;
-    const Filler filler(colour, coc, connected, mixtures);
-    const int step = sharing_step(filler.widest_blur_px());
+    const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
+    const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px);
+    const int step = sharing_step(std::abs(nearest_coc_px) + std::abs(farthest_coc_px));
     const int bands = (height + step - 1) / step;
     struct Range {
         int begin, end;

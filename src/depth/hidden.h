@@ -64,6 +64,7 @@ struct HiddenLayers {
 // 1/distance make it the mean-value interpolant (M. Floater, "Mean value coordinates", 2003) where directions
 // agree equally.
 HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc_px,
-                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures, int threads);
+                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
+                         float nearest_coc_px, float farthest_coc_px, int threads);
 
 }  // namespace petzval::depth

@@ -37,7 +37,8 @@ CocSamples completed(const Input& input) {
     if (!input.deep.empty()) return with_emptiness(stated_samples(input), input.colour);
     const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
     const auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
-    const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures, input.threads);
+    const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures,
+                                           input.nearest_coc_px, input.farthest_coc_px, input.threads);
 
     // Counted first, then written, so that rows can be done in parallel.
     const int width = input.width(), height = input.height();

@@ -82,6 +82,7 @@ struct Input {
     // pixel_aspect).
     double field_centre_x = 0, field_centre_y = 0, field_per_px = 0;
     double pixel_aspect = 1;
+    float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
     // The whole frame's height and the row of it that is row 0 here, when an engine works on part of a frame.
     int frame_height = 0, first_row = 0;
     // The lens on pixels 1, 2, 4, … times as wide: lens_levels[n]. At least one; the last stands for all
@@ -101,6 +102,17 @@ struct Input {
 
     int width() const { return colour.width(); }
     int height() const { return colour.height(); }
+    // Rows y0…y1-1 as an input of their own. The edges towards the other rows count as open.
+    Input rows(int y0, int y1) const {
+        Input part = *this;
+        const Rect r{0, y0, width(), y1};
+        part.colour = colour.part(r), part.coc_px = coc_px.part(r);
+        part.deep = deep.rows(y0, y1);
+        part.field_centre_y -= y0, part.first_row += y0;
+        if (y0 > 0) part.open_edges.top = true;
+        if (y1 < height()) part.open_edges.bottom = true;
+        return part;
+    }
     const kernel::LensModel& lens(int level) const {
         return *lens_levels[std::min(std::size_t(level), lens_levels.size() - 1)];
     }

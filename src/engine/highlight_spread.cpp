@@ -16,7 +16,7 @@ using kernel::PointSpread;
 // by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
 constexpr float kOwnSurfacePx = 0.02f;
 constexpr int kBlock = 16;
-constexpr float kBrightDisc = 0.05f;  // share of white
+constexpr float kBrightDisc = 0.02f;  // share of white
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
 // Smallest radius of any sample in each block of pixels.
@@ -46,11 +46,13 @@ private:
 // disc, or equal parts of them where the disc has few.
 class PupilShadow {
 public:
-    explicit PupilShadow(float coc_px)
+    // Squares of an even number of pixels have their middle, and so the middle of their taps, between two
+    // pixels.
+    PupilShadow(float coc_px, bool between)
         : scale_(coc_px < 0 ? std::min(coc_px, -0.5f) : std::max(coc_px, 0.5f)),
-          reach_(int(std::floor(std::abs(coc_px) + 0.5f))),
-          parts_(std::max(1, kLeastCells / (2 * reach_ + 1))),
-          covered_((2 * reach_ + 1) * parts_, (2 * reach_ + 1) * parts_) {}
+          taps_(2 * int(std::floor(std::abs(coc_px) + 0.5f)) + (between ? 2 : 1)),
+          parts_(std::max(1, kLeastCells / taps_)),
+          covered_(taps_ * parts_, taps_ * parts_) {}
 
     // A square of the given side around (u, v), in pupil radii. `side` is small against the whole pupil.
     void cover(float u, float v, float side, float coverage) {
@@ -70,10 +72,11 @@ public:
         }
     }
 
-    // The share of the rays to the tap at offset (dx, dy) that nothing stops.
+    // The share of the rays to a tap that nothing stops; (dx, dy) counts from the first tap of the disc's
+    // square.
     float visible(int dx, int dy) const {
-        const int x0 = (std::clamp(dx, -reach_, reach_) + reach_) * parts_;
-        const int y0 = (std::clamp(dy, -reach_, reach_) + reach_) * parts_;
+        const int x0 = std::clamp(dx, 0, taps_ - 1) * parts_;
+        const int y0 = std::clamp(dy, 0, taps_ - 1) * parts_;
         float inside = 0, inside_count = 0, all = 0;
         for (int y = y0; y < y0 + parts_; ++y)
             for (int x = x0; x < x0 + parts_; ++x) {
@@ -88,8 +91,8 @@ public:
 
 private:
     static constexpr int kLeastCells = 16;
-    float scale_;        // signed radius, as taps count it
-    int reach_, parts_;  // taps on either side of the middle; cells along a tap
+    float scale_;       // signed radius, as taps count it
+    int taps_, parts_;  // along a side of the disc's square; cells along a tap
     Plane covered_;
 };
 
@@ -162,7 +165,7 @@ public:
         const auto& chosen = on_disc > kBrightDisc * white_ ? fine_banks_[bank] : banks_[bank];
         auto open = chosen->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
         if (blocks_.overall() >= h.coc_px - kOwnSurfacePx) return open;
-        PupilShadow shadow(h.coc_px);
+        PupilShadow shadow(h.coc_px, h.size % 2 == 0);
         if (!collect(h, shadow)) return open;
         return std::make_shared<const PointSpread>(dimmed(*open, h, shadow));
     }
@@ -189,6 +192,8 @@ private:
 
     bool collect_block(const Highlight& h, int bx, int by, PupilShadow& shadow) const {
         bool any = false;
+        // Taps at the rim of the disc reach beyond it by half their width.
+        const float pupil_end = stretch_ + (0.5f + 0.5f * float(h.size)) / std::max(0.5f, std::abs(h.coc_px));
         const Rect r = Rect{bx * kBlock, by * kBlock, (bx + 1) * kBlock, (by + 1) * kBlock}.intersected(
             {0, 0, samples_.width, samples_.height()});
         const CocSamplesView view = samples_;
@@ -198,13 +203,16 @@ private:
                     const float apart = h.coc_px - s.coc_px;
                     if (apart < kOwnSurfacePx) break;  // nearest first
                     const float per_px = 1 / apart;
-                    const float middle = 0.5f * float(h.size - 1), side = float(h.size) * per_px;
+                    const float middle = 0.5f * float(h.size - 1);
                     const float u = (float(x - h.x) - middle) * per_px,
                                 v = (float(y - h.y) - middle) * per_px;
-                    if (std::max(std::abs(u), std::abs(v)) - 0.5f * side >= stretch_) continue;
-                    // From every pixel of the highlight a square of per_px; on average, a wider and thinner
-                    // one.
-                    shadow.cover(u, v, side, s.colour.a / float(h.size * h.size));
+                    // A tap sees each pixel of the highlight through another place of the sample's plane,
+                    // wider apart the further that plane is from focus.
+                    const float smear =
+                        1 + float(h.size - 1) * std::abs(s.coc_px) / std::max(1.0f, std::abs(h.coc_px));
+                    const float side = smear * per_px;
+                    if (std::max(std::abs(u), std::abs(v)) - 0.5f * side >= pupil_end) continue;
+                    shadow.cover(u, v, side, s.colour.a / (smear * smear));
                     any = true;
                 }
         return any;
@@ -212,11 +220,12 @@ private:
 
     static PointSpread dimmed(const PointSpread& open, const Highlight& h, const PupilShadow& shadow) {
         const Rect e = open.extent;
-        const int middle = (h.size - 1) / 2;
+        // Offset of the first tap of the disc's square from the highlight's first pixel.
+        const int first = h.size / 2 - (h.size % 2 == 0 ? 1 : 0) - int(std::floor(std::abs(h.coc_px) + 0.5f));
         PointSpread result{e, open.weights.clone(), open.neutral};
         for (int y = 0; y < e.height(); ++y)
             for (int x = 0; x < e.width(); ++x)
-                result.weights(x, y) *= shadow.visible(x + e.x0 - middle, y + e.y0 - middle);
+                result.weights(x, y) *= shadow.visible(x + e.x0 - first, y + e.y0 - first);
         return result;
     }
 
@@ -229,13 +238,14 @@ private:
     float white_;
 };
 
-void add(const PointSpread& spread, const Highlight& h, const Rect& rows, View<Rgba> out) {
+// out: rows of the picture from first_row on; only those of `rows` are written.
+void add(const PointSpread& spread, const Highlight& h, const Rect& rows, int first_row, View<Rgba> out) {
     const Rect e = spread.extent;
     const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
     const Rgba light = h.colour * float(h.size * h.size);
     for (int y = place.y0; y < place.y1; ++y) {
         const Rgba* weights = spread.weights.row(y - h.y - e.y0) - h.x - e.x0;
-        Rgba* sums = out.row(y);
+        Rgba* sums = out.row(y - first_row);
         for (int x = place.x0; x < place.x1; ++x) sums[x] += weights[x] * light;
     }
 }
@@ -243,9 +253,12 @@ void add(const PointSpread& spread, const Highlight& h, const Rect& rows, View<R
 }  // namespace
 
 void spread_highlights(const Input& input, const CocSamples& samples,
-                       const std::vector<Highlight>& highlights, float white, View<Rgba> out) {
+                       const std::vector<Highlight>& highlights, float white, const Rect& rows,
+                       View<Rgba> out) {
     if (highlights.empty()) return;
     const Spreader spreader(input, samples, white);
+    const float largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
+    const Rect sending = rows.grown(int(std::ceil(input.lens(0).reach_px(double(largest)))) + 1 + kSizes[3]);
     // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
     // threads.
     for (std::size_t begin = 0; begin < highlights.size() && !input.progress->cancelled();) {
@@ -254,12 +267,15 @@ void spread_highlights(const Input& input, const CocSamples& samples,
             bytes += std::size_t(4 * highlights[end].coc_px * highlights[end].coc_px + 9) * sizeof(Rgba);
         std::vector<std::shared_ptr<const PointSpread>> kernels(end - begin);
         parallel_for(int(kernels.size()), input.threads, [&](int i) {
-            kernels[std::size_t(i)] = spreader.kernel(highlights[begin + std::size_t(i)]);
+            const Highlight& h = highlights[begin + std::size_t(i)];
+            if (h.y >= sending.y0 && h.y < sending.y1) kernels[std::size_t(i)] = spreader.kernel(h);
         });
         constexpr int kBand = 32;
         parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
-            const Rect rows = Rect{0, band * kBand, out.width(), (band + 1) * kBand}.intersected(out.rect());
-            for (std::size_t i = begin; i < end; ++i) add(*kernels[i - begin], highlights[i], rows, out);
+            const int y = rows.y0 + band * kBand;
+            const Rect here = Rect{0, y, out.width(), y + kBand}.intersected(rows);
+            for (std::size_t i = begin; i < end; ++i)
+                if (kernels[i - begin]) add(*kernels[i - begin], highlights[i], here, rows.y0, out);
         });
         begin = end;
     }

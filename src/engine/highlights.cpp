@@ -42,7 +42,7 @@ float box_mean(View<const float> cells, int cx, int cy, int reach) {
 
 HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
                                int threads)
-    : rule_(rule) {
+    : rule_(rule), width_(picture.width()), height_(picture.height()) {
     find_contested(coc_px, threads);
     const Plane reciprocal = reciprocal_cells(picture, kCell, threads);
     surroundings_ = Plane(reciprocal.width(), reciprocal.height());
@@ -53,9 +53,15 @@ HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_p
             surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
         }
     });
+    // Rows are summed on their own, then in order: the same bits for any threads.
+    std::vector<double> rows(static_cast<std::size_t>(picture.height()));
+    parallel_for(picture.height(), threads, [&](int y) {
+        for (int x = 0; x < picture.width(); ++x)
+            rows[std::size_t(y)] += double(std::max(0.0f, luminance(picture(x, y))));
+    });
     double sum = 0;
-    for (std::size_t i = 0; i < surroundings_.size(); ++i) sum += double(surroundings_.pixels()[i]);
-    white_ = float(4 * sum / double(surroundings_.size()));
+    for (const double row : rows) sum += row;
+    white_ = float(4 * sum / (double(picture.width()) * picture.height()));
 }
 
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all
@@ -84,10 +90,15 @@ void HighlightSplit::find_contested(View<const float> coc_px, int threads) {
 }
 
 float HighlightSplit::floor_at(int x, int y, float coc_px) const {
-    const bool contested = coc_px > contested_(x / kBlock, y / kBlock);
-    if (contested) return white_ * rule_.contested_floor;
     const float radius = std::abs(coc_px);
-    return white_ * std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
+    const float open = std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
+    // The base goes on beyond the frame, highlights do not: near its edge only true ones count. The outermost
+    // pixels, which stand for what lies beyond, are to show no lamp.
+    const int to_edge = std::min(std::min(x, width_ - 1 - x), std::min(y, height_ - 1 - y));
+    const bool contested = coc_px > contested_(x / kBlock, y / kBlock) && float(to_edge) >= radius + 1;
+    if (!contested && to_edge > 0) return white_ * open;
+    constexpr float kRisesFromPx = 8;  // a wide disc of little light shows no shadow
+    return white_ * std::min(open, rule_.contested_floor * std::max(1.0f, radius / kRisesFromPx));
 }
 
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
@@ -117,7 +128,8 @@ struct Taken {
 // squares.
 class Block {
 public:
-    Block(int x, int y) : x_(x), y_(y) {}
+    // The block's first pixel; rows count from first_row of the picture.
+    Block(int x, int y, int first_row) : x_(x), y_(y), first_row_(first_row) {}
 
     bool empty() const { return empty_; }
     void put(int x, int y, float coc_px, const Taken& taken) {
@@ -139,7 +151,8 @@ public:
                 });
                 // A wide square in a small disc would smear the shadows that nearer things throw into it.
                 const bool narrow = float(size) * kSquaresPerRadius <= std::abs(coc);
-                if (!all || !narrow || split.may_stay(x_ + x, y_ + y, coc, luminance(common))) continue;
+                if (!all || !narrow || split.may_stay(x_ + x, first_row_ + y_ + y, coc, luminance(common)))
+                    continue;
                 for_square(x, y, size, [&](Cell& c) { c.taken.colour -= common; });
                 out.push_back({x_ + x, y_ + y, size, coc, common});
             }
@@ -150,7 +163,7 @@ public:
             for (int x = 0; x < kLargestSquare; ++x) {
                 const Cell& c = cell(x, y);
                 if (!c.lit || c.taken.colour == Rgba{}) continue;
-                if (split.may_stay(x_ + x, y_ + y, c.coc_px, luminance(c.taken.colour)) &&
+                if (split.may_stay(x_ + x, first_row_ + y_ + y, c.coc_px, luminance(c.taken.colour)) &&
                     samples.samples[c.taken.sample].colour.a > kLeastAlpha)
                     samples.samples[c.taken.sample].colour += c.taken.colour;
                 else
@@ -170,15 +183,15 @@ private:
         for (int y = y0; y < y0 + size; ++y)
             for (int x = x0; x < x0 + size; ++x) visit(cell(x, y));
     }
-    int x_, y_;
+    int x_, y_, first_row_;
     bool empty_ = true;
     Cell cells_[kLargestSquare * kLargestSquare];
 };
 
 }  // namespace
 
-std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int largest_square,
-                                       int threads) {
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
+                                       int largest_square, int threads) {
     const int width = samples.width, height = samples.height();
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Highlight>> found(static_cast<std::size_t>(bands));
@@ -186,14 +199,14 @@ std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit
         std::vector<Highlight>& out = found[std::size_t(band)];
         const int y0 = band * kLargestSquare;
         for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
-            Block block(x0, y0);
+            Block block(x0, y0, first_row);
             for (int y = y0; y < std::min(height, y0 + kLargestSquare); ++y)
                 for (int x = x0; x < std::min(width, x0 + kLargestSquare); ++x) {
                     const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
                     bool in_block = false;
                     for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
                         CocSample& sample = samples.samples[k];
-                        const Rgba base = split.base(x, y, sample.coc_px, sample.colour);
+                        const Rgba base = split.base(x, first_row + y, sample.coc_px, sample.colour);
                         if (base == sample.colour) continue;
                         const Rgba taken = sample.colour - base;
                         sample.colour = base;

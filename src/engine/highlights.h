@@ -17,16 +17,16 @@ struct Highlight {
 
 // What light counts as a highlight: luminance above
 //     factor * surroundings + white * max(least_floor, floor_at_1px * radius^1.5)
-// (scene-linear; light of coverage a is compared with a times that), white being four times the mean of the
-// surroundings over the picture: highlights are a matter of contrast, not of exposure. The floor rises with
-// the radius because a wider disc hides more of what the levels blur (docs/design/scatter.md gives the law).
+// (scene-linear; light of coverage a is compared with a times that), white being four times the picture's
+// mean: highlights are a matter of contrast, not of exposure. The floor rises with the radius because a wider
+// disc hides more of what the levels blur (docs/design/scatter.md gives the law).
 struct HighlightRule {
     float factor = 2;
     float least_floor = 1;
     float floor_at_1px = 0.006f;
     // The least floor where nearer things stand in the way of the lens: their shadows are exact in highlights
     // only.
-    float contested_floor = 0.25f;
+    float contested_floor = 0.15f;
 };
 
 // Splits light where it stands out of its surroundings:  base + highlight = light. The surroundings are the
@@ -50,6 +50,7 @@ private:
     void find_contested(View<const float> coc_px, int threads);
 
     HighlightRule rule_;
+    int width_, height_;
     float white_ = 0;
     Plane surroundings_;  // per cell of kCell x kCell pixels
     static constexpr int kCell = 4;
@@ -59,8 +60,9 @@ private:
 
 // Splits every sample in place; returns what was taken. Bright areas are taken as few squares: what all
 // pixels of a square of 8, then 4, then 2 have in common goes first, and what is then left of a pixel and no
-// longer stands out stays in the base. largest_square = 1 takes pixels alone.
-std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int largest_square,
-                                       int threads);
+// longer stands out stays in the base. largest_square = 1 takes pixels alone. `samples` are rows of the
+// picture that `split` was made for, from first_row (a multiple of 8) on; highlights count rows from there.
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
+                                       int largest_square, int threads);
 
 }  // namespace petzval::engine

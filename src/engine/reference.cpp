@@ -246,7 +246,7 @@ Result<Output> run_reference(const Input& input) {
 
     CocSamples samples = stated_samples(input);
     const HighlightSplit split(input.colour, input.coc_px, kHighlights, input.threads);
-    const std::vector<Highlight> highlights = take_highlights(samples, split, 1, input.threads);
+    const std::vector<Highlight> highlights = take_highlights(samples, split, 0, 1, input.threads);
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
     const Surfaces surfaces = Surfaces::make(samples, input.open_edges, margin, input.threads);

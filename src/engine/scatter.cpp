@@ -7,12 +7,16 @@
 #include "engine/sources.h"
 #include "engine/tile_spread.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <string>
 
 namespace petzval::engine {
 namespace {
 
 constexpr int kTile = 64;
+constexpr int kLargestSquare = 8;  // of highlights
 
 LevelRule level_rule(Quality quality) {
     switch (quality) {
@@ -26,52 +30,120 @@ LevelRule level_rule(Quality quality) {
     return {};
 }
 
-// Times the stages of a run.
+// Times the stages of a run; a stage that comes again adds to its time.
 class Stopwatch {
 public:
-    void lap(const char* stage, std::vector<StageTime>& stages) {
+    explicit Stopwatch(std::vector<StageTime>& stages) : stages_(stages) {}
+    void lap(const char* stage) {
         const auto now = std::chrono::steady_clock::now();
-        stages.push_back({stage, std::chrono::duration<double>(now - last_).count()});
+        const double seconds = std::chrono::duration<double>(now - last_).count();
         last_ = now;
+        for (StageTime& known : stages_)
+            if (known.stage == stage) {
+                known.seconds += seconds;
+                return;
+            }
+        stages_.push_back({stage, seconds});
     }
 
 private:
+    std::vector<StageTime>& stages_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+// Frames are done in strips of rows, each with as many rows around it as can influence it, so that memory is
+// bounded; strips begin on whole tiles and whole cells of every level, so that they change no bit.
+struct StripPlan {
+    int rows = 0, halo = 0;
+};
+
+constexpr std::size_t kBytesPerPixel = 160;  // of working memory, measured on the built-in scenes
+constexpr std::size_t kDefaultWorkingBytes = std::size_t(1400) << 20;
+constexpr std::size_t kFixedWorkingBytes = std::size_t(100) << 20;  // kernels, tables, code
+
+Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule) {
+    const double largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
+    const int coarsest =
+        std::max(0, int(std::ceil(std::log2(std::max(1.0, largest / double(rule.largest_cells))))));
+    const int unit = std::max(kTile, 1 << coarsest);
+    const auto whole_units = [unit](double rows) {
+        return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
+    };
+    StripPlan plan;
+    // What is spread onto a row, and beyond that what decides what lies hidden there.
+    const double reach = std::min(input.lens(0).reach_px(largest), double(input.height()));
+    plan.halo =
+        whole_units(1.2 * reach + 4.0 * (1 << coarsest) + 2 * std::min(largest, double(input.height())) + 16);
+    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
+    // The caller's colour and depth, the radii and the result exist besides.
+    const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) + kFixedWorkingBytes;
+    std::size_t working = kDefaultWorkingBytes;
+    if (input.max_memory_bytes > 0)
+        working = input.max_memory_bytes > held ? input.max_memory_bytes - held : 0;
+    const std::size_t row_bytes = kBytesPerPixel * std::size_t(input.width());
+    const std::size_t rows = working / row_bytes;
+    if (rows >= std::size_t(input.height())) {
+        plan.rows = whole_units(input.height());
+        return plan;
+    }
+    const std::ptrdiff_t own = std::ptrdiff_t(rows) - 2 * plan.halo;
+    plan.rows = int(std::max<std::ptrdiff_t>(unit, own / unit * unit));
+    const std::size_t least = std::min(std::size_t(unit + 2 * plan.halo), std::size_t(input.height()));
+    if (input.max_memory_bytes > 0 && rows < least)
+        return Error{ErrorCode::OutOfMemory,
+                     "--max-memory " + std::to_string(input.max_memory_bytes >> 20) +
+                         "M is too little for this picture and blur; it takes at least " +
+                         std::to_string((held + least * row_bytes) / (std::size_t(1) << 20) + 1) + "M"};
+    return plan;
+}
+
+// Rows y0…y1-1 of the result. `share` of the progress.
+void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRule& rule,
+                  const StampTable& table, const Rect& rows, int halo, double share, Stopwatch& watch,
+                  View<Rgba> out) {
+    const int first = std::max(0, rows.y0 - halo), last = std::min(frame.height(), rows.y1 + halo);
+    const Input input = frame.rows(first, last);
+    CocSamples samples = completed(input);
+    watch.lap("complete");
+    const std::vector<Highlight> highlights =
+        take_highlights(samples, split, first, kLargestSquare, input.threads);
+    watch.lap("split");
+    const std::vector<SourceLevel> levels =
+        make_sources(samples, input.coc_px, input.open_edges, rule, input.threads);
+    watch.lap("sources");
+
+    const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;
+    const Rect here{0, rows.y0 - first, rows.width(), rows.y1 - first};  // in the rows of `input`
+    parallel_for(tiles_x * tiles_y, input.threads, [&](int i) {
+        if (input.progress->cancelled()) return;
+        const int x = i % tiles_x * kTile, y = here.y0 + i / tiles_x * kTile;
+        spread_tile(levels, table, Rect{x, y, x + kTile, y + kTile}.intersected(here), first, out);
+        input.progress->advance(0.9 * share / (tiles_x * tiles_y));
+    });
+    watch.lap("spread");
+    spread_highlights(input, samples, highlights, split.white(), here, out.part(rows));
+    watch.lap("highlights");
+    input.progress->advance(0.1 * share);
+}
 
 }  // namespace
 
 Result<Output> run_scatter(const Input& input) {
     Output output;
-    Stopwatch watch;
+    Stopwatch watch(output.stages);
     const LevelRule rule = level_rule(input.quality);
-    CocSamples samples = completed(input);
-    watch.lap("complete", output.stages);
-
+    const Result<StripPlan> plan = plan_strips(input, rule);
+    if (!plan) return plan.error();
     const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
-    const std::vector<Highlight> highlights = take_highlights(samples, split, 8, input.threads);
-    watch.lap("split", output.stages);
-
-    const std::vector<SourceLevel> levels =
-        make_sources(samples, input.coc_px, input.open_edges, rule, input.threads);
-    watch.lap("sources", output.stages);
-
+    watch.lap("split");
     output.image = Picture::uninitialised(input.width(), input.height());
-    const StampTable table(input, int(levels.size()), rule.largest_radius());
-    const int tiles_x = (input.width() + kTile - 1) / kTile, tiles_y = (input.height() + kTile - 1) / kTile;
-    parallel_for(tiles_x * tiles_y, input.threads, [&](int i) {
-        if (input.progress->cancelled()) return;
-        const int x = i % tiles_x * kTile, y = i / tiles_x * kTile;
-        spread_tile(levels, table, Rect{x, y, x + kTile, y + kTile}.intersected(output.image.rect()),
-                    output.image);
-        input.progress->advance(0.9 / (tiles_x * tiles_y));
-    });
-    watch.lap("spread", output.stages);
-
-    spread_highlights(input, samples, highlights, split.white(), output.image);
-    watch.lap("highlights", output.stages);
+    const StampTable table(input, rule.largest_radius());
+    for (int y = 0; y < input.height() && !input.progress->cancelled(); y += plan->rows) {
+        const Rect rows = Rect{0, y, input.width(), y + plan->rows}.intersected(output.image.rect());
+        scatter_rows(input, split, rule, table, rows, plan->halo, double(rows.height()) / input.height(),
+                     watch, output.image);
+    }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
-    input.progress->advance(0.1);
     return output;
 }
 

@@ -15,13 +15,6 @@ float level_position(float coc_px, const LevelRule& rule) {
     return r <= rule.largest_cells ? 0.0f : std::log2(r / rule.largest_cells);
 }
 
-// The share of a source of radius coc_px that is spread on level l. Shares of all levels sum to 1.
-float share_on_level(float coc_px, int l, const LevelRule& rule) {
-    const float at = level_position(coc_px, rule);
-    const auto passed = [&](int level) { return std::clamp((at - float(level)) / rule.fade, 0.0f, 1.0f); };
-    return (l == 0 ? 1.0f : passed(l - 1)) - passed(l);
-}
-
 constexpr float kOpaque = 0.97f;
 
 bool is_emptiness(const CocSample& s) { return s.colour == Rgba{}; }
@@ -45,78 +38,123 @@ float narrowed(float coc_px, int size) {
 class Cell {
 public:
     void add(int layer, Rgba light, float coc_px, depth::Slope tilt) {
-        Sum* sum = nullptr;
-        for (Sum& s : sums_)
-            if (s.layer == layer) sum = &s;
-        if (!sum) sum = &sums_.emplace_back(Sum{layer, {}, 0, 0, 0});
-        sum->light += light;
-        sum->coc += light.a * coc_px, sum->tilt_x += light.a * tilt.x, sum->tilt_y += light.a * tilt.y;
+        Sum& sum = of_layer(layer);
+        sum.light += light;
+        sum.coc += light.a * coc_px, sum.tilt_x += light.a * tilt.x, sum.tilt_y += light.a * tilt.y;
     }
+    // Appends the sums as sources at cell x of a level with cells of size x size pixels, and starts anew.
     void flush(int x, int size, std::vector<Source>& row) {
-        for (const Sum& s : sums_) {
-            if (s.light.a <= 0) continue;
-            const float mean = 1 / s.light.a, cells = 1 / float(size);
-            row.push_back({s.light * (cells * cells), narrowed(s.coc * mean, size) * cells,
-                           s.tilt_x * mean * float(size), s.tilt_y * mean * float(size), x, s.layer});
-        }
-        sums_.clear();
+        if (first_.light.a > 0) row.push_back(source(first_, x, size));
+        for (const Sum& s : more_)
+            if (s.light.a > 0) row.push_back(source(s, x, size));
+        first_ = {}, more_.clear();
     }
 
 private:
     struct Sum {
-        int layer;
+        int layer = kNone;
         Rgba light;
-        float coc, tilt_x, tilt_y;
+        float coc = 0, tilt_x = 0, tilt_y = 0;
     };
-    std::vector<Sum> sums_;
+    static constexpr int kNone = std::numeric_limits<int>::min();
+
+    Sum& of_layer(int layer) {
+        if (first_.layer == layer || first_.layer == kNone) {
+            first_.layer = layer;
+            return first_;
+        }
+        for (Sum& s : more_)
+            if (s.layer == layer) return s;
+        more_.push_back({layer, {}, 0, 0, 0});
+        return more_.back();
+    }
+    static Source source(const Sum& s, int x, int size) {
+        const float mean = 1 / s.light.a, cells = 1 / float(size);
+        return {s.light * (cells * cells),
+                narrowed(s.coc * mean, size) * cells,
+                s.tilt_x * mean * float(size),
+                s.tilt_y * mean * float(size),
+                x,
+                s.layer};
+    }
+
+    Sum first_;
+    std::vector<Sum> more_;
 };
 
+// Visits every sample once and hands it to its level, or to two where one fades into the next.
 class Maker {
 public:
-    Maker(const CocSamples& samples, View<const float> coc_px, const OpenEdges& open, const LevelRule& rule,
-          int threads)
-        : samples_(samples),
-          coc_px_(coc_px),
-          open_(open),
-          rule_(rule),
-          connected_(depth::connections(coc_px, threads)) {}
+    Maker(const CocSamples& samples, View<const float> coc_px, const LevelRule& rule, int threads)
+        : samples_(samples), coc_px_(coc_px), rule_(rule), connected_(depth::connections(coc_px, threads)) {}
 
-    // Calls emit(layer, light, coc_px, tilt) for each sample of pixel (x, y), clamped to the picture.
-    template <typename Emit>
-    void at(int x, int y, int level, const Emit& emit) const {
-        const int width = coc_px_.width(), height = coc_px_.height();
-        const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
-        // Beyond a closed edge there is emptiness, beyond an open one the outermost pixels are repeated.
-        const bool outside = (u != x && !(x < 0 ? open_.left : open_.right)) ||
-                             (v != y && !(y < 0 ? open_.top : open_.bottom));
+    // Pixel (x, y), clamped to the picture; put(level, layer, light, coc_px, tilt).
+    template <typename Put>
+    void visit(int x, int y, const Put& put) const {
+        const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
         // What an opaque sample of the same pixel hides comes after it, also where both fall into one
         // interval.
         int least_layer = std::numeric_limits<int>::min();
         for (const CocSample& s : samples_.at(u, v)) {
-            const bool empty = outside || is_emptiness(s);
+            const bool empty = is_emptiness(s);
             const int layer = empty ? kEmptyLayer : std::max(least_layer, layer_of(s.coc_px));
-            if (s.colour.a > kOpaque && layer < kEmptyLayer) least_layer = layer + 1;
-            const float share = share_on_level(s.coc_px, level, rule_);
-            if (share <= 0) continue;
-            if (empty) {
-                emit(kEmptyLayer, Rgba{0, 0, 0, share}, s.coc_px, depth::Slope{});
-                if (outside) break;
-                continue;
-            }
+            if (s.colour.a > kOpaque) least_layer = layer + 1;
             // Only what is seen has a known slope.
-            const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
+            const bool visible = !empty && std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
             const depth::Slope slope = visible ? depth::slope_at(coc_px_, connected_, u, v) : depth::Slope{};
-            emit(layer, share * s.colour, s.coc_px, tilt_of(slope, s.coc_px));
+            const Rgba light = empty ? Rgba{0, 0, 0, 1} : s.colour;
+            const float at = level_position(s.coc_px, rule_);
+            const int level = int(std::ceil(at));
+            const float share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule_.fade);
+            put(level, layer, share * light, s.coc_px, tilt_of(slope, s.coc_px));
+            if (share < 1) put(level - 1, layer, (1 - share) * light, s.coc_px, tilt_of(slope, s.coc_px));
         }
     }
 
 private:
     CocSamplesView samples_;
     View<const float> coc_px_;
-    OpenEdges open_;
     LevelRule rule_;
     Image<unsigned char> connected_;
 };
+
+// Beyond an open edge the outermost cells are repeated, beyond a closed one there is emptiness.
+void add_margins(SourceLevel& level, int margin, const OpenEdges& open, int threads) {
+    const int width = level.area.width() - 2 * margin, height = level.area.height() - 2 * margin;
+    const auto copy_of = [](Source s, int x, bool is_open) {
+        s.x = x;
+        if (!is_open) s.light = {0, 0, 0, s.light.a}, s.layer = kEmptyLayer, s.tilt_x = s.tilt_y = 0;
+        return s;
+    };
+    parallel_for(height, threads, [&](int y) {
+        std::vector<Source>& row = level.rows[std::size_t(y + margin)];
+        std::vector<Source> whole;
+        whole.reserve(row.size() + 4 * std::size_t(margin));
+        const auto repeat = [&](int from_x, int x0, int x1, bool is_open) {
+            for (int x = x0; x < x1; ++x)
+                for (const Source& s : row)
+                    if (s.x == from_x) whole.push_back(copy_of(s, x, is_open));
+        };
+        // Only the few sources at the ends are looked at: rows ascend in x.
+        const std::vector<Source> all = std::move(row);
+        std::size_t head = 0, tail = all.size();
+        while (head < all.size() && all[head].x == 0) ++head;
+        while (tail > 0 && all[tail - 1].x == width - 1) --tail;
+        row.assign(all.begin(), all.begin() + std::ptrdiff_t(head));
+        repeat(0, -margin, 0, open.left);
+        whole.insert(whole.end(), all.begin(), all.end());
+        row.assign(all.begin() + std::ptrdiff_t(tail), all.end());
+        repeat(width - 1, width, width + margin, open.right);
+        row = std::move(whole);
+    });
+    for (int k = 0; k < margin; ++k) {
+        const auto& top = level.rows[std::size_t(margin)];
+        const auto& bottom = level.rows[std::size_t(margin + height - 1)];
+        for (const Source& s : top) level.rows[std::size_t(k)].push_back(copy_of(s, s.x, open.top));
+        for (const Source& s : bottom)
+            level.rows[std::size_t(margin + height + k)].push_back(copy_of(s, s.x, open.bottom));
+    }
+}
 
 }  // namespace
 
@@ -134,35 +172,44 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
                                       const OpenEdges& open, const LevelRule& rule, int threads) {
     float largest = 0;
     for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
-    const Maker maker(samples, coc_px, open, rule, threads);
-    std::vector<SourceLevel> levels(1 + std::size_t(std::ceil(level_position(largest, rule))));
-    for (int l = 0; l < int(levels.size()); ++l) {
-        SourceLevel& level = levels[std::size_t(l)];
-        const int size = 1 << l;
-        const int margin = int(std::ceil(rule.largest_radius())) + 3;
-        level.area =
-            Rect{0, 0, (coc_px.width() + size - 1) / size, (coc_px.height() + size - 1) / size}.grown(margin);
-        level.rows.resize(std::size_t(level.area.height()));
-        parallel_for(level.area.height(), threads, [&](int i) {
-            std::vector<Source>& row = level.rows[std::size_t(i)];
-            const int cy = level.area.y0 + i;
-            Cell cell;
-            for (int cx = level.area.x0; cx < level.area.x1; ++cx) {
-                if (l == 0) {
-                    maker.at(cx, cy, 0, [&](int layer, Rgba light, float coc, depth::Slope tilt) {
-                        row.push_back({light, coc, tilt.x, tilt.y, cx, layer});
-                    });
-                    continue;
-                }
-                for (int y = cy * size; y < (cy + 1) * size; ++y)
-                    for (int x = cx * size; x < (cx + 1) * size; ++x)
-                        maker.at(x, y, l, [&](int layer, Rgba light, float coc, depth::Slope tilt) {
-                            cell.add(layer, light, coc, tilt);
-                        });
-                cell.flush(cx, size, row);
-            }
-        });
+    const Maker maker(samples, coc_px, rule, threads);
+    const int coarsest = int(std::ceil(level_position(largest, rule)));
+    const int margin = int(std::ceil(rule.largest_radius())) + 3;
+    const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
+    std::vector<SourceLevel> levels(std::size_t(coarsest) + 1);
+    for (int l = 0; l <= coarsest; ++l) {
+        levels[std::size_t(l)].area =
+            Rect{0, 0, cells(coc_px.width(), l), cells(coc_px.height(), l)}.grown(margin);
+        levels[std::size_t(l)].rows.resize(std::size_t(levels[std::size_t(l)].area.height()));
     }
+    // A band of rows as tall as the largest cell is done by one thread.
+    const int band_height = 1 << coarsest;
+    parallel_for(cells(coc_px.height(), coarsest), threads, [&](int band) {
+        std::vector<std::vector<Cell>> row_cells(
+            levels.size());  // of the row of cells under way, per coarse level
+        for (int l = 1; l <= coarsest; ++l)
+            row_cells[std::size_t(l)].resize(std::size_t(cells(coc_px.width(), l)));
+        for (int y = band * band_height; y < (band + 1) * band_height; ++y) {
+            for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
+                maker.visit(x, y, [&](int l, int layer, Rgba light, float coc, depth::Slope tilt) {
+                    if (l > 0) {
+                        if (std::size_t(x >> l) < row_cells[std::size_t(l)].size())
+                            row_cells[std::size_t(l)][std::size_t(x >> l)].add(layer, light, coc, tilt);
+                    } else if (x < coc_px.width() && y < coc_px.height()) {
+                        levels[0].rows[std::size_t(y + margin)].push_back(
+                            {light, coc, tilt.x, tilt.y, x, layer});
+                    }
+                });
+            for (int l = 1; l <= coarsest; ++l) {
+                const int row = y >> l;
+                if ((y + 1) % (1 << l) != 0 || row >= cells(coc_px.height(), l)) continue;
+                std::vector<Source>& sources = levels[std::size_t(l)].rows[std::size_t(row + margin)];
+                for (std::size_t x = 0; x < row_cells[std::size_t(l)].size(); ++x)
+                    row_cells[std::size_t(l)][x].flush(int(x), 1 << l, sources);
+            }
+        }
+    });
+    for (SourceLevel& level : levels) add_margins(level, margin, open, threads);
     return levels;
 }
 

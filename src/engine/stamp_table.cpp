@@ -11,9 +11,10 @@ constexpr int kPartsX = 9, kPartsY = 6;
 
 }  // namespace
 
-StampTable::StampTable(const Input& input, int levels, float largest_radius)
+StampTable::StampTable(const Input& input, float largest_radius)
     : input_(input), steps_(int(std::ceil(largest_radius * kStepsPerCell)) + 2) {
     if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
+    const int levels = int(input.lens_levels.size());
     for (int l = 0; l < levels; ++l)
         reach_.push_back(int(std::ceil(input.lens(l).reach_px(double(largest_radius)) + 0.5)));
     kernels_ =
@@ -26,7 +27,7 @@ StampTable::~StampTable() {
 
 int StampTable::part_of(double x, double y) const {
     const int px = std::clamp(int((x + 0.5) / input_.width() * parts_x_), 0, parts_x_ - 1);
-    const int py = std::clamp(int((y + 0.5) / input_.frame_height * parts_y_), 0, parts_y_ - 1);
+    const int py = std::clamp(int((y + 0.5) / input_.height() * parts_y_), 0, parts_y_ - 1);
     return py * parts_x_ + px;
 }
 
@@ -38,7 +39,7 @@ const StampKernel& StampTable::at(int level, int part, float radius) const {
     if (const StampKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
 
     const double middle_x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double middle_y = (part / parts_x_ + 0.5) * input_.frame_height / parts_y_ - 0.5 - input_.first_row;
+    const double middle_y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
     const double signed_radius = (side ? 1 : -1) * double(step) / double(kStepsPerCell);
     auto made = std::make_unique<const StampKernel>(
         input_.lens(level).point_spread(signed_radius, input_.field_at(middle_x, middle_y)));

@@ -15,7 +15,8 @@ namespace petzval::engine {
 // parts of the picture. Safe to use from many threads: which thread makes a kernel does not change it.
 class StampTable {
 public:
-    StampTable(const Input& input, int levels, float largest_radius);
+    // `frame`: the whole picture; places are in its pixels.
+    StampTable(const Input& frame, float largest_radius);
     ~StampTable();
     StampTable(const StampTable&) = delete;
     StampTable& operator=(const StampTable&) = delete;

@@ -78,13 +78,13 @@ void take_emptiness(const Workspace& w, int y, float* free, float* empty, int n)
 }  // namespace
 
 void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, const Rect& tile,
-                 View<Rgba> out) {
+                 int first_row, View<Rgba> out) {
     thread_local Workspace w;
     const int width = tile.width(), height = tile.height();
     w.sum = Picture(width, height);
     w.free = Plane(width, height, 1.0f);
     w.empty = Plane(width, height, 0.0f);
-    const int part = table.part_of(0.5 * (tile.x0 + tile.x1 - 1), 0.5 * (tile.y0 + tile.y1 - 1));
+    const int part = table.part_of(0.5 * (tile.x0 + tile.x1 - 1), first_row + 0.5 * (tile.y0 + tile.y1 - 1));
     find_arrivals(levels, table, tile, w.arrivals);
     for (std::size_t begin = 0; begin < w.arrivals.size();) {
         const int layer = w.arrivals[begin].source->layer;
@@ -104,7 +104,7 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
         for (int x = 0; x < width; ++x) {
             const Rgba sum = w.sum(x, y);
             const float taken = sum.a + w.empty(x, y);
-            out(tile.x0 + x, tile.y0 + y) = taken > 0 ? sum * (1 / taken) : Rgba{};
+            out(tile.x0 + x, first_row + tile.y0 + y) = taken > 0 ? sum * (1 / taken) : Rgba{};
         }
 }
 

@@ -7,9 +7,9 @@
 
 namespace petzval::engine {
 
-// Writes the pixels of `tile` (picture coordinates). `row_offset`: row 0 of the picture in the frame the
-// stamp table divides into parts.
+// Writes the pixels of `tile`, which counts rows as the sources do: from row first_row of `out`, the whole
+// picture.
 void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, const Rect& tile,
-                 View<Rgba> out);
+                 int first_row, View<Rgba> out);
 
 }  // namespace petzval::engine

@@ -142,6 +142,26 @@ TEST(Scatter, TheSameBitsForAnyThreadCount) {
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 
+TEST(Scatter, TheSameBitsForAnyMemoryLimitAndAClearAnswerWhenItIsTooSmall) {
+    Shot shot = flat(96, 1000, {}, 4);
+    paint_rectangles(shot.colour, 8);
+    std::mt19937 random(3);
+    for (int i = 0; i < 40; ++i) {
+        const int x = int(random() % 90), y = int(random() % 990);
+        shot.colour(x, y) = {80, 60, 20, 1};
+        for (int v = y; v < y + 9; ++v)
+            for (int u = x; u < x + 5; ++u) shot.coc_px(u, v) = -13;
+    }
+    DefocusJob whole = shot.job("scatter"), strips = shot.job("scatter");
+    strips.max_memory_bytes = std::size_t(112) << 20;
+    EXPECT_EQ(largest_difference(rendered(whole), rendered(strips)), 0);
+    strips.max_memory_bytes = std::size_t(50) << 20;
+    const auto refused = defocus(strips);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::OutOfMemory);
+    EXPECT_NE(refused.error().message.find("--max-memory"), std::string::npos);
+}
+
 TEST(Scatter, EmptinessStaysEmptyAndAlphaIsBlurredAsColourIs) {
     // An opaque square in an empty frame: alpha is the share of the disc that sees it, colour follows.
     for (const float coc : {-8.0f, 6.0f, 20.0f}) {
