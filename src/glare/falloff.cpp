@@ -22,8 +22,10 @@ constexpr int kGridColumns = 64;  // the frame is lit on a grid this wide, and b
 // The open share of the pupil at a place of the field (-1…1 of the half diagonal, y up), 1 in the middle.
 using Opening = std::function<double(kernel::FieldPosition)>;
 
-Opening barrel(const LensChoice& lens) {
-    const kernel::Pupil pupil(lens);
+Opening barrel(const FalloffSettings& settings) {
+    const Rect& display = settings.display_window;
+    const kernel::Pupil pupil(settings.lens,
+                              {settings.camera, display.width(), display.height(), settings.pixel_aspect});
     constexpr double kTolerance = 1e-3;
     const double whole = std::abs(kernel::area(pupil.outline({0, 0}, kTolerance)));
     return [=](kernel::FieldPosition field) {
@@ -80,7 +82,7 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
     const double half_diagonal = std::hypot(half_width, half_height);
     const double mm_per_px = camera.sensor_width_mm / display.width();
 
-    Opening opening = barrel(settings.lens);
+    Opening opening = barrel(settings);
     if (settings.lens.name != "ideal" && !kernel::curve_preset(settings.lens.name)) {
         auto traced = rims(settings, half_diagonal * mm_per_px);
         if (!traced) return traced.error();
