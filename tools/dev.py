@@ -67,7 +67,7 @@ def demo(*_):
     out.mkdir(parents=True, exist_ok=True)
     sharp, taken, shown = out / "night.exr", out / "night_defocused.exr", out / "night_defocused.png"
     run(program(), "scene", "make", "night", "-o", sharp)
-    run(program(), "defocus", sharp, "-o", taken, "--lens", "ideal")
+    run(program(), "defocus", sharp, "-o", taken, "--lens", "doublet")
     run(program(), "develop", taken, "-o", shown)
     print(shown)
 
@@ -87,7 +87,7 @@ def test(*words):
     print("+ " + shlex.join(command), file=sys.stderr, flush=True)
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, errors="replace") as ctest:
         for line in ctest.stdout:  # what passed is counted in the summary
-            if not (line.rstrip().endswith(" sec") and " Passed " in line or line.lstrip().startswith("Start ")):
+            if not (" Passed " in line or line.lstrip().startswith(("Start ", "Internal ctest", "Test project"))):
                 print(line, end="", flush=True)
     sys.exit(ctest.returncode)
 
