@@ -205,7 +205,8 @@ private:
             float share = 0;
             surfaces[std::size_t(n)] = surface(hits, farthest, share);
             share_behind += share;
-            surfaces[std::size_t(n)].colour *= sharpened(share / share_behind);
+            surfaces[std::size_t(n)].share = sharpened(share / share_behind);
+            surfaces[std::size_t(n)].colour *= surfaces[std::size_t(n)].share;
         }
         for (int i = n - 1; i >= 0; --i) hidden.push_back(surfaces[std::size_t(i)]);
     }
@@ -240,7 +241,7 @@ private:
             if (a) a->found = false;
             if (b) b->found = false;
         }
-        return {sum * (1 / weight_sum), coc / weight_sum};
+        return {sum * (1 / weight_sum), coc / weight_sum, 1};
     }
 
     View<const Rgba> colour_;

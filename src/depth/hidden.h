@@ -38,11 +38,12 @@ struct Sparse {
 Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc_px,
                                   View<const unsigned char> connected, int threads);
 
-// A sample behind the visible one; colour.a is the share of the pixel it covers, colour is premultiplied by
-// it.
+// A sample behind the visible one that takes up `share` of its pixel; colour is premultiplied by that and by
+// its alpha.
 struct Hidden {
     Rgba colour;
     float coc_px = 0;
+    float share = 1;
 };
 
 // Hidden samples of every pixel, nearest first; pixels may share theirs.

@@ -9,7 +9,11 @@ namespace {
 
 constexpr float kLeastShare = 1e-3f;
 
-bool is_opaque(const CocSample& sample) { return sample.colour.a > 1 - kLeastShare; }
+// A sample that takes up `share` of its pixel; what its colour does not cover of that is emptiness.
+CocSample sample(Rgba colour, float coc_px, float share) {
+    const float empty = share - colour.a;
+    return {colour, coc_px, coc_px, empty > kLeastShare ? empty : 0};
+}
 
 // Ends every pixel that the picture shows to be transparent in emptiness. (Coverages of a pixel's samples
 // need not sum to 1 where it is opaque: surfaces that meet in it share it.)
@@ -25,12 +29,13 @@ CocSamples with_emptiness(const CocSamples& stated, View<const Rgba> picture) {
         all.samples.insert(all.samples.end(), begin, end);
         const float alpha = picture(int(i % std::size_t(stated.width)), int(i / std::size_t(stated.width))).a;
         if (alpha > 1 - kLeastShare) continue;
-        const float coc = begin == end ? 0 : (end - 1)->coc_px;
-        all.samples.push_back({{}, coc, coc});
+        if (begin == end) all.samples.push_back({});
+        all.samples.back().empty = 1;
     }
     all.first.push_back(all.samples.size());
     return all;
 }
+
 }  // namespace
 
 CocSamples completed(const Input& input) {
@@ -43,16 +48,13 @@ CocSamples completed(const Input& input) {
     // Counted first, then written, so that rows can be done in parallel.
     const int width = input.width(), height = input.height();
     const auto samples_at = [&](int x, int y, const auto& emit) {
-        CocSample last;
-        const auto put = [&](Rgba colour, float coc_px) { emit(last = {colour, coc_px, coc_px}); };
         if (const depth::Mixture* m = mixtures.at(x, y)) {
-            if (m->near_share > kLeastShare) put(m->near_colour, m->near_coc_px);
-            put(m->far_colour, m->far_coc_px);
+            if (m->near_share > kLeastShare) emit(sample(m->near_colour, m->near_coc_px, m->near_share));
+            emit(sample(m->far_colour, m->far_coc_px, 1));
         } else {
-            put(input.colour(x, y), input.coc_px(x, y));
-            for (const depth::Hidden& h : hidden.at(x, y)) put(h.colour, h.coc_px);
+            emit(sample(input.colour(x, y), input.coc_px(x, y), 1));
+            for (const depth::Hidden& h : hidden.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
         }
-        if (!is_opaque(last)) emit(CocSample{{}, last.coc_px, last.coc_px});
     };
     CocSamples all;
     all.width = width;

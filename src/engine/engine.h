@@ -26,11 +26,10 @@ namespace petzval::engine {
 struct CocSample {
     Rgba colour;
     float coc_px = 0, coc_back_px = 0;
+    float empty = 0;  // share of the pixel that is emptiness from here on: nothing behind is ever seen there
 };
 
-// Samples per pixel, nearest (smallest CoC) first, rows top to bottom; a view, owned by CocSamples. A pixel
-// whose last sample is {0, 0, 0, 0} ends in emptiness: what its nearer samples leave uncovered stays
-// transparent.
+// Samples per pixel, nearest (smallest CoC) first, rows top to bottom; a view, owned by CocSamples.
 class CocSamplesView {
 public:
     CocSamplesView() = default;

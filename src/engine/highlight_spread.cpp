@@ -139,7 +139,7 @@ public:
         : input_(input),
           samples_(samples),
           blocks_(samples, input.threads),
-          stretch_(float(std::max(1.0, input.lens(0).reach_px(1)))),
+          stretch_(float(std::max(1.0, input.pixel_aspect))),
           white_(white) {
         const kernel::BankOptions options{.columns = 32,
                                           .rows = 18,
@@ -232,7 +232,7 @@ private:
     const Input& input_;
     const CocSamples& samples_;
     NearestBlocks blocks_;
-    float stretch_;
+    float stretch_;  // of the pupil, vertically, by pixels that are not square
     std::vector<std::unique_ptr<const SquareLens>> lenses_;
     std::vector<std::unique_ptr<const kernel::KernelBank>> banks_, fine_banks_;
     float white_;
@@ -268,6 +268,7 @@ void spread_highlights(const Input& input, const CocSamples& samples,
         std::vector<std::shared_ptr<const PointSpread>> kernels(end - begin);
         parallel_for(int(kernels.size()), input.threads, [&](int i) {
             const Highlight& h = highlights[begin + std::size_t(i)];
+            if (input.progress->cancelled()) return;
             if (h.y >= sending.y0 && h.y < sending.y1) kernels[std::size_t(i)] = spreader.kernel(h);
         });
         constexpr int kBand = 32;

@@ -92,11 +92,10 @@ void HighlightSplit::find_contested(View<const float> coc_px, int threads) {
 float HighlightSplit::floor_at(int x, int y, float coc_px) const {
     const float radius = std::abs(coc_px);
     const float open = std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
-    // The base goes on beyond the frame, highlights do not: near its edge only true ones count. The outermost
-    // pixels, which stand for what lies beyond, are to show no lamp.
+    // The base goes on beyond the frame, highlights do not: near its edge only true ones count.
     const int to_edge = std::min(std::min(x, width_ - 1 - x), std::min(y, height_ - 1 - y));
     const bool contested = coc_px > contested_(x / kBlock, y / kBlock) && float(to_edge) >= radius + 1;
-    if (!contested && to_edge > 0) return white_ * open;
+    if (!contested) return white_ * open;
     constexpr float kRisesFromPx = 8;  // a wide disc of little light shows no shadow
     return white_ * std::min(open, rule_.contested_floor * std::max(1.0f, radius / kRisesFromPx));
 }
@@ -105,8 +104,10 @@ Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
     if (brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * light.a) return light;
-    const float bound =
-        light.a * (floor_at(x, y, coc_px) + rule_.factor * surroundings_(x / kCell, y / kCell));
+    const float surroundings = surroundings_(x / kCell, y / kCell);
+    const bool outermost = x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1;
+    const float bound = light.a * (outermost ? white_ * rule_.contested_floor + 2 * rule_.factor * surroundings
+                                             : floor_at(x, y, coc_px) + rule_.factor * surroundings);
     if (brightness <= bound) return light;
     const Rgba scaled = light * (bound / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};

@@ -128,9 +128,10 @@ bool lens_sees(const Surfaces& surfaces, const RaySource& source, double u, doub
 }
 
 kernel::PointSpread visible_point_spread(const Surfaces& surfaces, const kernel::LensModel& lens,
-                                         kernel::FieldPosition field, int x, int y, double coc_px) {
+                                         kernel::FieldPosition field, int x, int y, double coc_px,
+                                         double pupil_reach) {
     kernel::PointSpread spread = lens.point_spread(coc_px, field);
-    const RaySource source = ray_source(surfaces, x, y, coc_px, std::max(1.0, lens.reach_px(1)));
+    const RaySource source = ray_source(surfaces, x, y, coc_px, pupil_reach);
     if (source.nearest_coc_px >= coc_px) return spread;
     if (std::abs(coc_px) < kFewTapsPx)
         return by_counting_rays(surfaces, lens, field, source, std::move(spread));

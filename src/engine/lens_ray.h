@@ -24,6 +24,7 @@ bool lens_sees(const Surfaces& surfaces, const RaySource& source, double u, doub
 // The kernel of the source at the centre of pixel (x, y), each weight multiplied by the share of its rays
 // that nothing hides.
 kernel::PointSpread visible_point_spread(const Surfaces& surfaces, const kernel::LensModel& lens,
-                                         kernel::FieldPosition field, int x, int y, double coc_px);
+                                         kernel::FieldPosition field, int x, int y, double coc_px,
+                                         double pupil_reach);
 
 }  // namespace petzval::engine

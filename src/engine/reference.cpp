@@ -190,7 +190,8 @@ void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
         const std::vector<kernel::PupilRay> here = varies ? rays_at(area) : std::vector<kernel::PupilRay>{};
         const std::vector<kernel::PupilRay>& rays = varies ? here : everywhere;
         Tile tile(surfaces, area);
-        for (int k = 0; k < int(rays.size()); ++k) tile.add(rays[std::size_t(k)], k);
+        for (int k = 0; k < int(rays.size()) && !input.progress->cancelled(); ++k)
+            tile.add(rays[std::size_t(k)], k);
         for (int y = area.y0; y < area.y1; ++y)
             for (int x = area.x0; x < area.x1; ++x) out(x, y) = tile.sum()(x - area.x0, y - area.y0);
         input.progress->advance(kShareOfRays / double(tiles.size()));
@@ -209,7 +210,8 @@ void spread_highlights(const Input& input, const Surfaces& surfaces, const std::
         parallel_for(size, input.threads, [&](int i) {
             const Highlight& h = highlights[std::size_t(begin + i)];
             spreads[std::size_t(i)] =
-                visible_point_spread(surfaces, input.lens(0), input.field_at(h.x, h.y), h.x, h.y, h.coc_px);
+                visible_point_spread(surfaces, input.lens(0), input.field_at(h.x, h.y), h.x, h.y, h.coc_px,
+                                     std::max(1.0, input.pixel_aspect));
         });
         constexpr int kBand = 32;
         parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {

@@ -17,8 +17,6 @@ float level_position(float coc_px, const LevelRule& rule) {
 
 constexpr float kOpaque = 0.97f;
 
-bool is_emptiness(const CocSample& s) { return s.colour == Rgba{}; }
-
 // The change of weight per pixel away from a source: a facet of a slanted surface is seen larger from one
 // side of the pupil than from the other, by 1 + slope . u with u = offset / radius.
 depth::Slope tilt_of(depth::Slope slope, float coc_px) {
@@ -96,18 +94,21 @@ public:
         // interval.
         int least_layer = std::numeric_limits<int>::min();
         for (const CocSample& s : samples_.at(u, v)) {
-            const bool empty = is_emptiness(s);
-            const int layer = empty ? kEmptyLayer : std::max(least_layer, layer_of(s.coc_px));
-            if (s.colour.a > kOpaque) least_layer = layer + 1;
+            const int layer = std::max(least_layer, layer_of(s.coc_px));
+            if (s.colour.a + s.empty > kOpaque) least_layer = layer + kNextLayer;
             // Only what is seen has a known slope.
-            const bool visible = !empty && std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
+            const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
             const depth::Slope slope = visible ? depth::slope_at(coc_px_, connected_, u, v) : depth::Slope{};
-            const Rgba light = empty ? Rgba{0, 0, 0, 1} : s.colour;
+            const depth::Slope tilt = tilt_of(slope, s.coc_px);
             const float at = level_position(s.coc_px, rule_);
             const int level = int(std::ceil(at));
             const float share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule_.fade);
-            put(level, layer, share * light, s.coc_px, tilt_of(slope, s.coc_px));
-            if (share < 1) put(level - 1, layer, (1 - share) * light, s.coc_px, tilt_of(slope, s.coc_px));
+            const auto put_both = [&](int in_layer, Rgba light) {
+                put(level, in_layer, share * light, s.coc_px, tilt);
+                if (share < 1) put(level - 1, in_layer, (1 - share) * light, s.coc_px, tilt);
+            };
+            if (s.colour.a > 0) put_both(layer, s.colour);
+            if (s.empty > 0) put_both(layer + kEmptinessAfter, {0, 0, 0, s.empty});
         }
     }
 
@@ -163,7 +164,7 @@ int layer_of(float coc_px) {
     const float r = std::abs(coc_px);
     const int step =
         r < kLinearPx ? int(r + 0.5f) : int(kLinearPx + kPerOctave * std::log2(r / kLinearPx) + 0.5f);
-    return coc_px < 0 ? -step : step;
+    return kNextLayer * (coc_px < 0 ? -step : step);
 }
 
 float LevelRule::largest_radius() const { return largest_cells * std::exp2(fade); }

@@ -24,10 +24,12 @@ struct Source {
 
 // Order of compositing by signed radius: nearest first. Intervals of one pixel near focus, an eighth of an
 // octave further out: narrower than anything that could hide behind something else in the same interval and
-// be seen to.
+// be seen to. Each is followed by a layer for the emptiness at its depth, which takes up lens area and sends
+// no light.
 int layer_of(float coc_px);
-// Emptiness lies behind everything.
-constexpr int kEmptyLayer = std::numeric_limits<int>::max();
+constexpr int kEmptinessAfter = 1, kNextLayer = 2;
+inline bool is_emptiness(int layer) { return layer % kNextLayer != 0; }
+constexpr int kEmptyLayer = std::numeric_limits<int>::max();  // emptiness behind everything
 
 // One grid of cells with the sources on it.
 struct SourceLevel {

@@ -70,8 +70,9 @@ void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, s
 void take_emptiness(const Workspace& w, int y, float* free, float* empty, int n) {
     const Rgba* arriving = w.fine.row(y);
     for (int i = 0; i < n; ++i) {
-        empty[i] = std::min(arriving[i].a, free[i]);
-        free[i] -= empty[i];
+        const float taken = std::min(arriving[i].a, free[i]);
+        empty[i] += taken;
+        free[i] -= taken;
     }
 }
 
@@ -92,7 +93,7 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
         while (end < w.arrivals.size() && w.arrivals[end].source->layer == layer) ++end;
         accumulate_layer(w.arrivals, begin, end, table, part, tile, w);
         for (int y = 0; y < height; ++y) {
-            if (layer == kEmptyLayer)
+            if (is_emptiness(layer))
                 take_emptiness(w, tile.y0 + y, w.free.row(y), w.empty.row(y), width);
             else
                 take_budget(w.fine.row(tile.y0 + y), w.sum.row(y), w.free.row(y), width);
