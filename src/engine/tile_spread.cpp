@@ -18,7 +18,7 @@ struct Arrival {
 // Memory one thread keeps from tile to tile.
 struct Workspace {
     std::vector<Arrival> arrivals;
-    Accumulator fine, coarse;
+    Accumulator light, emptiness, coarse;
     Picture sum;
     Plane free, empty;
 };
@@ -49,29 +49,33 @@ void find_arrivals(const std::vector<SourceLevel>& levels, const StampTable& tab
     });
 }
 
-// Stamps arrivals [begin, end), all of one layer, into w.fine.
+// Stamps arrivals [begin, end), all of one layer, into `fine`.
 void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, std::size_t end,
-                      const StampTable& table, int part, const Rect& tile, Workspace& w) {
-    w.fine.reset(tile);
+                      const StampTable& table, int part, const Rect& tile, Accumulator& fine,
+                      Accumulator& coarse) {
+    fine.reset(tile);
     while (begin < end) {
         const int level = arrivals[begin].level;
-        Accumulator& target = level == 0 ? w.fine : w.coarse;
+        Accumulator& target = level == 0 ? fine : coarse;
         if (level > 0) target.reset(cells_of(tile, level));
         for (; begin < end && arrivals[begin].level == level; ++begin) {
             const Source& s = *arrivals[begin].source;
             stamp(table.at(level, part, s.radius), s.x, arrivals[begin].y, s.light, s.tilt_x, s.tilt_y,
                   target);
         }
-        if (level > 0) add_enlarged(w.coarse, level, w.fine);
+        if (level > 0) add_enlarged(coarse, level, fine);
     }
 }
 
-// Emptiness takes what is left of the lens, and nothing arrives from there.
-void take_emptiness(const Workspace& w, int y, float* free, float* empty, int n) {
-    const Rgba* arriving = w.fine.row(y);
+// A layer that is partly empty takes its lens area as one: light and emptiness in proportion.
+void take_budget_with_emptiness(const Rgba* light, const Rgba* emptiness, Rgba* sum, float* free,
+                                float* empty, int n) {
     for (int i = 0; i < n; ++i) {
-        const float taken = std::min(arriving[i].a, free[i]);
-        empty[i] += taken;
+        const float arrives = light[i].a + emptiness[i].a;
+        if (arrives <= 0) continue;
+        const float taken = std::min(arrives, free[i]);
+        sum[i] += light[i] * (taken / arrives);
+        empty[i] += emptiness[i].a * (taken / arrives);
         free[i] -= taken;
     }
 }
@@ -87,16 +91,31 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
     w.empty = Plane(width, height, 0.0f);
     const int part = table.part_of(0.5 * (tile.x0 + tile.x1 - 1), first_row + 0.5 * (tile.y0 + tile.y1 - 1));
     find_arrivals(levels, table, tile, w.arrivals);
+    const auto end_of_layer = [&](std::size_t begin) {
+        std::size_t end = begin;
+        while (end < w.arrivals.size() && w.arrivals[end].source->layer == w.arrivals[begin].source->layer)
+            ++end;
+        return end;
+    };
     for (std::size_t begin = 0; begin < w.arrivals.size();) {
         const int layer = w.arrivals[begin].source->layer;
-        std::size_t end = begin;
-        while (end < w.arrivals.size() && w.arrivals[end].source->layer == layer) ++end;
-        accumulate_layer(w.arrivals, begin, end, table, part, tile, w);
-        for (int y = 0; y < height; ++y) {
-            if (is_emptiness(layer))
-                take_emptiness(w, tile.y0 + y, w.free.row(y), w.empty.row(y), width);
-            else
-                take_budget(w.fine.row(tile.y0 + y), w.sum.row(y), w.free.row(y), width);
+        std::size_t end = end_of_layer(begin);
+        if (is_emptiness(layer))
+            w.light.reset(tile);
+        else
+            accumulate_layer(w.arrivals, begin, end, table, part, tile, w.light, w.coarse);
+        const bool then_empty = !is_emptiness(layer) && end < w.arrivals.size() &&
+                                w.arrivals[end].source->layer == layer + kEmptinessAfter;
+        if (is_emptiness(layer) || then_empty) {
+            const std::size_t from = is_emptiness(layer) ? begin : end;
+            end = end_of_layer(from);
+            accumulate_layer(w.arrivals, from, end, table, part, tile, w.emptiness, w.coarse);
+            for (int y = 0; y < height; ++y)
+                take_budget_with_emptiness(w.light.row(tile.y0 + y), w.emptiness.row(tile.y0 + y),
+                                           w.sum.row(y), w.free.row(y), w.empty.row(y), width);
+        } else {
+            for (int y = 0; y < height; ++y)
+                take_budget(w.light.row(tile.y0 + y), w.sum.row(y), w.free.row(y), width);
         }
         begin = end;
     }
