@@ -89,9 +89,10 @@ void add_seidel(LensFacts& facts, const optics::Prescription& lens, const optics
         facts.seidel_per_surface.push_back(facts_of(surface));
     facts.seidel_complete = table.complete;
     if (!table.complete)
-        facts.warnings.push_back("odd aspheric powers below 4 are left out of the third-order sums");
+        facts.warnings.emplace_back("odd aspheric powers below 4 are left out of the third-order sums");
     if (facts.field_deg >= 89 && lens.paraxial_field_deg == 0)
-        facts.warnings.push_back("third-order sums of so wide a field mean nothing; they are for 20 degrees");
+        facts.warnings.emplace_back(
+            "third-order sums of so wide a field mean nothing; they are for 20 degrees");
 }
 
 Status add_field(LensFacts& facts, const optics::Prescription& lens, const optics::FirstOrder& first) {
@@ -103,7 +104,7 @@ Status add_field(LensFacts& facts, const optics::Prescription& lens, const optic
         const double field_deg = facts.field_deg * i / (kFieldPoints - 1);
         const auto point = optics::field_point(*traced, field_deg);
         if (!point) {
-            facts.warnings.push_back("curves over the field end early: " + point.error().message);
+            facts.warnings.emplace_back("curves over the field end early: " + point.error().message);
             break;
         }
         facts.field.push_back({point->field_deg, point->image_height_mm, point->tangential_focus_mm,

@@ -167,6 +167,18 @@ TEST(LensFile, CodeVCurvatureModeGlassCodesAndPrivateGlassAreRead) {
     EXPECT_TRUE(warns(file, "defocused by -0.1"));
 }
 
+TEST(LensFile, CodeVUnitsHoldForWhatStandsBeforeThem) {
+    const LensFile file = read(
+        "RDM\nEPD 1\nYOB 0.5\nDIM I\nSO 0 10\nS 2 0.1 NBK7_SCHOTT\n STO\n CIR EDG 0.7\n"
+        "S 0 3 AIR\n CIR EDG 0.8\n CIR 0.6\nSI 0 0\nGO\n");
+    EXPECT_NEAR(file.lens.aperture, 25.4, 1e-12);
+    EXPECT_NEAR(file.lens.field, 12.7, 1e-12);
+    EXPECT_NEAR(file.lens.object_distance_mm, 254, 1e-12);
+    EXPECT_NEAR(file.lens.surfaces[0].clear_radius_mm, 0.7 * 25.4, 1e-12);
+    EXPECT_NEAR(file.lens.surfaces[1].clear_radius_mm, 0.6 * 25.4,
+                1e-12);  // the clear aperture, not the edge
+}
+
 TEST(LensFile, OpticalBenchOddTermsStandBetweenTheEvenOnes) {
     const std::string head =
         "[constants]\nAsphericalOddCount\t2\n[variable distances]\nF-Number\t4\nd0\tInfinity\n[lens data]\n"

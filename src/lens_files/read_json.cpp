@@ -44,8 +44,10 @@ private:
     Check surfaces(const Json& list);
     Check surface(const Json& json, Surface& out, int index);
     Check surface_member(const std::string& key, const Json& value, Surface& out, int index);
-    Check radius(const Json& value, Surface& out);
-    Check asphere(const std::string& key, const Json& value, Surface& out);
+    Check stop(const Json& value, int index);
+    Check surface_number(const std::string& key, const Json& value, Surface& out) const;
+    Check radius(const Json& value, Surface& out) const;
+    Check asphere(const std::string& key, const Json& value, Surface& out) const;
     Check medium(const Json& value, Surface& out);
     Check finish(const Json& root);
 
@@ -170,15 +172,15 @@ Status Reader::wavelengths(const Json& value) {
         else if (key == "long")
             lens.long_um = *um;
         else
-            file_.warnings.push_back("wavelength " + quoted(key) +
-                                     " is ignored: short, primary and long are used");
+            file_.warnings.emplace_back("wavelength " + quoted(key) +
+                                        " is ignored: short, primary and long are used");
     }
     if (!value.is(Json::Type::Object))
         return at_line(value.line, "\"wavelengths_um\" must hold short, primary and long");
     return Done{};
 }
 
-Status Reader::radius(const Json& value, Surface& out) {
+Status Reader::radius(const Json& value, Surface& out) const {
     if (value.is(Json::Type::Null) || is_infinite_word(value)) return Done{};
     const auto size = number(value, "radius (null is a plane)");
     if (!size) return size.error();
@@ -188,7 +190,7 @@ Status Reader::radius(const Json& value, Surface& out) {
 }
 
 // {"4": a, …} or {"A4": a, …}: coefficients of powers of r.
-Status Reader::asphere(const std::string& key, const Json& value, Surface& out) {
+Status Reader::asphere(const std::string& key, const Json& value, Surface& out) const {
     if (value.is(Json::Type::Null)) return Done{};
     if (!value.is(Json::Type::Object)) return at_line(value.line, quoted(key) + " must be an object");
     for (const auto& [power_text, coefficient] : value.members) {
@@ -232,30 +234,38 @@ Status Reader::medium(const Json& value, Surface& out) {
     return Done{};
 }
 
+Status Reader::stop(const Json& value, int index) {
+    if (!value.is(Json::Type::Bool)) return at_line(value.line, "\"stop\" must be true or false");
+    if (!value.boolean) return Done{};
+    if (has_stop_) return at_line(value.line, "a second surface is marked as the stop");
+    file_.lens.stop = index;
+    has_stop_ = true;
+    return Done{};
+}
+
+// Numbers that may be left out by null.
+Status Reader::surface_number(const std::string& key, const Json& value, Surface& out) const {
+    if (value.is(Json::Type::Null)) return Done{};
+    const auto size = number(value, quoted(key));
+    if (!size) return size.error();
+    if (key == "thickness") out.thickness_mm = *size * mm_;
+    if (key == "conic") out.conic = *size;
+    if (key == "semi_aperture") out.clear_radius_mm = *size * mm_;
+    return Done{};
+}
+
 Status Reader::surface_member(const std::string& key, const Json& value, Surface& out, int index) {
     if (key == "radius") return radius(value, out);
     if (key == "medium") return medium(value, out);
     if (key == "asphere_power" || key == "asphere_even") return asphere(key, value, out);
-    if (key == "stop") {
-        if (!value.is(Json::Type::Bool)) return at_line(value.line, "\"stop\" must be true or false");
-        if (value.boolean && has_stop_) return at_line(value.line, "a second surface is marked as the stop");
-        if (value.boolean) file_.lens.stop = index, has_stop_ = true;
-        return Done{};
-    }
-    if (key == "thickness" || key == "conic" || key == "semi_aperture") {
-        if (value.is(Json::Type::Null)) return Done{};
-        const auto size = number(value, quoted(key));
-        if (!size) return size.error();
-        if (key == "thickness") out.thickness_mm = *size * mm_;
-        if (key == "conic") out.conic = *size;
-        if (key == "semi_aperture") out.clear_radius_mm = *size * mm_;
-        return Done{};
-    }
+    if (key == "stop") return stop(value, index);
+    if (key == "thickness" || key == "conic" || key == "semi_aperture")
+        return surface_number(key, value, out);
+    if (kSurfaceRemarks.contains(key)) return Done{};
     const bool shapes_light =
         value.is(Json::Type::Number) || value.is(Json::Type::Array) || value.is(Json::Type::Object);
-    if (shapes_light && !kSurfaceRemarks.contains(key))
-        return at_line(value.line, quoted(key) + " of a surface is not understood");
-    if (!kSurfaceRemarks.contains(key)) ignored_.add(key);
+    if (shapes_light) return at_line(value.line, quoted(key) + " of a surface is not understood");
+    ignored_.add(key);
     return Done{};
 }
 
@@ -314,14 +324,14 @@ Status Reader::finish(const Json& root) {
     }
     if (!has_stop_) {
         lens.stop = 0;
-        file_.warnings.push_back("no surface is marked as the stop; the first is taken");
+        file_.warnings.emplace_back("no surface is marked as the stop; the first is taken");
     }
     if (!has_aperture_) {
         lens.aperture_kind = ApertureKind::StopRadius;
         lens.aperture = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
         if (std::isinf(lens.aperture))
             return at_line(root.line, "there is neither an \"aperture\" nor a \"semi_aperture\" at the stop");
-        file_.warnings.push_back("no aperture is given; the stop's clear radius is taken");
+        file_.warnings.emplace_back("no aperture is given; the stop's clear radius is taken");
     }
     if (lens.field == 0 && object_height_mm_ > 0) {
         lens.field_kind = FieldKind::ObjectHeight;
@@ -329,7 +339,7 @@ Status Reader::finish(const Json& root) {
     }
     bool any_rim = false;
     for (const Surface& surface : lens.surfaces) any_rim = any_rim || std::isfinite(surface.clear_radius_mm);
-    if (!any_rim) file_.warnings.push_back("no clear apertures are given: the lens vignettes nothing");
+    if (!any_rim) file_.warnings.emplace_back("no clear apertures are given: the lens vignettes nothing");
     glasses_.report(file_.warnings);
     warn_of_models(file_);
     ignored_.report(file_.warnings);

@@ -24,7 +24,7 @@ private:
     Status aspheric(const Cells& cells, const Line& line);
     Status finish();
     // A number, or a name of [variable distances].
-    Result<double> length(std::string_view cell, const Line& line) const;
+    Result<double> length(std::string_view text, const Line& line) const;
     std::optional<double> variable(const std::string& name) const;
 
     LensFile file_;
@@ -185,7 +185,7 @@ Status Reader::row(const Line& line) {
 Status Reader::finish() {
     optics::Prescription& lens = file_.lens;
     if (lens.surfaces.empty()) return at_line(1, "[lens data] holds no surface");
-    if (!has_stop_) file_.warnings.push_back("no aperture stop (AS) is given; the first surface is taken");
+    if (!has_stop_) file_.warnings.emplace_back("no aperture stop (AS) is given; the first surface is taken");
     if (const auto f_number = variable("F-Number"); f_number && *f_number > 0) {
         lens.aperture_kind = ApertureKind::FNumber;
         lens.aperture = *f_number;
@@ -209,7 +209,7 @@ Status Reader::finish() {
         lens.field = *height / 2;
     }
     if (several_columns_)
-        file_.warnings.push_back("the file has several positions (zoom or focus); the first is read");
+        file_.warnings.emplace_back("the file has several positions (zoom or focus); the first is read");
     glasses_.report(file_.warnings);
     warn_of_models(file_);
     assume_field(file_);

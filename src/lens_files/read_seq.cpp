@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace petzval::lens_files {
 namespace {
@@ -13,39 +14,59 @@ using optics::ApertureKind;
 using optics::FieldKind;
 using Words = std::vector<std::string>;
 
+// Keywords of aspheric coefficients: of r^4, r^6, r^8….
+constexpr std::string_view kAsphereOrders = "ABCDEFGHJ";
+
 struct Command {
     int line = 0;
     Words words;  // as written; words[0] in upper case
 };
 
-// Harmless in a surface: labels, coatings, control codes of the optimiser, colours of drawings.
-const std::set<std::string> kHarmlessInSurface = {
-    "ASP", "SPH", "CCY", "THC", "GLC", "KC",  "AC",  "BC",  "CC",  "DC",  "EC",
-    "FC",  "GC",  "HC",  "JC",  "SLB", "PIM", "COM", "CUC", "GL1", "GL2", "MLT",
-    "CTH", "CLS", "COL", "EXC", "INC", "BLA", "DEL", "THM", "RAD", "STA", "CON"};
-const std::set<std::string> kHarmless = {"LEN", "WTW", "WTF", "INI", "TEM", "PRE", "AFC", "DER",
-                                         "GO",  "CWL", "RFR", "SAV", "DDM", "BES", "UID", "EVR",
-                                         "LIS", "VIE", "COM", "WTX", "WTY", "AFI", "PUI", "PUX",
-                                         "PUY", "POL", "SET", "OUT", "DSP", "RAT", "IN",  "CUM"};
+// Harmless in a surface: labels, comments, control codes of the optimiser.
+const std::set<std::string> kHarmlessInSurface = {"ASP", "SPH", "CON", "CCY", "THC", "GLC", "KC",
+                                                  "AC",  "BC",  "CC",  "DC",  "EC",  "FC",  "GC",
+                                                  "HC",  "JC",  "SLB", "PIM", "COM", "CUC"};
+// Harmless for the lens as a whole: weights, title data, results, how pupils are sampled.
+const std::set<std::string> kHarmless = {"LEN", "WTW", "WTF", "WTX", "WTY", "INI", "TEM", "PRE",
+                                         "AFC", "DER", "GO",  "CWL", "SAV", "DDM", "UID", "EVR",
+                                         "LIS", "VIE", "COM", "PUI", "PUX", "PUY"};
 
 class Reader {
 public:
     Result<LensFile> read(const std::string& text);
 
 private:
+    // What a keyword does; words[0] is the keyword.
+    using Handler = Status (Reader::*)(const Command& c);
+    static const std::map<std::string, Handler>& general_words();
+    static const std::map<std::string, Handler>& surface_words();
     Status command(const Command& c);
-    Status top_level(const Command& c);
-    Status in_surface(const Command& c);
+
+    Status radius_mode(const Command& c);
+    Status title(const Command& c);
+    Status unit(const Command& c);
+    Status wavelengths(const Command& c);
+    Status reference(const Command& c);
+    Status aperture(const Command& c);
+    Status fields(const Command& c);
+    Status vignetting(const Command& c);
+    Status begin_private(const Command& c);
+    Status private_glass(const Command& c);
+
     Status begin_surface(const Command& c);
     Status object(const Command& c, double curvature, double thickness);
-    Status catalogue_line(const Command& c);
-    Status aperture(const Command& c);
+    Status image(const Command& c, double thickness);
+    Status stop(const Command& c);
     Status circular_aperture(const Command& c);
     Status aspheric(const Command& c);
+    Status change_glass(const Command& c);
     Result<optics::Glass> glass(const std::string& word, int line);
-    Result<double> number(const Command& c, std::size_t i) const;
-    Result<std::vector<double>> numbers(const Command& c) const;
-    Status fields(const Command& c);
+
+    static Result<double> number(const Command& c, std::size_t i);
+    static Result<std::vector<double>> numbers(const Command& c);
+    Status set_aperture();
+    void set_wavelengths();
+    void set_field();
     Status finish();
 
     LensFile file_;
@@ -53,9 +74,10 @@ private:
     GlassFinder glasses_;
     Ignored ignored_;
     double mm_ = 1;
-    bool radius_mode_ = false, in_private_ = false, has_stop_ = false, seen_image_ = false,
-         has_object_ = false;
-    bool vignetting_factors_ = false, edge_only_ = false;
+    bool radius_mode_ = false, in_private_ = false, has_stop_ = false, seen_image_ = false;
+    bool vignetting_factors_ = false;
+    bool edge_only_ = false;                // the current surface's radius is that of its edge
+    std::optional<ApertureKind> aperture_;  // none: the stop's clear radius rules
     std::vector<double> private_wavelengths_um_;
     std::vector<double> x_fields_, y_fields_;
     int reference_ = 0;
@@ -63,50 +85,56 @@ private:
     optics::Surface* current_ = nullptr;  // nullptr: not in a surface of the lens
 };
 
-// The text as commands; comments, continuations and quotes resolved.
+// A line without its comment; ';' outside quotes becomes an end of line.
+std::string without_comment(std::string_view line) {
+    std::string cleaned;
+    char quote = 0;
+    for (const char c : line) {
+        if (quote == 0 && c == '!') break;
+        const bool opens = quote == 0 && (c == '"' || c == '\'');
+        if (opens || c == quote) quote = opens ? c : '\0';
+        cleaned += quote == 0 && c == ';' ? '\n' : c;
+    }
+    return cleaned;
+}
+
+void add_commands(const std::string& text, int line, std::vector<Command>& commands) {
+    for (const Line& part : split_lines(text)) {
+        Command command{line, {}};
+        for (const auto word : split_words(part.text)) command.words.emplace_back(word);
+        if (command.words.empty()) continue;
+        command.words[0] = upper_case(command.words[0]);
+        commands.push_back(std::move(command));
+    }
+}
+
+// The text as commands; a line that ends in '&' goes on in the next one.
 std::vector<Command> commands_of(const std::string& text) {
     std::vector<Command> commands;
     std::string pending;
     int first_line = 0;
     for (const Line& line : split_lines(text)) {
         if (pending.empty()) first_line = line.number;
-        std::string_view body = line.text;
-        char quote = 0;
-        std::string cleaned;
-        for (const char c : body) {
-            if (quote == 0 && c == '!') break;
-            if (quote == 0 && (c == '"' || c == '\''))
-                quote = c;
-            else if (c == quote)
-                quote = 0;
-            cleaned += quote == 0 && c == ';' ? '\n' : c;
-        }
+        const std::string cleaned = without_comment(line.text);
         const std::string_view rest = trimmed(cleaned);
         if (!rest.empty() && rest.back() == '&' && pending.size() < 10000) {
             pending.append(rest.substr(0, rest.size() - 1)).append(" ");
             continue;
         }
-        pending.append(cleaned);
-        for (const Line& part : split_lines(pending)) {
-            Command command{first_line, {}};
-            for (const auto word : split_words(part.text)) command.words.emplace_back(word);
-            if (command.words.empty()) continue;
-            command.words[0] = upper_case(command.words[0]);
-            commands.push_back(std::move(command));
-        }
+        add_commands(pending.append(cleaned), first_line, commands);
         pending.clear();
     }
     return commands;
 }
 
-Result<double> Reader::number(const Command& c, std::size_t i) const {
+Result<double> Reader::number(const Command& c, std::size_t i) {
     if (i >= c.words.size()) return at_line(c.line, c.words[0] + " needs " + std::to_string(i) + " values");
     const auto value = parse_number(c.words[i]);
     if (!value) return at_line(c.line, quoted(c.words[i]) + " of " + c.words[0] + " is not a number");
     return *value;
 }
 
-Result<std::vector<double>> Reader::numbers(const Command& c) const {
+Result<std::vector<double>> Reader::numbers(const Command& c) {
     std::vector<double> values;
     for (std::size_t i = 1; i < c.words.size(); ++i) {
         const auto value = number(c, i);
@@ -149,10 +177,18 @@ Status Reader::object(const Command& c, double curvature, double thickness) {
     if (curvature != 0)
         file_.warnings.push_back("line " + std::to_string(c.line) + ": the object is taken as flat");
     if (thickness < 1e9) file_.lens.object_distance_mm = thickness * mm_;
-    has_object_ = true;
     current_ = nullptr;
     if (c.words.size() > 3 && upper_case(c.words[3]) != "AIR")
         return at_line(c.line, "an object inside glass is not supported");
+    return Done{};
+}
+
+Status Reader::image(const Command& c, double thickness) {
+    seen_image_ = true;
+    current_ = nullptr;
+    if (thickness != 0)
+        file_.warnings.push_back("line " + std::to_string(c.line) + ": the image is defocused by " +
+                                 c.words[2] + " in the file; focus is set by the program here");
     return Done{};
 }
 
@@ -163,19 +199,13 @@ Status Reader::begin_surface(const Command& c) {
     if (!thickness) return thickness.error();
     if (radius_mode_ && *curvature != 0) curvature = 1 / *curvature;
     if (c.words[0] == "SO") return object(c, *curvature, *thickness);
-    if (c.words[0] == "SI") {
-        seen_image_ = true;
-        current_ = nullptr;
-        if (*thickness != 0)
-            file_.warnings.push_back("line " + std::to_string(c.line) + ": the image is defocused by " +
-                                     c.words[2] + " in the file; focus is set by the program here");
-        return Done{};
-    }
+    if (c.words[0] == "SI") return image(c, *thickness);
     if (!std::isfinite(*thickness)) return at_line(c.line, "the thickness of a surface must be finite");
     auto& surfaces = file_.lens.surfaces;
     if (surfaces.size() >= std::size_t(optics::kMostSurfaces))
         return at_line(c.line, "more than " + std::to_string(optics::kMostSurfaces) + " surfaces");
     if (surfaces.empty()) glasses_ = GlassFinder(private_);
+    edge_only_ = false;
     optics::Surface surface;
     surface.curvature_per_mm = *curvature / mm_;
     surface.thickness_mm = *thickness * mm_;
@@ -213,40 +243,31 @@ Status Reader::aspheric(const Command& c) {
         current_->conic = *value;
         return Done{};
     }
-    const std::size_t order = std::string("ABCDEFGHJ").find(c.words[0][0]);
+    const std::size_t order = kAsphereOrders.find(c.words[0][0]);
     const int power = 4 + 2 * int(order);
     current_->asphere.push_back({power, *value * std::pow(mm_, 1 - power)});
     return Done{};
 }
 
-Status Reader::in_surface(const Command& c) {
-    const std::string& word = c.words[0];
-    if (word == "STO") {
-        if (c.words.size() > 1)
-            return at_line(c.line, "STO with a surface number is not supported; put STO below it");
-        if (has_stop_) return at_line(c.line, "a second STO");
-        has_stop_ = true;
-        file_.lens.stop = int(file_.lens.surfaces.size()) - 1;
-    } else if (word == "CIR") {
-        return circular_aperture(c);
-    } else if (word == "K" ||
-               (word.size() == 1 && std::string("ABCDEFGHJ").find(word[0]) != std::string::npos)) {
-        return aspheric(c);
-    } else if (word == "GLA") {
-        if (c.words.size() != 2) return at_line(c.line, "GLA needs one glass");
-        const auto behind = glass(c.words[1], c.line);
-        if (!behind) return behind.error();
-        current_->after = *behind;
-    } else if (kHarmlessInSurface.contains(word)) {
-        if (word != "ASP" && word != "SPH" && word != "SLB" && word != "CON") ignored_.add(word);
-    } else {
-        return at_line(c.line, quoted(word) + " of a surface is not understood or not supported");
-    }
+Status Reader::stop(const Command& c) {
+    if (c.words.size() > 1)
+        return at_line(c.line, "STO with a surface number is not supported; put STO below it");
+    if (has_stop_) return at_line(c.line, "a second STO");
+    has_stop_ = true;
+    file_.lens.stop = int(file_.lens.surfaces.size()) - 1;
+    return Done{};
+}
+
+Status Reader::change_glass(const Command& c) {
+    if (c.words.size() != 2) return at_line(c.line, "GLA needs one glass");
+    const auto behind = glass(c.words[1], c.line);
+    if (!behind) return behind.error();
+    current_->after = *behind;
     return Done{};
 }
 
 // PRV … END: PWL wavelengths in nm, then 'NAME' indices. n^2 as a polynomial in 1/w^2 through all of them.
-Status Reader::catalogue_line(const Command& c) {
+Status Reader::private_glass(const Command& c) {
     if (c.words[0] == "END") {
         in_private_ = false;
         return Done{};
@@ -279,109 +300,162 @@ Status Reader::catalogue_line(const Command& c) {
     return Done{};
 }
 
-Status Reader::aperture(const Command& c) {
-    optics::Prescription& lens = file_.lens;
+Status Reader::begin_private(const Command&) {
+    in_private_ = true;
+    return Done{};
+}
+
+Status Reader::radius_mode(const Command& c) {
+    radius_mode_ = c.words.size() < 2 || upper_case(c.words[1]) != "N";
+    return Done{};
+}
+
+Status Reader::title(const Command& c) {
+    if (c.words.size() > 1) file_.lens.name = c.words[1];
+    return Done{};
+}
+
+Status Reader::unit(const Command& c) {
+    const std::string unit = c.words.size() > 1 ? upper_case(c.words[1]).substr(0, 1) : "";
+    if (unit != "M" && unit != "C" && unit != "I") return at_line(c.line, "DIM must be M, C or I");
+    if (!file_.lens.surfaces.empty()) return at_line(c.line, "DIM must stand before the surfaces");
+    mm_ = unit == "C" ? 10 : unit == "I" ? 25.4 : 1;
+    return Done{};
+}
+
+Status Reader::wavelengths(const Command& c) {
+    const auto values = numbers(c);
+    if (!values) return values.error();
+    wavelengths_nm_ = *values;
+    return Done{};
+}
+
+Status Reader::reference(const Command& c) {
     const auto value = number(c, 1);
     if (!value) return value.error();
-    lens.aperture = *value;
-    if (c.words[0] == "EPD") lens.aperture_kind = ApertureKind::EntrancePupilDiameter, lens.aperture *= mm_;
-    if (c.words[0] == "FNO") lens.aperture_kind = ApertureKind::FNumber;
-    if (c.words[0] == "NA") lens.aperture_kind = ApertureKind::FNumber, lens.aperture = 1 / (2 * *value);
-    if (c.words[0] == "NAO") lens.aperture_kind = ApertureKind::ObjectNA;
+    reference_ = int(std::clamp(*value, 0.0, 1000.0));
+    return Done{};
+}
+
+Status Reader::aperture(const Command& c) {
+    const std::map<std::string, ApertureKind> kinds = {{"EPD", ApertureKind::EntrancePupilDiameter},
+                                                       {"FNO", ApertureKind::FNumber},
+                                                       {"NA", ApertureKind::FNumber},
+                                                       {"NAO", ApertureKind::ObjectNA}};
+    const auto value = number(c, 1);
+    if (!value) return value.error();
+    aperture_ = kinds.at(c.words[0]);
+    file_.lens.aperture = c.words[0] == "NA" ? 1 / (2 * *value) : *value;
     return Done{};
 }
 
 Status Reader::fields(const Command& c) {
+    const std::map<std::string, FieldKind> kinds = {{"AN", FieldKind::AngleDeg},
+                                                    {"OB", FieldKind::ObjectHeight},
+                                                    {"IM", FieldKind::ImageHeight},
+                                                    {"RI", FieldKind::ImageHeight}};
     const auto values = numbers(c);
     if (!values) return values.error();
-    const std::string kind = c.words[0].substr(1);
     (c.words[0][0] == 'X' ? x_fields_ : y_fields_) = *values;
-    if (kind == "AN") file_.lens.field_kind = FieldKind::AngleDeg;
-    if (kind == "OB") file_.lens.field_kind = FieldKind::ObjectHeight;
-    if (kind == "IM" || kind == "RI") file_.lens.field_kind = FieldKind::ImageHeight;
+    file_.lens.field_kind = kinds.at(c.words[0].substr(1));
     return Done{};
 }
 
-Status Reader::top_level(const Command& c) {
-    const std::string& word = c.words[0];
-    if (word == "RDM") {
-        radius_mode_ = c.words.size() < 2 || upper_case(c.words[1]) != "N";
-    } else if (word == "TIT" || word == "TITLE") {
-        if (c.words.size() > 1) file_.lens.name = c.words[1];
-    } else if (word == "DIM") {
-        const std::string unit = c.words.size() > 1 ? upper_case(c.words[1]).substr(0, 1) : "";
-        if (unit != "M" && unit != "C" && unit != "I") return at_line(c.line, "DIM must be M, C or I");
-        mm_ = unit == "C" ? 10 : unit == "I" ? 25.4 : 1;
-    } else if (word == "WL") {
-        const auto values = numbers(c);
-        if (!values) return values.error();
-        wavelengths_nm_ = *values;
-    } else if (word == "REF") {
-        const auto value = number(c, 1);
-        if (!value) return value.error();
-        reference_ = int(std::clamp(*value, 0.0, 1000.0));
-    } else if (word == "EPD" || word == "FNO" || word == "NA" || word == "NAO") {
-        return aperture(c);
-    } else if (word.size() == 3 && (word[0] == 'X' || word[0] == 'Y') &&
-               std::set<std::string>{"AN", "OB", "IM", "RI"}.contains(word.substr(1))) {
-        return fields(c);
-    } else if (word == "VUX" || word == "VUY" || word == "VLX" || word == "VLY") {
-        const auto values = numbers(c);
-        if (!values) return values.error();
-        for (const double value : *values) vignetting_factors_ = vignetting_factors_ || value != 0;
-    } else if (word == "PRV") {
-        in_private_ = true;
-    } else if (word == "ZOO") {
-        return at_line(c.line, "zoom lenses (ZOO) are not supported");
-    } else if (seen_image_ || kHarmless.contains(word)) {
-        ignored_.add(word.substr(0, 20));
-    } else {
-        return at_line(c.line, quoted(word) + " is not understood");
-    }
+Status Reader::vignetting(const Command& c) {
+    const auto values = numbers(c);
+    if (!values) return values.error();
+    for (const double value : *values) vignetting_factors_ = vignetting_factors_ || value != 0;
     return Done{};
+}
+
+const std::map<std::string, Reader::Handler>& Reader::general_words() {
+    static const std::map<std::string, Handler> words = {
+        {"S", &Reader::begin_surface}, {"SO", &Reader::begin_surface}, {"SI", &Reader::begin_surface},
+        {"RDM", &Reader::radius_mode}, {"TIT", &Reader::title},        {"TITLE", &Reader::title},
+        {"DIM", &Reader::unit},        {"WL", &Reader::wavelengths},   {"REF", &Reader::reference},
+        {"EPD", &Reader::aperture},    {"FNO", &Reader::aperture},     {"NA", &Reader::aperture},
+        {"NAO", &Reader::aperture},    {"XAN", &Reader::fields},       {"YAN", &Reader::fields},
+        {"XOB", &Reader::fields},      {"YOB", &Reader::fields},       {"XIM", &Reader::fields},
+        {"YIM", &Reader::fields},      {"XRI", &Reader::fields},       {"YRI", &Reader::fields},
+        {"VUX", &Reader::vignetting},  {"VUY", &Reader::vignetting},   {"VLX", &Reader::vignetting},
+        {"VLY", &Reader::vignetting},  {"PRV", &Reader::begin_private}};
+    return words;
+}
+
+const std::map<std::string, Reader::Handler>& Reader::surface_words() {
+    static const std::map<std::string, Handler> words = [] {
+        std::map<std::string, Handler> all = {{"STO", &Reader::stop},
+                                              {"CIR", &Reader::circular_aperture},
+                                              {"GLA", &Reader::change_glass},
+                                              {"K", &Reader::aspheric}};
+        for (const char order : kAsphereOrders) all[std::string(1, order)] = &Reader::aspheric;
+        return all;
+    }();
+    return words;
 }
 
 Status Reader::command(const Command& c) {
     const std::string& word = c.words[0];
-    if (in_private_) return catalogue_line(c);
-    if (word == "S" || word == "SO" || word == "SI") return begin_surface(c);
-    const bool general = word == "RDM" || word == "TIT" || word == "TITLE" || word == "DIM" || word == "WL" ||
-                         word == "REF" || word == "EPD" || word == "FNO" || word == "NA" || word == "NAO" ||
-                         word == "ZOO" || kHarmless.contains(word);
-    if (current_ && !general && !(word.size() == 3 && (word[0] == 'X' || word[0] == 'Y' || word[0] == 'V')))
-        return in_surface(c);
-    return top_level(c);
+    if (in_private_) return private_glass(c);
+    if (const auto found = general_words().find(word); found != general_words().end())
+        return (this->*found->second)(c);
+    if (current_) {
+        if (const auto found = surface_words().find(word); found != surface_words().end())
+            return (this->*found->second)(c);
+        if (kHarmlessInSurface.contains(word)) {
+            if (word != "ASP" && word != "SPH" && word != "SLB" && word != "CON") ignored_.add(word);
+            return Done{};
+        }
+    }
+    // What follows the image are solves, weights and commands.
+    if (!kHarmless.contains(word) && !seen_image_)
+        return at_line(c.line, quoted(word) + " is not understood or not supported");
+    ignored_.add(word.substr(0, 20));
+    return Done{};
 }
 
-Status Reader::finish() {
+Status Reader::set_aperture() {
     optics::Prescription& lens = file_.lens;
-    if (lens.surfaces.empty()) return at_line(1, "no surface (S) is given");
-    if (!has_stop_) file_.warnings.push_back("no surface is marked STO; the first is taken");
-    if (lens.aperture == 0) {
-        lens.aperture_kind = ApertureKind::StopRadius;
-        lens.aperture = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
-        if (!std::isfinite(lens.aperture))
-            return at_line(1, "no aperture is given: EPD, FNO, NA, NAO or CIR at the stop");
+    lens.aperture_kind = aperture_.value_or(ApertureKind::StopRadius);
+    if (aperture_ == ApertureKind::EntrancePupilDiameter) lens.aperture *= mm_;
+    if (aperture_) return Done{};
+    lens.aperture = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
+    if (std::isfinite(lens.aperture)) return Done{};
+    return at_line(1, "no aperture is given: EPD, FNO, NA, NAO or CIR at the stop");
+}
+
+void Reader::set_wavelengths() {
+    optics::Prescription& lens = file_.lens;
+    if (wavelengths_nm_.empty()) return;
+    const std::size_t count = wavelengths_nm_.size();
+    const std::size_t reference = reference_ > 0 ? std::min(std::size_t(reference_), count) : (count + 1) / 2;
+    lens.primary_um = wavelengths_nm_[reference - 1] / 1000;
+    const auto [shortest, longest] = std::minmax_element(wavelengths_nm_.begin(), wavelengths_nm_.end());
+    if (*shortest < *longest) {
+        lens.short_um = *shortest / 1000;
+        lens.long_um = *longest / 1000;
+    } else {
+        file_.warnings.emplace_back("the file has one wavelength; colour is taken between the F and C lines");
     }
-    if (!wavelengths_nm_.empty()) {
-        const std::size_t count = wavelengths_nm_.size();
-        const std::size_t reference =
-            reference_ > 0 ? std::min(std::size_t(reference_), count) : (count + 1) / 2;
-        lens.primary_um = wavelengths_nm_[reference - 1] / 1000;
-        const auto [shortest, longest] = std::minmax_element(wavelengths_nm_.begin(), wavelengths_nm_.end());
-        if (*shortest < *longest)
-            lens.short_um = *shortest / 1000, lens.long_um = *longest / 1000;
-        else
-            file_.warnings.push_back(
-                "the file has one wavelength; colour is taken between the F and C lines");
-    }
+}
+
+void Reader::set_field() {
+    optics::Prescription& lens = file_.lens;
     for (std::size_t i = 0; i < std::max(x_fields_.size(), y_fields_.size()); ++i) {
         const double x = i < x_fields_.size() ? x_fields_[i] : 0, y = i < y_fields_.size() ? y_fields_[i] : 0;
         lens.field = std::max(lens.field, std::hypot(x, y));
     }
     if (lens.field_kind != FieldKind::AngleDeg) lens.field *= mm_;
     if (vignetting_factors_)
-        file_.warnings.push_back("vignetting factors are not used; the clear apertures vignette");
+        file_.warnings.emplace_back("vignetting factors are not used; the clear apertures vignette");
+}
+
+Status Reader::finish() {
+    if (file_.lens.surfaces.empty()) return at_line(1, "no surface (S) is given");
+    if (!has_stop_) file_.warnings.emplace_back("no surface is marked STO; the first is taken");
+    if (const Status status = set_aperture(); !status) return status.error();
+    set_wavelengths();
+    set_field();
     glasses_.report(file_.warnings);
     warn_of_models(file_);
     assume_field(file_);

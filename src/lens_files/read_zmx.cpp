@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace petzval::lens_files {
 namespace {
@@ -23,14 +24,11 @@ struct ZmxSurface {
     bool stop = false, tilted = false;
 };
 
-const std::set<std::string> kHarmlessInSurface = {"FIMP", "HIDE", "MIRR", "SLAB", "POPS", "MEMA", "COMM",
-                                                  "MAZH", "SCOL", "COAT", "SDMA", "BORD", "PZUP", "CZUP",
-                                                  "KZUP", "MZUP", "RAED", "RAID", "COFN", "TCMM", "TCE",
-                                                  "CHZN", "DRAW", "FTAN", "PPAR", "PARP", "INIS", "NSCC"};
+const std::set<std::string> kHarmlessInSurface = {"FIMP", "HIDE", "MIRR", "SLAB", "POPS",
+                                                  "MEMA", "COMM", "MAZH", "SCOL", "COAT",
+                                                  "PZUP", "CZUP", "KZUP", "MZUP", "CHZN"};
 const std::set<std::string> kBendsBeams = {"OBSC", "SQAP", "RCAP", "ELAP", "EAPP", "SPID", "UDAD", "UDOB",
                                            "SQOB", "ELOB", "OBDC", "IGNR", "TILT", "DCNT", "HOLO", "GRIN"};
-const std::set<std::string> kSurfaceWords = {"TYPE", "CURV", "DISZ", "GLAS", "CONI", "PARM",
-                                             "XDAT", "DIAM", "CLAP", "FLAP", "STOP", "SCBD"};
 const std::set<std::string> kHarmlessHeader = {
     "VERS", "PFIL", "LANG", "ENVD",    "GFAC", "GCAT", "RAIM", "PUSH", "SDMA", "OMMA", "ROPD", "HYPR", "PICB",
     "FWGN", "VANN", "POLS", "GLRS",    "GSTD", "NSCD", "COFN", "BLNK", "TOL",  "MNUM", "MOFF", "NOTE", "WWGN",
@@ -41,30 +39,60 @@ public:
     Result<LensFile> read(const std::string& text);
 
 private:
+    // What a keyword does; words[0] is the keyword.
+    using Handler = Status (*)(Reader& reader, const Words& words, const Line& line);
+    template <auto member>
+    static Status call(Reader& reader, const Words& words, const Line& line) {
+        return (reader.*member)(words, line);
+    }
+    // The keyword's first number into a member of the current surface; number i of a list into its list.
+    template <auto member>
+    static Status put(Reader& reader, const Words& words, const Line& line) {
+        return set(reader.surfaces_.back().*member, words, 1, line);
+    }
+    template <auto member>
+    static Status put_indexed(Reader& reader, const Words& words, const Line& line) {
+        return set_indexed(reader.surfaces_.back().*member, words, line);
+    }
+    static const std::map<std::string, Handler>& header_words();
+    static const std::map<std::string, Handler>& surface_words();
     Status header(const std::string& keyword, const Words& words, const Line& line);
     Status in_surface(const std::string& keyword, const Words& words, const Line& line);
-    Status set_scale(const Words& words, const Line& line);
-    Status set_mode(const Words& words, const Line& line);
-    Status set_aperture(const std::string& keyword, const Words& words, const Line& line);
+
+    Status unit(const Words& words, const Line& line);
+    Status name(const Words& words, const Line& line);
+    Status entrance_pupil(const Words& words, const Line& line);
+    Status f_number(const Words& words, const Line& line);
+    Status object_na(const Words& words, const Line& line);
+    Status field_type(const Words& words, const Line& line);
+    Status vignetting(const Words& words, const Line& line);
+    Status primary(const Words& words, const Line& line);
+
     Status glass(const Words& words, const Line& line);
     Status clear_aperture(const Words& words, const Line& line);
+    Status tilt(const Words& words, const Line& line);
+
     Result<optics::Surface> surface(const ZmxSurface& from);
     Status aspheric_terms(const ZmxSurface& from, optics::Surface& to);
     Status surfaces();
-    void wavelengths();
-    void field();
+    void set_wavelengths();
+    void set_field();
+    Status set_aperture();
     Status finish();
 
     // Word i as a number; an error that names the line otherwise.
     static Result<double> number(const Words& words, std::size_t i, const Line& line);
-    std::vector<double> numbers(const Words& words) const;
+    static Status set(double& to, const Words& words, std::size_t i, const Line& line);
+    static Status set_indexed(std::map<int, double>& to, const Words& words, const Line& line);
+    static std::vector<double> numbers(const Words& words);
 
     LensFile file_;
     std::vector<ZmxSurface> surfaces_;
     GlassFinder glasses_;
     Ignored ignored_;
     double mm_ = 1;
-    bool aperture_by_stop_ = false, has_aperture_ = false, vignetting_factors_ = false, assumed_type_ = false;
+    std::optional<ApertureKind> aperture_;  // none: the stop's diameter rules
+    bool vignetting_factors_ = false, assumed_type_ = false;
     int field_type_ = 0, field_count_ = 0, wavelength_count_ = 0, primary_ = 1;
     std::vector<double> x_fields_, y_fields_, wavelengths_um_;
 };
@@ -78,89 +106,143 @@ Result<double> Reader::number(const Words& words, std::size_t i, const Line& lin
     return *value;
 }
 
-std::vector<double> Reader::numbers(const Words& words) const {
+std::vector<double> Reader::numbers(const Words& words) {
     std::vector<double> values;
     for (std::size_t i = 1; i < words.size(); ++i)
         if (const auto value = parse_number(words[i])) values.push_back(*value);
     return values;
 }
 
-Status Reader::set_scale(const Words& words, const Line& line) {
-    const std::string unit = words.size() > 1 ? upper_case(words[1]) : "";
-    if (unit == "MM")
-        mm_ = 1;
-    else if (unit == "CM")
-        mm_ = 10;
-    else if (unit == "IN")
-        mm_ = 25.4;
-    else if (unit == "METER")
-        mm_ = 1000;
-    else
-        return at_line(line.number, "UNIT " + quoted(unit) + " is not known; MM, CM, IN and METER are");
+Status Reader::set(double& to, const Words& words, std::size_t i, const Line& line) {
+    const auto value = number(words, i, line);
+    if (!value) return value.error();
+    to = *value;
     return Done{};
 }
 
-Status Reader::set_mode(const Words& words, const Line& line) {
-    if (words.size() > 1 && upper_case(words[1]) == "SEQ") return Done{};
-    return at_line(line.number, "only sequential lenses (MODE SEQ) are supported");
+Status Reader::set_indexed(std::map<int, double>& to, const Words& words, const Line& line) {
+    const auto index = number(words, 1, line), value = number(words, 2, line);
+    if (!index) return index.error();
+    if (!value) return value.error();
+    if (!(*index >= 0 && *index <= 500))
+        return at_line(line.number, std::string(words[0]) + " has no number " + quoted(words[1]));
+    to[int(*index)] = *value;
+    return Done{};
 }
 
-Status Reader::set_aperture(const std::string& keyword, const Words& words, const Line& line) {
-    optics::Prescription& lens = file_.lens;
-    has_aperture_ = true;
-    aperture_by_stop_ = keyword == "FLOA";
-    if (aperture_by_stop_) return Done{};
-    const auto value = number(words, 1, line);
-    if (!value) return value.error();
-    const double kind = words.size() > 2 ? parse_number(words[2]).value_or(0) : 0;
-    lens.aperture = *value;
-    if (keyword == "ENPD") lens.aperture_kind = ApertureKind::EntrancePupilDiameter, lens.aperture *= mm_;
-    if (keyword == "FNUM") lens.aperture_kind = ApertureKind::FNumber;
-    if (keyword == "OBNA") {
-        lens.aperture_kind = ApertureKind::ObjectNA;
-        if (kind == 1) lens.aperture = std::sin(*value * 3.14159265358979323846 / 180);  // cone angle
-    }
-    if (keyword == "FNUM" && kind == 1)
+// The lens as a whole.
+
+Status Reader::unit(const Words& words, const Line& line) {
+    const std::map<std::string, double> known = {{"MM", 1}, {"CM", 10}, {"IN", 25.4}, {"METER", 1000}};
+    const auto found = known.find(words.size() > 1 ? upper_case(words[1]) : "");
+    if (found == known.end()) return at_line(line.number, "UNIT is not known; MM, CM, IN and METER are");
+    mm_ = found->second;
+    return Done{};
+}
+
+Status Reader::name(const Words&, const Line& line) {
+    file_.lens.name = std::string(trimmed(trimmed(line.text).substr(4)));
+    return Done{};
+}
+
+Status Reader::entrance_pupil(const Words& words, const Line& line) {
+    aperture_ = ApertureKind::EntrancePupilDiameter;
+    return set(file_.lens.aperture, words, 1, line);
+}
+
+Status Reader::f_number(const Words& words, const Line& line) {
+    aperture_ = ApertureKind::FNumber;
+    if (words.size() > 2 && parse_number(words[2]) == 1.0)
         file_.warnings.push_back("line " + std::to_string(line.number) +
                                  ": the working f-number is read as that for an object at infinity");
+    return set(file_.lens.aperture, words, 1, line);
+}
+
+Status Reader::object_na(const Words& words, const Line& line) {
+    aperture_ = ApertureKind::ObjectNA;
+    if (const Status status = set(file_.lens.aperture, words, 1, line); !status) return status.error();
+    const bool cone_angle = words.size() > 2 && parse_number(words[2]) == 1.0;  // in degrees
+    if (cone_angle) file_.lens.aperture = std::sin(file_.lens.aperture * std::numbers::pi / 180);
     return Done{};
+}
+
+Status Reader::field_type(const Words& words, const Line&) {
+    const auto values = numbers(words);
+    if (!values.empty()) field_type_ = int(std::clamp(values[0], -1.0, 9.0));
+    if (values.size() > 2) field_count_ = int(std::clamp(values[2], 0.0, 100.0));
+    if (values.size() > 3) wavelength_count_ = int(std::clamp(values[3], 0.0, 100.0));
+    return Done{};
+}
+
+Status Reader::vignetting(const Words& words, const Line&) {
+    for (const double value : numbers(words)) vignetting_factors_ = vignetting_factors_ || value != 0;
+    return Done{};
+}
+
+Status Reader::primary(const Words& words, const Line& line) {
+    const auto value = number(words, 1, line);
+    if (!value) return value.error();
+    primary_ = int(std::clamp(*value, 1.0, 100.0));
+    return Done{};
+}
+
+const std::map<std::string, Reader::Handler>& Reader::header_words() {
+    static const auto mode = [](Reader&, const Words& w, const Line& l) -> Status {
+        if (w.size() > 1 && upper_case(w[1]) == "SEQ") return Done{};
+        return at_line(l.number, "only sequential lenses (MODE SEQ) are supported");
+    };
+    static const auto x_fields = [](Reader& r, const Words& w, const Line&) -> Status {
+        r.x_fields_ = numbers(w);
+        return Done{};
+    };
+    static const auto y_fields = [](Reader& r, const Words& w, const Line&) -> Status {
+        r.y_fields_ = numbers(w);
+        return Done{};
+    };
+    static const auto list = [](Reader& r, const Words& w, const Line&) -> Status {
+        r.wavelengths_um_ = numbers(w);
+        return Done{};
+    };
+    static const auto one = [](Reader& r, const Words& w, const Line& l) -> Status {
+        return set(r.wavelengths_um_.emplace_back(), w, 2, l);
+    };
+    static const auto by_stop = [](Reader& r, const Words&, const Line&) -> Status {
+        r.aperture_.reset();
+        return Done{};
+    };
+    static const std::map<std::string, Handler> words = {{"UNIT", call<&Reader::unit>},
+                                                         {"MODE", mode},
+                                                         {"NAME", call<&Reader::name>},
+                                                         {"ENPD", call<&Reader::entrance_pupil>},
+                                                         {"FNUM", call<&Reader::f_number>},
+                                                         {"OBNA", call<&Reader::object_na>},
+                                                         {"FLOA", by_stop},
+                                                         {"FTYP", call<&Reader::field_type>},
+                                                         {"XFLN", x_fields},
+                                                         {"XFLD", x_fields},
+                                                         {"YFLN", y_fields},
+                                                         {"YFLD", y_fields},
+                                                         {"VDXN", call<&Reader::vignetting>},
+                                                         {"VDYN", call<&Reader::vignetting>},
+                                                         {"VCXN", call<&Reader::vignetting>},
+                                                         {"VCYN", call<&Reader::vignetting>},
+                                                         {"WAVM", one},
+                                                         {"WAVL", list},
+                                                         {"WAVN", list},
+                                                         {"PWAV", call<&Reader::primary>}};
+    return words;
 }
 
 Status Reader::header(const std::string& keyword, const Words& words, const Line& line) {
-    if (keyword == "UNIT") return set_scale(words, line);
-    if (keyword == "MODE") return set_mode(words, line);
-    if (keyword == "ENPD" || keyword == "FNUM" || keyword == "OBNA" || keyword == "FLOA")
-        return set_aperture(keyword, words, line);
-    if (keyword == "NAME") {
-        const std::size_t at = line.text.find("NAME");
-        if (at != std::string_view::npos) file_.lens.name = std::string(trimmed(line.text.substr(at + 4)));
-    } else if (keyword == "FTYP") {
-        const auto values = numbers(words);
-        if (!values.empty()) field_type_ = int(std::clamp(values[0], -1.0, 9.0));
-        if (values.size() > 2) field_count_ = int(std::clamp(values[2], 0.0, 100.0));
-        if (values.size() > 3) wavelength_count_ = int(std::clamp(values[3], 0.0, 100.0));
-    } else if (keyword == "XFLN" || keyword == "XFLD") {
-        x_fields_ = numbers(words);
-    } else if (keyword == "YFLN" || keyword == "YFLD") {
-        y_fields_ = numbers(words);
-    } else if (keyword == "WAVM") {
-        const auto value = number(words, 2, line);
-        if (!value) return value.error();
-        wavelengths_um_.push_back(*value);
-    } else if (keyword == "WAVL" || keyword == "WAVN") {
-        wavelengths_um_ = numbers(words);
-    } else if (keyword == "PWAV") {
-        const auto value = number(words, 1, line);
-        if (!value) return value.error();
-        primary_ = int(std::clamp(*value, 1.0, 100.0));
-    } else if (keyword == "VDXN" || keyword == "VDYN" || keyword == "VCXN" || keyword == "VCYN") {
-        for (const double value : numbers(words)) vignetting_factors_ = vignetting_factors_ || value != 0;
-    } else if (!kHarmlessHeader.contains(keyword)) {
-        // Merit functions and options follow the surfaces in endless variety; none of them shapes the lens.
+    if (const auto found = header_words().find(keyword); found != header_words().end())
+        return found->second(*this, words, line);
+    // Merit functions and options follow the surfaces in endless variety; none of them shapes the lens.
+    if (!kHarmlessHeader.contains(keyword))
         ignored_.add(keyword.substr(0, 20) + " (line " + std::to_string(line.number) + ")");
-    }
     return Done{};
 }
+
+// One surface.
 
 Status Reader::glass(const Words& words, const Line& line) {
     GlassRequest request;
@@ -185,48 +267,48 @@ Status Reader::clear_aperture(const Words& words, const Line& line) {
     return Done{};
 }
 
-Status Reader::in_surface(const std::string& keyword, const Words& words, const Line& line) {
-    ZmxSurface& surface = surfaces_.back();
-    const auto set = [&](double& to, std::size_t i) -> Status {
-        const auto value = number(words, i, line);
-        if (!value) return value.error();
-        to = *value;
+Status Reader::tilt(const Words& words, const Line&) {
+    for (std::size_t i = 2; i < words.size(); ++i)
+        surfaces_.back().tilted = surfaces_.back().tilted || parse_number(words[i]).value_or(1) != 0;
+    return Done{};
+}
+
+const std::map<std::string, Reader::Handler>& Reader::surface_words() {
+    static const auto stop = [](Reader& r, const Words&, const Line&) -> Status {
+        r.surfaces_.back().stop = true;
         return Done{};
     };
-    if (keyword == "STOP")
-        surface.stop = true;
-    else if (keyword == "TYPE")
-        surface.type = words.size() > 1 ? upper_case(words[1]) : "";
-    else if (keyword == "CURV")
-        return set(surface.curvature, 1);
-    else if (keyword == "DISZ")
-        return set(surface.thickness, 1);
-    else if (keyword == "CONI")
-        return set(surface.conic, 1);
-    else if (keyword == "GLAS")
-        return glass(words, line);
-    else if (keyword == "CLAP" || keyword == "FLAP")
-        return clear_aperture(words, line);
-    else if (keyword == "DIAM")
-        return set(surface.semi_diameter.emplace(), 1);
-    else if (keyword == "PARM" || keyword == "XDAT") {
-        const auto index = number(words, 1, line), value = number(words, 2, line);
-        if (!index) return index.error();
-        if (!value) return value.error();
-        if (!(*index >= 0 && *index <= 500))
-            return at_line(line.number, keyword + " has no number " + quoted(words[1]));
-        (keyword == "PARM" ? surface.parameters : surface.extra)[int(*index)] = *value;
-    } else if (keyword == "SCBD") {
-        for (std::size_t i = 2; i < words.size(); ++i)
-            surface.tilted = surface.tilted || parse_number(words[i]).value_or(1) != 0;
-    } else if (kBendsBeams.contains(keyword)) {
+    static const auto type = [](Reader& r, const Words& w, const Line&) -> Status {
+        r.surfaces_.back().type = w.size() > 1 ? upper_case(w[1]) : "";
+        return Done{};
+    };
+    static const auto semi_diameter = [](Reader& r, const Words& w, const Line& l) -> Status {
+        return set(r.surfaces_.back().semi_diameter.emplace(), w, 1, l);
+    };
+    static const std::map<std::string, Handler> words = {{"STOP", stop},
+                                                         {"TYPE", type},
+                                                         {"DIAM", semi_diameter},
+                                                         {"CURV", put<&ZmxSurface::curvature>},
+                                                         {"DISZ", put<&ZmxSurface::thickness>},
+                                                         {"CONI", put<&ZmxSurface::conic>},
+                                                         {"PARM", put_indexed<&ZmxSurface::parameters>},
+                                                         {"XDAT", put_indexed<&ZmxSurface::extra>},
+                                                         {"GLAS", call<&Reader::glass>},
+                                                         {"CLAP", call<&Reader::clear_aperture>},
+                                                         {"FLAP", call<&Reader::clear_aperture>},
+                                                         {"SCBD", call<&Reader::tilt>}};
+    return words;
+}
+
+Status Reader::in_surface(const std::string& keyword, const Words& words, const Line& line) {
+    if (const auto found = surface_words().find(keyword); found != surface_words().end())
+        return found->second(*this, words, line);
+    if (kBendsBeams.contains(keyword))
         return at_line(line.number,
-                       keyword + " (an aperture or tilt that is not a centred circle) is not supported");
-    } else if (kHarmlessInSurface.contains(keyword)) {
-        ignored_.add(keyword);
-    } else {
+                       keyword + " (not a centred circular aperture, or a tilt) is not supported");
+    if (!kHarmlessInSurface.contains(keyword))
         return at_line(line.number, quoted(words[0]) + " of a surface is not understood");
-    }
+    ignored_.add(keyword);
     return Done{};
 }
 
@@ -293,7 +375,7 @@ Status Reader::surfaces() {
         lens.object_distance_mm = object.thickness * mm_;
     if (object.glass) return at_line(object.glass->line, "an object inside glass is not supported");
     if (image.curvature != 0)
-        file_.warnings.push_back("the image surface is curved; the sensor is taken as flat");
+        file_.warnings.emplace_back("the image surface is curved; the sensor is taken as flat");
     bool has_stop = false;
     for (std::size_t i = 1; i + 1 < surfaces_.size(); ++i) {
         auto converted = surface(surfaces_[i]);
@@ -303,12 +385,12 @@ Status Reader::surfaces() {
             return at_line(surfaces_[i].line, "a second surface is marked STOP");
         if (surfaces_[i].stop) lens.stop = int(i) - 1, has_stop = true;
     }
-    if (!has_stop) file_.warnings.push_back("no surface is marked STOP; the first is taken");
+    if (!has_stop) file_.warnings.emplace_back("no surface is marked STOP; the first is taken");
     return Done{};
 }
 
 // The first wavelength_count_ of the list are in use; the rest are fillers.
-void Reader::wavelengths() {
+void Reader::set_wavelengths() {
     optics::Prescription& lens = file_.lens;
     auto& used = wavelengths_um_;
     if (wavelength_count_ > 0 && std::size_t(wavelength_count_) < used.size())
@@ -320,11 +402,11 @@ void Reader::wavelengths() {
         lens.short_um = *shortest;
         lens.long_um = *longest;
     } else {
-        file_.warnings.push_back("the file has one wavelength; colour is taken between the F and C lines");
+        file_.warnings.emplace_back("the file has one wavelength; colour is taken between the F and C lines");
     }
 }
 
-void Reader::field() {
+void Reader::set_field() {
     optics::Prescription& lens = file_.lens;
     const std::size_t count = std::max(x_fields_.size(), y_fields_.size());
     for (std::size_t i = 0; i < count && (field_count_ == 0 || i < std::size_t(field_count_)); ++i) {
@@ -334,28 +416,30 @@ void Reader::field() {
     if (field_type_ == 1) lens.field_kind = FieldKind::ObjectHeight, lens.field *= mm_;
     if (field_type_ == 2 || field_type_ == 3) lens.field_kind = FieldKind::ImageHeight, lens.field *= mm_;
     if (field_type_ == 3 && lens.field > 0)
-        file_.warnings.push_back(
+        file_.warnings.emplace_back(
             "the field is a real image height; the paraxial height of that size is used");
     if (vignetting_factors_)
-        file_.warnings.push_back("vignetting factors are not used; the clear apertures vignette");
+        file_.warnings.emplace_back("vignetting factors are not used; the clear apertures vignette");
+}
+
+Status Reader::set_aperture() {
+    optics::Prescription& lens = file_.lens;
+    lens.aperture_kind = aperture_.value_or(ApertureKind::StopRadius);
+    if (lens.aperture_kind == ApertureKind::EntrancePupilDiameter) lens.aperture *= mm_;
+    if (aperture_) return Done{};
+    lens.aperture = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
+    if (std::isfinite(lens.aperture)) return Done{};
+    return at_line(surfaces_[std::size_t(lens.stop) + 1].line,
+                   "the stop has no diameter (DIAM), and no aperture is given otherwise");
 }
 
 Status Reader::finish() {
-    optics::Prescription& lens = file_.lens;
     if (const Status status = surfaces(); !status) return status.error();
-    wavelengths();
-    field();
-    if (!has_aperture_) aperture_by_stop_ = true;
-    if (aperture_by_stop_) {
-        lens.aperture_kind = ApertureKind::StopRadius;
-        lens.aperture = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
-        if (!std::isfinite(lens.aperture))
-            return at_line(surfaces_[std::size_t(lens.stop) + 1].line,
-                           "the stop has no diameter (DIAM), and no aperture "
-                           "is given otherwise");
-    }
+    if (const Status status = set_aperture(); !status) return status.error();
+    set_wavelengths();
+    set_field();
     if (assumed_type_)
-        file_.warnings.push_back("surfaces without TYPE are read as STANDARD, or as EVENASPH with PARM");
+        file_.warnings.emplace_back("surfaces without TYPE are read as STANDARD, or as EVENASPH with PARM");
     glasses_.report(file_.warnings);
     warn_of_models(file_);
     assume_field(file_);
@@ -380,7 +464,7 @@ Result<LensFile> Reader::read(const std::string& text) {
                 return at_line(line.number, "SURF " + std::to_string(surfaces_.size()) + " is expected here");
             surfaces_.push_back({});
             surfaces_.back().line = line.number;
-        } else if (!surfaces_.empty() && (line.indented || kSurfaceWords.contains(keyword))) {
+        } else if (!surfaces_.empty() && (line.indented || surface_words().contains(keyword))) {
             status = in_surface(keyword, words, line);
         } else {
             status = header(keyword, words, line);

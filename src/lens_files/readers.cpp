@@ -52,9 +52,9 @@ Result<optics::Glass> GlassFinder::find(const GlassRequest& request) {
 
 void GlassFinder::report(std::vector<std::string>& warnings) const {
     if (!modelled_.empty())
-        warnings.push_back("not in the glass catalogue, nd and Vd of the file are used: " +
-                           list_of(modelled_));
-    if (!other_makers_.empty()) warnings.push_back("glass replaced: " + list_of(other_makers_));
+        warnings.emplace_back("not in the glass catalogue, nd and Vd of the file are used: " +
+                              list_of(modelled_));
+    if (!other_makers_.empty()) warnings.emplace_back("glass replaced: " + list_of(other_makers_));
 }
 
 void Ignored::report(std::vector<std::string>& warnings) const {
@@ -91,7 +91,8 @@ void assume_field(LensFile& file) {
     if (lens.field > 0) return;
     lens.field_kind = optics::FieldKind::ImageHeight;
     lens.field = std::hypot(36, 24) / 2;
-    file.warnings.push_back("the file states no field; the half diagonal of a 36 x 24 mm picture is assumed");
+    file.warnings.emplace_back(
+        "the file states no field; the half diagonal of a 36 x 24 mm picture is assumed");
 }
 
 }  // namespace petzval::lens_files

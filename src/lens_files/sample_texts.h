@@ -97,9 +97,9 @@ inline std::string as_optical_bench(const optics::Prescription& lens) {
                 digits(2 * s.clear_radius_mm) + "\t" +
                 (s.after.is_air() ? "" : digits(s.after.abbe_number()) + "\t" + s.after.name) + "\n";
         if (s.asphere.empty()) continue;
-        aspheres += id + "\t" + radius + "\t" + digits(s.conic);
-        for (const auto& term : s.asphere) aspheres += "\t" + digits(term.coefficient);
-        aspheres += "\n";
+        aspheres.append(id).append("\t").append(radius).append("\t").append(digits(s.conic));
+        for (const auto& term : s.asphere) aspheres.append("\t").append(digits(term.coefficient));
+        aspheres.append("\n");
     }
     return text + "[aspherical data]\n" + aspheres + "[notes]\nanything goes here\n";
 }

@@ -40,9 +40,8 @@ TEST(Shelf, EveryLensNamesItsSourceAndTellsItsHistory) {
         EXPECT_GT(lens.history.size(), 80u) << item.name;
         classes.insert(lens.kind);
     }
-    for (const char* kind :
-         {"petzval", "triplet", "tessar", "double gauss", "telephoto", "retrofocus wide angle", "fisheye",
-          "ernostar", "landscape lens", "phone lens"})
+    for (const char* kind : {"petzval", "triplet", "tessar", "double gauss", "telephoto",
+                             "retrofocus wide angle", "fisheye", "ernostar", "landscape lens", "phone lens"})
         EXPECT_TRUE(classes.contains(kind)) << kind;
 }
 

@@ -78,9 +78,10 @@ void GlassCatalogue::add(Glass glass) { glasses_.push_back(std::move(glass)); }
 
 const Glass* GlassCatalogue::find(const std::string& name) const {
     const std::string wanted = normalised_glass_name(name);
-    for (auto glass = glasses_.rbegin(); glass != glasses_.rend(); ++glass)
-        if (normalised_glass_name(glass->name) == wanted) return &*glass;
-    return nullptr;
+    const Glass* found = nullptr;
+    for (const Glass& glass : glasses_)
+        if (normalised_glass_name(glass.name) == wanted) found = &glass;
+    return found;
 }
 
 namespace {

@@ -74,7 +74,7 @@ Status check(const Prescription& lens) {
     if (lens.aperture_kind == ApertureKind::ObjectNA && lens.aperture >= 1)
         return wrong("object-side NA", lens.aperture, "below 1");
     for (std::size_t i = 0; i < lens.surfaces.size(); ++i)
-        if (const Status status = check_surface(lens, i); !status) return status;
+        if (const Status status = check_surface(lens, i); !status) return status.error();
     return Done{};
 }
 

@@ -16,10 +16,10 @@ struct Polynomial {
 
 Polynomial evaluate(const std::vector<double>& coefficients, double r) {
     Polynomial p;
-    for (auto a = coefficients.rbegin(); a != coefficients.rend(); ++a) {
+    for (std::size_t i = coefficients.size(); i-- > 0;) {
         p.second = p.second * r + p.first;
         p.first = p.first * r + p.value;
-        p.value = p.value * r + *a;
+        p.value = p.value * r + coefficients[i];
     }
     p.second *= 2;
     return p;
