@@ -77,6 +77,7 @@ struct LensChoice {
     double astigmatism = 0;  // tangential and sagittal focus 2 * 0.01 * astigmatism focal lengths apart
     double distortion = 0;   // discs stretch by (1 + 3 d) along and (1 + d) across the field's direction
     int wavelengths = 0;     // bands of the spectrum; 0: as many as the kernel needs to be smooth
+    bool wave = false;       // diffraction: rings in discs of small sensors, spikes of blades; slow
 };
 
 }  // namespace petzval

@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "colour/spectrum.h"
-#include "glare/fft.h"
+#include "base/fft.h"
 #include "kernel/outline.h"
 #include "kernel/spread.h"
 

@@ -52,6 +52,7 @@ Light weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band
 
 CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount)
     : description_(describe(curves, mount.camera)),
+      sampler_(curves, {mount.camera.f_number, choice.spherical, choice.axial_colour}),
       pupil_(choice, mount),
       choice_(choice),
       pixel_aspect_(mount.pixel_aspect) {
@@ -62,12 +63,11 @@ CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, c
     coma_px_ = choice.coma * kComaUnit * rim * rim * focal_length_px;
     astigmatism_px_ = choice.astigmatism * kAstigmatismUnit * aberration_px_;
 
-    const CurveSampler sampler(curves, {camera.f_number, choice.spherical, choice.axial_colour});
-    focus_ = focus_of(sampler, choice, camera.focal_length_mm);
+    focus_ = focus_of(sampler_, choice, camera.focal_length_mm);
     const auto add_rung = [&](int count) {
         ladder_.emplace_back();
         for (const colour::SpectralBand& band : colour::spectral_bands(count))
-            ladder_.back().push_back({band, sampler.at(band.wavelength_nm)});
+            ladder_.back().push_back({band, sampler_.at(band.wavelength_nm)});
     };
     if (choice.wavelengths > 0)
         add_rung(choice.wavelengths);
@@ -115,6 +115,13 @@ Point CurveLens::landing_px(const ZoneShift& shift, double coc_radius_px, const 
                        (scale - bend) * p.y + coma * 2 * p.x * p.y};
     const Point image = axis.from_axis({landed.x * (1 + 3 * stretch), landed.y * (1 + stretch)});
     return {image.x, image.y * pixel_aspect_};
+}
+
+std::function<Point(Point)> CurveLens::landing(double wavelength_nm, double coc_radius_px,
+                                               FieldPosition field) const {
+    return [this, shift = sampler_.at(wavelength_nm), coc_radius_px, axis = FieldAxis(field)](Point pupil) {
+        return landing_px(shift, coc_radius_px, axis, pupil);
+    };
 }
 
 bool CurveLens::varies_over_field() const {

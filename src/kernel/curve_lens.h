@@ -11,13 +11,13 @@
 #include "colour/spectrum.h"
 #include "kernel/aberration_curves.h"
 #include "kernel/field_axis.h"
-#include "kernel/lens_model.h"
+#include "kernel/geometric_lens.h"
 #include "kernel/pupil.h"
 #include "kernel/ring_kernel.h"
 
 namespace petzval::kernel {
 
-class CurveLens final : public LensModel {
+class CurveLens final : public GeometricLens {
 public:
     // Requires: check_curves(curves), check_aperture(choice), camera numbers > 0.
     CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount);
@@ -28,6 +28,14 @@ public:
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override;
     Mirrors mirrors() const override;
+    std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const override {
+        return pupil_.outline(field, tolerance);
+    }
+    std::function<Point(Point)> landing(double wavelength_nm, double coc_radius_px,
+                                        FieldPosition field) const override;
+    double pupil_transmission(Point pupil, double half_width) const override {
+        return pupil_.transmission(pupil, half_width);
+    }
     std::string description() const override { return description_; }
 
 private:
@@ -46,6 +54,7 @@ private:
     PointSpread mesh_spread(double coc_radius_px, FieldPosition field) const;
 
     std::string description_;
+    CurveSampler sampler_;
     Pupil pupil_;
     LensChoice choice_;
     double pixel_aspect_;

@@ -71,6 +71,12 @@ std::vector<PupilRay> IdealLens::rays(int count, FieldPosition field, std::uint6
         });
 }
 
+std::function<Point(Point)> IdealLens::landing(double, double coc_radius_px, FieldPosition) const {
+    return [c = coc_radius_px, tall = coc_radius_px * pixel_aspect_](Point p) {
+        return Point{c * p.x, tall * p.y};
+    };
+}
+
 double IdealLens::reach_px(double coc_radius_px) const {
     return std::abs(coc_radius_px) * std::max(1.0, pixel_aspect_);
 }

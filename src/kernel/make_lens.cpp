@@ -4,6 +4,7 @@
 #include "kernel/image_lens.h"
 #include "kernel/lens_model.h"
 #include "kernel/traced_model.h"
+#include "kernel/wave_lens.h"
 #include "lens_files/shelf.h"
 
 #include <cmath>
@@ -12,6 +13,7 @@ namespace petzval::kernel {
 namespace {
 
 using Lens = std::unique_ptr<const LensModel>;
+using RayLens = std::unique_ptr<const GeometricLens>;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
@@ -55,6 +57,20 @@ Error unknown(const std::string& name, const Error& error) {
     return refuse("unknown lens \"" + name + "\"; known are " + known + ", or the path of a lens file");
 }
 
+Result<RayLens> ray_lens(const LensChoice& choice, const Mount& mount) {
+    const bool perfect = choice.coma == 0 && choice.astigmatism == 0 && choice.distortion == 0;
+    if (choice.name == "ideal" && perfect) return RayLens(std::make_unique<IdealLens>(choice, mount));
+    const AberrationCurves* curves = choice.name == "ideal" ? &straight_curves() : curve_preset(choice.name);
+    if (curves) {
+        if (const Status status = check_camera(mount); !status) return status.error();
+        return RayLens(std::make_unique<CurveLens>(*curves, choice, mount));
+    }
+    const auto file = lens_files::find_lens(choice.name);
+    if (!file) return unknown(choice.name, file.error());
+    if (const Status status = check_camera(mount); !status) return status.error();
+    return TracedModel::make(file->lens, choice, mount);
+}
+
 }  // namespace
 
 Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
@@ -66,18 +82,12 @@ Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
         if (const Status status = check_kernel_images(choice.kernel_images); !status) return status.error();
         return Lens(std::make_unique<ImageLens>(choice, mount));
     }
-    const bool perfect = choice.coma == 0 && choice.astigmatism == 0 && choice.distortion == 0;
-    if (choice.name == "ideal" && perfect) return Lens(std::make_unique<IdealLens>(choice, mount));
-
-    const AberrationCurves* curves = choice.name == "ideal" ? &straight_curves() : curve_preset(choice.name);
-    if (curves) {
+    if (choice.wave)
         if (const Status status = check_camera(mount); !status) return status.error();
-        return Lens(std::make_unique<CurveLens>(*curves, choice, mount));
-    }
-    const auto file = lens_files::find_lens(choice.name);
-    if (!file) return unknown(choice.name, file.error());
-    if (const Status status = check_camera(mount); !status) return status.error();
-    return TracedModel::make(file->lens, choice, mount);
+    auto lens = ray_lens(choice, mount);
+    if (!lens) return lens.error();
+    if (choice.wave) return Lens(std::make_unique<WaveLens>(std::move(*lens), mount, choice.wavelengths));
+    return Lens(std::move(*lens));
 }
 
 }  // namespace petzval::kernel

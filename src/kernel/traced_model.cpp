@@ -81,8 +81,8 @@ double luminance_at(double wavelength_nm) {
 TracedModel::TracedModel(const LensChoice& choice, const Mount& mount)
     : pupil_(choice, mount), choice_(choice), mount_(mount) {}
 
-Result<std::unique_ptr<const LensModel>> TracedModel::make(const optics::Prescription& prescription,
-                                                           const LensChoice& choice, const Mount& mount) {
+Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Prescription& prescription,
+                                                               const LensChoice& choice, const Mount& mount) {
     if (const Status status = check_choice(choice); !status) return status.error();
     const auto first = optics::first_order(prescription, prescription.primary_um);
     if (!first) return first.error();
@@ -97,7 +97,7 @@ Result<std::unique_ptr<const LensModel>> TracedModel::make(const optics::Prescri
     if (const Status status = model->trace(optics::scaled(prescription, factor)); !status)
         return status.error();
     model->measure();
-    return std::unique_ptr<const LensModel>(std::move(model));
+    return std::unique_ptr<const GeometricLens>(std::move(model));
 }
 
 Status TracedModel::trace(const optics::Prescription& lens) {
@@ -237,6 +237,23 @@ std::vector<Point> TracedModel::outline(const Node& node, const FieldAxis& axis,
     // Blades and rims may leave nothing between them; then the rims alone decide.
     if (seen.size() < 3 || area(seen) < 1e-4) seen = clipped(node.open, Circle{}, tolerance);
     return seen.size() < 3 ? iris : seen;
+}
+
+std::vector<Point> TracedModel::pupil_outline(FieldPosition field, double tolerance) const {
+    const FieldAxis axis(field);
+    std::vector<Point> seen = outline(at(axis.size), axis, field, tolerance);
+    for (Point& p : seen) p = axis.from_axis(p);
+    return seen;
+}
+
+std::function<Point(Point)> TracedModel::landing(double wavelength_nm, double coc_radius_px,
+                                                 FieldPosition field) const {
+    const FieldAxis axis(field);
+    const Displacement px = landing(map_at(at(axis.size), wavelength_nm), coc_radius_px);
+    return [px, axis, aspect = mount_.pixel_aspect](Point pupil) {
+        const Point image = axis.from_axis(px.at(PupilPowers(axis.to_axis(pupil))));
+        return Point{image.x, image.y * aspect};
+    };
 }
 
 TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<Point>& outline,

@@ -9,7 +9,7 @@
 
 #include "colour/spectrum.h"
 #include "kernel/field_axis.h"
-#include "kernel/lens_model.h"
+#include "kernel/geometric_lens.h"
 #include "kernel/mesh_kernel.h"
 #include "kernel/pupil.h"
 #include "kernel/ray_map.h"
@@ -19,14 +19,14 @@
 
 namespace petzval::kernel {
 
-class TracedModel final : public LensModel {
+class TracedModel final : public GeometricLens {
 public:
     // The lens is scaled to the camera's focal length.
     // Errors: InvalidArgument for an aperture wider than the lens has, a focus distance too near for it,
     // glass without known dispersion limits, options that only curve lenses have; those of
     // optics::TracedLens.
-    static Result<std::unique_ptr<const LensModel>> make(const optics::Prescription& prescription,
-                                                         const LensChoice& choice, const Mount& mount);
+    static Result<std::unique_ptr<const GeometricLens>> make(const optics::Prescription& prescription,
+                                                             const LensChoice& choice, const Mount& mount);
 
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
     PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override;
@@ -34,6 +34,12 @@ public:
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override { return true; }
     Mirrors mirrors() const override { return pupil_.mirrors(); }
+    std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const override;
+    std::function<Point(Point)> landing(double wavelength_nm, double coc_radius_px,
+                                        FieldPosition field) const override;
+    double pupil_transmission(Point pupil, double half_width) const override {
+        return pupil_.transmission(pupil, half_width);
+    }
     std::string description() const override { return description_; }
 
 private:

@@ -1,4 +1,4 @@
-#include "glare/fft.h"
+#include "base/fft.h"
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-namespace petzval::glare {
+namespace petzval {
 
 Fft::Fft(int n) : n_(n), swap_with_(std::size_t(n)) {
     PETZVAL_CHECK(n >= 2 && (n & (n - 1)) == 0);
@@ -72,4 +72,4 @@ void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool in
     pass(std::size_t(n), 1);
 }
 
-}  // namespace petzval::glare
+}  // namespace petzval

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-namespace petzval::glare {
+namespace petzval {
 
 inline constexpr int kLanes = 16;
 
@@ -31,4 +31,4 @@ private:
 // power of two and a multiple of kLanes.
 void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, int threads);
 
-}  // namespace petzval::glare
+}  // namespace petzval
