@@ -1,7 +1,7 @@
 #include "glare/convolve.h"
 
-#include "base/parallel.h"
 #include "base/fft.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <vector>

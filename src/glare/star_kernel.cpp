@@ -1,8 +1,8 @@
 #include "glare/star_kernel.h"
 
+#include "base/fft.h"
 #include "base/parallel.h"
 #include "colour/spectrum.h"
-#include "base/fft.h"
 #include "kernel/outline.h"
 #include "kernel/spread.h"
 

@@ -1,6 +1,6 @@
 // The star is the aperture's diffraction: as many spikes as its edges ask for, as long as the wavelength.
-#include "glare/convolve.h"
 #include "base/fft.h"
+#include "glare/convolve.h"
 #include "glare/star_kernel.h"
 #include "glare/streaks.h"
 
