@@ -16,6 +16,7 @@ using kernel::PointSpread;
 // by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
 constexpr float kOwnSurfacePx = 0.02f;
 constexpr int kBlock = 16;
+constexpr float kOverlap = 1.02f;     // of neighbouring squares of shadow
 constexpr float kBrightDisc = 0.02f;  // share of white
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
@@ -208,9 +209,11 @@ private:
                                 v = (float(y - h.y) - middle) * per_px;
                     // A tap sees each pixel of the highlight through another place of the sample's plane,
                     // wider apart the further that plane is from focus.
-                    const float smear =
-                        1 + float(h.size - 1) * std::abs(s.coc_px) / std::max(1.0f, std::abs(h.coc_px));
-                    const float side = smear * per_px;
+                    // Whole numbers, so that squares a pixel apart add up to an even shade.
+                    const float smear = std::round(1 + float(h.size - 1) * std::abs(s.coc_px) /
+                                                           std::max(1.0f, std::abs(h.coc_px)));
+                    // A bright light finds every crack between the squares of a sloping surface.
+                    const float side = smear * per_px * kOverlap;
                     if (std::max(std::abs(u), std::abs(v)) - 0.5f * side >= pupil_end) continue;
                     shadow.cover(u, v, side, s.colour.a / (smear * smear));
                     any = true;
