@@ -106,8 +106,9 @@ Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     if (brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * light.a) return light;
     const float surroundings = surroundings_(x / kCell, y / kCell);
     const bool outermost = x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1;
-    const float bound = light.a * (outermost ? white_ * rule_.contested_floor + 2 * rule_.factor * surroundings
-                                             : floor_at(x, y, coc_px) + rule_.factor * surroundings);
+    const float bound =
+        light.a * (outermost ? white_ * rule_.contested_floor + 2 * rule_.factor * surroundings
+                             : floor_at(x, y, coc_px) + rule_.factor * surroundings);
     if (brightness <= bound) return light;
     const Rgba scaled = light * (bound / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};

@@ -17,7 +17,8 @@ namespace petzval::glare {
 std::vector<kernel::Point> spike_directions(const ApertureShape& aperture, double pixel_aspect);
 
 // out += amount * streaks of `light`, sums of exponentials of which the longest has fallen to a hundredth at
-// about radius_px for 700 nm, nearer in proportion to the wavelength for red, green and blue. r, g, b each keep their sum inside the frame.
+// about radius_px for 700 nm, nearer in proportion to the wavelength for red, green and blue. r, g, b each
+// keep their sum inside the frame.
 void add_streaks(View<Rgba> out, View<const Rgba> light, const ApertureShape& aperture, double radius_px,
                  double pixel_aspect, float amount, int threads);
 
