@@ -53,11 +53,15 @@ def built_in_names():
     return [line.split()[0] for line in petzval("scene", "list").splitlines() if line.strip()]
 
 
+def scene_state():
+    """Changes when the sources of the scenes do."""
+    sources = sorted((ROOT / "src/scene").glob("*")) + sorted((ROOT / "src/optics").glob("circle*"))
+    return hashlib.sha1(b"".join(p.read_bytes() for p in sources)).hexdigest()[:8]
+
+
 def built_in(name, width):
     """Pinhole picture, truth and hidden layers of a built-in scene, made if they are not there yet."""
-    sources = sorted((ROOT / "src/scene").glob("*")) + sorted((ROOT / "src/optics").glob("circle*"))
-    state = hashlib.sha1(b"".join(p.read_bytes() for p in sources)).hexdigest()[:8]
-    stem = f"{name}_{width}_{state}"
+    stem = f"{name}_{width}_{scene_state()}"
     sharp, truth, behind = (CACHE / f"{stem}_{what}.exr" for what in ("sharp", "truth", "behind"))
     if not (sharp.exists() and truth.exists() and behind.exists()):
         print(f"making {name}", file=sys.stderr)

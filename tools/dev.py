@@ -117,7 +117,7 @@ def bench(*words):
     known = sorted(p.stem for p in (ROOT / "bench").glob("*.py") if not p.stem.startswith("_"))
     if not words or words[0] not in known:
         fail(f"bench needs one of: {', '.join(known)}")
-    make("release")
+    make("release", "petzval_cli", "petzval_bench")
     run(sys.executable, f"bench/{words[0]}.py", *words[1:], env={**os.environ, "PETZVAL": str(program())})
 
 

@@ -1,0 +1,179 @@
+// One picture through one engine, timed: what `./dev bench speed` runs once per line of its tables, each time
+// in a new process, so that the peak of memory is that of this run.
+//
+// The picture is read first and does not count. The f-number is set so that the largest radius is --radius.
+// The last of --repeat runs is the one reported, so that whatever is kept between runs is warm.
+#include "petzval/defocus.h"
+#include "petzval/files.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <sys/resource.h>
+
+namespace {
+
+using namespace petzval;
+
+struct Options {
+    std::string file;
+    std::string engine = "scatter", quality = "standard", lens = "ideal";
+    double radius_px = 32, limit_s = 60;
+    int threads = 0, repeat = 1, mirror = 1, pupil_points = 64;
+};
+
+[[noreturn]] void fail(const std::string& message) {
+    std::fprintf(stderr, "petzval_bench_speed: %s\n", message.c_str());
+    std::exit(2);
+}
+
+Options parse(int count, char** words) {
+    if (count < 2)
+        fail("FILE.exr [--engine|--quality|--lens|--radius|--threads|--repeat|--mirror|--limit VALUE]…");
+    Options options;
+    options.file = words[1];
+    for (int i = 2; i + 1 < count; i += 2) {
+        const std::string flag = words[i], value = words[i + 1];
+        if (flag == "--engine")
+            options.engine = value;
+        else if (flag == "--quality")
+            options.quality = value;
+        else if (flag == "--lens")
+            options.lens = value;
+        else if (flag == "--radius")
+            options.radius_px = std::stod(value);
+        else if (flag == "--limit")
+            options.limit_s = std::stod(value);
+        else if (flag == "--threads")
+            options.threads = std::stoi(value);
+        else if (flag == "--repeat")
+            options.repeat = std::stoi(value);
+        else if (flag == "--mirror")
+            options.mirror = std::stoi(value);
+        else if (flag == "--pupil-points")
+            options.pupil_points = std::stoi(value);
+        else
+            fail("unknown flag " + flag);
+    }
+    return options;
+}
+
+Quality quality_of(const std::string& name) {
+    if (name == "draft") return Quality::Draft;
+    if (name == "final") return Quality::Final;
+    return Quality::Standard;
+}
+
+// times x times copies, every other one mirrored: more pixels of the same content, without new edges.
+template <typename T>
+Image<T> mirrored(const Image<T>& one, int times) {
+    Image<T> all = Image<T>::uninitialised(one.width() * times, one.height() * times);
+    const auto fold = [](int i, int size) { return i / size % 2 ? size - 1 - i % size : i % size; };
+    for (int y = 0; y < all.height(); ++y)
+        for (int x = 0; x < all.width(); ++x) all(x, y) = one(fold(x, one.width()), fold(y, one.height()));
+    return all;
+}
+
+Camera camera_of(const FoundCamera& found) {
+    if (!found.focal_length_mm || !found.sensor_width_mm || !found.focus_distance_m)
+        fail("the picture lacks camera numbers; make it with `petzval scene make`");
+    return {found.focal_length_mm->value, found.sensor_width_mm->value, 1, found.focus_distance_m->value};
+}
+
+float largest(const Plane& radii) {
+    float most = 0;
+    for (std::size_t i = 0; i < radii.size(); ++i) most = std::max(most, std::abs(radii.pixels()[i]));
+    return most;
+}
+
+// Colour values that the spread has to add, if levels keep radii at or below twelve of their texels
+// (docs/design/scatter.md): what the arithmetic ceiling is held against.
+double spread_taps(const Plane& radii) {
+    double taps = 0;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const double r = std::abs(double(radii.pixels()[i]));
+        const double shrink = std::exp2(std::max(0.0, std::ceil(std::log2(std::max(r, 1.0) / 12))));
+        taps += std::max(1.0, std::numbers::pi * (r / shrink + 0.5) * (r / shrink + 0.5)) / (shrink * shrink);
+    }
+    return taps;
+}
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](timeval t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+// The peak since this was called, MiB; Linux alone can forget an earlier one.
+void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
+double peak_memory_mib() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
+    return 0;
+}
+
+void print(const Options& options, const DefocusReport& report, double wall_s, double cpu_s, double taps) {
+    std::printf("{\"width\": %d, \"height\": %d, \"engine\": \"%s\", \"quality\": \"%s\", \"lens\": \"%s\", ",
+                report.image.width(), report.image.height(), options.engine.c_str(), options.quality.c_str(),
+                options.lens.c_str());
+    std::printf("\"radius_px\": %.2f, \"threads\": %d, \"wall_s\": %.4f, \"cpu_s\": %.4f, ",
+                std::max(report.largest_radius_px, -report.smallest_radius_px), options.threads, wall_s,
+                cpu_s);
+    std::printf("\"peak_mib\": %.0f, \"taps\": %.0f, \"stages\": {", peak_memory_mib(), taps);
+    const char* separator = "";
+    for (const StageTime& stage : report.stages) {
+        std::printf("%s\"%s\": %.4f", separator, stage.stage.c_str(), stage.seconds);
+        separator = ", ";
+    }
+    std::printf("}}\n");
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    const Options options = parse(count, words);
+    Result<Frame> frame = read_frame(options.file);
+    if (!frame) fail(frame.error().message);
+    const Picture colour = mirrored(frame->colour, options.mirror);
+    const Plane depth_m = mirrored(frame->depth, options.mirror);
+
+    DefocusJob job;
+    job.colour = colour;
+    job.depth_m = depth_m;
+    job.display_window = job.data_window = colour.rect();
+    job.camera = camera_of(frame->camera);
+    job.lens.name = options.lens;
+    job.engine = options.engine;
+    job.quality = quality_of(options.quality);
+    job.threads = options.threads;
+    job.pupil_points = options.pupil_points;
+    *frame = Frame{};
+    const Result<Plane> at_f1 = circle_of_confusion(job);
+    if (!at_f1) fail(at_f1.error().message);
+    job.camera.f_number = largest(*at_f1) / options.radius_px;  // radii go with 1/f-number
+    double taps = 0;
+    if (const Result<Plane> radii = circle_of_confusion(job)) taps = spread_taps(*radii);
+
+    for (int run = 1; run <= options.repeat; ++run) {
+        forget_peak_memory();
+        const auto start = std::chrono::steady_clock::now();
+        const double cpu_start = cpu_seconds();
+        job.progress = [&](double) { return cpu_seconds() - cpu_start < options.limit_s; };
+        const Result<DefocusReport> report = defocus(job);
+        const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (!report && report.error().code != ErrorCode::Cancelled) fail(report.error().message);
+        if (!report) {
+            std::printf("{\"cancelled_after_cpu_s\": %.1f}\n", cpu_seconds() - cpu_start);
+            return 0;
+        }
+        if (run == options.repeat) print(options, *report, wall_s, cpu_seconds() - cpu_start, taps);
+    }
+}

@@ -1,0 +1,195 @@
+"""How long the engines take, where the time goes, what it costs in memory, and what the machine could do.
+
+Tables, in Markdown, on stdout:
+  main      built-in night and table, 4K and 1080p, largest radius 16, 32, 64, 128 px: wall and CPU seconds without
+            the making of kernels, the slowest radius against the fastest, peak memory, and the stages of each
+  pixels    the same content from 0.23 to 33 Mpx, largest radius 32 px
+  threads   one thread against two
+  command   a whole `petzval defocus` at 1080p, ZIP half EXR in and out
+  ceilings  memory bandwidth and multiply-adds of this machine, and how near the spread comes to them
+
+Usage: ./dev bench speed [--tables A,B] [--scenes A,B] [--widths W,W] [--radii R,R] [--lenses A,B] [--limit S]
+On a machine that others use, wall seconds say how busy they are: CPU / threads is what an idle one would need at
+least. A run that needs more than --limit CPU seconds is stopped and listed as such. Pictures are kept in
+build/bench; they have few samples per pixel, since only time is measured.
+"""
+import argparse
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import time
+
+from quality import CACHE, PROGRAM, ROOT, machine, petzval, print_table, scene_state
+
+BUILT = pathlib.Path(PROGRAM).parents[2] / "bench"
+THREADS = len(os.sched_getaffinity(0))
+DOUBLET = "preset-doublet-overcorrected"
+# engine, quality, of every line of the main table; reference is asked for few points and small pictures alone
+WAYS = [("scatter", "standard"), ("scatter", "draft")]
+LIMITS = {(3840, "standard"): 1.5, (1920, "standard"): 0.4}  # seconds asked of wall
+
+
+def picture(scene, width, height=None, samples=16):
+    """A built-in scene as EXR, ZIP half, made if it is not there yet."""
+    path = CACHE / f"{scene}_{width}_{scene_state()}_speed.exr"
+    if not path.exists():
+        print(f"making {path.name}", file=sys.stderr)
+        petzval("scene", "make", scene, "-o", path, "--width", width, "--height", height or width * 9 // 16,
+                "--pinhole-samples", samples, "-q")
+    return path
+
+
+def measure(path, given, **flags):
+    """One run in a process of its own: what petzval_bench_speed printed, or None where it was stopped."""
+    flags = {"limit": given.limit, "threads": THREADS, "repeat": given.repeat, **flags}
+    words = [str(word) for name, value in flags.items() for word in (f"--{name}", value)]
+    print(f"{path.name} {' '.join(words)}", file=sys.stderr)
+    result = subprocess.run([BUILT / "petzval_bench_speed", path, *words], stdout=subprocess.PIPE, text=True)
+    if result.returncode:
+        sys.exit(result.returncode)
+    found = json.loads(result.stdout)
+    if "cancelled_after_cpu_s" in found:
+        return None
+    kernels = found["stages"].pop("kernels")
+    share = (found["wall_s"] - kernels) / found["wall_s"] if found["wall_s"] else 0
+    return {**found, "kernels_s": kernels, "wall_s": found["wall_s"] - kernels, "cpu_s": found["cpu_s"] * share}
+
+
+def seconds(value):
+    return f"{value:.2f}" if value >= 0.095 else f"{value:.3f}"
+
+
+def ratio(values):
+    return f"{max(values) / min(values):.2f}" if values and all(values) else "-"
+
+
+def main_table(given):
+    head = ["picture", "engine, lens", *[f"{r} px" for r in given.radii], "slowest / fastest", "kernels s", "peak MiB"]
+    body, stages = [], []
+    for width in given.widths:
+        for scene in given.scenes:
+            for engine, quality in WAYS:
+                for lens in given.lenses:
+                    runs = [measure(picture(scene, width), given, engine=engine, quality=quality, lens=lens, radius=r)
+                            for r in given.radii]
+                    name = [f"{scene} {width}", f"{engine} {quality}, {lens}"]
+                    body.append([*name, *[f"{seconds(r['wall_s'])} ({seconds(r['cpu_s'] / THREADS)})" if r else
+                                          f"> {given.limit / THREADS:g}" for r in runs],
+                                 ratio([r and r["cpu_s"] for r in runs]),
+                                 seconds(max((r["kernels_s"] for r in runs if r), default=0)),
+                                 f"{max((r['peak_mib'] for r in runs if r), default=0):.0f}"])
+                    stages += [[*name, f"{r['radius_px']:.0f}", r] for r in runs if r]
+    print(f"\n### Seconds by largest radius: wall (CPU / {THREADS} threads)\n")
+    print_table(head, body)
+    asked = ", ".join(f"{s} s at {w} px wide" for (w, _), s in LIMITS.items())
+    print(f"\nAsked of `standard` on an idle machine: {asked}; slowest / fastest (by CPU) 1.5.")
+    names = list(dict.fromkeys(name for *_, run in stages for name in run["stages"]))
+    print("\n### Wall seconds of each stage\n")
+    print_table(["picture", "engine, lens", "radius px", *names],
+                [[*row, *[seconds(run["stages"].get(name, 0)) for name in names]] for *row, run in stages])
+
+
+def pixels_table(given):
+    """Mirrored copies of one picture: the same content in more pixels."""
+    body = []
+    for times in (1, 2, 4, 8, 12):
+        run = measure(picture("table", 640), given, mirror=times, radius=32, repeat=1)
+        if run:
+            mpx = run["width"] * run["height"] / 1e6
+            body.append([f"{mpx:.2f}", seconds(run["wall_s"]), seconds(run["cpu_s"]), f"{run['cpu_s'] / mpx:.3f}",
+                         f"{run['peak_mib']:.0f}", f"{run['peak_mib'] * 2**20 / mpx / 1e6:.0f}"])
+    print("\n### Time against pixels: table, ideal lens, standard, largest radius 32 px\n")
+    print_table(["Mpx", "wall s", "CPU s", "CPU s / Mpx", "peak MiB", "bytes / px"], body)
+
+
+def threads_table(given):
+    body = []
+    for scene in given.scenes:
+        runs = [measure(picture(scene, 1920), given, threads=n, radius=32) for n in (1, 2)]
+        if all(runs):
+            one, two = runs
+            body.append([scene, seconds(one["wall_s"]), seconds(two["wall_s"]), f"{one['wall_s'] / two['wall_s']:.2f}",
+                         seconds(one["cpu_s"]), seconds(two["cpu_s"]), f"{2 * one['cpu_s'] / two['cpu_s']:.2f}"])
+    print("\n### One thread, two threads: 1920 px wide, ideal lens, standard, largest radius 32 px\n")
+    print_table(["picture", "wall s, 1", "wall s, 2", "speed-up", "CPU s, 1", "CPU s, 2", "at most, by CPU"], body)
+    print("\n`at most, by CPU`: the speed-up on an idle machine if no thread ever waited.")
+
+
+def command_table(given):
+    body = []
+    for scene in given.scenes:
+        # The camera of the scene, stopped down so that the largest radius is about 32 px.
+        source, out = picture(scene, 1920), CACHE / "speed_out.exr"
+        words = [PROGRAM, "defocus", source, "-o", out, "--overwrite", "--json", "-", "-q"]
+        found = measure(source, given, radius=32, repeat=1)
+        if not found:
+            continue
+        camera = json.loads(petzval("defocus", source, "--view", "coc", "-o", CACHE / "speed_coc.exr", "--overwrite",
+                                    "--json", "-", "-q"))
+        largest = max(abs(v) for v in camera["radius_px"].values())
+        words += ["--fstop", f"{camera['camera']['f_number'] * largest / 32:.4f}"]
+        before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        result = subprocess.run(words, stdout=subprocess.PIPE, text=True)
+        wall, after = time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+        cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        report = json.loads(result.stdout)
+        took = report["seconds"]
+        body.append([scene, seconds(wall), seconds(cpu), *[seconds(took[k]) for k in ("read", "compute", "write")],
+                     f"{report['peak_memory_bytes'] / 2**20:.0f}"])
+    print("\n### The whole command: petzval defocus, 1920x1080, ZIP half EXR in and out, largest radius 32 px\n")
+    print_table(["picture", "wall s", "CPU s", "read", "compute", "write", "peak MiB"], body)
+
+
+def ceilings_table(given):
+    found = json.loads(subprocess.run([BUILT / "petzval_bench_ceilings"], stdout=subprocess.PIPE, text=True,
+                                      check=True).stdout)
+    simd = found.pop("simd")
+    print(f"\n### What the machine can do ({simd}; by each thread's CPU time)\n")
+    print_table(["threads", "", "read GB/s", "copy GB/s", "10^9 multiply-adds / s"],
+                [[n, "", *[f"{v:.1f}" for v in of.values()]] for n, of in found.items()])
+    most = found[str(THREADS)] if str(THREADS) in found else found["1"]
+    body = []
+    for scene in given.scenes:
+        run = measure(picture(scene, given.widths[0]), given, radius=32)
+        for stage, took in (run["stages"].items() if run else ()):
+            bytes_once = run["width"] * run["height"] * 36
+            adds = 4 * run["taps"] if stage == "spread" else 0
+            body.append([scene, stage, seconds(took), f"{100 * bytes_once / took / 1e9 / most['copy_gb_per_s']:.0f} %",
+                         f"{100 * adds / took / 1e9 / most['giga_fma_per_s']:.0f} %" if adds else ""])
+    print(f"\n### How far from that: {given.widths[0]} px wide, ideal lens, largest radius 32 px, wall seconds\n")
+    print_table(["picture", "stage", "seconds", "of copy bandwidth", "of multiply-adds"], body)
+    print("\n`of copy bandwidth`: as if the stage touched 36 bytes of each pixel once (colour and radius in, colour out)."
+          "\n`of multiply-adds`: four per pixel a kernel covers, radii held at 12 texels by levels; both are counted"
+          "\nfrom outside, not by the engine.")
+
+
+TABLES = {"main": main_table, "pixels": pixels_table, "threads": threads_table, "command": command_table,
+          "ceilings": ceilings_table}
+
+
+def main():
+    words = lambda text: text.split(",")
+    numbers = lambda text: [int(word) for word in text.split(",")]
+    parser = argparse.ArgumentParser(prog="./dev bench speed")
+    parser.add_argument("--tables", type=words, default=list(TABLES))
+    parser.add_argument("--scenes", type=words, default=["night", "table"])
+    parser.add_argument("--widths", type=numbers, default=[3840, 1920])
+    parser.add_argument("--radii", type=numbers, default=[16, 32, 64, 128])
+    parser.add_argument("--lenses", type=words, default=["ideal", DOUBLET])
+    parser.add_argument("--limit", type=float, default=60, help="CPU seconds after which a run is stopped")
+    parser.add_argument("--repeat", type=int, default=2, help="runs in one process; the last counts")
+    given = parser.parse_args()
+    unknown = set(given.tables) - set(TABLES)
+    if unknown:
+        parser.error(f"no table {', '.join(sorted(unknown))}; there are: {', '.join(TABLES)}")
+    CACHE.mkdir(parents=True, exist_ok=True)
+    for name in given.tables:
+        TABLES[name](given)
+    print(f"\n{machine()}; command: ./dev bench speed {' '.join(sys.argv[1:])}".rstrip() + ".")
+
+
+if __name__ == "__main__":
+    main()
