@@ -2,7 +2,7 @@
 // in a new process, so that the peak of memory is that of this run.
 //
 // The picture is read first and does not count. The f-number is set so that the largest radius is --radius.
-// The last of --repeat runs is the one reported, so that whatever is kept between runs is warm.
+// Of --repeat runs each time is the least, stage by stage: what others do on the machine only adds to it.
 #include "petzval/defocus.h"
 #include "petzval/files.h"
 
@@ -16,6 +16,7 @@
 #include <numbers>
 #include <string>
 #include <sys/resource.h>
+#include <vector>
 
 namespace {
 
@@ -120,21 +121,34 @@ double peak_memory_mib() {
     return 0;
 }
 
-void print(const Options& options, const DefocusReport& report, double wall_s, double cpu_s, double taps) {
-    std::printf("{\"width\": %d, \"height\": %d, \"engine\": \"%s\", \"quality\": \"%s\", \"lens\": \"%s\", ",
-                report.image.width(), report.image.height(), options.engine.c_str(), options.quality.c_str(),
-                options.lens.c_str());
-    std::printf("\"radius_px\": %.2f, \"threads\": %d, \"wall_s\": %.4f, \"cpu_s\": %.4f, ",
-                std::max(report.largest_radius_px, -report.smallest_radius_px), options.threads, wall_s,
-                cpu_s);
-    std::printf("\"peak_mib\": %.0f, \"taps\": %.0f, \"stages\": {", peak_memory_mib(), taps);
-    const char* separator = "";
-    for (const StageTime& stage : report.stages) {
-        std::printf("%s\"%s\": %.4f", separator, stage.stage.c_str(), stage.seconds);
-        separator = ", ";
+struct Measured {
+    int width = 0, height = 0;
+    double radius_px = 0, wall_s = 1e30, cpu_s = 1e30;
+    std::vector<StageTime> stages;
+
+    void add(const DefocusReport& report, double run_wall_s, double run_cpu_s) {
+        width = report.image.width();
+        height = report.image.height();
+        radius_px = std::max(report.largest_radius_px, -report.smallest_radius_px);
+        wall_s = std::min(wall_s, run_wall_s);
+        cpu_s = std::min(cpu_s, run_cpu_s);
+        if (stages.empty()) stages = report.stages;
+        for (std::size_t i = 0; i < std::min(stages.size(), report.stages.size()); ++i)
+            stages[i].seconds = std::min(stages[i].seconds, report.stages[i].seconds);
     }
-    std::printf("}}\n");
-}
+    void print(double f_number, double taps) const {
+        std::printf("{\"width\": %d, \"height\": %d, \"radius_px\": %.2f, \"f_number\": %.5f, ", width,
+                    height, radius_px, f_number);
+        std::printf("\"wall_s\": %.4f, \"cpu_s\": %.4f, \"peak_mib\": %.0f, \"taps\": %.0f, \"stages\": {",
+                    wall_s, cpu_s, peak_memory_mib(), taps);
+        const char* separator = "";
+        for (const StageTime& stage : stages) {
+            std::printf("%s\"%s\": %.4f", separator, stage.stage.c_str(), stage.seconds);
+            separator = ", ";
+        }
+        std::printf("}}\n");
+    }
+};
 
 }  // namespace
 
@@ -162,7 +176,8 @@ int main(int count, char** words) {
     double taps = 0;
     if (const Result<Plane> radii = circle_of_confusion(job)) taps = spread_taps(*radii);
 
-    for (int run = 1; run <= options.repeat; ++run) {
+    Measured measured;
+    for (int run = 0; run < options.repeat; ++run) {
         forget_peak_memory();
         const auto start = std::chrono::steady_clock::now();
         const double cpu_start = cpu_seconds();
@@ -174,6 +189,7 @@ int main(int count, char** words) {
             std::printf("{\"cancelled_after_cpu_s\": %.1f}\n", cpu_seconds() - cpu_start);
             return 0;
         }
-        if (run == options.repeat) print(options, *report, wall_s, cpu_seconds() - cpu_start, taps);
+        measured.add(*report, wall_s, cpu_seconds() - cpu_start);
     }
+    measured.print(job.camera.f_number, taps);
 }
