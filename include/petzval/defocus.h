@@ -38,9 +38,13 @@ struct DefocusJob {
 
     std::string engine = "scatter";  // one of engine_names()
     Quality quality = Quality::Standard;
-    int pupil_points = 4096;           // reference only
-    GatherOptions gather;              // gather, and sprites over it
-    GaussianOptions gaussian;          // gaussian, and sprites over it
+    int pupil_points = 4096;   // reference only
+    GatherOptions gather;      // gather, and sprites over it
+    GaussianOptions gaussian;  // gaussian, and sprites over it
+    SpriteOptions sprites;
+    // sprites only: lights to draw on top, hidden by what is nearer than they are. Those that cannot be drawn
+    // (not finite, negative, out of sight) are left out, counted and reported.
+    const std::vector<LightPoint>* points = nullptr;
     int threads = 0;                   // 0: all this process may use; the result never depends on it
     std::size_t max_memory_bytes = 0;  // 0: no limit
     std::uint64_t seed = 1;

@@ -1,6 +1,7 @@
 // From a job as a user states it to the input of an engine: checks, circles of confusion, lens, sample lists.
 #include "petzval/defocus.h"
 
+#include "api/light_points.h"
 #include "base/parallel.h"
 #include "engine/engine.h"
 #include "kernel/lens_model.h"
@@ -45,6 +46,9 @@ Status check_sizes(const DefocusJob& job) {
     if (job.display_window.empty()) return invalid("the display window is empty");
     if (!(job.pixel_aspect > 0) || !std::isfinite(job.pixel_aspect))
         return invalid("the pixel aspect ratio must be positive");
+    if (job.points && !job.points->empty() && job.engine != "sprites")
+        return invalid("given points are drawn by --engine sprites, not " + job.engine);
+    if (!(job.sprites.bright_factor > 0)) return invalid("--bright-factor must be more than 0");
     if (job.pupil_points < 1) return invalid("--pupil-points must be at least 1");
     return Done{};
 }
@@ -225,6 +229,11 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.pupil_points = job.pupil_points;
     input.gather = job.gather;
     input.gaussian = job.gaussian;
+    input.sprites = job.sprites;
+    std::vector<std::string> point_warnings;
+    const std::vector<LightPoint> points = drawable_points(
+        job, [&](float depth_m) { return (*radii)(depth_m); }, point_warnings);
+    input.points = points;
     if (!job.depth_is_coc) input.depth_m = job.depth_m, input.focus_distance_m = job.camera.focus_distance_m;
     input.radius_at_infinity_px = radii->at_infinity_px();
     input.threads = job.threads;
@@ -242,7 +251,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     report.lens = lenses->front()->description();
     report.stages = {{"kernels", lens_ready}, {"prepare", prepared - lens_ready}};
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
-    report.warnings = std::move(output->warnings);
+    report.warnings = std::move(point_warnings);
+    report.warnings.insert(report.warnings.end(), output->warnings.begin(), output->warnings.end());
     report.largest_radius_px = double(input.farthest_coc_px);
     report.smallest_radius_px = double(input.nearest_coc_px);
     return report;

@@ -91,9 +91,11 @@ struct Input {
     int pupil_points = 4096;
     GatherOptions gather;
     GaussianOptions gaussian;
-    View<const float> depth_m;        // planar, may hold misses; empty where radii were given
-    double focus_distance_m = 0;      // 0: unknown
-    float radius_at_infinity_px = 0;  // 0: unknown
+    SpriteOptions sprites;
+    std::span<const LightPoint> points;  // checked; coc_px holds the radius of each
+    View<const float> depth_m;           // planar, may hold misses; empty where radii were given
+    double focus_distance_m = 0;         // 0: unknown
+    float radius_at_infinity_px = 0;     // 0: unknown
     int threads = 0;
     std::size_t max_memory_bytes = 0;
     std::uint64_t seed = 1;
@@ -106,6 +108,7 @@ struct Input {
         Input part = *this;
         const Rect r{0, y0, width(), y1};
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
+        if (!depth_m.empty()) part.depth_m = depth_m.part(r);
         part.deep = deep.rows(y0, y1);
         part.field_centre_y -= y0, part.first_row += y0;
         if (y0 > 0) part.open_edges.top = true;
@@ -144,5 +147,6 @@ Result<Output> run_reference(const Input& input);
 Result<Output> run_scatter(const Input& input);
 Result<Output> run_gather(const Input& input);
 Result<Output> run_gaussian(const Input& input);
+Result<Output> run_sprites(const Input& input);
 
 }  // namespace petzval::engine

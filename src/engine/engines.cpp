@@ -9,6 +9,7 @@ std::span<const Engine> engines() {
          run_gather},
         {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
          run_gaussian},
+        {"sprites", "lights as the lens's own kernels, found or given, over gather or gaussian", run_sprites},
         {"reference", "the definition of a correct result, traced through the lens; slow", run_reference},
     };
     return kEngines;

@@ -79,10 +79,7 @@ Result<Output> run_gather(const Input& input) {
     std::vector<Range> ranges(tiles.size());
     parallel_for(int(tiles.size()), input.threads,
                  [&](int i) { ranges[std::size_t(i)] = range_of(input, tiles[std::size_t(i)]); });
-    Range all;
-    for (const Range& range : ranges) all.include(range.nearest_px), all.include(range.farthest_px);
-
-    const RingSizes sizes(all.nearest_px, all.farthest_px, ring_rule(input.quality));
+    const RingSizes sizes(input.nearest_coc_px, input.farthest_coc_px, ring_rule(input.quality));
     const RingKernels kernels(input, sizes);
     const bool fills = input.gather.fill_hidden && input.deep.empty();
     const BlockFill fill = fills ? BlockFill::make(input) : BlockFill();

@@ -92,12 +92,7 @@ std::array<std::vector<Offset>, kDirections> search_paths() {
 }  // namespace
 
 BlockFill BlockFill::make(const Input& input) {
-    float nearest = 0, farthest = -1e30f;
-    for (int y = 0; y < input.height(); ++y)
-        for (int x = 0; x < input.width(); ++x) {
-            nearest = std::min(nearest, input.coc_px(x, y));
-            farthest = std::max(farthest, input.coc_px(x, y));
-        }
+    const float nearest = input.nearest_coc_px, farthest = input.farthest_coc_px;
     BlockFill fill;
     if (nearest > -kBlurredPx || farthest < nearest + 1) return fill;
     fill.block_ = kLeastBlock;

@@ -60,10 +60,7 @@ public:
         // CoC = clamp(1 - F/z, -1, 1) * largest: with `largest` the radius at infinity that is the metric
         // one, but for near things closer than half the focus distance.
         largest_px_ = input.radius_at_infinity_px;
-        if (largest_px_ > 0) return;
-        for (int y = 0; y < input.height(); ++y)
-            for (int x = 0; x < input.width(); ++x)
-                largest_px_ = std::max(largest_px_, std::abs(input.coc_px(x, y)));
+        if (largest_px_ <= 0) largest_px_ = std::max(-input.nearest_coc_px, input.farthest_coc_px);
     }
 
     Picture stage() const {

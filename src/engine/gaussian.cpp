@@ -25,16 +25,6 @@ struct Radii {
     float largest_px() const { return std::max(-nearest_px, farthest_px); }
 };
 
-Radii radii_of(View<const float> coc_px) {
-    Radii radii;
-    for (int y = 0; y < coc_px.height(); ++y)
-        for (int x = 0; x < coc_px.width(); ++x) {
-            radii.nearest_px = std::min(radii.nearest_px, coc_px(x, y));
-            radii.farthest_px = std::max(radii.farthest_px, coc_px(x, y));
-        }
-    return radii;
-}
-
 Picture sharp_copy(const Input& input) {
     Picture picture = Picture::uninitialised(input.width(), input.height());
     for (int y = 0; y < input.height(); ++y) std::copy_n(input.colour.row(y), input.width(), picture.row(y));
@@ -188,7 +178,7 @@ void mix_by_pixel(const Input& input, float largest_px, const Weights& weights, 
 Result<Output> run_gaussian(const Input& input) {
     const auto start = std::chrono::steady_clock::now();
     const GaussianOptions& options = input.gaussian;
-    const Radii radii = radii_of(input.coc_px);
+    const Radii radii{input.nearest_coc_px, input.farthest_coc_px};
     const bool by_depth = options.style == GaussianStyle::Wgld;
     Output output;
     output.image = sharp_copy(input);

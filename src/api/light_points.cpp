@@ -1,0 +1,45 @@
+#include "api/light_points.h"
+
+#include <cmath>
+
+namespace petzval {
+
+std::vector<LightPoint> drawable_points(const DefocusJob& job,
+                                        const std::function<float(float depth_m)>& radius_px,
+                                        std::vector<std::string>& warnings) {
+    constexpr float kFarthestPx = 1e6f;  // from the frame: no lens throws light so far
+    std::vector<LightPoint> points;
+    if (!job.points) return points;
+    points.reserve(job.points->size());
+    std::size_t not_finite = 0, negative = 0, outside = 0;
+    for (LightPoint p : *job.points) {
+        const bool has_depth = !std::isnan(p.depth_m);
+        const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.r) &&
+                            std::isfinite(p.g) && std::isfinite(p.b) && std::isfinite(p.diameter_px) &&
+                            (has_depth || std::isfinite(p.coc_px));
+        if (!finite || std::abs(p.x) > kFarthestPx || std::abs(p.y) > kFarthestPx) {
+            ++not_finite;
+            continue;
+        }
+        if (p.r < 0 || p.g < 0 || p.b < 0 || p.diameter_px < 0 || (has_depth && p.depth_m < 0)) {
+            ++negative;
+            continue;
+        }
+        if (p.x < 0 || p.y < 0 || p.x >= float(job.colour.width()) || p.y >= float(job.colour.height()))
+            ++outside;
+        // Where radii are given for the picture, a point's depth is none.
+        if (has_depth && !job.depth_is_coc) p.coc_px = radius_px(p.depth_m);
+        points.push_back(p);
+    }
+    const auto report = [&](std::size_t count, const char* what) {
+        if (count > 0)
+            warnings.push_back(std::to_string(count) + " of " + std::to_string(job.points->size()) +
+                               " given points " + what);
+    };
+    report(not_finite, "are not finite and were left out");
+    report(negative, "have negative light, depth or size and were left out");
+    report(outside, "lie outside the frame; what their discs throw into it is drawn");
+    return points;
+}
+
+}  // namespace petzval

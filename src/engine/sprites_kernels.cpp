@@ -1,0 +1,120 @@
+#include "engine/sprites_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+// Radii are rounded to an eighth of a pixel, and to 1 % where that is more.
+constexpr float kLeastStepPx = 0.125f, kRelativeStep = 0.01f;
+constexpr float kLinearEndPx = kLeastStepPx / kRelativeStep;
+constexpr int kLinearSteps = int(kLinearEndPx / kLeastStepPx);
+constexpr int kPartsX = 9, kPartsY = 6;
+
+float largest_cells(Quality quality) {
+    return quality == Quality::Draft ? 16.0f : quality == Quality::Standard ? 32.0f : 64.0f;
+}
+
+// A kernel moved right and down by part of a cell, bilinear.
+kernel::PointSpread moved(const kernel::PointSpread& spread, float right, float down) {
+    if (right == 0 && down == 0) {
+        return {spread.extent, spread.weights.clone(), spread.neutral};
+    }
+    const Rect e{spread.extent.x0, spread.extent.y0, spread.extent.x1 + 1, spread.extent.y1 + 1};
+    kernel::PointSpread result{e, Image<Rgba>(e.width(), e.height()), spread.neutral};
+    for (int y = 0; y < spread.weights.height(); ++y)
+        for (int x = 0; x < spread.weights.width(); ++x) {
+            const Rgba w = spread.weights(x, y);
+            result.weights(x, y) += ((1 - right) * (1 - down)) * w;
+            result.weights(x + 1, y) += (right * (1 - down)) * w;
+            result.weights(x, y + 1) += ((1 - right) * down) * w;
+            result.weights(x + 1, y + 1) += (right * down) * w;
+        }
+    return result;
+}
+
+// Enlarging from cells s wide blurs by (s^2 - 1)/4 px^2 per axis more than a pixel does (gather_rings.cpp);
+// a disc's variance is r^2/4.
+double radius_in_cells(double radius_px, int level) {
+    const double s = std::ldexp(1.0, level);
+    return std::copysign(std::sqrt(std::max(0.0, radius_px * radius_px - (s * s - 1))) / s, radius_px);
+}
+
+}  // namespace
+
+SpriteKernels::SpriteKernels(const Input& input, float largest_px)
+    : input_(input), largest_cells_(largest_cells(input.quality)) {
+    // Kernels of lenses that change over the picture are many: those lights are put at whole pixels.
+    if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY, phases_ = 1;
+    steps_ = step_of(largest_px) + 1;
+    levels_ = level_of(radius_of(steps_ - 1)) + 1;
+    for (int level = 0; level < levels_; ++level) {
+        const double widest =
+            std::min(double(radius_of(steps_ - 1)), std::ldexp(double(largest_cells_), level));
+        reach_.push_back(int(std::ceil(input.lens(level).reach_px(radius_in_cells(widest, level)) + 0.5)) +
+                         1);
+    }
+    kernels_ = std::vector<std::atomic<const StampKernel*>>(
+        std::size_t(parts_x_ * parts_y_) * std::size_t(2 * steps_) * std::size_t(phases_ * phases_));
+}
+
+SpriteKernels::~SpriteKernels() {
+    for (auto& kernel : kernels_) delete kernel.load();
+}
+
+int SpriteKernels::step_of(float radius_px) const {
+    if (radius_px <= kLinearEndPx) return int(radius_px / kLeastStepPx + 0.5f);
+    return kLinearSteps + int(std::log(radius_px / kLinearEndPx) / std::log1p(kRelativeStep) + 0.5f);
+}
+
+float SpriteKernels::radius_of(int step) const {
+    if (step <= kLinearSteps) return kLeastStepPx * float(step);
+    return kLinearEndPx * std::pow(1 + kRelativeStep, float(step - kLinearSteps));
+}
+
+int SpriteKernels::level_of(float radius_px) const {
+    return radius_px <= largest_cells_ ? 0 : int(std::ceil(std::log2(radius_px / largest_cells_) - 1e-4f));
+}
+
+Stamping SpriteKernels::stamping(float x, float y, float coc_px) const {
+    const int step = std::min(step_of(std::abs(coc_px)), steps_ - 1);
+    Stamping s;
+    s.level = level_of(radius_of(step));
+    const float per_cell = 1 / float(1 << s.level);
+    const auto place = [&](float at, int& cell) {
+        const int quarters = int(std::floor((at * per_cell - 0.5f) * float(phases_) + 0.5f));
+        cell = int(std::floor(float(quarters) / float(phases_)));
+        return quarters - cell * phases_;
+    };
+    const int phase_x = place(x, s.x), phase_y = place(y, s.y);
+    const int px = std::clamp(int(x / float(input_.width()) * float(parts_x_)), 0, parts_x_ - 1);
+    const int py = std::clamp(int(y / float(input_.height()) * float(parts_y_)), 0, parts_y_ - 1);
+    const int side = coc_px < 0 ? 0 : 1;
+    s.kernel =
+        (((py * parts_x_ + px) * 2 + side) * steps_ + step) * phases_ * phases_ + phase_y * phases_ + phase_x;
+    return s;
+}
+
+kernel::PointSpread SpriteKernels::spread(int kernel) const {
+    const int phase = kernel % (phases_ * phases_), radius = kernel / (phases_ * phases_);
+    const int step = radius % steps_, side = radius / steps_ % 2, part = radius / steps_ / 2;
+    const double signed_radius = (side ? 1 : -1) * double(radius_of(step));
+    const int level = level_of(radius_of(step));
+    const double x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
+    return moved(
+        input_.lens(level).point_spread(radius_in_cells(signed_radius, level), input_.field_at(x, y)),
+        float(phase % phases_) / float(phases_), float(phase / phases_) / float(phases_));
+}
+
+const StampKernel& SpriteKernels::at(int kernel) const {
+    std::atomic<const StampKernel*>& slot = kernels_[std::size_t(kernel)];
+    if (const StampKernel* made = slot.load(std::memory_order_acquire)) return *made;
+    auto made = std::make_unique<const StampKernel>(spread(kernel));
+    const StampKernel* expected = nullptr;
+    if (slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *expected;  // another thread was first, with the same kernel
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,90 @@
+#include "engine/sprites_shadow.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kBlock = 16;
+constexpr float kOwnSurfacePx = 1;  // what is nearer by less is the light's own surface
+constexpr float kStepPx = 1.5f;     // along a ray's way over the picture
+
+}  // namespace
+
+float PupilMask::at(float x, float y) const {
+    const auto place = [](float t, int& cell) {
+        const float p = std::clamp((t + 1) / 2 * kSide - 0.5f, 0.0f, float(kSide - 1));
+        cell = std::min(int(p), kSide - 2);
+        return p - float(cell);
+    };
+    int i = 0, j = 0;
+    const float right = place(x, i), down = place(y, j);
+    const float* row = &shares[std::size_t(j * kSide + i)];
+    const float top = row[0] + right * (row[1] - row[0]);
+    const float bottom = row[kSide] + right * (row[kSide + 1] - row[kSide]);
+    return top + down * (bottom - top);
+}
+
+SpriteShadows::SpriteShadows(const Input& input)
+    : in_(input),
+      nearest_((input.width() + kBlock - 1) / kBlock, (input.height() + kBlock - 1) / kBlock, 1e30f) {
+    parallel_for(nearest_.height(), input.threads, [&](int by) {
+        for (int y = by * kBlock; y < std::min(input.height(), (by + 1) * kBlock); ++y)
+            for (int x = 0; x < input.width(); ++x)
+                nearest_(x / kBlock, by) = std::min(nearest_(x / kBlock, by), input.coc_px(x, y));
+    });
+    for (std::size_t i = 0; i < nearest_.size(); ++i)
+        in_.nearest_coc_px = std::min(in_.nearest_coc_px, nearest_.pixels()[i]);
+}
+
+// Nothing nearer stands anywhere that a ray could pass.
+bool SpriteShadows::is_clear(float x, float y, float coc_px) const {
+    const float limit = coc_px - kOwnSurfacePx;
+    if (in_.nearest_coc_px >= limit) return true;
+    const float reach = (coc_px - in_.nearest_coc_px) * std::max(1.0f, float(in_.pixel_aspect));
+    const auto block = [](float at, int blocks) {
+        return std::clamp(int(std::floor(at / kBlock)), 0, blocks - 1);
+    };
+    const int x0 = block(x - reach, nearest_.width()), x1 = block(x + reach, nearest_.width());
+    const int y0 = block(y - reach, nearest_.height()), y1 = block(y + reach, nearest_.height());
+    for (int by = y0; by <= y1; ++by)
+        for (int bx = x0; bx <= x1; ++bx)
+            if (nearest_(bx, by) < limit) return false;
+    return true;
+}
+
+bool SpriteShadows::is_stopped(float x, float y, float coc_px, float u, float v) const {
+    const float way = (coc_px - in_.nearest_coc_px) * std::hypot(u, v);
+    const int steps = 1 + int(std::min(way / kStepPx, 4096.0f));
+    const float step = (coc_px - in_.nearest_coc_px) / float(steps);
+    for (int k = 0; k <= steps; ++k) {
+        const float passed = step * float(k), at = coc_px - passed;
+        const int qx = int(std::floor(x + passed * u)), qy = int(std::floor(y + passed * v));
+        if (!in_.coc_px.rect().contains(qx, qy)) return false;
+        const float there = in_.coc_px(qx, qy);
+        if (there < coc_px - kOwnSurfacePx && std::abs(there - at) <= 0.5f * step + 0.25f) return true;
+    }
+    return false;
+}
+
+PupilMask SpriteShadows::mask(float x, float y, float coc_px) const {
+    PupilMask mask;
+    if (is_clear(x, y, coc_px)) return mask;
+    const float aspect = float(in_.pixel_aspect);
+    bool any = false;
+    mask.shares.assign(PupilMask::kSide * PupilMask::kSide, 1.0f);
+    for (int j = 0; j < PupilMask::kSide; ++j)
+        for (int i = 0; i < PupilMask::kSide; ++i) {
+            const auto middle = [](int k) { return (2 * float(k) + 1) / PupilMask::kSide - 1; };
+            if (!is_stopped(x, y, coc_px, middle(i), middle(j) * aspect)) continue;
+            mask.shares[std::size_t(j * PupilMask::kSide + i)] = 0;
+            any = true;
+        }
+    if (!any) mask.shares.clear();
+    return mask;
+}
+
+}  // namespace petzval::engine
