@@ -136,15 +136,27 @@ private:
             stamp(kernels_.at(kernel), d.x, d.y, d.light, 0, 0, cells);
             return;
         }
-        kernel::PointSpread spread = kernels_.spread(kernel);
+        draw_masked(kernels_.at(kernel), d, cells);
+    }
+
+    // Each weight dimmed by the share of its place in the pupil.
+    void draw_masked(const StampKernel& kernel, const Drawing& d, Accumulator& cells) const {
+        const PupilMask& mask = masks_[d.sprite];
+        if (mask.is_closed()) return;
         const float radius = sprites_[d.sprite].coc_px / float(1 << int(d.order >> 48));
         const float per_cell = 1 / std::copysign(std::max(std::abs(radius), 0.5f), radius);
-        for (int y = 0; y < spread.extent.height(); ++y)
-            for (int x = 0; x < spread.extent.width(); ++x)
-                spread.weights(x, y) *=
-                    masks_[d.sprite].at(float(spread.extent.x0 + x) * per_cell,
-                                        float(spread.extent.y0 + y) * per_cell / float(in_.pixel_aspect));
-        stamp(StampKernel(spread), d.x, d.y, d.light, 0, 0, cells);
+        const Rect e = kernel.extent(), area = cells.area();
+        const int x0 = std::max(e.x0, area.x0 - d.x), x1 = std::min(e.x1, area.x1 - d.x);
+        for (int y = std::max(e.y0, area.y0 - d.y); y < std::min(e.y1, area.y1 - d.y); ++y) {
+            const auto shares = mask.row(float(y) * per_cell / float(in_.pixel_aspect));
+            const float* weights = kernel.row(y - e.y0);
+            Rgba* to = cells.row(d.y + y) - area.x0;
+            for (int x = x0; x < x1; ++x) {
+                const float* w = weights + std::ptrdiff_t(4) * (x - e.x0);
+                const float share = PupilMask::at(shares, float(x) * per_cell);
+                to[d.x + x] += share * (Rgba{w[0], w[1], w[2], w[3]} * d.light);
+            }
+        }
     }
 
     // Between the cells of coarser levels bilinear, which keeps their light.

@@ -34,11 +34,15 @@ kernel::PointSpread moved(const kernel::PointSpread& spread, float right, float 
     return result;
 }
 
-// Enlarging from cells s wide blurs by (s^2 - 1)/4 px^2 per axis more than a pixel does (gather_rings.cpp);
-// a disc's variance is r^2/4.
-double radius_in_cells(double radius_px, int level) {
+// What a kernel gains in variance per axis, cells^2, by being moved: t (1 - t), the mean of both axes.
+double moving_blur(float right, float down) { return 0.5 * double(right * (1 - right) + down * (1 - down)); }
+
+// Enlarging from cells s wide blurs by (s^2 - 1)/4 px^2 per axis more than a pixel does (gather_rings.cpp),
+// moving by `extra` cells^2; a disc's variance is r^2/4.
+double radius_in_cells(double radius_px, int level, double extra = 0) {
     const double s = std::ldexp(1.0, level);
-    return std::copysign(std::sqrt(std::max(0.0, radius_px * radius_px - (s * s - 1))) / s, radius_px);
+    const double squared = (radius_px * radius_px - (s * s - 1)) / (s * s) - 4 * extra;
+    return std::copysign(std::sqrt(std::max(0.0, squared)), radius_px);
 }
 
 }  // namespace
@@ -103,9 +107,10 @@ kernel::PointSpread SpriteKernels::spread(int kernel) const {
     const int level = level_of(radius_of(step));
     const double x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
     const double y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
-    return moved(
-        input_.lens(level).point_spread(radius_in_cells(signed_radius, level), input_.field_at(x, y)),
-        float(phase % phases_) / float(phases_), float(phase / phases_) / float(phases_));
+    const float right = float(phase % phases_) / float(phases_),
+                down = float(phase / phases_) / float(phases_);
+    const double radius_cells = radius_in_cells(signed_radius, level, moving_blur(right, down));
+    return moved(input_.lens(level).point_spread(radius_cells, input_.field_at(x, y)), right, down);
 }
 
 const StampKernel& SpriteKernels::at(int kernel) const {

@@ -33,10 +33,9 @@ public:
     Stamping stamping(float x, float y, float coc_px) const;
     // The lens's kernel; lights of one number share it. Thread-safe.
     const StampKernel& at(int kernel) const;
-    // The same before it was laid out for stamping.
-    kernel::PointSpread spread(int kernel) const;
 
 private:
+    kernel::PointSpread spread(int kernel) const;
     int step_of(float radius_px) const;
     float radius_of(int step) const;
     int level_of(float radius_px) const;

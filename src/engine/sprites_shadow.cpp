@@ -12,20 +12,37 @@ constexpr int kBlock = 16;
 constexpr float kOwnSurfacePx = 1;  // what is nearer by less is the light's own surface
 constexpr float kStepPx = 1.5f;     // along a ray's way over the picture
 
+// The two grid points around a place of the pupil's square.
+struct Between {
+    int cell;
+    float share;  // of the second
+    explicit Between(float t) {
+        const float p = std::clamp((t + 1) / 2 * PupilMask::kSide - 0.5f, 0.0f, float(PupilMask::kSide - 1));
+        cell = std::min(int(p), PupilMask::kSide - 2);
+        share = p - float(cell);
+    }
+};
+
 }  // namespace
 
-float PupilMask::at(float x, float y) const {
-    const auto place = [](float t, int& cell) {
-        const float p = std::clamp((t + 1) / 2 * kSide - 0.5f, 0.0f, float(kSide - 1));
-        cell = std::min(int(p), kSide - 2);
-        return p - float(cell);
-    };
-    int i = 0, j = 0;
-    const float right = place(x, i), down = place(y, j);
-    const float* row = &shares[std::size_t(j * kSide + i)];
-    const float top = row[0] + right * (row[1] - row[0]);
-    const float bottom = row[kSide] + right * (row[kSide + 1] - row[kSide]);
-    return top + down * (bottom - top);
+bool PupilMask::is_closed() const {
+    return !shares.empty() && std::all_of(shares.begin(), shares.end(), [](float s) { return s <= 0; });
+}
+
+std::array<float, PupilMask::kSide> PupilMask::row(float y) const {
+    const Between b(y);
+    std::array<float, kSide> values;
+    for (std::size_t i = 0; i < kSide; ++i) {
+        const float top = shares[std::size_t(b.cell * kSide) + i];
+        values[i] = top + b.share * (shares[std::size_t((b.cell + 1) * kSide) + i] - top);
+    }
+    return values;
+}
+
+float PupilMask::at(const std::array<float, kSide>& row, float x) {
+    const Between b(x);
+    const float left = row[std::size_t(b.cell)];
+    return left + b.share * (row[std::size_t(b.cell + 1)] - left);
 }
 
 SpriteShadows::SpriteShadows(const Input& input)
@@ -36,8 +53,6 @@ SpriteShadows::SpriteShadows(const Input& input)
             for (int x = 0; x < input.width(); ++x)
                 nearest_(x / kBlock, by) = std::min(nearest_(x / kBlock, by), input.coc_px(x, y));
     });
-    for (std::size_t i = 0; i < nearest_.size(); ++i)
-        in_.nearest_coc_px = std::min(in_.nearest_coc_px, nearest_.pixels()[i]);
 }
 
 // Nothing nearer stands anywhere that a ray could pass.

@@ -7,6 +7,7 @@
 
 #include "engine/engine.h"
 
+#include <array>
 #include <vector>
 
 namespace petzval::engine {
@@ -16,8 +17,10 @@ struct PupilMask {
     static constexpr int kSide = 8;
     std::vector<float> shares;
     bool is_open() const { return shares.empty(); }
-    // At a point of the pupil, y down; clamped to the grid.
-    float at(float x, float y) const;
+    bool is_closed() const;
+    // The shares along the row of the pupil at y (down, clamped to the grid), for at().
+    std::array<float, kSide> row(float y) const;
+    static float at(const std::array<float, kSide>& row, float x);
 };
 
 class SpriteShadows {

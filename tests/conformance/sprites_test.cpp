@@ -1,0 +1,241 @@
+// Lights drawn as kernels: their light, size, shape, place and what hides them.
+#include "shots.h"
+
+#include <limits>
+
+namespace petzval::conformance {
+namespace {
+
+// A black picture in focus with given lights.
+struct Lights {
+    Shot shot;
+    std::vector<LightPoint> points;
+
+    Lights(int width, int height, float coc_px = 0) : shot(flat(width, height, {0, 0, 0, 1}, coc_px)) {}
+    void add(float x, float y, float coc_px, float light, float diameter_px = 0) {
+        LightPoint p;
+        p.x = x, p.y = y, p.coc_px = coc_px, p.r = p.g = p.b = light, p.diameter_px = diameter_px;
+        points.push_back(p);
+    }
+    DefocusJob job() const {
+        DefocusJob job = shot.job("sprites");
+        job.points = &points;
+        job.sprites.find = false;
+        return job;
+    }
+};
+
+struct Spot {
+    double sum = 0, x = 0, y = 0, radius_px = 0;
+};
+
+Spot spot(const Picture& image) {
+    Spot s;
+    double square = 0;
+    for (int v = 0; v < image.height(); ++v)
+        for (int u = 0; u < image.width(); ++u) {
+            const double g = double(image(u, v).g);
+            s.sum += g, s.x += g * (u + 0.5), s.y += g * (v + 0.5);
+            square += g * (std::pow(u + 0.5, 2) + std::pow(v + 0.5, 2));
+        }
+    s.x /= s.sum, s.y /= s.sum;
+    s.radius_px = std::sqrt(std::max(0.0, 2 * (square / s.sum - s.x * s.x - s.y * s.y - 1.0 / 6)));
+    return s;
+}
+
+TEST(Sprites, ALightKeepsItsLightItsPlaceAndItsRadius) {
+    for (const float coc : {-90.0f, -40.0f, -9.3f, 0.0f, 0.8f, 3.2f, 14.0f, 31.0f, 70.0f})
+        for (const Quality quality : {Quality::Draft, Quality::Standard, Quality::Final}) {
+            Lights lights(261, 261, std::max(0.0f, coc));
+            lights.add(130.3f, 129.6f, coc, 50);
+            DefocusJob job = lights.job();
+            job.quality = quality;
+            const Spot s = spot(rendered(job));
+            EXPECT_NEAR(s.sum, 50, 0.05) << coc;
+            const double cell = std::max(1.0, std::abs(double(coc)) / 8);
+            EXPECT_NEAR(s.x, 130.3, 0.15 * cell) << coc;
+            EXPECT_NEAR(s.y, 129.6, 0.15 * cell) << coc;
+            if (std::abs(coc) > 2)
+                EXPECT_NEAR(s.radius_px, std::abs(coc), 0.015 * std::abs(coc) + 0.05) << coc;
+        }
+}
+
+TEST(Sprites, ALightInTheMiddleOfAPixelIsThatPixelThroughTheReference) {
+    for (const float coc : {-20.0f, 14.0f}) {
+        Lights lights(101, 101, 14);
+        for (std::size_t i = 0; i < lights.shot.coc_px.size(); ++i) lights.shot.coc_px.pixels()[i] = coc;
+        lights.add(50.5f, 50.5f, coc, 1000);
+        Shot pixel = flat(101, 101, {0, 0, 0, 1}, coc);
+        pixel.colour(50, 50) = {1000, 1000, 1000, 1};
+        DefocusJob drawn = lights.job(), truth = pixel.job("reference");
+        for (DefocusJob* job : {&drawn, &truth}) {
+            job->lens.aperture.blades = 5;
+            job->lens.aperture.rotation_deg = 18;
+        }
+        const double inside = 1000 / (0.757 * M_PI * double(coc * coc));
+        EXPECT_LT(largest_difference(rendered(drawn), rendered(truth)), 0.12 * inside);
+    }
+}
+
+TEST(Sprites, SizeMakesTheDiscWider) {
+    Lights lights(161, 161, 12);
+    lights.add(80.5f, 80.5f, 12, 50, 10);
+    EXPECT_NEAR(spot(rendered(lights.job())).radius_px, std::hypot(12, 5), 0.2);
+}
+
+TEST(Sprites, DepthIsTurnedIntoTheRadiusOfTheCamera) {
+    Picture colour(161, 121, Rgba{0, 0, 0, 1});
+    Plane depth(161, 121, 9.0f);
+    LightPoint p;
+    p.x = 80.5f, p.y = 60.5f, p.g = 10, p.depth_m = 9;
+    const std::vector<LightPoint> points{p};
+    DefocusJob job;
+    job.colour = colour, job.depth_m = depth, job.display_window = job.data_window = colour.rect();
+    job.camera = {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 0.4, .focus_distance_m = 2};
+    job.engine = "sprites", job.points = &points;
+    const double radius = double((*circle_of_confusion(job))(80, 60));
+    ASSERT_GT(radius, 1);
+    EXPECT_NEAR(spot(rendered(job)).radius_px, radius, 0.03 * radius + 0.05);
+}
+
+TEST(Sprites, BrightPointsOfThePictureAreFoundAndKeepTheirLight) {
+    for (const SpriteBackground background : {SpriteBackground::Gather, SpriteBackground::Gaussian}) {
+        Shot shot = flat(160, 120, {0.05f, 0.05f, 0.05f, 1}, 15);
+        shot.colour(80, 60) = {200, 200, 200, 1};
+        DefocusJob job = shot.job("sprites");
+        job.sprites.background = background;
+        const Picture image = rendered(job);
+        const double inside = 200 / (M_PI * 15 * 15);
+        EXPECT_NEAR(image(80, 60).g, inside + 0.05, 0.02 * inside);
+        EXPECT_NEAR(image(92, 60).g, inside + 0.05, 0.03 * inside) << "flat up to the rim";
+        EXPECT_NEAR(image(97, 60).g, 0.05, 0.02 * inside);
+    }
+}
+
+TEST(Sprites, WhatIsInFocusInFrontHidesALight) {
+    Lights lights(120, 80, 30);
+    for (int y = 0; y < 80; ++y)
+        for (int x = 60; x < 120; ++x) lights.shot.coc_px(x, y) = 0;
+    lights.add(90.5f, 40.5f, 20, 1000);  // behind the wall
+    EXPECT_EQ(spot(rendered(lights.job())).sum, 0);
+    lights.points.clear();
+    lights.add(60.5f, 40.5f, 20, 1000);  // beside its edge: half of the lens sees it, left of the edge
+    const Picture image = rendered(lights.job());
+    EXPECT_NEAR(spot(image).sum, 500, 80);
+    EXPECT_NEAR(image(70, 40).g, 0, 0.1);
+    EXPECT_NEAR(image(50, 40).g, 1000 / (M_PI * 400), 0.2);
+}
+
+TEST(Sprites, AScreenNearTheLensDimsALightByItsShareOfTheLens) {
+    // A bar of 12 px at -20 before a light at +20: see Reference.ALampBehindATwig… for which part it takes.
+    Lights lights(141, 141, 30);
+    for (int y = 0; y < 141; ++y)
+        for (int x = 74; x < 86; ++x) lights.shot.coc_px(x, y) = -20;
+    lights.add(70.5f, 70.5f, 20, 1000);
+    const Picture image = rendered(lights.job());
+    // q = x + 40 u covers u in [3.5, 15.5] / 40, landing at 70.5 + 20 u: 72.25 to 78.25.
+    const double inside = 1000 / (M_PI * 400);
+    EXPECT_LT(image(75, 70).g, 0.4 * inside);
+    EXPECT_GT(image(64, 70).g, 0.9 * inside);
+    EXPECT_GT(image(84, 70).g, 0.8 * inside);
+}
+
+TEST(Sprites, PointsThatCannotBeDrawnAreCountedAndReported) {
+    Lights lights(40, 30, 5);
+    lights.add(20.5f, 15.5f, 5, 10);
+    lights.add(std::nanf(""), 3, 5, 10);
+    lights.add(5, 5, 5, std::numeric_limits<float>::infinity());
+    lights.add(5, 5, 5, -1);
+    lights.add(-3, 15, 5, 10);     // outside, its disc reaches in
+    lights.add(4000, 15, 5, 10);   // outside, and stays there
+    lights.add(1e30f, 15, 5, 10);  // nowhere
+    const DefocusJob job = lights.job();
+    const auto report = defocus(job);
+    ASSERT_TRUE(report.has_value());
+    ASSERT_EQ(report->warnings.size(), 3u);
+    EXPECT_EQ(report->warnings[0], "3 of 7 given points are not finite and were left out");
+    EXPECT_EQ(report->warnings[1],
+              "1 of 7 given points have negative light, depth or size and were left out");
+    EXPECT_NE(report->warnings[2].find("2 of 7 given points lie outside"), std::string::npos);
+    EXPECT_GT(spot(report->image).sum, 10.5);
+}
+
+TEST(Sprites, GivenPointsNeedThisEngine) {
+    Lights lights(20, 20);
+    lights.add(10, 10, 0, 1);
+    DefocusJob job = lights.job();
+    job.engine = "gather";
+    const auto report = defocus(job);
+    ASSERT_FALSE(report.has_value());
+    EXPECT_NE(report.error().message.find("--engine sprites"), std::string::npos);
+}
+
+TEST(Sprites, ManyLightsAddUp) {
+    Lights lights(300, 200, 20);
+    std::mt19937 random(3);
+    double total = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const float light = float(random() % 100) / 100;
+        lights.add(60 + float(random() % 18000) / 100, 60 + float(random() % 8000) / 100,
+                   20 * (float(random() % 200) / 100 - 1), light);
+        total += double(light);
+    }
+    EXPECT_NEAR(spot(rendered(lights.job())).sum, total, 1e-3 * total);
+}
+
+TEST(Sprites, WithoutLightsItIsTheBackground) {
+    Shot shot = flat(90, 70, {}, 8);
+    paint_noise(shot.colour, 2);
+    DefocusJob job = shot.job("sprites");
+    job.sprites.find = false;
+    EXPECT_EQ(largest_difference(rendered(job), rendered(shot.job("gather"))), 0);
+    job.sprites.background = SpriteBackground::Gaussian;
+    EXPECT_EQ(largest_difference(rendered(job), rendered(shot.job("gaussian"))), 0);
+}
+
+TEST(Sprites, TheSameBitsForAnyThreadCount) {
+    Lights lights(300, 280, 9);
+    for (int y = 0; y < 280; ++y)
+        for (int x = 100; x < 120; ++x) lights.shot.coc_px(x, y) = -9;
+    std::mt19937 random(3);
+    for (int i = 0; i < 3000; ++i)
+        lights.add(float(random() % 30000) / 100, float(random() % 28000) / 100,
+                   float(random() % 1000) / 10 - 40, float(random() % 100));
+    DefocusJob one = lights.job(), two = lights.job();
+    one.threads = 1, two.threads = 2;
+    EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
+}
+
+TEST(Sprites, EveryOptionChangesThePicture) {
+    Shot shot = flat(120, 90, {0.1f, 0.1f, 0.1f, 1}, 9);
+    shot.colour(40, 40) = {30, 30, 30, 1};
+    shot.colour(80, 40) = {0.9f, 0.9f, 0.9f, 1};
+    const Picture plain = rendered(shot.job("sprites"));
+    const auto changed = [&](const auto& set) {
+        DefocusJob job = shot.job("sprites");
+        set(job.sprites);
+        return largest_difference(rendered(job), plain) > 1e-4;
+    };
+    EXPECT_TRUE(changed([](SpriteOptions& o) { o.find = false; }));
+    EXPECT_TRUE(changed([](SpriteOptions& o) { o.background = SpriteBackground::Gaussian; }));
+    EXPECT_TRUE(changed([](SpriteOptions& o) { o.bright_factor = 100; }));
+}
+
+TEST(Sprites, AwkwardPicturesStayFinite) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 17}, {17, 1}, {257, 3}}) {
+        Lights lights(width, height, 5);
+        paint_noise(lights.shot.colour, 7);
+        lights.shot.colour(0, 0) = {-3, std::nanf(""), 1e30f, 1};
+        for (const float coc : {0.0f, 0.2f, -3.0f, 500.0f, 16000.0f}) lights.add(0.5f, 0.5f, coc, 1e20f);
+        DefocusJob job = lights.job();
+        job.sprites.find = true;
+        const Picture image = rendered(job);
+        for (std::size_t i = 0; i < image.size(); ++i)
+            for (const float v :
+                 {image.pixels()[i].r, image.pixels()[i].g, image.pixels()[i].b, image.pixels()[i].a})
+                ASSERT_TRUE(std::isfinite(v));
+    }
+}
+
+}  // namespace
+}  // namespace petzval::conformance
