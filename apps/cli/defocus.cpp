@@ -11,6 +11,7 @@
 #include "interrupt.h"
 #include "lens.h"
 #include "output.h"
+#include "plate.h"
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
@@ -25,6 +26,7 @@ namespace {
 
 struct DefocusFlags {
     InputFlags input;
+    PlateFlags plate;
     CameraFlags camera;
     FocusFlags focus;
     LensFlags lens;
@@ -94,6 +96,8 @@ void DefocusFlags::add_to(Verb& verb) {
     input.add_to(verb);
     input.add_depth_to(verb);
     input.add_behind_to(verb);
+    input.add_transfer_to(verb);
+    plate.add_to(verb);
     camera.add_to(verb, "file");
     focus.add_to(verb);
     lens.add_to(verb);
@@ -131,6 +135,11 @@ void DefocusFlags::check(const Verb& verb) {
         throw UsageError("--pupil-points is for --engine reference; " + engine + " takes --quality");
     if (input.depth_is_coc()) check_coc_input();
     glare.check(lens.choice());
+    plate.check();
+    if (plate.expand && view != ViewKind::Beauty)
+        throw UsageError("--expand-highlights is part of --view beauty only");
+    if (plate.expand && !input.behind.empty())
+        throw UsageError("--expand-highlights cannot be used with --behind: a plate has no hidden layers");
     if (const auto given = glare.given(); !given.empty() && view != ViewKind::Beauty)
         throw UsageError(listed(given) + ": glare is part of --view beauty only");
     const auto kind = kind_of_output(output);
@@ -138,6 +147,8 @@ void DefocusFlags::check(const Verb& verb) {
     const bool developed = *kind == FileKind::Png && (view == ViewKind::Beauty || view == ViewKind::Focus);
     if (develop.exposure_stops && !developed)
         throw UsageError("--exposure is for display pictures: --view beauty or focus with -o FILE.png");
+    if (develop.contrast && !developed)
+        throw UsageError("--contrast is for display pictures: --view beauty or focus with -o FILE.png");
     if (develop.tone && !developed)
         throw UsageError("--tone is for display pictures: --view beauty or focus with -o FILE.png");
 }
@@ -184,7 +195,8 @@ Json parameters_json(const DefocusJob& job, const DefocusFlags& flags) {
             {"far_scale", job.coc.far_scale},
             {"max_radius_px", number(job.coc.max_radius_px)},
             {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
-            {"focus_falloff", job.coc.focus_falloff}};
+            {"focus_falloff", job.coc.focus_falloff},
+            {"expand_highlights", flags.plate.json()}};
 }
 
 // One run of the verb: its flags, what was read, and the report that grows.
@@ -198,6 +210,7 @@ private:
     Status choose_camera();
     Status compute();
     Status render(DefocusJob job);
+    Status expand_plate();
     Status add_glare();
     Status write();
     Status finish();
@@ -211,6 +224,7 @@ private:
     Json report_ = new_report("defocus");
     Input input_;
     Camera camera_;
+    std::optional<ExpandedPlate> plate_;
     ViewSource view_;  // what compute() made and write() needs
 };
 
@@ -242,10 +256,27 @@ Status Run::read() {
     input_ = std::move(*loaded);
     for (const auto& line : input_.detected_in_picture()) note(line);
     warn(input_.warnings);
+    if (flags_.input.transfer && !input_.frame.display_referred &&
+        *kind_of_output(flags_.output) != FileKind::Png)
+        return Error{ErrorCode::InvalidArgument, "--transfer is for PNG; neither " + flags_.input.path +
+                                                     " nor " + flags_.output + " is one"};
+    if (Status done = expand_plate(); !done) return done;
     report_["seconds"]["read"] = watch.seconds();
     report_["detected"] = input_.detected;
     report_["non_finite"] = {{"colour", input_.frame.non_finite_colour}, {"depth", input_.depth.non_finite}};
     report_["depth"] = depth_json(input_.depth, flags_.input.depth_kind.value_or(DepthKind::Planar));
+    return Done{};
+}
+
+Status Run::expand_plate() {
+    if (!flags_.plate.expand) return Done{};
+    if (!input_.frame.deep.empty())
+        return Error{ErrorCode::InvalidArgument,
+                     "--expand-highlights is for flat plates, not for deep pictures"};
+    auto plate = ExpandedPlate::take(input_.frame.colour, flags_.plate.expansion());
+    if (!plate) return plate.error();
+    plate_ = std::move(*plate);
+    note("highlights: " + flags_.plate.in_words());
     return Done{};
 }
 
@@ -316,6 +347,7 @@ Status Run::add_glare() {
     report_["glare"] = flags_.glare.json();
     const Stopwatch watch;
     Status done = flags_.glare.apply(input_.frame, input_.camera, flags_.lens.choice(), flags_.run.threads);
+    if (done && plate_) input_.frame.colour = plate_->back(input_.frame.colour);
     report_["seconds"]["glare"] = watch.seconds();
     return done;
 }
@@ -323,13 +355,16 @@ Status Run::add_glare() {
 Status Run::write() {
     const Stopwatch watch;
     std::vector<std::string> warnings;
-    const ViewSettings settings{
-        .output = flags_.output,
-        .overwrite = !flags_.overwrite.no_clobber,
-        .develop = flags_.develop.settings(input_.frame.display_referred, flags_.run.threads),
-        .camera = input_.camera,
-        .depth = input_.depth,
-        .warnings = &warnings};
+    ViewSettings settings{.output = flags_.output,
+                          .overwrite = !flags_.overwrite.no_clobber,
+                          .develop = flags_.develop.settings(input_.frame.display_referred,
+                                                             flags_.input.transfer, flags_.run.threads),
+                          .camera = input_.camera,
+                          .depth = input_.depth,
+                          .attributes = {},
+                          .warnings = &warnings};
+    if (flags_.plate.expand)
+        settings.attributes.emplace_back("petzval:expandHighlights", flags_.plate.in_words());
     if (Status done = write_view(flags_.view, input_.frame, view_, settings); !done) return done;
     warn(warnings);
     report_["seconds"]["write"] = watch.seconds();

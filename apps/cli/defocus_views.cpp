@@ -17,6 +17,7 @@ bool is_exr(const ViewSettings& settings) { return *kind_of_output(settings.outp
 WriteOptions exr_options(const ViewSettings& settings) {
     WriteOptions options;
     options.overwrite = settings.overwrite;
+    options.attributes = settings.attributes;
     return options;
 }
 

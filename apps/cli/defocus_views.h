@@ -29,7 +29,8 @@ struct ViewSettings {
     DevelopSettings develop;
     FoundCamera camera;
     DepthReport depth;
-    std::vector<std::string>* warnings = nullptr;  // what writing had to change
+    std::vector<std::pair<std::string, std::string>> attributes;  // of an EXR
+    std::vector<std::string>* warnings = nullptr;                 // what writing had to change
 };
 
 // `frame` holds the defocused colour for Beauty and Alpha, else the sharp one, and planar depth. It is used

@@ -44,7 +44,8 @@ Status develop_file(const DevelopVerbFlags& flags) {
     Status glared = flags.glare.apply(input->frame, input->camera, flags.lens.choice(), flags.run.threads);
     if (!glared) return glared;
     const double glare_s = total.seconds() - read_s;
-    DevelopSettings settings = flags.develop.settings(input->frame.display_referred, flags.run.threads);
+    DevelopSettings settings =
+        flags.develop.settings(input->frame.display_referred, flags.input.transfer, flags.run.threads);
     settings.dither = !flags.no_dither;
     const Frame& frame = input->frame;
     const Picture shown = through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
@@ -59,7 +60,10 @@ Status develop_file(const DevelopVerbFlags& flags) {
     report["warnings"] = input->warnings;
     report["non_finite"]["colour"] = input->frame.non_finite_colour;
     report["parameters"] = {{"exposure_stops", settings.exposure_stops},
-                            {"tone", settings.tone == ToneCurve::Filmic ? "filmic" : "none"},
+                            {"contrast", settings.contrast},
+                            {"tone", settings.tone == ToneCurve::Filmic     ? "filmic"
+                                     : settings.tone == ToneCurve::Reinhard ? "reinhard"
+                                                                            : "none"},
                             {"bits", settings.bits},
                             {"dither", settings.dither}};
     report["seconds"]["read"] = read_s;
@@ -99,6 +103,7 @@ void add_develop(Verb& program, Action& chosen) {
                  "petzval develop out.exr -o out.png --bloom 0.1 --star 0.1 --blades 6");
     auto flags = std::make_shared<DevelopVerbFlags>();
     flags->input.add_to(verb);
+    flags->input.add_transfer_to(verb);
     FlagGroup(verb, "Output")
         .value("-o,--output", "OUT.png", "the display picture", parse_text, flags->output);
     flags->camera.add_to(verb, "file");

@@ -132,6 +132,20 @@ void InputFlags::add_depth_to(Verb& verb) {
                unit_scale_m);
 }
 
+void InputFlags::add_transfer_to(Verb& verb) {
+    FlagGroup(verb, "Input")
+        .value(
+            "--transfer", "NAME",
+            "how PNG codes stand for light, read and written: srgb (default), gamma2.2, gamma2.0, linear",
+            [](const std::string& text) {
+                return parse_name<Transfer>(text, {{"srgb", Transfer::Srgb},
+                                                   {"gamma2.2", Transfer::Gamma22},
+                                                   {"gamma2.0", Transfer::Gamma20},
+                                                   {"linear", Transfer::Linear}});
+            },
+            transfer);
+}
+
 void InputFlags::add_behind_to(Verb& verb) {
     FlagGroup(verb, "Input")
         .value("--behind", "FILE", "what the picture hides: deep EXR, or RGBA and Z", parse_text, behind);
@@ -149,7 +163,9 @@ void InputFlags::check() const {
 }
 
 Result<Input> load_input(const InputFlags& flags, const CameraFlags& camera) {
-    auto read = read_frame(flags.path, flags.read);
+    ReadOptions options = flags.read;
+    options.transfer = flags.transfer.value_or(Transfer::Srgb);
+    auto read = read_frame(flags.path, options);
     if (!read) return read.error();
     Input input;
     input.frame = std::move(*read);

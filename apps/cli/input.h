@@ -25,10 +25,12 @@ struct InputFlags {
     std::optional<Interval> depth_range;
     std::optional<double> unit_scale_m;
     std::string behind;
+    std::optional<Transfer> transfer;
 
-    void add_to(Verb& verb);         // IN, the layer and the view
-    void add_depth_to(Verb& verb);   // all that says what depth is
-    void add_behind_to(Verb& verb);  // --behind
+    void add_to(Verb& verb);           // IN, the layer and the view
+    void add_depth_to(Verb& verb);     // all that says what depth is
+    void add_transfer_to(Verb& verb);  // --transfer
+    void add_behind_to(Verb& verb);    // --behind
     // Throws UsageError for depth flags that contradict each other.
     void check() const;
     bool depth_is_coc() const { return depth_kind == DepthKind::CocPx; }

@@ -2,6 +2,7 @@
 #include "camera.h"
 #include "console.h"
 #include "input.h"
+#include "light_report.h"
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
@@ -16,6 +17,8 @@ namespace {
 
 struct InspectFlags {
     InputFlags input;
+    CameraFlags camera;
+    double permissible_radius_px = 1;
     RunFlags run;
 };
 
@@ -102,7 +105,18 @@ void describe_list(const char* heading, const std::vector<std::string>& lines, s
     for (const std::string& line : lines) out << "  " << one_line(line) << "\n";
 }
 
-std::string description(const Input& input, const InputFlags& flags) {
+// Nothing where a camera number is missing.
+std::optional<FocusLimits> limits_of(const Input& input, const InspectFlags& flags) {
+    const ImageScale scale = flags.camera.image_scale.value_or(ImageScale::Rendered);
+    const auto camera = complete_camera(input.camera, scale, "", "");
+    if (!camera) return std::nullopt;
+    const auto limits =
+        focus_limits(*camera, input.frame.display_window.width(), flags.permissible_radius_px);
+    return limits ? std::optional(*limits) : std::nullopt;
+}
+
+std::string description(const Input& input, const InspectFlags& all, const DynamicRange& range) {
+    const InputFlags& flags = all.input;
     std::ostringstream out;
     const Frame& frame = input.frame;
     out << one_line(flags.path) << "\n  display window " << window_text(frame.display_window);
@@ -113,12 +127,16 @@ std::string description(const Input& input, const InputFlags& flags) {
     describe_list("detected", input.detected_in_picture(), out);
     describe_depth(input, flags, out);
     describe_camera(input.camera, out);
+    if (const auto limits = limits_of(input, all)) describe_limits(*limits, all.permissible_radius_px, out);
+    describe_range(range, out);
     if (frame.non_finite_colour > 0) out << "non-finite colour values\n  " << frame.non_finite_colour << "\n";
     describe_list("warnings", input.warnings, out);
+    describe_list("advice", range.advice, out);
     return printable(out.str());
 }
 
-Json report_of(const Input& input, const InputFlags& flags) {
+Json report_of(const Input& input, const InspectFlags& all, const DynamicRange& range) {
+    const InputFlags& flags = all.input;
     Json report = new_report("inspect");
     const Frame& frame = input.frame;
     report["input"] = flags.path;
@@ -134,20 +152,26 @@ Json report_of(const Input& input, const InputFlags& flags) {
                           : depth_json(input.depth, flags.depth_kind.value_or(DepthKind::Planar));
     report["deep_samples"] = frame.deep.sample_count();
     report["camera"] = camera_json(input.camera, ImageScale::Rendered);
+    const auto limits = limits_of(input, all);
+    report["focus_limits"] = limits ? limits_json(*limits, all.permissible_radius_px) : Json(nullptr);
+    report["dynamic_range"] = range_json(range);
     report["detected"] = input.detected;
     report["warnings"] = input.warnings;
+    for (const std::string& line : range.advice) report["warnings"].push_back(line);
     report["non_finite"] = {{"colour", frame.non_finite_colour}, {"depth", input.depth.non_finite}};
     return report;
 }
 
 Status inspect(const InspectFlags& flags) {
     const Stopwatch watch;
-    const auto input = load_input(flags.input, CameraFlags{});
+    const auto input = load_input(flags.input, flags.camera);
     if (!input) return input.error();
-    if (flags.run.json != "-" && !print(description(*input, flags.input)))
+    const DynamicRange range =
+        measure_dynamic_range(input->frame.colour.view(), input->frame.display_referred);
+    if (flags.run.json != "-" && !print(description(*input, flags, range)))
         return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
     if (flags.run.json.empty()) return Done{};
-    Json report = report_of(*input, flags.input);
+    Json report = report_of(*input, flags, range);
     report["seconds"]["read"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
     return write_report(report, flags.run.json);
@@ -163,6 +187,12 @@ void add_inspect(Verb& program, Action& chosen) {
     auto flags = std::make_shared<InspectFlags>();
     flags->input.add_to(verb);
     flags->input.add_depth_to(verb);
+    flags->input.add_transfer_to(verb);
+    flags->camera.add_to(verb, "file");
+    FlagGroup(verb, "Focus")
+        .value("--permissible-radius", "PX",
+               "blur radius that still counts as sharp, for near and far limit (default 1)", parse_positive,
+               flags->permissible_radius_px);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {

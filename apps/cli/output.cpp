@@ -94,20 +94,26 @@ void DevelopFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Display picture (PNG)")
         .value("--exposure", "STOPS", "brighter by this many stops, as 1.5 or -2", parse_number,
                exposure_stops)
+        .value("--contrast", "FACTOR", "exponent about mid-grey, as 1.2; 1 leaves it (default)",
+               parse_positive, contrast)
         .value(
             "--tone", "NAME",
             "filmic: mid-grey kept, highlights roll off and pale, hue kept (default; none for PNG input); "
-            "none: clip",
+            "reinhard: n/(1 + n); none: clip",
             [](const std::string& text) {
-                return parse_name<ToneCurve>(text,
-                                             {{"filmic", ToneCurve::Filmic}, {"none", ToneCurve::None}});
+                return parse_name<ToneCurve>(text, {{"filmic", ToneCurve::Filmic},
+                                                    {"reinhard", ToneCurve::Reinhard},
+                                                    {"none", ToneCurve::None}});
             },
             tone);
 }
 
-DevelopSettings DevelopFlags::settings(bool display_referred, int threads) const {
+DevelopSettings DevelopFlags::settings(bool display_referred, std::optional<Transfer> transfer,
+                                       int threads) const {
     return {.exposure_stops = exposure_stops.value_or(0),
+            .contrast = contrast.value_or(1),
             .tone = tone.value_or(display_referred ? ToneCurve::None : ToneCurve::Filmic),
+            .transfer = transfer.value_or(Transfer::Srgb),
             .bits = bits,
             .threads = threads};
 }

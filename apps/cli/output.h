@@ -37,12 +37,13 @@ struct OverwriteFlags {
 // From scene-linear light to a display picture; only for PNG.
 struct DevelopFlags {
     std::optional<double> exposure_stops;
+    std::optional<double> contrast;
     std::optional<ToneCurve> tone;
     int bits = 8;
 
     void add_to(Verb& verb);
     // A picture that was display-referred keeps its look unless told otherwise.
-    DevelopSettings settings(bool display_referred, int threads) const;
+    DevelopSettings settings(bool display_referred, std::optional<Transfer> transfer, int threads) const;
 };
 
 // Errors: OutputFailed.

@@ -71,4 +71,14 @@ private:
     CocControls controls_;
 };
 
+// What a photographer reads off the lens. Without the artist's controls.
+struct FocusLimits {
+    double near_m = 0, far_m = 0;  // radii between are below the permissible one; far may be infinite
+    double hyperfocal_m = 0;       // focused there, the far limit is infinite
+};
+
+// permissible_radius_px > 0. Errors: those of CircleOfConfusion::make; InvalidArgument for the radius.
+PETZVAL_API Result<FocusLimits> focus_limits(const Camera& camera, int display_width_px,
+                                             double permissible_radius_px = 1);
+
 }  // namespace petzval

@@ -1,5 +1,5 @@
-// From scene-linear light to what a display shows: exposure, tone curve, transfer function, dither, in this
-// order.
+// From scene-linear light to what a display shows: exposure, contrast, tone curve, transfer function, dither,
+// in this order.
 #pragma once
 
 #include "petzval/export.h"
@@ -14,14 +14,31 @@ namespace petzval {
 PETZVAL_API double srgb_encode(double linear);
 PETZVAL_API double srgb_decode(double encoded);
 
+// How codes of 0…1 stand for light.
+enum class Transfer {
+    Srgb,     // IEC 61966-2-1
+    Gamma22,  // light = code^2.2: displays of the plain power kind
+    Gamma20,  // light = code^2: the cheap approximation of games
+    Linear,   // light = code: mattes, and linear 8-bit textures, which have few codes in the dark
+};
+
+// Odd-symmetric below 0.
+PETZVAL_API double encode(Transfer transfer, double linear);
+PETZVAL_API double decode(Transfer transfer, double code);
+
 enum class ToneCurve {
-    None,    // clip
-    Filmic,  // neutral: mid-grey 0.18 kept, highlights roll off to 1 and pale, hue kept; see colour/tone.h
+    None,      // clip
+    Reinhard,  // n / (1 + n) on the largest channel: simple, never clips, mid-grey falls to 0.15
+    Filmic,    // neutral: mid-grey 0.18 kept, highlights roll off to 1 and pale, hue kept; see colour/tone.h
 };
 
 struct DevelopSettings {
     double exposure_stops = 0;
+    // Exponent about mid-grey 0.18, on the largest channel, hue kept; before the tone curve. 1: as it is.
+    // First see whether the scene's range is right (measure_dynamic_range), then reach for contrast.
+    double contrast = 1;
     ToneCurve tone = ToneCurve::Filmic;
+    Transfer transfer = Transfer::Srgb;
     bool dither = true;  // triangular, one code value wide on either side, fixed pattern
     int bits = 8;        // 8 or 16
     int threads = 0;     // 0: all this process may use; the result never depends on it

@@ -3,6 +3,7 @@
 
 #include "petzval/deep.h"
 #include "petzval/depth.h"
+#include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
@@ -17,11 +18,12 @@ namespace petzval {
 
 // What to take from a file; empty strings mean "detect, and say what was taken and why".
 struct ReadOptions {
-    std::string layer;          // colour layer or part, e.g. "ViewLayer.Combined" or "rgba_right"
-    std::string view_name;      // stereo view, e.g. "left"
-    std::string depth_file;     // another file that holds the depth
-    std::string depth_channel;  // e.g. "Z", "depth.R", "ViewLayer.Depth.Z"
-    bool need_depth = true;     // false: a file without depth is fine, depth stays empty
+    std::string layer;                   // colour layer or part, e.g. "ViewLayer.Combined" or "rgba_right"
+    std::string view_name;               // stereo view, e.g. "left"
+    std::string depth_file;              // another file that holds the depth
+    std::string depth_channel;           // e.g. "Z", "depth.R", "ViewLayer.Depth.Z"
+    Transfer transfer = Transfer::Srgb;  // how PNG colour is decoded; EXR is linear by definition
+    bool need_depth = true;              // false: a file without depth is fine, depth stays empty
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
 };
 

@@ -8,6 +8,7 @@
 #include "petzval/defocus.h"
 #include "petzval/depth.h"
 #include "petzval/develop.h"
+#include "petzval/dynamic_range.h"
 #include "petzval/export.h"
 #include "petzval/glare.h"
 #include "petzval/image.h"

@@ -22,6 +22,36 @@ double srgb_decode(double encoded) {
     return std::copysign(linear, encoded);
 }
 
+double encode(Transfer transfer, double linear) {
+    const auto power = [&](double gamma) {
+        return std::copysign(std::pow(std::abs(linear), 1 / gamma), linear);
+    };
+    switch (transfer) {
+        case Transfer::Gamma22:
+            return power(2.2);
+        case Transfer::Gamma20:
+            return power(2);
+        case Transfer::Linear:
+            return linear;
+        default:
+            return srgb_encode(linear);
+    }
+}
+
+double decode(Transfer transfer, double code) {
+    const auto power = [&](double gamma) { return std::copysign(std::pow(std::abs(code), gamma), code); };
+    switch (transfer) {
+        case Transfer::Gamma22:
+            return power(2.2);
+        case Transfer::Gamma20:
+            return power(2);
+        case Transfer::Linear:
+            return code;
+        default:
+            return srgb_decode(code);
+    }
+}
+
 std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopSettings& settings) {
     if (picture.empty()) return {};
     const int largest = (1 << settings.bits) - 1;
@@ -29,7 +59,8 @@ std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopSettin
     std::vector<std::uint16_t> codes(std::size_t(picture.width()) * std::size_t(picture.height()) * 3);
     const auto code = [&](float display_linear, int x, int y, int channel) {
         // A NaN fails the comparison and is black.
-        const double encoded = display_linear > 0 ? srgb_encode(std::min(display_linear, 1.0f)) : 0;
+        const double encoded =
+            display_linear > 0 ? encode(settings.transfer, std::min(display_linear, 1.0f)) : 0;
         const double u = settings.dither ? colour::dither_pattern(x, y, channel) : 0.5;
         return colour::dithered(encoded * largest, largest, u);
     };
@@ -37,7 +68,9 @@ std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopSettin
         std::uint16_t* out = codes.data() + std::size_t(y) * std::size_t(picture.width()) * 3;
         for (int x = 0; x < picture.width(); ++x) {
             Rgba c = exposure * picture(x, y);
+            if (settings.contrast != 1) c = colour::with_contrast(c, settings.contrast);
             if (settings.tone == ToneCurve::Filmic) c = colour::tone_map(c);
+            if (settings.tone == ToneCurve::Reinhard) c = colour::reinhard(c);
             *out++ = code(c.r, x, y, 0);
             *out++ = code(c.g, x, y, 1);
             *out++ = code(c.b, x, y, 2);

@@ -11,6 +11,17 @@ constexpr double kContrast = 1 / (1 - kMidGrey);  // p
 constexpr double kPalingHalf = 16;                // largest channel at which half the saturation is left
 constexpr double kBrightest = 1e9;                // where t is 1 to the last digit; keeps infinity out
 
+// `curve` on the largest channel; the others keep their ratios to it.
+template <typename Curve>
+Rgba on_largest(Rgba c, Curve curve) {
+    const auto positive = [](float x) { return x > 0 ? std::min(double(x), kBrightest) : 0.0; };
+    const double r = positive(c.r), g = positive(c.g), b = positive(c.b);
+    const double n = std::max({r, g, b});
+    if (n == 0) return {0, 0, 0, c.a};
+    const double factor = curve(n) / n;
+    return {float(factor * r), float(factor * g), float(factor * b), c.a};
+}
+
 }  // namespace
 
 double tone_curve(double scene_linear) {
@@ -28,6 +39,15 @@ Rgba tone_map(Rgba scene_linear) {
     const double paling = n * n / (n * n + kPalingHalf * kPalingHalf);
     const auto channel = [&](double x) { return float(shown * (x / n * (1 - paling) + paling)); };
     return {channel(r), channel(g), channel(b), scene_linear.a};
+}
+
+Rgba reinhard(Rgba scene_linear) {
+    const auto shown = [](double n) { return n / (1 + n); };
+    return on_largest(scene_linear, shown);
+}
+
+Rgba with_contrast(Rgba scene_linear, double contrast) {
+    return on_largest(scene_linear, [=](double n) { return kMidGrey * std::pow(n / kMidGrey, contrast); });
 }
 
 }  // namespace petzval::colour

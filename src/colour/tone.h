@@ -22,4 +22,11 @@ double tone_curve(double scene_linear);
 // Scene-linear colour to display-linear, each channel 0…1. Negative channels count as 0; alpha is kept.
 Rgba tone_map(Rgba scene_linear);
 
+// n / (1 + n) on the largest channel n, ratios kept (E. Reinhard et al., Photographic Tone Reproduction for
+// Digital Images, 2002, eq. 3; there on luminance, which lets channels clip).
+Rgba reinhard(Rgba scene_linear);
+
+// g (n/g)^contrast on the largest channel n, g = 0.18, ratios kept. Requires: contrast > 0.
+Rgba with_contrast(Rgba scene_linear, double contrast);
+
 }  // namespace petzval::colour

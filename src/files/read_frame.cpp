@@ -119,15 +119,16 @@ Result<Frame> read_png_frame(std::shared_ptr<const InputFile> file, const ReadOp
         frame.parts[0].channels.push_back(
             std::string(png->channels == 1 ? "Y" : std::string("RGBA").substr(std::size_t(c), 1)) + " " +
             bits);
-    frame.detected.push_back("colour: PNG, " + bits +
-                             ", decoded through the sRGB curve; 1.0 is clipped highlights");
+    const char* const curves[] = {"the sRGB curve", "gamma 2.2", "gamma 2.0", "no curve: linear codes"};
+    frame.detected.push_back("colour: PNG, " + bits + ", decoded through " +
+                             curves[std::size_t(options.transfer)] + "; 1.0 is clipped highlights");
     if (options.depth_file.empty() && (options.need_depth || !options.depth_channel.empty()) && pixels)
         return invalid_file(file->path(), "has no depth channel; a PNG needs a depth file, --depth FILE");
     if (!pixels) return frame;
 
     std::vector<float> linear(png->bits == 16 ? 65536 : 256);
     for (std::size_t i = 0; i < linear.size(); ++i)
-        linear[i] = float(srgb_decode(double(i) / double(linear.size() - 1)));
+        linear[i] = float(decode(options.transfer, double(i) / double(linear.size() - 1)));
     frame.colour = Picture::uninitialised(png->width, png->height);
     for (std::size_t i = 0; i < frame.colour.size(); ++i) {
         const std::uint16_t* s = png->samples.data() + i * std::size_t(png->channels);
