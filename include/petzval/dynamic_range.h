@@ -21,7 +21,8 @@ struct DynamicRange {
     double clipped_share = 0;  // pixels with a channel at the top of the format, of all: 1 where nothing is
                                // above it, or 65504
     // Nothing is above 1 and either the codes are those of 8 bits, or half of the picture is above 0.25 while
-    // diffuse and shadow are less than 4 stops apart: as sRGB codes would look if they were taken for light.
+    // diffuse and shadow are half a stop to 4 stops apart: as sRGB codes would look if they were taken for
+    // light.
     bool looks_encoded = false;
     // Sentences for the user: that it looks encoded, that highlights are clipped, and what this does to blur.
     std::vector<std::string> advice;

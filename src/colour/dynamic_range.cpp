@@ -94,7 +94,8 @@ DynamicRange measure_dynamic_range(View<const Rgba> picture, bool display_referr
     if (low && t.brightest > 0.9995) range.clipped_share = share_at_top(picture, 0.9995);
     if (t.brightest >= kLargestHalf) range.clipped_share = share_at_top(picture, kLargestHalf);
     const bool codes = double(t.on_grid) > 0.9 * double(t.codes);
-    const bool pale = range.middle > 0.25 && range.diffuse_over_shadow_stops < 4;
+    const double stops = range.diffuse_over_shadow_stops;
+    const bool pale = range.middle > 0.25 && stops > 0.5 && stops < 4;  // a flat card says nothing
     range.looks_encoded = !display_referred && low && (codes || pale);
     if (range.looks_encoded)
         range.advice.push_back(
