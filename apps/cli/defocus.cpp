@@ -6,12 +6,14 @@
 #include "camera.h"
 #include "console.h"
 #include "defocus_views.h"
+#include "engine_options.h"
 #include "glare.h"
 #include "input.h"
 #include "interrupt.h"
 #include "lens.h"
 #include "output.h"
 #include "plate.h"
+#include "points_file.h"
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
@@ -32,6 +34,7 @@ struct DefocusFlags {
     LensFlags lens;
     GlareFlags glare;
     std::string engine = "scatter";
+    EngineOptionFlags engine_options;
     Quality quality = Quality::Standard;
     std::optional<int> pupil_points;
     std::size_t max_memory_bytes = 0;
@@ -88,7 +91,8 @@ void DefocusFlags::add_output_to(Verb& verb) {
                parse_text, output)
         .value(
             "--view", "NAME",
-            "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha",
+            "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha; of "
+            "--engine gaussian: sharp, blur-small, blur-large, focus-index",
             [](const std::string& text) { return parse_name(text, view_names()); }, view);
 }
 
@@ -103,6 +107,7 @@ void DefocusFlags::add_to(Verb& verb) {
     lens.add_to(verb);
     glare.add_to(verb);
     add_engine_to(verb);
+    engine_options.add_to(verb);
     add_output_to(verb);
     run.add_json_to(verb);
     overwrite.add_to(verb, true);
@@ -133,6 +138,7 @@ void DefocusFlags::check(const Verb& verb) {
         throw UsageError("--focus-falloff has no effect without --focus-range, as --focus-range 1.8m,3m");
     if (pupil_points && engine != "reference")
         throw UsageError("--pupil-points is for --engine reference; " + engine + " takes --quality");
+    engine_options.check(engine, view);
     if (input.depth_is_coc()) check_coc_input();
     glare.check(lens.choice());
     plate.check();
@@ -144,7 +150,7 @@ void DefocusFlags::check(const Verb& verb) {
         throw UsageError(listed(given) + ": glare is part of --view beauty only");
     const auto kind = kind_of_output(output);
     if (!kind) throw UsageError(kind.error().message);
-    const bool developed = *kind == FileKind::Png && (view == ViewKind::Beauty || view == ViewKind::Focus);
+    const bool developed = *kind == FileKind::Png && is_developed(view);
     if (develop.exposure_stops && !developed)
         throw UsageError("--exposure is for display pictures: --view beauty or focus with -o FILE.png");
     if (develop.contrast && !developed)
@@ -157,6 +163,7 @@ std::vector<std::string> DefocusFlags::input_files() const {
     std::vector<std::string> files{input.path};
     if (!input.read.depth_file.empty()) files.push_back(input.read.depth_file);
     if (!input.behind.empty()) files.push_back(input.behind);
+    if (!engine_options.points.empty()) files.push_back(engine_options.points);
     std::error_code ignored;
     if (std::filesystem::is_regular_file(lens.name, ignored)) files.push_back(lens.name);
     return files;
@@ -176,6 +183,7 @@ DefocusJob job_for(const DefocusFlags& flags, const Input& input, const Camera& 
     job.coc = flags.focus.controls();
     job.lens = flags.lens.choice();
     job.engine = flags.engine;
+    flags.engine_options.apply(job, flags.view);
     job.quality = flags.quality;
     job.pupil_points = flags.pupil_points.value_or(job.pupil_points);
     job.threads = flags.run.threads;
@@ -196,7 +204,8 @@ Json parameters_json(const DefocusJob& job, const DefocusFlags& flags) {
             {"max_radius_px", number(job.coc.max_radius_px)},
             {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
             {"focus_falloff", job.coc.focus_falloff},
-            {"expand_highlights", flags.plate.json()}};
+            {"expand_highlights", flags.plate.json()},
+            {"engine_options", flags.engine_options.json()}};
 }
 
 // One run of the verb: its flags, what was read, and the report that grows.
@@ -207,6 +216,7 @@ public:
 
 private:
     Status read();
+    Status read_lights();
     Status choose_camera();
     Status compute();
     Status render(DefocusJob job);
@@ -223,6 +233,7 @@ private:
     Stopwatch total_;
     Json report_ = new_report("defocus");
     Input input_;
+    PointsFile points_;
     Camera camera_;
     std::optional<ExpandedPlate> plate_;
     ViewSource view_;  // what compute() made and write() needs
@@ -238,8 +249,8 @@ Status Run::operator()() {
     for (const std::string& path : {flags_.output, flags_.run.json})
         if (!path.empty() && path != "-")
             if (Status fine = check_output(path, inputs); !fine) return fine;
-    for (const auto step :
-         {&Run::read, &Run::choose_camera, &Run::compute, &Run::add_glare, &Run::write, &Run::finish}) {
+    for (const auto step : {&Run::read, &Run::read_lights, &Run::choose_camera, &Run::compute,
+                            &Run::add_glare, &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
@@ -280,6 +291,21 @@ Status Run::expand_plate() {
     return Done{};
 }
 
+Status Run::read_lights() {
+    const std::string& path = flags_.engine_options.points;
+    if (path.empty()) return Done{};
+    auto points = read_points(path, input_.frame.data_window);
+    if (!points) return points.error();
+    points_ = std::move(*points);
+    if (points_.has_depth && flags_.input.depth_is_coc())
+        return Error{
+            ErrorCode::InvalidFile,
+            path + ": depth is of no use with --depth-kind coc-px; give a column coc, radii in pixels"};
+    note(path + ": " + std::to_string(points_.points.size()) + " points by " +
+         (points_.has_depth ? "depth" : "radius"));
+    return Done{};
+}
+
 void Run::warn(const std::vector<std::string>& lines) {
     for (const std::string& line : lines) {
         warning(line);
@@ -304,7 +330,10 @@ Status Run::compute() {
     report_["lens"] = lens_json(job.lens, "");
     report_["parameters"] = parameters_json(job, flags_);
     if (flags_.view == ViewKind::Depth) return Done{};
-    if (flags_.view == ViewKind::Beauty || flags_.view == ViewKind::Alpha) return render(std::move(job));
+    if (is_rendered(flags_.view)) {
+        job.points = &points_.points;
+        return render(std::move(job));
+    }
     const Stopwatch watch;
     auto coc = circle_of_confusion(job);
     if (!coc) return coc.error();

@@ -119,6 +119,16 @@ Status write_depth(Frame& frame, const ViewSettings& settings) {
     return write_grey_png(settings.output, inverse.view(), settings.overwrite);
 }
 
+// One number per pixel that an engine put into every channel.
+Status write_index(Frame& frame, const ViewSettings& settings) {
+    Plane index(frame.colour.width(), frame.colour.height());
+    for (std::size_t i = 0; i < index.size(); ++i) index.pixels()[i] = frame.colour.pixels()[i].r;
+    if (is_exr(settings))
+        return write_plane("focus_index", index.view(), frame, settings, exr_options(settings));
+    return write_grey_png(settings.output, in_output_window(index, frame, settings, 0.0f).view(),
+                          settings.overwrite);
+}
+
 Status write_alpha(Frame& frame, const ViewSettings& settings) {
     Plane alpha(frame.colour.width(), frame.colour.height());
     for (std::size_t i = 0; i < alpha.size(); ++i) alpha.pixels()[i] = frame.colour.pixels()[i].a;
@@ -130,11 +140,12 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
 }  // namespace
 
 const std::vector<std::pair<std::string, ViewKind>>& view_names() {
-    static const std::vector<std::pair<std::string, ViewKind>> table{{"beauty", ViewKind::Beauty},
-                                                                     {"coc", ViewKind::Coc},
-                                                                     {"focus", ViewKind::Focus},
-                                                                     {"depth", ViewKind::Depth},
-                                                                     {"alpha", ViewKind::Alpha}};
+    static const std::vector<std::pair<std::string, ViewKind>> table{
+        {"beauty", ViewKind::Beauty},         {"coc", ViewKind::Coc},
+        {"focus", ViewKind::Focus},           {"depth", ViewKind::Depth},
+        {"alpha", ViewKind::Alpha},           {"sharp", ViewKind::Sharp},
+        {"blur-small", ViewKind::BlurSmall},  {"blur-large", ViewKind::BlurLarge},
+        {"focus-index", ViewKind::FocusIndex}};
     return table;
 }
 
@@ -142,6 +153,15 @@ const char* name_of(ViewKind view) {
     for (const auto& [name, value] : view_names())
         if (value == view) return name.c_str();
     return "?";
+}
+
+bool is_rendered(ViewKind view) {
+    return view != ViewKind::Coc && view != ViewKind::Focus && view != ViewKind::Depth;
+}
+
+bool is_developed(ViewKind view) {
+    return view != ViewKind::Coc && view != ViewKind::Depth && view != ViewKind::Alpha &&
+           view != ViewKind::FocusIndex;
 }
 
 Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const ViewSettings& settings) {
@@ -154,6 +174,8 @@ Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const V
             return write_depth(frame, settings);
         case ViewKind::Alpha:
             return write_alpha(frame, settings);
+        case ViewKind::FocusIndex:
+            return write_index(frame, settings);
         default:
             return write_beauty(frame, settings);
     }

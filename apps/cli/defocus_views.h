@@ -14,7 +14,12 @@
 
 namespace petzval::cli {
 
-enum class ViewKind { Beauty, Coc, Focus, Depth, Alpha };
+enum class ViewKind { Beauty, Coc, Focus, Depth, Alpha, Sharp, BlurSmall, BlurLarge, FocusIndex };
+
+// Those that an engine makes.
+bool is_rendered(ViewKind view);
+// Those whose PNG is developed: exposure, tone.
+bool is_developed(ViewKind view);
 
 const std::vector<std::pair<std::string, ViewKind>>& view_names();
 const char* name_of(ViewKind view);
@@ -33,8 +38,8 @@ struct ViewSettings {
     std::vector<std::string>* warnings = nullptr;                 // what writing had to change
 };
 
-// `frame` holds the defocused colour for Beauty and Alpha, else the sharp one, and planar depth. It is used
-// up. Errors: OutputFailed.
+// `frame` holds what the engine made where is_rendered(view), else the sharp colour, and planar depth. It is
+// used up. Errors: OutputFailed.
 Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const ViewSettings& settings);
 
 }  // namespace petzval::cli

@@ -41,30 +41,35 @@ Block block_of(const Input& input, const Rect& area) {
     return block;
 }
 
-// What was met: the farthest surface wins, its pieces are averaged.
+// What was met: the surface that most of it belongs to wins, its pieces are averaged.
 class Votes {
 public:
     void add(const Block& block, float distance) {
         votes_[std::size_t(count_++)] = {&block, 1 / (distance * distance)};
     }
     bool result(CocSample& out) const {
-        float farthest = -1e30f;
-        for (int i = 0; i < count_; ++i)
-            farthest = std::max(farthest, votes_[std::size_t(i)].block->farthest_px);
-        float sum = 0;
-        out = {};
+        float best = 0;
         for (int i = 0; i < count_; ++i) {
-            const auto& [block, weight] = votes_[std::size_t(i)];
-            if (!one_surface(block->farthest_px, farthest)) continue;
-            out.colour += weight * block->colour, out.coc_px += weight * block->farthest_px, sum += weight;
+            float sum = 0;
+            const CocSample mean = mean_like(votes_[std::size_t(i)].block->farthest_px, sum);
+            if (sum > best) best = sum, out = mean;
         }
-        if (sum <= 0) return false;
-        out.colour *= 1 / sum;
-        out.coc_px /= sum, out.coc_back_px = out.coc_px;
-        return true;
+        return best > 0;
     }
 
 private:
+    CocSample mean_like(float coc_px, float& sum) const {
+        CocSample mean;
+        for (int i = 0; i < count_; ++i) {
+            const auto& [block, weight] = votes_[std::size_t(i)];
+            if (!one_surface(block->farthest_px, coc_px)) continue;
+            mean.colour += weight * block->colour, mean.coc_px += weight * block->farthest_px, sum += weight;
+        }
+        mean.colour *= 1 / sum;
+        mean.coc_px /= sum, mean.coc_back_px = mean.coc_px;
+        return mean;
+    }
+
     struct Vote {
         const Block* block;
         float weight;

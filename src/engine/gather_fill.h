@@ -13,7 +13,7 @@ public:
     // Nothing is hidden anywhere.
     BlockFill() = default;
     // Looks from every block that holds something in front of focus, in 16 directions as far as its blur
-    // reaches, for the farthest surface around; the mean of what was met, by 1/distance^2, goes on behind.
+    // reaches, for farther surfaces around; the one met most, by 1/distance^2, goes on behind.
     static BlockFill make(const Input& input);
 
     // The sample behind the visible one, covering its pixel, blended from the blocks around; none if nothing
