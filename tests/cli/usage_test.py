@@ -16,11 +16,14 @@ DEFOCUS_VALUES = {
     "--bloom": "0.1", "--star": "0", "--ghosts": "0.1", "--veil": "0.1", "--bloom-radius": "0.1", "--transfer": "srgb",
     "--star-radius": "0.3", "--star-quality": "draft", "--coating": "none", "--glare-threshold": "2", "--highlight-peak": "8",
     "--focus-mode": "best", "--max-memory": "2G", "-o": "out.exr", "--view": "coc", "--json": "r.json", "--threads": "1", "--progress": "off",
+    "--gather-stage": "cure", "--gather-taps": "16", "--gather-coc": "mean", "--gather-fill": "off", "--points": "p.csv",
+    "--gaussian-style": "wgld", "--focus-band": "0.3", "--depth-offset": "-0.1", "--depth-band-range": "0.1m,30m",
+    "--background": "gather", "--find-points": "off", "--bright-factor": "2",
 }
 DEFOCUS_SWITCHES = ["--overwrite", "--no-clobber", "-u", "-v", "-q", "--vignetting", "--expand-highlights"]
 
 # In docs/command-line.md, but not built yet: refused, never ignored.
-NOT_YET = ["--merge", "--holdout", "--points", "--focus-band", "--aperture-image", "--kernel-image",
+NOT_YET = ["--merge", "--holdout", "--aperture-image", "--kernel-image",
            "--barn-doors", "--wave", "--device", "--overscan", "--frames", "--track"]
 
 CONTRADICTIONS = [
@@ -50,7 +53,10 @@ WRONG_VALUES = {
     "--squeeze": ["0"], "--cats-eye": ["2"], "--engine": ["warp"], "--quality": ["best"], "--seed": ["-1", "x"],
     "--max-memory": ["0", "2Q", "G", "-1G"], "--threads": ["-1", "1e3", "1000000"], "--depth-kind": ["z"],
     "--unit-scale": ["0"], "--depth-range": ["1"], "--progress": ["loud"], "--pupil-points": ["0"],
-    "--view": ["layers", "levels", "highlights", "sharp", "blur-small", "blur-large", "focus-index"],
+    "--view": ["layers", "levels", "highlights"], "--gather-stage": ["glow", ""], "--gather-taps": ["17", "x"],
+    "--gather-coc": ["max"], "--gather-fill": ["1"], "--gaussian-style": ["box"], "--focus-band": ["-1", "x"],
+    "--depth-offset": ["nan"], "--depth-band-range": ["2", "3m,1m"], "--background": ["scatter"],
+    "--find-points": ["maybe"], "--bright-factor": ["0"],
 }
 
 
