@@ -50,7 +50,7 @@ def engine_names():
 
 
 def built_in_names():
-    return [line.split()[0] for line in petzval("scene", "list").splitlines() if line.strip()]
+    return [line.split()[0] for line in petzval("scene", "list").splitlines() if line and not line[0].isspace()]
 
 
 def scene_state():

@@ -17,7 +17,7 @@ using kernel::PointSpread;
 constexpr float kOwnSurfacePx = 0.02f;
 constexpr int kBlock = 16;
 constexpr float kOverlap = 1.02f;     // of neighbouring squares of shadow
-constexpr float kBrightDisc = 0.02f;  // share of white
+constexpr float kBrightDisc = 0.002f;  // share of white
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
 // Smallest radius of any sample in each block of pixels.
