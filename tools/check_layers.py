@@ -27,8 +27,8 @@ ALLOWED = {
 PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
     "compare": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
-    "dynamic_range": "colour", "lens_facts": "api", "defocus": "engine", "engine_options": "engine", "glare": "glare", "files": "files",
-    "scene": "scene", "petzval": "api",
+    "dynamic_range": "colour", "lens_facts": "api", "lens_kernel": "api", "defocus": "engine",
+    "engine_options": "engine", "glare": "glare", "files": "files", "scene": "scene", "petzval": "api",
 }
 # Headers of other people and the only files that may see them.
 THIRD_PARTY = {

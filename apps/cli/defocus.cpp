@@ -105,6 +105,7 @@ void DefocusFlags::add_to(Verb& verb) {
     camera.add_to(verb, "file");
     focus.add_to(verb);
     lens.add_to(verb);
+    lens.add_character_to(verb);
     glare.add_to(verb);
     add_engine_to(verb);
     engine_options.add_to(verb);
@@ -164,8 +165,7 @@ std::vector<std::string> DefocusFlags::input_files() const {
     if (!input.read.depth_file.empty()) files.push_back(input.read.depth_file);
     if (!input.behind.empty()) files.push_back(input.behind);
     if (!engine_options.points.empty()) files.push_back(engine_options.points);
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(lens.name, ignored)) files.push_back(lens.name);
+    for (std::string& file : lens.input_files()) files.push_back(std::move(file));
     return files;
 }
 
@@ -211,7 +211,7 @@ Json parameters_json(const DefocusJob& job, const DefocusFlags& flags) {
 // One run of the verb: its flags, what was read, and the report that grows.
 class Run {
 public:
-    explicit Run(const DefocusFlags& flags) : flags_(flags) {}
+    explicit Run(DefocusFlags& flags) : flags_(flags) {}
     Status operator()();
 
 private:
@@ -229,7 +229,7 @@ private:
     ImageScale image_scale() const { return flags_.camera.image_scale.value_or(ImageScale::Rendered); }
     bool needs_camera() const { return !flags_.input.depth_is_coc() && flags_.view != ViewKind::Depth; }
 
-    const DefocusFlags& flags_;
+    DefocusFlags& flags_;
     Stopwatch total_;
     Json report_ = new_report("defocus");
     Input input_;
@@ -262,6 +262,7 @@ Status Run::read() {
     detail("petzval " PETZVAL_VERSION ", " + (flags_.run.threads > 0 ? plain(flags_.run.threads) : "all") +
            " threads, seed " + std::to_string(flags_.seed) + ", " + quality_name(flags_.quality) +
            " quality");
+    if (Status done = flags_.lens.load(); !done) return done;
     auto loaded = load_input(flags_.input, flags_.camera);
     if (!loaded) return loaded.error();
     input_ = std::move(*loaded);
@@ -328,6 +329,7 @@ Status Run::choose_camera() {
 Status Run::compute() {
     DefocusJob job = job_for(flags_, input_, camera_);
     report_["lens"] = lens_json(job.lens, "");
+    report_["lens"].update(character_json(job.lens));
     report_["parameters"] = parameters_json(job, flags_);
     if (flags_.view == ViewKind::Depth) return Done{};
     if (is_rendered(flags_.view)) {

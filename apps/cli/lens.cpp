@@ -2,12 +2,19 @@
 
 #include "values.h"
 
+#include <filesystem>
+
 namespace petzval::cli {
 
 void LensFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Lens")
         .value("--lens", "NAME", "a lens by name, or a lens file; ideal is a flat disc (default)", parse_text,
-               name)
+               name);
+    add_shape_to(verb);
+}
+
+void LensFlags::add_shape_to(Verb& verb) {
+    FlagGroup(verb, "Lens")
         .value("--blades", "N", "blades of the aperture, 3 or more; 0 is round (default)", parse_blades,
                blades)
         .value("--blade-rotation", "DEG", "first corner, counter-clockwise from the right, in the far disc",
@@ -17,27 +24,25 @@ void LensFlags::add_to(Verb& verb) {
                "the disc is so many times taller than wide, as 2 for an anamorphic lens", parse_positive,
                squeeze)
         .value("--cats-eye", "SHARE", "0 (default) to 1: how far the barrel cuts discs towards the corners",
-               parse_share, cats_eye)
-        .value(
-            "--focus-mode", "NAME",
-            "where the sensor stands behind a lens with aberrations: best, least blur at this aperture "
-            "(default); "
-            "paraxial, where light near the axis meets",
-            [](const std::string& text) {
-                return parse_name<FocusMode>(text,
-                                             {{"best", FocusMode::Best}, {"paraxial", FocusMode::Paraxial}});
-            },
-            focus_mode);
+               parse_share, cats_eye);
+}
+
+void LensFlags::add_character_to(Verb& verb) { character.add_to(verb); }
+
+std::vector<std::string> LensFlags::input_files() const {
+    std::vector<std::string> files = character.input_files();
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(name, ignored)) files.push_back(name);
+    return files;
 }
 
 void LensFlags::check() const {
     const bool round = blades.value_or(0) == 0;
     if (round && rotation_deg)
         throw UsageError("--blade-rotation has no effect without --blades, as --blades 5");
-    if (name == "ideal" && focus_mode)
-        throw UsageError("--focus-mode has no effect on the ideal lens; give another with --lens");
     if (round && curvature)
         throw UsageError("--blade-curvature has no effect without --blades, as --blades 5");
+    character.check(name, !round);
 }
 
 LensChoice LensFlags::choice() const {
@@ -47,8 +52,8 @@ LensChoice LensFlags::choice() const {
     lens.aperture.rotation_deg = rotation_deg.value_or(0);
     lens.aperture.curvature = curvature.value_or(0);
     lens.aperture.squeeze = squeeze.value_or(1);
-    lens.focus_mode = focus_mode.value_or(FocusMode::Best);
     lens.cats_eye = cats_eye.value_or(0);
+    character.apply_to(lens);
     return lens;
 }
 

@@ -68,8 +68,7 @@ Json lens_json(const LensChoice& lens, const std::string& description) {
             {"blade_rotation_deg", lens.aperture.rotation_deg},
             {"blade_curvature", lens.aperture.curvature},
             {"squeeze", lens.aperture.squeeze},
-            {"cats_eye", lens.cats_eye},
-            {"focus_mode", lens.focus_mode == FocusMode::Paraxial ? "paraxial" : "best"}};
+            {"cats_eye", lens.cats_eye}};
 }
 
 Json window_json(const Rect& window) {

@@ -12,5 +12,6 @@ void add_scene(Verb& program, Action& chosen);
 void add_compare(Verb& program, Action& chosen);
 void add_develop(Verb& program, Action& chosen);
 void add_lens(Verb& program, Action& chosen);
+void add_lens_pictures(Verb& lens, Action& chosen);  // psf and table
 
 }  // namespace petzval::cli

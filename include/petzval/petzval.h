@@ -14,5 +14,6 @@
 #include "petzval/image.h"
 #include "petzval/lens.h"
 #include "petzval/lens_facts.h"
+#include "petzval/lens_kernel.h"
 #include "petzval/result.h"
 #include "petzval/version.h"

@@ -1,0 +1,304 @@
+// petzval lens psf and lens table: what a lens makes of a point of light, as pictures.
+#include "petzval/lens_facts.h"
+#include "petzval/lens_kernel.h"
+
+#include "camera.h"
+#include "console.h"
+#include "lens.h"
+#include "output.h"
+#include "run_flags.h"
+#include "values.h"
+#include "verbs.h"
+
+#include <cmath>
+#include <memory>
+
+namespace petzval::cli {
+namespace {
+
+// A lens, a camera for it, and a file: what both verbs ask for.
+struct PictureFlags {
+    LensFlags lens;
+    CameraFlags camera;
+    std::string output;
+    int width_px = 1920;
+    std::optional<int> height_px;
+    bool raw = false;
+    OverwriteFlags overwrite;
+    DevelopFlags develop;
+    RunFlags run;
+
+    void add_lens_to(Verb& verb) {
+        lens.name.clear();
+        FlagGroup(verb, "Lens").argument("LENS", "a name of petzval lens list, or a lens file", lens.name);
+        lens.add_shape_to(verb);
+        lens.add_character_to(verb);
+        camera.add_to(verb, "lens");
+    }
+    void add_output_to(Verb& verb) {
+        FlagGroup(verb, "Output")
+            .value("-o,--output", "FILE", "EXR for the numbers, or PNG to look at", parse_text, output)
+            .value("--width", "PX", "width of the picture that the camera takes (default 1920)",
+                   parse_size_px, width_px)
+            .value("--height", "PX", "its height (default 9/16 of the width)", parse_size_px, height_px)
+            .on("--raw", "keep colours that no screen has: negative values in fringes", raw);
+        overwrite.add_to(verb, false);
+        develop.add_to(verb);
+        run.add_json_to(verb);
+        run.add_log_to(verb, false);
+    }
+    void check(const Verb& verb) {
+        require_argument(verb, lens.name, "a lens, as doublet, or a lens file");
+        require_argument(verb, output, "-o OUT");
+        run.apply();
+        overwrite.check();
+        lens.check();
+        const auto kind = kind_of_output(output);
+        if (!kind) throw UsageError(kind.error().message);
+    }
+};
+
+// Numbers that are not given are the lens's own, on a sensor to which it is a normal lens (36 mm for 50 mm).
+Result<LensMount> mount_of(const PictureFlags& flags) {
+    LensMount mount;
+    mount.width_px = flags.width_px;
+    mount.height_px = flags.height_px.value_or(std::max(1, flags.width_px * 9 / 16));
+    double focal_length_mm = 50, f_number = 2;
+    if (flags.lens.name != "ideal") {
+        const auto facts = lens_facts(flags.lens.name);
+        if (!facts) return facts.error();
+        if (facts->efl_mm > 0) focal_length_mm = facts->efl_mm;
+        // Rounded up, so that the lens has it.
+        if (facts->f_number > 0) f_number = facts->f_number * (1 + 1e-9);
+    }
+    Camera& camera = mount.camera;
+    camera.focal_length_mm = flags.camera.focal_length_mm.value_or(focal_length_mm);
+    camera.f_number = flags.camera.f_number.value_or(f_number);
+    camera.sensor_width_mm = flags.camera.sensor_width_mm.value_or(0.72 * camera.focal_length_mm);
+    camera.focus_distance_m = flags.camera.focus_distance_m.value_or(0);
+    camera.image_scale = flags.camera.image_scale.value_or(ImageScale::Rendered);
+    return mount;
+}
+
+std::string camera_text(const Camera& c) {
+    return plain(c.focal_length_mm, 4) + " mm, sensor " + plain(c.sensor_width_mm, 4) + " mm, f/" +
+           plain(c.f_number, 3);
+}
+
+Json mount_json(const LensMount& mount) {
+    const Camera& c = mount.camera;
+    return {{"focal_length_mm", number(c.focal_length_mm)},
+            {"sensor_width_mm", number(c.sensor_width_mm)},
+            {"f_number", number(c.f_number)},
+            {"focus_distance_m", c.focus_distance_m > 0 ? number(c.focus_distance_m) : number(INFINITY)},
+            {"width", mount.width_px},
+            {"height", mount.height_px}};
+}
+
+// Colour planes under a layer's name.
+class Planes {
+public:
+    void add(const std::string& layer, const Picture& picture, bool with_alpha) {
+        const std::string prefix = layer.empty() ? "" : layer + ".";
+        add(prefix + "R", picture, &Rgba::r), add(prefix + "G", picture, &Rgba::g),
+            add(prefix + "B", picture, &Rgba::b);
+        if (with_alpha) add(prefix + "A", picture, &Rgba::a);
+    }
+    void add(const std::string& channel, Plane plane) { kept_.push_back({channel, std::move(plane)}); }
+    Status write(const std::string& path, std::vector<std::pair<std::string, std::string>> attributes,
+                 bool overwrite) const {
+        std::vector<NamedPlane> named;
+        for (const auto& [channel, plane] : kept_) named.push_back({channel, plane.view()});
+        const Rect window = kept_[0].second.rect();
+        WriteOptions options;
+        options.type = PixelType::Float;
+        options.overwrite = overwrite;
+        options.attributes = std::move(attributes);
+        return write_exr_planes(path, window, window, named, options);
+    }
+
+private:
+    void add(const std::string& channel, const Picture& picture, float Rgba::*which) {
+        Plane plane = Plane::uninitialised(picture.width(), picture.height());
+        for (std::size_t i = 0; i < plane.size(); ++i) plane.pixels()[i] = picture.pixels()[i].*which;
+        add(channel, std::move(plane));
+    }
+    std::vector<std::pair<std::string, Plane>> kept_;
+};
+
+// For displays: the brightest channel just below white.
+Status write_view(const PictureFlags& flags, Picture picture) {
+    float brightest = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const Rgba& w = picture.pixels()[i];
+        brightest = std::max({brightest, w.r, w.g, w.b});
+    }
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        Rgba& w = picture.pixels()[i];
+        w = (brightest > 0 ? 1 / brightest : 1) * w;
+        w.a = 1;
+    }
+    DevelopSettings settings = flags.develop.settings(false, std::nullopt, 0);
+    if (!flags.develop.tone) settings.tone = ToneCurve::None;
+    return write_developed(flags.output, picture.view(), settings, !flags.overwrite.no_clobber);
+}
+
+Status finish(const PictureFlags& flags, Json report, const LensMount& mount, const LensChoice& lens,
+              const std::string& description, const Stopwatch& watch) {
+    note("wrote " + flags.output);
+    if (flags.run.json.empty()) return Done{};
+    report["output"] = flags.output;
+    report["lens"] = lens_json(lens, description);
+    report["lens"].update(character_json(lens));
+    report["camera"] = mount_json(mount);
+    report["seconds"]["total"] = watch.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report, flags.run.json);
+}
+
+// True if there is nothing to do.
+Result<bool> prepared(PictureFlags& flags) {
+    if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
+        note(*reason);
+        return true;
+    }
+    for (const std::string& path : {flags.output, flags.run.json})
+        if (!path.empty() && path != "-")
+            if (Status fine = check_output(path, flags.lens.input_files()); !fine) return fine.error();
+    if (Status done = flags.lens.load(); !done) return done.error();
+    return false;
+}
+
+struct PsfFlags : PictureFlags {
+    double coc_radius_px = 20;
+    Interval field;
+    int size_px = 0;
+};
+
+Status make_psf(PsfFlags& flags) {
+    const Stopwatch watch;
+    const auto idle = prepared(flags);
+    if (!idle) return idle.error();
+    if (*idle) return Done{};
+    const auto mount = mount_of(flags);
+    if (!mount) return mount.error();
+    const LensChoice lens = flags.lens.choice();
+    auto disc = lens_point_spread(lens, *mount, flags.coc_radius_px, flags.field.low, flags.field.high,
+                                  flags.size_px, flags.raw);
+    if (!disc) return disc.error();
+    note(disc->lens + " (" + camera_text(mount->camera) + ")");
+    if (disc->lost_share > 1e-3)
+        warning(plain(100 * disc->lost_share, 3) + " % of the light falls outside of --size " +
+                plain(flags.size_px));
+    Json report = new_report("lens psf");
+    report["defocus_px"] = flags.coc_radius_px;
+    report["field"] = {flags.field.low, flags.field.high};
+    report["size"] = disc->weights.width();
+    report["lost_share"] = disc->lost_share;
+    report["raw"] = flags.raw;
+    if (*kind_of_output(flags.output) == FileKind::Png) {
+        if (Status done = write_view(flags, std::move(disc->weights)); !done) return done;
+    } else {
+        Planes planes;
+        planes.add("", disc->weights, true);
+        const Status done =
+            planes.write(flags.output,
+                         {{"petzval:lens", disc->lens},
+                          {"petzval:coc", "signed radius, px, + is far: " + plain(flags.coc_radius_px)},
+                          {"petzval:field", plain(flags.field.low) + "," + plain(flags.field.high)}},
+                         !flags.overwrite.no_clobber);
+        if (!done) return done;
+    }
+    return finish(flags, std::move(report), *mount, lens, disc->lens, watch);
+}
+
+struct TableFlags : PictureFlags {
+    BokehTextureSettings table;
+    bool even = false;
+};
+
+Status make_table(TableFlags& flags) {
+    const Stopwatch watch;
+    const auto idle = prepared(flags);
+    if (!idle) return idle.error();
+    if (*idle) return Done{};
+    const auto mount = mount_of(flags);
+    if (!mount) return mount.error();
+    const LensChoice lens = flags.lens.choice();
+    flags.table.raw = flags.raw;
+    flags.table.dense_near_focus = !flags.even;
+    auto texture = bokeh_texture(lens, *mount, flags.table);
+    if (!texture) return texture.error();
+    note(texture->lens + " (" + camera_text(mount->camera) + ")");
+    Json report = new_report("lens table");
+    report["columns"] = flags.table.columns;
+    report["rows"] = texture->energy.height();
+    report["rows_per_px"] = flags.table.rows_per_px;
+    report["coc_radius_px"] = texture->coc_radius_px;
+    if (*kind_of_output(flags.output) == FileKind::Png) {
+        if (Status done = write_view(flags, std::move(texture->view)); !done) return done;
+    } else {
+        Plane coc(texture->energy.width(), texture->energy.height());
+        for (int y = 0; y < coc.height(); ++y)
+            for (int x = 0; x < coc.width(); ++x) coc(x, y) = float(texture->coc_radius_px[std::size_t(x)]);
+        Planes planes;
+        planes.add("", texture->energy, false);
+        planes.add("view", texture->view, false);
+        planes.add("coc.radius", std::move(coc));
+        const Status done = planes.write(
+            flags.output, {{"petzval:lens", texture->lens}, {"petzval:coc", "signed radius, px, + is far"}},
+            !flags.overwrite.no_clobber);
+        if (!done) return done;
+    }
+    return finish(flags, std::move(report), *mount, lens, texture->lens, watch);
+}
+
+void add_psf(Verb& lens, Action& chosen) {
+    Verb& verb = add_verb(lens, "psf", "one kernel: what a point of light becomes",
+                          "petzval lens psf doublet --defocus 40 -o disc.exr\n"
+                          "petzval lens psf petzval-portrait --defocus -60 --field 0.5,0.3 -o disc.png");
+    auto flags = std::make_shared<PsfFlags>();
+    flags->add_lens_to(verb);
+    FlagGroup(verb, "Kernel")
+        .value("--defocus", "PX", "signed radius of the circle of confusion, + behind focus (default 20)",
+               parse_number, flags->coc_radius_px)
+        .value("--field", "X,Y", "place in the picture, in half diagonals from the middle, x right, y up",
+               parse_range, flags->field)
+        .value("--size", "PX", "side of the output, made odd; as large as the kernel by default",
+               parse_size_px, flags->size_px);
+    flags->add_output_to(verb);
+    when_typed(verb, [flags, &verb, &chosen] {
+        flags->check(verb);
+        chosen = [flags] { return make_psf(*flags); };
+    });
+}
+
+void add_table(Verb& lens, Action& chosen) {
+    Verb& verb =
+        add_verb(lens, "table", "the bokeh texture: discs from in front of focus to behind, one per column",
+                 "petzval lens table doublet -o table.exr\n"
+                 "petzval lens table uncorrected --wavelengths 3 --defocus 40 -o table.png");
+    auto flags = std::make_shared<TableFlags>();
+    flags->add_lens_to(verb);
+    FlagGroup(verb, "Table")
+        .value("--defocus", "PX", "signed radii from minus this to plus this (default 64)", parse_positive,
+               flags->table.largest_coc_px)
+        .value("--columns", "N", "columns (default 512)", parse_size_px, flags->table.columns)
+        .value("--rows-per-pixel", "N", "rows for each pixel of radius (default 4)", parse_count,
+               flags->table.rows_per_px)
+        .on("--even", "even steps of the radius; by default columns are denser near focus", flags->even);
+    flags->add_output_to(verb);
+    when_typed(verb, [flags, &verb, &chosen] {
+        flags->check(verb);
+        chosen = [flags] { return make_table(*flags); };
+    });
+}
+
+}  // namespace
+
+void add_lens_pictures(Verb& lens, Action& chosen) {
+    add_psf(lens, chosen);
+    add_table(lens, chosen);
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,59 @@
+// What a lens does to a point of light, as pictures.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/lens.h"
+#include "petzval/result.h"
+
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// A lens speaks in pixels only on a camera and for pictures of one size.
+struct LensMount {
+    Camera camera;  // a focus distance of 0 means infinity here
+    int width_px = 1920, height_px = 1080;
+    double pixel_aspect = 1;
+};
+
+struct LensDisc {
+    Picture weights;   // scene-linear; r, g, b and a each sum to 1; the source stands in the middle pixel
+    std::string lens;  // what was used, in words
+    double lost_share = 0;  // of the light (green), outside of a picture smaller than the disc
+};
+
+// The kernel of a source of signed CoC radius `coc_radius_px` at a place of the picture: field_x, field_y in
+// -1…1 of its half diagonal, x right, y up. size_px: sides of the picture, made odd; 0: as large as the disc.
+// raw: before colours that no screen has are mapped into gamut. Errors: those of the lens; InvalidArgument
+// for numbers that are not finite, or a disc or picture larger than kLargestDiscPx.
+PETZVAL_API Result<LensDisc> lens_point_spread(const LensChoice& lens, const LensMount& mount,
+                                               double coc_radius_px, double field_x = 0, double field_y = 0,
+                                               int size_px = 0, bool raw = false);
+inline constexpr int kLargestDiscPx = 8192;
+
+struct BokehTextureSettings {
+    int columns = 512;
+    double largest_coc_px = 64;    // the first column is that far in front of focus, the last behind
+    bool dense_near_focus = true;  // radii grow with the square of the distance from the middle column
+    int rows_per_px = 4;           // 1…16
+    bool raw = false;
+};
+
+// The talk's bokeh texture (M. Kawase, CEDEC 2008): each column is the radial profile of a disc, from its
+// middle outwards, on the axis and with a round aperture. Row v is v / rows_per_px pixels from the middle.
+// Where the talk squares the profile, here each value is the light that really falls on a square pixel there.
+struct BokehTexture {
+    Picture energy;                     // a disc made of a column sums to 1 over its pixels
+    Picture view;                       // the same, columns divided by their brightest channel (smoothed)
+    std::vector<double> coc_radius_px;  // of the columns
+    std::string lens;
+};
+
+// Errors: as above.
+PETZVAL_API Result<BokehTexture> bokeh_texture(const LensChoice& lens, const LensMount& mount,
+                                               const BokehTextureSettings& settings = {});
+
+}  // namespace petzval

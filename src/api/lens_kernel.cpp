@@ -1,0 +1,140 @@
+#include "petzval/lens_kernel.h"
+
+#include "base/parallel.h"
+#include "kernel/lens_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval {
+namespace {
+
+using Lens = std::unique_ptr<const kernel::LensModel>;
+
+Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+Result<Lens> mounted(const LensChoice& lens, const LensMount& mount) {
+    if (mount.width_px <= 0 || mount.height_px <= 0 ||
+        !(mount.pixel_aspect > 0.01 && mount.pixel_aspect < 100))
+        return refuse("the picture's width, height and pixel aspect must be above 0");
+    return kernel::make_lens(lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
+}
+
+Status check_radius(const kernel::LensModel& lens, double coc_radius_px) {
+    if (!std::isfinite(coc_radius_px)) return refuse("--defocus must be a finite number of pixels");
+    if (!(2 * lens.reach_px(coc_radius_px) < kLargestDiscPx))
+        return refuse("--defocus: this disc would be wider than " + std::to_string(kLargestDiscPx) +
+                      " pixels");
+    return Done{};
+}
+
+// The kernel in the middle of a square of `size` pixels; what does not fit is left out.
+Picture centred(const kernel::PointSpread& spread, int size) {
+    Picture picture(size, size);
+    const Rect e = spread.extent;
+    for (int y = e.y0; y < e.y1; ++y)
+        for (int x = e.x0; x < e.x1; ++x)
+            if (picture.rect().contains(x + size / 2, y + size / 2))
+                picture(x + size / 2, y + size / 2) = spread.weights(x - e.x0, y - e.y0);
+    return picture;
+}
+
+// Largest values of columns, averaged with their neighbours': thin rims flicker against the rows.
+std::vector<float> brightest_smoothed(const std::vector<std::vector<Rgba>>& profiles) {
+    constexpr int kHalf = 6;
+    const int count = int(profiles.size());
+    std::vector<float> brightest, smooth;
+    for (const auto& profile : profiles) {
+        float most = 0;
+        for (const Rgba& w : profile) most = std::max({most, w.r, w.g, w.b});
+        brightest.push_back(most);
+    }
+    for (int i = 0; i < count; ++i) {
+        // Geometric mean, weighted by a triangle: brightness runs over decades near focus.
+        double sum = 0, weights = 0;
+        for (int k = std::max(0, i - kHalf); k <= std::min(count - 1, i + kHalf); ++k) {
+            const double weight = kHalf + 1 - std::abs(k - i);
+            sum += weight * std::log(double(brightest[std::size_t(k)]) + 1e-30), weights += weight;
+        }
+        smooth.push_back(float(std::exp(sum / weights)));
+    }
+    return smooth;
+}
+
+void fill(BokehTexture& texture, const std::vector<std::vector<Rgba>>& profiles) {
+    std::size_t rows = 1;
+    for (const auto& profile : profiles) rows = std::max(rows, profile.size());
+    texture.energy = Picture(int(profiles.size()), int(rows));
+    texture.view = Picture(int(profiles.size()), int(rows));
+    const std::vector<float> brightest = brightest_smoothed(profiles);
+    for (std::size_t i = 0; i < profiles.size(); ++i)
+        for (std::size_t v = 0; v < profiles[i].size(); ++v) {
+            texture.energy(int(i), int(v)) = profiles[i][v];
+            texture.view(int(i), int(v)) = (1 / brightest[i]) * profiles[i][v];
+        }
+}
+
+}  // namespace
+
+Result<LensDisc> lens_point_spread(const LensChoice& choice, const LensMount& mount, double coc_radius_px,
+                                   double field_x, double field_y, int size_px, bool raw) {
+    const auto lens = mounted(choice, mount);
+    if (!lens) return lens.error();
+    if (const Status status = check_radius(**lens, coc_radius_px); !status) return status.error();
+    if (!(std::hypot(field_x, field_y) <= 1.001))
+        return refuse("--field must lie within the half diagonal, as 0.5,-0.3");
+    if (size_px < 0 || size_px > kLargestDiscPx)
+        return refuse("--size must be 0 (as the disc needs) to " + std::to_string(kLargestDiscPx));
+    const kernel::FieldPosition field{field_x, field_y};
+    const kernel::PointSpread spread =
+        raw ? (*lens)->raw_point_spread(coc_radius_px, field) : (*lens)->point_spread(coc_radius_px, field);
+    const Rect e = spread.extent;
+    const int needed = 2 * std::max({-e.x0, -e.y0, e.x1 - 1, e.y1 - 1, 0}) + 1;
+    LensDisc disc{centred(spread, size_px == 0 ? needed : size_px | 1), (*lens)->description(), 1};
+    for (std::size_t i = 0; i < disc.weights.size(); ++i)
+        disc.lost_share -= double(disc.weights.pixels()[i].g);
+    if (std::abs(disc.lost_share) < 1e-5) disc.lost_share = 0;
+    return disc;
+}
+
+Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mount,
+                                   const BokehTextureSettings& settings) {
+    if (settings.columns < 2 || settings.columns > 16384) return refuse("--columns must be 2 to 16384");
+    if (settings.rows_per_px < 1 || settings.rows_per_px > 16)
+        return refuse("rows per pixel must be 1 to 16");
+    LensChoice round = choice;
+    round.aperture = {};
+    round.cats_eye = 0, round.barrel = {}, round.barn_doors = {}, round.texture = {},
+    round.kernel_images = {};
+    // A sensor of finer pixels.
+    LensMount fine = mount;
+    fine.width_px *= settings.rows_per_px, fine.height_px *= settings.rows_per_px;
+    const auto lens = mounted(round, fine);
+    if (!lens) return lens.error();
+    if (!(settings.largest_coc_px > 0)) return refuse("--defocus must be above 0");
+    const double finer = settings.rows_per_px;
+    if (const Status status = check_radius(**lens, finer * settings.largest_coc_px); !status)
+        return status.error();
+
+    BokehTexture texture;
+    texture.lens = (*lens)->description();
+    for (int i = 0; i < settings.columns; ++i) {
+        const double t = 2.0 * i / (settings.columns - 1) - 1;
+        texture.coc_radius_px.push_back(settings.largest_coc_px *
+                                        (settings.dense_near_focus ? t * std::abs(t) : t));
+    }
+    std::vector<std::vector<Rgba>> profiles(texture.coc_radius_px.size());
+    parallel_for(settings.columns, 0, [&](int i) {
+        const double coc = finer * texture.coc_radius_px[std::size_t(i)];
+        const kernel::PointSpread spread =
+            settings.raw ? (*lens)->raw_point_spread(coc, {}) : (*lens)->point_spread(coc, {});
+        // A pixel is finer^2 of the fine ones.
+        for (int v = 0; v < spread.extent.x1; ++v)
+            profiles[std::size_t(i)].push_back(float(finer * finer) *
+                                               spread.weights(v - spread.extent.x0, -spread.extent.y0));
+    });
+    fill(texture, profiles);
+    return texture;
+}
+
+}  // namespace petzval

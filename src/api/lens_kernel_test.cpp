@@ -1,0 +1,114 @@
+#include "petzval/lens_kernel.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+LensMount mount() {
+    LensMount m;
+    m.camera = {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 2, .focus_distance_m = 0};
+    return m;
+}
+
+LensChoice named(const std::string& name) {
+    LensChoice choice;
+    choice.name = name;
+    return choice;
+}
+
+double green(const Picture& picture) {
+    double sum = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) sum += double(picture.pixels()[i].g);
+    return sum;
+}
+
+TEST(LensPointSpread, StandsInTheMiddleOfAnOddSquareAndSumsToOne) {
+    for (const char* name : {"ideal", "doublet", "triplet-cooke"}) {
+        LensMount m = mount();
+        m.camera.f_number = 4;
+        const auto disc = lens_point_spread(named(name), m, -9, 0.3, 0.2);
+        ASSERT_TRUE(disc) << name;
+        EXPECT_EQ(disc->weights.width() % 2, 1);
+        EXPECT_EQ(disc->weights.width(), disc->weights.height());
+        EXPECT_NEAR(green(disc->weights), 1, 1e-5) << name;
+        EXPECT_EQ(disc->lost_share, 0);
+    }
+}
+
+TEST(LensPointSpread, ASmallPictureSaysWhatItLeavesOut) {
+    const auto disc = lens_point_spread(named("ideal"), mount(), 20, 0, 0, 20);
+    ASSERT_TRUE(disc);
+    EXPECT_EQ(disc->weights.width(), 21);
+    EXPECT_NEAR(disc->lost_share, 1 - 21.0 * 21 / (3.14159265 * 400), 1e-3);
+}
+
+TEST(LensPointSpread, RawKeepsTheNegativesOfSaturatedFringes) {
+    const auto least = [](bool raw) {
+        float low = 0;
+        const auto disc = lens_point_spread(named("uncorrected"), mount(), -20, 0, 0, 0, raw);
+        for (std::size_t i = 0; i < disc->weights.size(); ++i)
+            low = std::min(
+                {low, disc->weights.pixels()[i].r, disc->weights.pixels()[i].g, disc->weights.pixels()[i].b});
+        return low;
+    };
+    EXPECT_LT(least(true), 0);
+    EXPECT_EQ(least(false), 0);
+}
+
+TEST(LensPointSpread, RefusesNumbersThatMakeNoPicture) {
+    EXPECT_FALSE(lens_point_spread(named("ideal"), mount(), std::nan("")));
+    EXPECT_FALSE(lens_point_spread(named("ideal"), mount(), 1e9));
+    EXPECT_FALSE(lens_point_spread(named("ideal"), mount(), 5, 2, 0));
+    EXPECT_FALSE(lens_point_spread(named("ideal"), mount(), 5, 0, 0, -3));
+    EXPECT_FALSE(lens_point_spread(named("no such lens"), mount(), 5));
+}
+
+TEST(BokehTexture, ColumnsAreTheProfilesOfDiscsDenseNearFocus) {
+    const auto texture =
+        bokeh_texture(named("doublet"), mount(), {.columns = 65, .largest_coc_px = 32, .rows_per_px = 1});
+    ASSERT_TRUE(texture);
+    ASSERT_EQ(texture->coc_radius_px.size(), 65u);
+    EXPECT_EQ(texture->coc_radius_px.front(), -32);
+    EXPECT_EQ(texture->coc_radius_px.back(), 32);
+    EXPECT_EQ(texture->coc_radius_px[32], 0);
+    EXPECT_LT(texture->coc_radius_px[33], 0.05);
+    const auto disc = lens_point_spread(named("doublet"), mount(), 32);
+    const int middle = disc->weights.width() / 2;
+    for (int v = 0; v < middle; ++v)
+        EXPECT_EQ(texture->energy(64, v), disc->weights(middle + v, middle)) << v;
+}
+
+TEST(BokehTexture, TheViewBringsEveryColumnNearOne) {
+    const auto texture = bokeh_texture(named("uncorrected"), mount(), {.columns = 513, .largest_coc_px = 20});
+    for (int u = 0; u < 513; ++u) {
+        float most = 0;
+        for (int v = 0; v < texture->view.height(); ++v)
+            most = std::max({most, texture->view(u, v).r, texture->view(u, v).g, texture->view(u, v).b});
+        EXPECT_GT(most, 0.5) << u;
+        EXPECT_LT(most, 2) << u;
+    }
+}
+
+TEST(BokehTexture, FinerRowsShowTheSameLight) {
+    const auto coarse =
+        bokeh_texture(named("doublet"), mount(), {.columns = 3, .largest_coc_px = 30, .rows_per_px = 1});
+    const auto fine =
+        bokeh_texture(named("doublet"), mount(), {.columns = 3, .largest_coc_px = 30, .rows_per_px = 4});
+    EXPECT_NEAR(fine->energy.height(), 4 * coarse->energy.height(), 8);
+    for (int v = 0; v < 20; ++v)
+        EXPECT_NEAR(fine->energy(2, 4 * v).g, coarse->energy(2, v).g, 0.03f * coarse->energy(2, 10).g) << v;
+}
+
+TEST(BokehTexture, IsOfTheRoundApertureOnTheAxisWhateverTheBlades) {
+    LensChoice bladed = named("doublet");
+    bladed.aperture.blades = 5, bladed.cats_eye = 0.7;
+    const auto a = bokeh_texture(bladed, mount(), {.columns = 9, .largest_coc_px = 20});
+    const auto b = bokeh_texture(named("doublet"), mount(), {.columns = 9, .largest_coc_px = 20});
+    for (int u = 0; u < 9; ++u) EXPECT_EQ(a->energy(u, 5), b->energy(u, 5));
+}
+
+}  // namespace
+}  // namespace petzval
