@@ -16,7 +16,7 @@ using kernel::PointSpread;
 // by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
 constexpr float kOwnSurfacePx = 0.02f;
 constexpr int kBlock = 16;
-constexpr float kOverlap = 1.02f;     // of neighbouring squares of shadow
+constexpr float kOverlap = 1.02f;      // of neighbouring squares of shadow
 constexpr float kBrightDisc = 0.002f;  // share of white
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
