@@ -19,6 +19,7 @@
 #include "verbs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -41,6 +42,7 @@ struct DefocusFlags {
     std::uint64_t seed = 1;
     std::string output;
     ViewKind view = ViewKind::Beauty;
+    std::optional<int> overscan_px;  // kAutomatic: as far as the blur reaches
     DevelopFlags develop;
     OverwriteFlags overwrite;
     RunFlags run;
@@ -52,6 +54,14 @@ struct DefocusFlags {
     void check_coc_input() const;
     std::vector<std::string> input_files() const;
 };
+
+constexpr int kAutomatic = 0;
+
+Result<int> parse_overscan(const std::string& text) {
+    if (text == "auto") return kAutomatic;
+    if (const auto count = parse_size_px(text)) return count;
+    return Error{ErrorCode::InvalidArgument, "not auto or a number of pixels, 1 to 65536"};
+}
 
 const std::vector<std::pair<std::string, Quality>> kQualities{
     {"draft", Quality::Draft}, {"standard", Quality::Standard}, {"final", Quality::Final}};
@@ -93,13 +103,18 @@ void DefocusFlags::add_output_to(Verb& verb) {
             "--view", "NAME",
             "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha; of "
             "--engine gaussian: sharp, blur-small, blur-large, focus-index",
-            [](const std::string& text) { return parse_name(text, view_names()); }, view);
+            [](const std::string& text) { return parse_name(text, view_names()); }, view)
+        .value(
+            "--overscan", "PX",
+            "grow the data window by so many pixels, or by as many as the blur reaches (auto), where it ends "
+            "inside the frame",
+            parse_overscan, overscan_px);
 }
 
 void DefocusFlags::add_to(Verb& verb) {
     input.add_to(verb);
     input.add_depth_to(verb);
-    input.add_behind_to(verb);
+    input.add_others_to(verb);
     input.add_transfer_to(verb);
     plate.add_to(verb);
     camera.add_to(verb, "file");
@@ -141,6 +156,11 @@ void DefocusFlags::check(const Verb& verb) {
         throw UsageError("--pupil-points is for --engine reference; " + engine + " takes --quality");
     engine_options.check(engine, view);
     if (input.depth_is_coc()) check_coc_input();
+    const bool computes = view == ViewKind::Beauty || view == ViewKind::Alpha;
+    if (!input.holdout.empty() && !computes)
+        throw UsageError("--holdout has no effect on --view " + std::string(name_of(view)));
+    if (overscan_px && !computes)
+        throw UsageError("--overscan has no effect on --view " + std::string(name_of(view)));
     glare.check(lens.choice());
     plate.check();
     if (plate.expand && view != ViewKind::Beauty)
@@ -165,6 +185,8 @@ std::vector<std::string> DefocusFlags::input_files() const {
     if (!input.read.depth_file.empty()) files.push_back(input.read.depth_file);
     if (!input.behind.empty()) files.push_back(input.behind);
     if (!engine_options.points.empty()) files.push_back(engine_options.points);
+    if (!input.holdout.empty()) files.push_back(input.holdout);
+    files.insert(files.end(), input.merge.begin(), input.merge.end());
     for (std::string& file : lens.input_files()) files.push_back(std::move(file));
     return files;
 }
@@ -176,6 +198,7 @@ DefocusJob job_for(const DefocusFlags& flags, const Input& input, const Camera& 
     job.depth_is_coc = flags.input.depth_is_coc();
     if (!input.frame.deep.empty()) job.deep = &input.frame.deep;
     if (!input.behind.empty()) job.behind = &input.behind;
+    if (!input.holdout.empty()) job.holdout = &input.holdout;
     job.display_window = input.frame.display_window;
     job.data_window = input.frame.data_window;
     job.pixel_aspect = input.frame.pixel_aspect;
@@ -218,6 +241,7 @@ private:
     Status read();
     Status read_lights();
     Status choose_camera();
+    Status grow();
     Status compute();
     Status render(DefocusJob job);
     Status expand_plate();
@@ -249,7 +273,7 @@ Status Run::operator()() {
     for (const std::string& path : {flags_.output, flags_.run.json})
         if (!path.empty() && path != "-")
             if (Status fine = check_output(path, inputs); !fine) return fine;
-    for (const auto step : {&Run::read, &Run::read_lights, &Run::choose_camera, &Run::compute,
+    for (const auto step : {&Run::read, &Run::read_lights, &Run::choose_camera, &Run::grow, &Run::compute,
                             &Run::add_glare, &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
@@ -323,6 +347,26 @@ Status Run::choose_camera() {
     camera_ = *camera;
     note(camera_line(input_.camera, image_scale()));
     report_["camera"] = camera_json(input_.camera, image_scale());
+    return Done{};
+}
+
+// Room around the picture for the light that leaves it, where nothing follows.
+Status Run::grow() {
+    if (!flags_.overscan_px) return Done{};
+    int by_px = *flags_.overscan_px;
+    if (by_px == kAutomatic) {
+        const auto radii = circle_of_confusion(job_for(flags_, input_, camera_));
+        if (!radii) return radii.error();
+        float largest = 0;
+        for (std::size_t i = 0; i < radii->size(); ++i)
+            if (input_.frame.colour.pixels()[i] != Rgba{})
+                largest = std::max(largest, std::abs(radii->pixels()[i]));
+        by_px = int(std::ceil(double(largest) * std::max(1.0, flags_.lens.choice().aperture.squeeze))) + 1;
+    }
+    const auto grown = grow_empty_sides(input_, by_px);
+    if (!grown) return grown.error();
+    note(*grown ? "overscan: " + plain(by_px) + " pixels more on each side that ends inside the frame"
+                : "overscan: the picture fills its frame on every side, so there is nothing to grow");
     return Done{};
 }
 

@@ -189,6 +189,22 @@ void FlagGroup::add(const std::string& name, const std::string& placeholder, con
     flag->option_text(placeholder)->group(heading_);
 }
 
+FlagGroup& FlagGroup::values(const std::string& name, const std::string& placeholder, const std::string& help,
+                             std::vector<std::string>& target) {
+    const auto take = [spoken = long_name(name), &target](const CLI::results_t& texts) {
+        for (const std::string& text : texts)
+            if (text.empty()) throw UsageError(spoken + " needs a value");
+        target = texts;
+        return true;
+    };
+    CLI::Option* flag = verb_.add_option(name, take, help);
+    flag->expected(1, CLI::detail::expected_max_vector_size)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args();
+    flag->option_text(placeholder)->group(heading_);
+    return *this;
+}
+
 FlagGroup& FlagGroup::on(const std::string& name, const std::string& help, bool& target) {
     const auto take = [spoken = long_name(name), &target](std::int64_t count) {
         if (count > 1) throw UsageError(spoken + " is given more than once");

@@ -56,6 +56,9 @@ public:
         });
         return *this;
     }
+    // "--name VALUE…": one or more texts.
+    FlagGroup& values(const std::string& name, const std::string& placeholder, const std::string& help,
+                      std::vector<std::string>& target);
     // "--name", without a value.
     FlagGroup& on(const std::string& name, const std::string& help, bool& target);
     // A plain argument, without a name.

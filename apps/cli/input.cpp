@@ -2,6 +2,7 @@
 
 #include "console.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -52,18 +53,9 @@ DepthReport check_radii(View<float> radii) {
     return report;
 }
 
-// One sample per pixel of a flat picture with depth; pixels that hold nothing give none.
-DeepPicture one_layer(const Frame& frame) {
-    std::vector<std::size_t> first{0};
-    std::vector<DeepSample> samples;
-    first.reserve(frame.colour.size() + 1);
-    for (std::size_t i = 0; i < frame.colour.size(); ++i) {
-        const Rgba colour = frame.colour.pixels()[i];
-        const float depth = frame.depth.pixels()[i];
-        if (colour != Rgba{}) samples.push_back({colour, depth, depth});
-        first.push_back(samples.size());
-    }
-    return {frame.colour.width(), frame.colour.height(), std::move(first), std::move(samples)};
+// All that a file shows: its deep samples, or one per pixel.
+DeepPicture samples_of(Frame& frame) {
+    return frame.deep.empty() ? deep_from_flat(frame.colour, frame.depth) : std::move(frame.deep);
 }
 
 std::string window_text(const Rect& r) {
@@ -71,8 +63,31 @@ std::string window_text(const Rect& r) {
            std::to_string(r.x0) + "," + std::to_string(r.y0);
 }
 
+// Another file of the same shot, its depth made like that of the input. `what` names its part in messages.
+Result<Frame> load_other(Input& input, const std::string& what, const std::string& path,
+                         const InputFlags& flags, const DepthSettings& settings, DepthReport& report) {
+    auto read = read_frame(path);
+    if (!read) return read;
+    if (flags.depth_is_coc()) {
+        report = check_radii(read->depth.view());
+    } else {
+        const auto converted = convert_depth(*read, settings);
+        if (!converted) return Error{converted.error().code, path + ": " + converted.error().message};
+        report = *converted;
+    }
+    for (const auto& line : read->detected) input.detected.push_back(what + ": " + line);
+    for (const auto& line : read->warnings) input.warnings.push_back(what + ": " + line);
+    for (const auto& line : report.warnings) input.warnings.push_back(what + ": " + line);
+    return read;
+}
+
 Status load_behind(Input& input, const InputFlags& flags, const DepthSettings& settings) {
-    auto read = read_frame(flags.behind);
+    if (!input.frame.deep.empty())
+        return Error{ErrorCode::InvalidArgument,
+                     "--behind " + flags.behind + ": " + flags.path +
+                         " is deep and holds what it hides itself; --merge adds another deep picture"};
+    DepthReport depth;
+    auto read = load_other(input, "behind", flags.behind, flags, settings, depth);
     if (!read) return read.error();
     Frame& hidden = *read;
     if (hidden.data_window != input.frame.data_window)
@@ -80,13 +95,88 @@ Status load_behind(Input& input, const InputFlags& flags, const DepthSettings& s
                                                  window_text(hidden.data_window) + ", but " + flags.path +
                                                  " covers " + window_text(input.frame.data_window) +
                                                  "; they must be the same"};
-    const auto report = convert_depth(hidden, settings);
-    if (!report) return Error{report.error().code, flags.behind + ": " + report.error().message};
-    input.behind = hidden.deep.empty() ? one_layer(hidden) : std::move(hidden.deep);
-    for (const auto& line : hidden.detected) input.detected.push_back("behind: " + line);
-    for (const auto& line : hidden.warnings) input.warnings.push_back("behind: " + line);
-    for (const auto& line : report->warnings) input.warnings.push_back("behind: " + line);
+    input.behind = samples_of(hidden);
     return Done{};
+}
+
+Status same_shot(const Frame& frame, const Frame& other, const std::string& flag, const std::string& input) {
+    if (frame.display_window == other.display_window) return Done{};
+    return Error{ErrorCode::InvalidFile,
+                 flag + " has a display window of " + window_text(other.display_window) + ", but that of " +
+                     input + " is " + window_text(frame.display_window) + "; they must be the same"};
+}
+
+Rect around(const Rect& a, const Rect& b) {
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+bool is_too_large(const Rect& r) {
+    const auto size = [](int low, int high) { return double(high) - double(low); };
+    return size(r.x0, r.x1) * size(r.y0, r.y1) > double(ReadOptions{}.max_pixels);
+}
+
+void extend(DepthReport& report, const DepthReport& other) {
+    if (other.nearest_m > 0 && (report.nearest_m == 0 || other.nearest_m < report.nearest_m))
+        report.nearest_m = other.nearest_m;
+    report.farthest_finite_m = std::max(report.farthest_finite_m, other.farthest_finite_m);
+    report.misses += other.misses, report.non_finite += other.non_finite;
+}
+
+// One deep picture of all files, over the union of their windows.
+Status merge_files(Input& input, const InputFlags& flags, const DepthSettings& settings) {
+    Frame& frame = input.frame;
+    std::vector<DeepPicture> pictures;
+    std::vector<Rect> windows{frame.data_window};
+    pictures.push_back(samples_of(frame));
+    Rect all = frame.data_window;
+    for (const std::string& path : flags.merge) {
+        DepthReport depth;
+        auto other = load_other(input, path, path, flags, settings, depth);
+        if (!other) return other.error();
+        if (Status same = same_shot(frame, *other, "--merge " + path, flags.path); !same) return same;
+        all = around(all, other->data_window);
+        if (is_too_large(all))
+            return Error{ErrorCode::InvalidFile, "--merge " + path +
+                                                     " lies too far from the other pictures: together "
+                                                     "they cover " +
+                                                     window_text(all)};
+        extend(input.depth, depth);
+        windows.push_back(other->data_window);
+        pictures.push_back(samples_of(*other));
+    }
+    std::vector<PlacedDeep> parts;
+    for (std::size_t i = 0; i < pictures.size(); ++i) parts.push_back({&pictures[i], windows[i]});
+    frame.deep = merge_deep(parts, all);
+    frame.data_window = all;
+    frame.has_alpha = true;
+    flatten(frame.deep, frame.colour, frame.depth);
+    return Done{};
+}
+
+Status load_holdout(Input& input, const InputFlags& flags, const DepthSettings& settings) {
+    DepthReport depth;
+    auto matte = load_other(input, "holdout", flags.holdout, flags, settings, depth);
+    if (!matte) return matte.error();
+    if (Status same = same_shot(input.frame, *matte, "--holdout " + flags.holdout, flags.path); !same)
+        return same;
+    const Rect window = matte->data_window;
+    const DeepPicture samples = samples_of(*matte);
+    input.holdout = merge_deep({{&samples, window}}, input.frame.data_window);
+    if (input.holdout.empty())
+        input.warnings.push_back("holdout: " + flags.holdout + " holds nothing inside the picture's window");
+    return Done{};
+}
+
+// Colour is emptiness outside of the old window, depth goes on: a silhouette there would be taken for a real
+// one.
+template <typename T>
+Image<T> grown(const Image<T>& old, const Rect& window, const Rect& wider, bool repeat) {
+    Image<T> result(wider.width(), wider.height());
+    for (int y = wider.y0; y < wider.y1; ++y)
+        for (int x = wider.x0; x < wider.x1; ++x)
+            if (repeat || window.contains(x, y))
+                result(x - wider.x0, y - wider.y0) = old.view().clamped(x - window.x0, y - window.y0);
+    return result;
 }
 
 }  // namespace
@@ -146,9 +236,14 @@ void InputFlags::add_transfer_to(Verb& verb) {
             transfer);
 }
 
-void InputFlags::add_behind_to(Verb& verb) {
+void InputFlags::add_others_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .value("--behind", "FILE", "what the picture hides: deep EXR, or RGBA and Z", parse_text, behind);
+        .value("--behind", "FILE", "what the picture hides: deep EXR, or RGBA and Z", parse_text, behind)
+        .values("--merge", "FILE…", "more pictures of the shot, deep EXR or RGBA and Z, sorted in by depth",
+                merge)
+        .value("--holdout", "FILE",
+               "a matte, deep EXR or RGBA and Z, that hides what is behind it and stays sharp", parse_text,
+               holdout);
 }
 
 void InputFlags::check() const {
@@ -184,9 +279,33 @@ Result<Input> load_input(const InputFlags& flags, const CameraFlags& camera) {
         input.depth = std::move(*report);
     }
     input.warnings.insert(input.warnings.end(), input.depth.warnings.begin(), input.depth.warnings.end());
+    if (!flags.merge.empty())
+        if (Status done = merge_files(input, flags, settings); !done) return done.error();
+    if (!flags.holdout.empty())
+        if (Status done = load_holdout(input, flags, settings); !done) return done.error();
     if (!flags.behind.empty())
         if (Status done = load_behind(input, flags, settings); !done) return done.error();
     return input;
+}
+
+Result<bool> grow_empty_sides(Input& input, int by_px) {
+    Frame& frame = input.frame;
+    const Rect old = frame.data_window, &display = frame.display_window;
+    const Rect wider{
+        old.x0 > display.x0 ? old.x0 - by_px : old.x0, old.y0 > display.y0 ? old.y0 - by_px : old.y0,
+        old.x1 < display.x1 ? old.x1 + by_px : old.x1, old.y1 < display.y1 ? old.y1 + by_px : old.y1};
+    if (wider == old) return false;
+    if (is_too_large(wider))
+        return Error{ErrorCode::InvalidArgument, "--overscan " + std::to_string(by_px) +
+                                                     " would make a picture of " + window_text(wider) +
+                                                     "; give fewer pixels"};
+    frame.colour = grown(frame.colour, old, wider, false);
+    frame.depth = grown(frame.depth, old, wider, true);
+    for (DeepPicture* deep : {&frame.deep, &input.behind, &input.holdout})
+        if (!deep->empty()) *deep = merge_deep({{deep, old}}, wider);
+    frame.data_window = wider;
+    frame.has_alpha = true;
+    return true;
 }
 
 Status focus_on_pixel(Input& input, Pixel pixel) {

@@ -24,31 +24,39 @@ struct InputFlags {
     std::optional<DepthKind> depth_kind;
     std::optional<Interval> depth_range;
     std::optional<double> unit_scale_m;
-    std::string behind;
+    std::string behind, holdout;
+    std::vector<std::string> merge;
     std::optional<Transfer> transfer;
 
     void add_to(Verb& verb);           // IN, the layer and the view
     void add_depth_to(Verb& verb);     // all that says what depth is
     void add_transfer_to(Verb& verb);  // --transfer
-    void add_behind_to(Verb& verb);    // --behind
+    void add_others_to(Verb& verb);    // --behind, --merge, --holdout
     // Throws UsageError for depth flags that contradict each other.
     void check() const;
     bool depth_is_coc() const { return depth_kind == DepthKind::CocPx; }
 };
 
 struct Input {
-    Frame frame;         // depth, also that of deep samples, is planar metres, or radii if depth_is_coc
-    DeepPicture behind;  // empty without --behind
-    FoundCamera camera;  // flags over file
-    DepthReport depth;   // zeros if there is none, or radii
+    Frame frame;          // depth, also that of deep samples, is planar metres, or radii if depth_is_coc
+    DeepPicture behind;   // empty without --behind; this and the next cover the window of `frame`
+    DeepPicture holdout;  // empty without --holdout
+    FoundCamera camera;   // flags over file
+    DepthReport depth;    // zeros if there is none, or radii
     std::vector<std::string> detected, warnings;
 
     // Detected lines without those on camera numbers, which have their own line.
     std::vector<std::string> detected_in_picture() const;
 };
 
-// Errors: those of read_frame and depth_to_planar_metres; InvalidFile if --behind does not fit.
+// Errors: those of read_frame and depth_to_planar_metres; InvalidFile if --behind, --merge or
+// --holdout does not fit.
 Result<Input> load_input(const InputFlags& flags, const CameraFlags& camera);
+
+// Grows the picture and all that goes with it by so many pixels of emptiness on each side where its data
+// window ends inside the display window; elsewhere the scene goes on beyond the frame, unknown. Returns
+// whether there is such a side. Errors: InvalidArgument for more pixels than any picture may have.
+Result<bool> grow_empty_sides(Input& input, int by_px);
 
 // Sets the focus distance to what the pixel shows. Errors: InvalidArgument if the picture has no such pixel.
 Status focus_on_pixel(Input& input, Pixel pixel);

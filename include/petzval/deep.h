@@ -1,6 +1,9 @@
 // A deep picture: any number of samples per pixel, each with its own colour, coverage and depth.
+//
+// What samples mean and how they combine follows "Interpreting OpenEXR Deep Pixels" (F. Kainz, openexr.com).
 #pragma once
 
+#include "petzval/export.h"
 #include "petzval/image.h"
 
 #include <cstddef>
@@ -45,5 +48,24 @@ private:
     std::vector<std::size_t> first_;
     std::vector<DeepSample> samples_;
 };
+
+// One picture among several that share a frame.
+struct PlacedDeep {
+    const DeepPicture* picture = nullptr;
+    Rect data_window;  // of the picture's size
+};
+
+// All samples of all parts in one picture that covers `window`, nearest first in each pixel. Samples at one
+// depth are ordered by what they hold, so that the order of the parts changes no bit. Requires: no NaN.
+PETZVAL_API DeepPicture merge_deep(const std::vector<PlacedDeep>& parts, const Rect& window);
+
+// One sample per pixel of a flat picture with depth of the same size; pixels that hold nothing give none.
+PETZVAL_API DeepPicture deep_from_flat(View<const Rgba> colour, View<const float> depth_m);
+
+// What the samples look like: colours one over the other, nearest first, and the depth at which the coverage
+// first reaches half of what the pixel has in the end. So thin fog in front does not claim a pixel that shows
+// the wall behind it. A pixel of samples without any coverage (pure glow) has the depth of its nearest
+// sample; a pixel without samples is a miss. Volumes that overlap are taken apart first (image/deep_pixel.h).
+PETZVAL_API void flatten(const DeepPicture& deep, Picture& colour, Plane& depth);
 
 }  // namespace petzval

@@ -28,6 +28,9 @@ struct DefocusJob {
     const DeepPicture* deep =
         nullptr;  // all samples of a deep input, same size; replaces colour and depth_m where given
     const DeepPicture* behind = nullptr;  // hidden layers, same size, see docs/conventions.md; may be null
+    // A matte that is not blurred, same size, of deep samples: light that lands in a pixel is dimmed by what
+    // the matte holds there in front of where the light came from. For engines scatter and reference.
+    const DeepPicture* holdout = nullptr;
     // Where the pixels lie in the display window, for the field position of lenses and the sensor's width.
     Rect display_window, data_window;
     double pixel_aspect = 1;

@@ -1,6 +1,7 @@
 // From a job as a user states it to the input of an engine: checks, circles of confusion, lens, sample lists.
 #include "petzval/defocus.h"
 
+#include "api/deep_samples.h"
 #include "api/light_points.h"
 #include "base/parallel.h"
 #include "engine/engine.h"
@@ -39,10 +40,10 @@ Status check_sizes(const DefocusJob& job) {
              << job.colour.width() << "x" << job.colour.height() << "; they must be of one size";
         return invalid(text.str());
     }
-    for (const DeepPicture* deep : {job.deep, job.behind})
+    for (const DeepPicture* deep : {job.deep, job.behind, job.holdout})
         if (deep && !deep->empty() &&
             (deep->width() != job.colour.width() || deep->height() != job.colour.height()))
-            return invalid("the deep samples or hidden layers are not of the picture's size");
+            return invalid("the deep samples, hidden layers or holdout are not of the picture's size");
     if (job.display_window.empty()) return invalid("the display window is empty");
     if (!(job.pixel_aspect > 0) || !std::isfinite(job.pixel_aspect))
         return invalid("the pixel aspect ratio must be positive");
@@ -112,8 +113,9 @@ constexpr float kSameRadiusPx = 0.02f;
 
 engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, const Radii& radii) {
     engine::CocSamples all;
+    if (job.deep && !job.deep->empty()) return deep_samples(*job.deep, radii, job.depth_is_coc, job.threads);
     all.width = colour.width();
-    const DeepPicture* const extra = job.deep ? job.deep : job.behind;
+    const DeepPicture* const extra = job.behind;
     if (!extra || extra->empty()) return all;
     all.first.reserve(extra->first().size());
     all.samples.reserve(extra->sample_count() + std::size_t(colour.width()) * std::size_t(colour.height()));
@@ -123,7 +125,7 @@ engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, c
             const std::span<const DeepSample> samples = extra->at(x, y);
             const float visible = radii(job.depth_m(x, y));
             const bool complete =
-                job.deep || (!samples.empty() && radii(samples.front().depth_m) <= visible + kSameRadiusPx);
+                !samples.empty() && radii(samples.front().depth_m) <= visible + kSameRadiusPx;
             if (!complete) all.samples.push_back({colour(x, y), visible, visible});
             for (const DeepSample& s : samples)
                 all.samples.push_back({finite_colour(s.colour), radii(s.depth_m), radii(s.depth_back_m)});
@@ -195,6 +197,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
         for (const std::string& name : engine_names()) known += (known.empty() ? "" : ", ") + name;
         return invalid("--engine " + job.engine + " is not known; there are: " + known);
     }
+    if (job.holdout && !chosen->takes_holdout)
+        return invalid("--engine " + job.engine + " takes no holdout; scatter and reference do");
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
     const auto lenses = lens_levels(job);
@@ -211,12 +215,16 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.coc_px = coc_px;
     const engine::CocSamples samples = all_samples(job, colour, *radii);
     if (!samples.first.empty()) input.deep = samples;
+    input.deep_dims_itself = job.deep && !job.deep->empty();
     const auto note_radius = [&](float radius_px) {
         input.nearest_coc_px = std::min(input.nearest_coc_px, radius_px);
         input.farthest_coc_px = std::max(input.farthest_coc_px, radius_px);
     };
     for (std::size_t i = 0; i < coc_px.size(); ++i) note_radius(coc_px.pixels()[i]);
     for (const engine::CocSample& sample : samples.samples) note_radius(sample.coc_px);
+    engine::CocSamples holdout;
+    if (job.holdout && !job.holdout->empty())
+        input.holdout = holdout = deep_samples(*job.holdout, *radii, job.depth_is_coc, job.threads);
     input.open_edges = open_edges(job);
     input.field_centre_x = 0.5 * (job.display_window.x0 + job.display_window.x1) - job.data_window.x0;
     input.field_centre_y = 0.5 * (job.display_window.y0 + job.display_window.y1) - job.data_window.y0;

@@ -3,6 +3,11 @@
 #include "base/parallel.h"
 #include "depth/connectivity.h"
 #include "depth/hidden.h"
+#include "engine/sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace petzval::engine {
 namespace {
@@ -15,22 +20,46 @@ CocSample sample(Rgba colour, float coc_px, float share) {
     return {colour, coc_px, coc_px, empty > kLeastShare ? empty : 0};
 }
 
-// Ends every pixel that the picture shows to be transparent in emptiness. (Coverages of a pixel's samples
-// need not sum to 1 where it is opaque: surfaces that meet in it share it.)
-CocSamples with_emptiness(const CocSamples& stated, View<const Rgba> picture) {
+// How many pixels away (the larger of columns and rows) the picture is transparent; many where it nowhere is.
+Image<int> distance_to_emptiness(View<const Rgba> picture) {
+    constexpr int kFar = 1 << 20;
+    Image<int> distance(picture.width(), picture.height(), kFar);
+    const auto step = [&](int x, int y, int dx, int dy) {
+        if (!distance.rect().contains(x + dx, y + dy)) return;
+        distance(x, y) = std::min(distance(x, y), distance(x + dx, y + dy) + 1);
+    };
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            if (picture(x, y).a <= 1 - kLeastShare) distance(x, y) = 0;
+            step(x, y, -1, 0), step(x, y, -1, -1), step(x, y, 0, -1), step(x, y, 1, -1);
+        }
+    for (int y = picture.height() - 1; y >= 0; --y)
+        for (int x = picture.width() - 1; x >= 0; --x)
+            step(x, y, 1, 0), step(x, y, 1, 1), step(x, y, 0, 1), step(x, y, -1, 1);
+    return distance;
+}
+
+// The stated samples, with emptiness at the end of pixels that the picture shows to be transparent, and of
+// those so near to one that a lens looks past what they show: there the emptiness goes on, as everything does
+// behind what hides it. It takes what the others leave of a pixel's lens, and is no wider than the pixel.
+// (Coverages of a pixel's samples need not sum to 1 where it is opaque: surfaces that meet in it share it.)
+CocSamples deep_completed(const Input& input) {
+    const CocSamples stated = stated_samples(input);
+    const Image<int> distance = distance_to_emptiness(input.colour);
+    const double stretch = input.lens(0).reach_px(1);
     CocSamples all;
     all.width = stated.width;
     all.first.reserve(stated.first.size());
     all.samples.reserve(stated.samples.size());
     for (std::size_t i = 0; i + 1 < stated.first.size(); ++i) {
         all.first.push_back(all.samples.size());
-        const auto begin = stated.samples.begin() + std::ptrdiff_t(stated.first[i]);
-        const auto end = stated.samples.begin() + std::ptrdiff_t(stated.first[i + 1]);
-        all.samples.insert(all.samples.end(), begin, end);
-        const float alpha = picture(int(i % std::size_t(stated.width)), int(i / std::size_t(stated.width))).a;
-        if (alpha > 1 - kLeastShare) continue;
-        if (begin == end) all.samples.push_back({});
-        all.samples.back().empty = 1;
+        float largest = 0;
+        for (std::size_t k = stated.first[i]; k < stated.first[i + 1]; ++k) {
+            all.samples.push_back(stated.samples[k]);
+            largest = std::max(largest, std::abs(stated.samples[k].coc_px));
+        }
+        const bool looks_past = double(distance.pixels()[i]) <= stretch * double(largest) + 1;
+        if (distance.pixels()[i] == 0 || looks_past) all.samples.push_back(emptiness_behind_everything());
     }
     all.first.push_back(all.samples.size());
     return all;
@@ -39,7 +68,7 @@ CocSamples with_emptiness(const CocSamples& stated, View<const Rgba> picture) {
 }  // namespace
 
 CocSamples completed(const Input& input) {
-    if (!input.deep.empty()) return with_emptiness(stated_samples(input), input.colour);
+    if (!input.deep.empty()) return deep_completed(input);
     const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
     const auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
     const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures,
@@ -75,6 +104,25 @@ CocSamples completed(const Input& input) {
         }
     });
     return all;
+}
+
+void share_lens_area(CocSamples& samples, int threads) {
+    parallel_for(samples.height(), threads, [&](int y) {
+        const std::size_t row = std::size_t(y) * std::size_t(samples.width);
+        for (std::size_t i = row; i < row + std::size_t(samples.width); ++i) {
+            float free = 1;
+            bool dimmed_in_layer = false;
+            int layer = std::numeric_limits<int>::min();
+            for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
+                CocSample& s = samples.samples[k];
+                if (const int own = layer_of(s.coc_px); own != layer) layer = own, dimmed_in_layer = false;
+                const float alpha = s.colour.a;
+                const bool opaque = alpha > 1 - kLeastShare;
+                if (!opaque || dimmed_in_layer) s.colour *= free;
+                if (!opaque) free *= 1 - alpha, dimmed_in_layer = true;
+            }
+        }
+    });
 }
 
 }  // namespace petzval::engine

@@ -12,4 +12,11 @@ namespace petzval::engine {
 // emptiness: covered, transparent black.
 CocSamples completed(const Input& input);
 
+// From samples that dim each other (Input::deep_dims_itself) to shares of the lens: what a ray straight
+// through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front
+// of them. An opaque one takes what is left of the lens anyway, and rays that come past what is in front of
+// it see all of it; only translucent samples composited with it in one layer (engine/sources.h) dim it. For
+// what is left once highlights are taken: they look for what is in front of them themselves.
+void share_lens_area(CocSamples& samples, int threads);
+
 }  // namespace petzval::engine

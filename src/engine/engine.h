@@ -13,7 +13,9 @@
 #include "kernel/lens_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,6 +30,10 @@ struct CocSample {
     float coc_px = 0, coc_back_px = 0;
     float empty = 0;  // share of the pixel that is emptiness from here on: nothing behind is ever seen there
 };
+
+// Emptiness that takes what everything else leaves of a pixel's lens; the last of its samples.
+inline CocSample emptiness_behind_everything() { return {{}, 0, std::numeric_limits<float>::infinity(), 1}; }
+inline bool is_behind_everything(const CocSample& s) { return s.empty > 0 && std::isinf(s.coc_back_px); }
 
 // Samples per pixel, nearest (smallest CoC) first, rows top to bottom; a view, owned by CocSamples.
 class CocSamplesView {
@@ -76,6 +82,13 @@ struct Input {
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
     // then colour and coc_px are not all there is to hit. Empty otherwise.
     CocSamplesView deep;
+    // What a coverage below 1 in `deep` means. True: as in deep files, each sample dims what is behind it in
+    // its pixel, as thin fog does. False: it is the share of the pixel's area that a surface fills, and
+    // others lie beside it.
+    bool deep_dims_itself = false;
+    // Light that lands in a pixel is dimmed by these samples of that pixel that lie in front of where it came
+    // from (engine/holdout.h). Coverages as in deep files: each sample dims what is behind it. Empty: none.
+    CocSamplesView holdout;
     OpenEdges open_edges;
     // Field position of pixel (x, y): ((x + 0.5 - centre_x) * per_px, -(y + 0.5 - centre_y) * per_px /
     // pixel_aspect).
@@ -109,7 +122,7 @@ struct Input {
         const Rect r{0, y0, width(), y1};
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
         if (!depth_m.empty()) part.depth_m = depth_m.part(r);
-        part.deep = deep.rows(y0, y1);
+        part.deep = deep.rows(y0, y1), part.holdout = holdout.rows(y0, y1);
         part.field_centre_y -= y0, part.first_row += y0;
         if (y0 > 0) part.open_edges.top = true;
         if (y1 < height()) part.open_edges.bottom = true;
@@ -137,6 +150,7 @@ struct Engine {
     const char* name;
     const char* purpose;  // one line for help texts
     Result<Output> (*run)(const Input&);
+    bool takes_holdout = false;
 };
 
 // Every engine there is; the command line, the conformance tests and the benchmarks walk this list.

@@ -4,13 +4,14 @@ namespace petzval::engine {
 
 std::span<const Engine> engines() {
     static constexpr Engine kEngines[] = {
-        {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter},
+        {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter, true},
         {"gather", "previews: every pixel collects from a few sizes of the lens's kernel, at half resolution",
          run_gather},
         {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
          run_gaussian},
         {"sprites", "lights as the lens's own kernels, found or given, over gather or gaussian", run_sprites},
-        {"reference", "the definition of a correct result, traced through the lens; slow", run_reference},
+        {"reference", "the definition of a correct result, traced through the lens; slow", run_reference,
+         true},
     };
     return kEngines;
 }

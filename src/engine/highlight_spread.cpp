@@ -1,6 +1,7 @@
 #include "engine/highlight_spread.h"
 
 #include "base/parallel.h"
+#include "engine/holdout.h"
 #include "kernel/bank.h"
 
 #include <algorithm>
@@ -242,14 +243,16 @@ private:
 };
 
 // out: rows of the picture from first_row on; only those of `rows` are written.
-void add(const PointSpread& spread, const Highlight& h, const Rect& rows, int first_row, View<Rgba> out) {
+void add(const PointSpread& spread, const Highlight& h, CocSamplesView holdout, const Rect& rows,
+         int first_row, View<Rgba> out) {
     const Rect e = spread.extent;
     const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
     const Rgba light = h.colour * float(h.size * h.size);
     for (int y = place.y0; y < place.y1; ++y) {
         const Rgba* weights = spread.weights.row(y - h.y - e.y0) - h.x - e.x0;
         Rgba* sums = out.row(y - first_row);
-        for (int x = place.x0; x < place.x1; ++x) sums[x] += weights[x] * light;
+        for (int x = place.x0; x < place.x1; ++x)
+            sums[x] += weights[x] * light * let_through(holdout, x, y, h.coc_px);
     }
 }
 
@@ -279,7 +282,8 @@ void spread_highlights(const Input& input, const CocSamples& samples,
             const int y = rows.y0 + band * kBand;
             const Rect here = Rect{0, y, out.width(), y + kBand}.intersected(rows);
             for (std::size_t i = begin; i < end; ++i)
-                if (kernels[i - begin]) add(*kernels[i - begin], highlights[i], here, rows.y0, out);
+                if (kernels[i - begin])
+                    add(*kernels[i - begin], highlights[i], input.holdout, here, rows.y0, out);
         });
         begin = end;
     }

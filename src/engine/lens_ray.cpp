@@ -113,11 +113,15 @@ bool lens_sees(const Surfaces& surfaces, const RaySource& source, double u, doub
     const double per_x = u != 0 ? 1 / std::abs(u) : never, per_y = v != 0 ? 1 / std::abs(v) : never;
     double next_x = u != 0 ? (u > 0 ? px + 1 - source.x : source.x - px) * per_x : never;
     double next_y = v != 0 ? (v > 0 ? py + 1 - source.y : source.y - py) * per_y : never;
+    float open = 1;  // share of the ray that translucent facets let through
     for (double along = 0; along <= end;) {
         if (!area.contains(px, py)) return true;
         for (const Facet& facet : surfaces.at(px, py)) {
             if (facet.coc_px > source.coc_px) break;  // nearest first: the rest lies behind the source
-            if (facet.coverage > chance && crosses(facet, px, py, source, u, v)) return false;
+            const float left = surfaces.dims_itself() ? open * (1 - facet.coverage) : 1 - facet.coverage;
+            if (left >= open || !crosses(facet, px, py, source, u, v)) continue;
+            open = left;
+            if (open <= 1 - chance) return false;
         }
         if (next_x < next_y)
             along = next_x, next_x += per_x, px += step_x;

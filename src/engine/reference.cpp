@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "engine/engine.h"
 #include "engine/highlights.h"
+#include "engine/holdout.h"
 #include "engine/lens_ray.h"
 #include "engine/surfaces.h"
 
@@ -38,6 +39,40 @@ double radical_inverse(int k, int base) {
     return value;
 }
 
+std::uint32_t mirrored(std::uint32_t bits) {
+    std::uint32_t result = 0;
+    for (int i = 0; i < 32; ++i, bits >>= 1) result = result << 1 | (bits & 1u);
+    return result;
+}
+
+// Mixes every bit into those above it (Laine and Karras 2011, constants of Vegdahl, psychopath.io 2021).
+std::uint32_t mixed_upwards(std::uint32_t bits, std::uint32_t seed) {
+    bits ^= bits * 0x3d20adeau;
+    bits += seed;
+    bits *= (seed >> 16) | 1u;
+    bits ^= bits * 0x05526c56u;
+    return bits ^ bits * 0x53a22864u;
+}
+
+// MurmurHash3's last step (A. Appleby, public domain).
+std::uint32_t hashed(std::uint32_t h) {
+    h = (h ^ (h >> 16)) * 0x85ebca6bu;
+    h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+    return h ^ (h >> 16);
+}
+
+// A number in 0…1 for ray k: evenly spread over the rays, in an order of its own for each seed. Van der
+// Corput points, shuffled and scrambled (B. Burley, "Practical hash-based Owen scrambling", 2020).
+double scrambled(std::uint32_t k, std::uint32_t seed) {
+    const std::uint32_t place = mirrored(mixed_upwards(mirrored(k), hashed(seed)));
+    return mirrored(mixed_upwards(place, seed)) * 0x1p-32;
+}
+
+// A facet that dims what is behind it is there for its share of the rays, whatever others are.
+bool is_there_by_itself(const Facet& facet, std::uint32_t index, int k) {
+    return facet.coverage >= 1 || scrambled(std::uint32_t(k), hashed(index + 1)) < double(facet.coverage);
+}
+
 // Whether a facet that covers part of its pixel is there for a ray; over all rays it is, for just its share.
 // Partly covering facets of one pixel lie beside each other as long as there is room (two surfaces that meet
 // in a pixel), so each takes the part of the unit interval that follows those in front of it. `place`: where
@@ -50,8 +85,9 @@ bool is_there(const Facet& facet, double place, double chance) {
 // One tile of the output, drawn once per pupil point.
 class Tile {
 public:
-    Tile(const Surfaces& surfaces, const Rect& area)
+    Tile(const Surfaces& surfaces, CocSamplesView holdout, const Rect& area)
         : surfaces_(surfaces),
+          holdout_(holdout),
           area_(area),
           nearest_(area.width(), area.height()),
           hit_(area.width(), area.height()),
@@ -66,7 +102,7 @@ public:
         for (int y = 0; y < area_.height(); ++y)
             for (int x = 0; x < area_.width(); ++x)
                 if (const std::uint32_t hit = hit_(x, y); hit != kNothing)
-                    recent_(x, y) += surfaces_.facets()[hit].colour * ray.weight;
+                    recent_(x, y) += arriving(surfaces_.facets()[hit], x, y) * ray.weight;
         if (k % kRecent == kRecent - 1) settle();
     }
 
@@ -85,6 +121,10 @@ private:
             sum_.pixels()[i] += recent_.pixels()[i];
             recent_.pixels()[i] = {};
         }
+    }
+
+    Rgba arriving(const Facet& facet, int x, int y) const {
+        return facet.colour * let_through(holdout_, area_.x0 + x, area_.y0 + y, facet.coc_px);
     }
 
     void clear() {
@@ -114,7 +154,8 @@ private:
                 std::uint32_t index = surfaces_.first(x, y);
                 const double place = fraction(index * 0.7320508075688772);
                 for (const Facet& facet : surfaces_.at(x, y)) {
-                    if (is_there(facet, place, chance))
+                    if (surfaces_.dims_itself() ? is_there_by_itself(facet, index, k)
+                                                : is_there(facet, place, chance))
                         draw(facet, index, float(x) + shift_x, float(y) + shift_y, ray);
                     ++index;
                 }
@@ -162,6 +203,7 @@ private:
     }
 
     const Surfaces& surfaces_;
+    CocSamplesView holdout_;
     Rect area_;
     Plane nearest_;
     Image<std::uint32_t> hit_;
@@ -189,7 +231,7 @@ void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
         const Rect& area = tiles[std::size_t(i)];
         const std::vector<kernel::PupilRay> here = varies ? rays_at(area) : std::vector<kernel::PupilRay>{};
         const std::vector<kernel::PupilRay>& rays = varies ? here : everywhere;
-        Tile tile(surfaces, area);
+        Tile tile(surfaces, input.holdout, area);
         for (int k = 0; k < int(rays.size()) && !input.progress->cancelled(); ++k)
             tile.add(rays[std::size_t(k)], k);
         for (int y = area.y0; y < area.y1; ++y)
@@ -223,7 +265,8 @@ void spread_highlights(const Input& input, const Surfaces& surfaces, const std::
                 const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
                 for (int y = place.y0; y < place.y1; ++y)
                     for (int x = place.x0; x < place.x1; ++x)
-                        out(x, y) += spread.weights(x - h.x - e.x0, y - h.y - e.y0) * h.colour;
+                        out(x, y) += spread.weights(x - h.x - e.x0, y - h.y - e.y0) * h.colour *
+                                     let_through(input.holdout, x, y, h.coc_px);
             }
         });
         input.progress->advance(kShareOfHighlights * size / count);
@@ -251,7 +294,8 @@ Result<Output> run_reference(const Input& input) {
     const std::vector<Highlight> highlights = take_highlights(samples, split, 0, 1, input.threads);
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
-    const Surfaces surfaces = Surfaces::make(samples, input.open_edges, margin, input.threads);
+    const Surfaces surfaces =
+        Surfaces::make(samples, input.open_edges, margin, input.deep_dims_itself, input.threads);
     const double prepared = seconds();
 
     Output output;

@@ -107,6 +107,7 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
     watch.lap("complete");
     const std::vector<Highlight> highlights =
         take_highlights(samples, split, first, kLargestSquare, input.threads);
+    if (input.deep_dims_itself) share_lens_area(samples, input.threads);
     watch.lap("split");
     const std::vector<SourceLevel> levels =
         make_sources(samples, input.coc_px, input.open_edges, rule, input.threads);
@@ -117,7 +118,8 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
     parallel_for(tiles_x * tiles_y, input.threads, [&](int i) {
         if (input.progress->cancelled()) return;
         const int x = i % tiles_x * kTile, y = here.y0 + i / tiles_x * kTile;
-        spread_tile(levels, table, Rect{x, y, x + kTile, y + kTile}.intersected(here), first, out);
+        spread_tile(levels, table, input.holdout, Rect{x, y, x + kTile, y + kTile}.intersected(here), first,
+                    out);
         input.progress->advance(0.9 * share / (tiles_x * tiles_y));
     });
     watch.lap("spread");

@@ -108,7 +108,8 @@ public:
                 if (share < 1) put(level - 1, in_layer, (1 - share) * light, s.coc_px, tilt);
             };
             if (s.colour.a > 0) put_both(layer, s.colour);
-            if (s.empty > 0) put_both(layer + kEmptinessAfter, {0, 0, 0, s.empty});
+            if (s.empty > 0)
+                put_both(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
         }
     }
 
@@ -165,6 +166,12 @@ int layer_of(float coc_px) {
     const int step =
         r < kLinearPx ? int(r + 0.5f) : int(kLinearPx + kPerOctave * std::log2(r / kLinearPx) + 0.5f);
     return kNextLayer * (coc_px < 0 ? -step : step);
+}
+
+float radius_in_pixels(float radius, int level) {
+    const float size = float(1 << level), square = radius * radius * size * size;
+    return level == 0 ? radius
+                      : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);  // narrowed()
 }
 
 float LevelRule::largest_radius() const { return largest_cells * std::exp2(fade); }

@@ -49,6 +49,9 @@ struct LevelRule {
     float largest_radius() const;
 };
 
+// The signed radius in pixels of a source whose radius is given in cells of its level.
+float radius_in_pixels(float radius, int level);
+
 // Sources of all levels, 0 first. `samples` are complete (engine/complete.h); coc_px is what the picture
 // shows, for the slopes of its surfaces.
 std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,

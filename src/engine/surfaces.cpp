@@ -22,8 +22,10 @@ Facet facet_of(Rgba colour, float coc_px) {
 
 }  // namespace
 
-Surfaces Surfaces::make(const CocSamples& samples, const OpenEdges& open, int margin, int threads) {
+Surfaces Surfaces::make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
+                        int threads) {
     Surfaces surfaces;
+    surfaces.dims_itself_ = dims_itself;
     surfaces.area_ = {open.left ? -margin : 0, open.top ? -margin : 0,
                       samples.width + (open.right ? margin : 0),
                       samples.height() + (open.bottom ? margin : 0)};

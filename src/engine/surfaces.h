@@ -30,7 +30,12 @@ public:
         float min = 1e30f, max = -1e30f;
     };
 
-    static Surfaces make(const CocSamples& samples, const OpenEdges& open, int margin, int threads);
+    // dims_itself: as Input::deep_dims_itself.
+    static Surfaces make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
+                         int threads);
+    // Whether a facet that covers part of its pixel lets through its share of whatever lies behind it (fog),
+    // or leaves the rest of the pixel's area to others (silhouettes).
+    bool dims_itself() const { return dims_itself_; }
 
     // The area covered, in picture coordinates: the picture grown by the margin.
     Rect area() const { return area_; }
@@ -59,6 +64,7 @@ private:
     void bound();
 
     Rect area_;
+    bool dims_itself_ = false;
     std::vector<std::uint32_t> first_;
     std::vector<Facet> facets_;
     std::vector<Bounds> blocks_;

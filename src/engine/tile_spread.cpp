@@ -1,5 +1,7 @@
 #include "engine/tile_spread.h"
 
+#include "engine/holdout.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,8 @@ struct Workspace {
     Accumulator light, emptiness, coarse;
     Picture sum;
     Plane free, empty;
+    Picture let_through;  // what a holdout leaves of `sum`
+    std::vector<Rgba> added;
 };
 
 Rect cells_of(const Rect& tile, int level) {
@@ -80,15 +84,42 @@ void take_budget_with_emptiness(const Rgba* light, const Rgba* emptiness, Rgba* 
     }
 }
 
+struct Interval {
+    float low = 1e30f, high = -1e30f;
+};
+
+// Signed radii in pixels of arrivals [begin, end).
+Interval radii_of(const std::vector<Arrival>& arrivals, std::size_t begin, std::size_t end) {
+    Interval radii;
+    for (; begin < end; ++begin) {
+        const float coc_px = radius_in_pixels(arrivals[begin].source->radius, arrivals[begin].level);
+        radii = {std::min(radii.low, coc_px), std::max(radii.high, coc_px)};
+    }
+    return radii;
+}
+
+// Adds what a layer gave to row y of the tile, and what the holdout lets through of it.
+void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, int y, Workspace& w) {
+    for (int x = 0; x < tile.width(); ++x) {
+        const Rgba added = w.added[std::size_t(x)];
+        if (added == Rgba{}) continue;
+        w.sum(x, y) += added;
+        w.let_through(x, y) +=
+            added * let_through(holdout.at(tile.x0 + x, tile.y0 + y), radii.low, radii.high);
+    }
+}
+
 }  // namespace
 
-void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, const Rect& tile,
-                 int first_row, View<Rgba> out) {
+void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, CocSamplesView holdout,
+                 const Rect& tile, int first_row, View<Rgba> out) {
     thread_local Workspace w;
+    const bool held = !holdout.empty();
     const int width = tile.width(), height = tile.height();
     w.sum = Picture(width, height);
     w.free = Plane(width, height, 1.0f);
     w.empty = Plane(width, height, 0.0f);
+    if (held) w.let_through = Picture(width, height), w.added.resize(std::size_t(width));
     const int part = table.part_of(0.5 * (tile.x0 + tile.x1 - 1), first_row + 0.5 * (tile.y0 + tile.y1 - 1));
     find_arrivals(levels, table, tile, w.arrivals);
     const auto end_of_layer = [&](std::size_t begin) {
@@ -100,31 +131,37 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
     for (std::size_t begin = 0; begin < w.arrivals.size();) {
         const int layer = w.arrivals[begin].source->layer;
         std::size_t end = end_of_layer(begin);
+        const Interval radii = held && !is_emptiness(layer) ? radii_of(w.arrivals, begin, end) : Interval{};
         if (is_emptiness(layer))
             w.light.reset(tile);
         else
             accumulate_layer(w.arrivals, begin, end, table, part, tile, w.light, w.coarse);
         const bool then_empty = !is_emptiness(layer) && end < w.arrivals.size() &&
                                 w.arrivals[end].source->layer == layer + kEmptinessAfter;
-        if (is_emptiness(layer) || then_empty) {
+        const bool partly_empty = is_emptiness(layer) || then_empty;
+        if (partly_empty) {
             const std::size_t from = is_emptiness(layer) ? begin : end;
             end = end_of_layer(from);
             accumulate_layer(w.arrivals, from, end, table, part, tile, w.emptiness, w.coarse);
-            for (int y = 0; y < height; ++y)
-                take_budget_with_emptiness(w.light.row(tile.y0 + y), w.emptiness.row(tile.y0 + y),
-                                           w.sum.row(y), w.free.row(y), w.empty.row(y), width);
-        } else {
-            for (int y = 0; y < height; ++y)
-                take_budget(w.light.row(tile.y0 + y), w.sum.row(y), w.free.row(y), width);
+        }
+        for (int y = 0; y < height; ++y) {
+            Rgba* const sum = held ? w.added.data() : w.sum.row(y);
+            if (held) std::fill(w.added.begin(), w.added.end(), Rgba{});
+            if (partly_empty)
+                take_budget_with_emptiness(w.light.row(tile.y0 + y), w.emptiness.row(tile.y0 + y), sum,
+                                           w.free.row(y), w.empty.row(y), width);
+            else
+                take_budget(w.light.row(tile.y0 + y), sum, w.free.row(y), width);
+            if (held) add_held(holdout, radii, tile, y, w);
         }
         begin = end;
     }
     // Discrete sources leave a little of the lens free; it goes to those that did arrive.
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const Rgba sum = w.sum(x, y);
-            const float taken = sum.a + w.empty(x, y);
-            out(tile.x0 + x, first_row + tile.y0 + y) = taken > 0 ? sum * (1 / taken) : Rgba{};
+            const float taken = w.sum(x, y).a + w.empty(x, y);
+            const Rgba light = held ? w.let_through(x, y) : w.sum(x, y);
+            out(tile.x0 + x, first_row + tile.y0 + y) = taken > 0 ? light * (1 / taken) : Rgba{};
         }
 }
 

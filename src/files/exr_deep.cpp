@@ -214,31 +214,4 @@ Result<DeepPicture> read_deep(const ExrFile& exr, const ColourChoice& colour, co
     return deep;
 }
 
-void flatten(const DeepPicture& deep, Picture& colour, Plane& depth) {
-    colour = Picture::uninitialised(deep.width(), deep.height());
-    depth = Plane::uninitialised(deep.width(), deep.height());
-    parallel_for(deep.height(), 0, [&](int y) {
-        for (int x = 0; x < deep.width(); ++x) {
-            const std::span<const DeepSample> samples = deep.at(x, y);
-            Rgba sum;
-            float seen = 1;  // share of the pixel that nothing so far hides
-            for (const DeepSample& s : samples) {
-                sum += s.colour * seen;
-                seen *= 1 - std::clamp(s.colour.a, 0.f, 1.f);
-            }
-            sum.a = 1 - seen;
-            colour(x, y) = sum;
-            depth(x, y) = samples.empty() ? kInfinity : samples.front().depth_m;
-            float hidden = 1;
-            for (const DeepSample& s : samples) {
-                hidden *= 1 - std::clamp(s.colour.a, 0.f, 1.f);
-                if (sum.a > 0 && 1 - hidden >= 0.5f * sum.a) {
-                    depth(x, y) = s.depth_m;
-                    break;
-                }
-            }
-        }
-    });
-}
-
 }  // namespace petzval

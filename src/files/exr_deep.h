@@ -18,10 +18,4 @@ namespace petzval {
 Result<DeepPicture> read_deep(const ExrFile& exr, const ColourChoice& colour, const DepthChoice& depth,
                               std::size_t most_samples, std::size_t& non_finite);
 
-// What the samples look like: colours one over the other, nearest first, and the depth at which the coverage
-// first reaches half of what the pixel has in the end. So thin fog in front does not claim a pixel that shows
-// the wall behind it, and inside a volume depth is where half of it is seen through. A pixel of samples
-// without any coverage (pure glow) has the depth of its nearest sample; a pixel without samples is a miss.
-void flatten(const DeepPicture& deep, Picture& colour, Plane& depth);
-
 }  // namespace petzval

@@ -9,7 +9,7 @@ VERBS = ["defocus", "lens", "lens list", "lens show", "lens psf", "lens table", 
 # Every flag of defocus that takes a value, with a value it accepts.
 DEFOCUS_VALUES = {
     "--layer": "x", "--view-name": "left", "--depth": "in.exr", "--depth-channel": "Z", "--depth-kind": "planar",
-    "--unit-scale": "0.01", "--behind": "in.exr", "--focal-length": "50mm", "--sensor-width": "36mm", "--fstop": "2",
+    "--unit-scale": "0.01", "--behind": "in.exr", "--holdout": "in.exr", "--overscan": "8", "--focal-length": "50mm", "--sensor-width": "36mm", "--fstop": "2",
     "--focus": "2m", "--focus-at": "1,1", "--image-scale": "rendered", "--focus-range": "1,3",
     "--near-scale": "1", "--far-scale": "1", "--max-radius": "9", "--lens": "ideal", "--blades": "5",
     "--squeeze": "2", "--cats-eye": "0.5", "--engine": "reference", "--quality": "draft", "--seed": "3",
@@ -27,7 +27,7 @@ DEFOCUS_VALUES = {
 DEFOCUS_SWITCHES = ["--overwrite", "--no-clobber", "-u", "-v", "-q", "--vignetting", "--expand-highlights", "--wave"]
 
 # In docs/command-line.md, but not built yet: refused, never ignored.
-NOT_YET = ["--merge", "--holdout", "--device", "--overscan", "--frames", "--track"]
+NOT_YET = ["--device", "--frames", "--track"]
 
 CONTRADICTIONS = [
     (["--overwrite", "--no-clobber"], ["--overwrite", "--no-clobber"]),
@@ -49,6 +49,8 @@ CONTRADICTIONS = [
     (["--depth-kind", "coc-px", "--fstop", "2"], ["--fstop", "coc-px"]),
     (["--depth-kind", "coc-px", "--near-scale", "2"], ["--near-scale", "coc-px"]),
     (["--exposure", "1"], ["--exposure", ".png"]),
+    (["--overscan", "9", "--view", "coc"], ["--overscan", "coc"]),
+    (["--holdout", "in.exr", "--view", "depth"], ["--holdout", "depth"]),
     (["--tone", "none"], ["--tone", ".png"]),
 ]
 
@@ -64,7 +66,7 @@ WRONG_VALUES = {
     "--view": ["layers", "levels", "highlights"], "--gather-stage": ["glow", ""], "--gather-taps": ["17", "x"],
     "--gather-coc": ["max"], "--gather-fill": ["1"], "--gaussian-style": ["box"], "--focus-band": ["-1", "x"],
     "--depth-offset": ["nan"], "--depth-band-range": ["2", "3m,1m"], "--background": ["scatter"],
-    "--find-points": ["maybe"], "--bright-factor": ["0"],
+    "--find-points": ["maybe"], "--bright-factor": ["0"], "--overscan": ["0", "-3", "wide"],
 }
 
 
