@@ -1,0 +1,102 @@
+// petzval_bench_flicker SHOT FOLDER WIDTH FRAMES POINTS: one shot through `scatter`, and its truth:
+// `reference` with POINTS pupil points and all layers known, or as many lens samples of the ray tracer where
+// the scene moves. Frames as PNG, a contact sheet of both with the change of the error between frames (grey:
+// none), and the measures of tests/flicker/flicker.h as JSON. Without words, the names of the shots.
+#include "flicker.h"
+
+#include "petzval/develop.h"
+#include "petzval/files.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+using namespace petzval;
+using flicker::Frames;
+
+[[noreturn]] void fail(const std::string& message) {
+    std::fprintf(stderr, "petzval_bench_flicker: %s\n", message.c_str());
+    std::exit(2);
+}
+
+struct NamedShot {
+    const char* name;
+    bool moves;  // the scene; else the focus
+    const char* scene;
+    double from_m, to_m, wider;
+};
+
+constexpr NamedShot kShots[] = {
+    {"night-pull", false, "night", 8, 3, 1},   {"table-pull", false, "table", 1.8, 0.8, 1},
+    {"fence-pull", false, "fence", 6, 1.5, 1}, {"night-move", true, "night", 0, 0, 1},
+    {"fence-move", true, "fence", 0, 0, 1},
+};
+
+void write(const std::string& path, View<const Rgba> picture, ToneCurve tone) {
+    DevelopSettings settings;
+    settings.tone = tone;
+    settings.dither = false;
+    const PngPixels png{picture.width(), picture.height(), 3, 8, develop(picture, settings)};
+    if (const Status status = write_png(path, png); !status) fail(status.error().message);
+}
+
+// Result above truth above eight times the change of the error since the frame before, on middle grey.
+Picture sheet_of(const Frames& result, const Frames& truth) {
+    constexpr int kColumns = 6;
+    const int width = truth[0].width(), height = truth[0].height();
+    const int shown = std::min(int(truth.size()), 2 * kColumns), rows = (shown + kColumns - 1) / kColumns;
+    Picture sheet(kColumns * width, rows * 3 * height);
+    for (int i = 0; i < shown; ++i) {
+        const std::size_t t = std::size_t(i) * truth.size() / std::size_t(shown), before = t > 0 ? t - 1 : 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const Rgba change =
+                    (result[t](x, y) - truth[t](x, y)) - (result[before](x, y) - truth[before](x, y));
+                const int u = i % kColumns * width + x, v = i / kColumns * 3 * height + y;
+                sheet(u, v) = result[t](x, y);
+                sheet(u, v + height) = truth[t](x, y);
+                sheet(u, v + 2 * height) = Rgba{0.2f, 0.2f, 0.2f, 1} + 8 * change;
+            }
+    }
+    return sheet;
+}
+
+void write_all(const std::string& folder, const std::string& name, const Frames& result,
+               const Frames& truth) {
+    for (std::size_t t = 0; t < result.size(); ++t) {
+        char number[8];
+        std::snprintf(number, sizeof number, "%04d", int(t));
+        write(folder + "/" + name + "_" + number + ".png", result[t], ToneCurve::Filmic);
+    }
+    write(folder + "/" + name + "_sheet.png", sheet_of(result, truth), ToneCurve::None);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    if (count == 1) {
+        for (const NamedShot& shot : kShots) std::printf("%s\n", shot.name);
+        return 0;
+    }
+    if (count != 6) fail("SHOT FOLDER WIDTH FRAMES POINTS");
+    const int width = std::atoi(words[3]), frames = std::atoi(words[4]), points = std::atoi(words[5]);
+    for (const NamedShot& named : kShots) {
+        if (named.name != std::string(words[1])) continue;
+        const flicker::Size size{width, width * 9 / 16};
+        const flicker::Shot shot = named.moves ? flicker::camera_move(named.scene, size, 0, frames, points)
+                                               : flicker::focus_pull(named.scene, size, frames, named.from_m,
+                                                                     named.to_m, named.wider);
+        const Frames result = flicker::defocused(shot, "scatter");
+        const Frames truth =
+            named.moves ? flicker::truths_of(shot) : flicker::defocused(shot, "reference", points);
+        const flicker::Steadiness found = flicker::measure(result, truth);
+        write_all(words[2], named.name, result, truth);
+        std::printf(
+            "{\"change_db\": %.2f, \"worst_jump\": %.5f, \"shake\": %.4f, \"frame\": %d, \"x\": %d, \"y\": "
+            "%d}\n",
+            found.change_db, found.worst_jump, found.shake, found.frame, found.x, found.y);
+        return 0;
+    }
+    fail(std::string("no shot ") + words[1]);
+}

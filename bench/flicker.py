@@ -1,0 +1,60 @@
+"""Does anything pop, crawl or flicker? Focus pulls and camera moves, as contact sheets, videos and numbers.
+
+Each shot goes through `scatter`. Focus pulls stay on one picture with all hidden layers known, so that `reference` is
+the truth; camera moves have to guess what is hidden, and their truth is what a ray tracer saw through the lens, whose
+own noise counts. How much the error changes from frame to frame is measured (tests/flicker/flicker.h says how), and
+drawn, eight times as strong, in the third row of every contact sheet in build/bench/flicker. Videos are made if
+ffmpeg is there.
+
+Usage: ./dev bench flicker [--shots A,B] [--width N] [--frames N] [--points N]
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from quality import CACHE, PROGRAM, machine, print_table
+
+FLICKER = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_flicker"
+OUT = CACHE / "flicker"
+
+
+def video_of(shot):
+    if shutil.which("ffmpeg"):
+        path = OUT / f"{shot}.mp4"
+        subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "24", "-i", OUT / f"{shot}_%04d.png", "-vf",
+                        "scale=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-crf", "12", path], check=True)
+        print(path, file=sys.stderr)
+
+
+def main():
+    known = subprocess.check_output([FLICKER], text=True).split()
+    parser = argparse.ArgumentParser(prog="./dev bench flicker")
+    parser.add_argument("--shots", type=lambda text: text.split(","), default=known, help=", ".join(known))
+    parser.add_argument("--width", type=int, default=240)
+    parser.add_argument("--frames", type=int, default=12, help="up to 48 where the scene moves")
+    parser.add_argument("--points", type=int, default=256, help="pupil points, or lens samples, of the truth")
+    given = parser.parse_args()
+    OUT.mkdir(parents=True, exist_ok=True)
+    body = []
+    for shot in given.shots:
+        print(shot, file=sys.stderr)
+        result = subprocess.run([FLICKER, shot, OUT, *map(str, (given.width, given.frames, given.points))],
+                                stdout=subprocess.PIPE, text=True)
+        if result.returncode:
+            sys.exit(result.returncode)
+        found = json.loads(result.stdout)
+        body.append([shot, f"{given.width} px, {given.frames} frames", f"{found['change_db']:.1f}",
+                     f"{found['worst_jump']:.4f}", f"{found['frame']} at {found['x']},{found['y']}",
+                     f"{found['shake']:.3f}"])
+        print(OUT / f"{shot}_sheet.png", file=sys.stderr)
+        video_of(shot)
+    print_table(["shot", "size", "change of error, dB", "worst jump", "where", "shake"], body)
+    print(f"\n{given.points} points or lens samples in the truth. {machine()}; command: ./dev bench flicker "
+          f"{' '.join(sys.argv[1:])}".rstrip() + ".")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,163 @@
+// Whether a moving picture is as steady as it should be: shots of several frames, and how the error of each
+// frame changes to the next. Shared by the test and by `./dev bench flicker`.
+//
+// A constant error is not seen to move. What is seen is its change d = e(t+1) - e(t), e = result - truth, in
+// linear light clipped to 0…1:
+//   change_db   -20 log10 rms(d) over all pixels and frames
+//   worst_jump  the largest mean of d over 8 x 8 pixels and three channels: a patch that pops or a seam that
+//   passes shake       rms of the second difference in time of the result against that of the truth; 1 is as
+//   smooth
+#pragma once
+
+#include "petzval/defocus.h"
+#include "petzval/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval::flicker {
+
+struct Steadiness {
+    double change_db = 0, worst_jump = 0, shake = 0;
+    int frame = 0, x = 0,
+        y = 0;  // of the worst jump: it happens from `frame` to the next, in the block at x, y
+};
+
+using Frames = std::vector<Picture>;
+
+inline float shown(float linear) { return std::clamp(linear, 0.0f, 1.0f); }
+inline std::array<float, 3> shown(Rgba c) { return {shown(c.r), shown(c.g), shown(c.b)}; }
+
+namespace internal {
+
+// Sum over channels of the square of a combination of frames, at one pixel.
+template <typename Combine>
+double square_sum(const Combine& combine) {
+    double sum = 0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const double value = double(combine(channel));
+        sum += value * value;
+    }
+    return sum;
+}
+
+inline double second_difference_sum(const Frames& f, std::size_t t, int x, int y) {
+    const auto a = shown(f[t - 1](x, y)), b = shown(f[t](x, y)), c = shown(f[t + 1](x, y));
+    return square_sum([&](std::size_t i) { return a[i] - 2 * b[i] + c[i]; });
+}
+
+}  // namespace internal
+
+// Requires: as many frames in both, at least three, all of one size.
+inline Steadiness measure(const Frames& result, const Frames& truth) {
+    constexpr int kBlock = 8;
+    Steadiness found;
+    const int width = truth[0].width(), height = truth[0].height();
+    double changes = 0, bends = 0, bends_of_truth = 0;
+    for (std::size_t t = 0; t + 1 < truth.size(); ++t) {
+        Plane jump((width + kBlock - 1) / kBlock, (height + kBlock - 1) / kBlock);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const auto r0 = shown(result[t](x, y)), r1 = shown(result[t + 1](x, y));
+                const auto t0 = shown(truth[t](x, y)), t1 = shown(truth[t + 1](x, y));
+                const auto change = [&](std::size_t i) { return (r1[i] - t1[i]) - (r0[i] - t0[i]); };
+                changes += internal::square_sum(change);
+                jump(x / kBlock, y / kBlock) += (change(0) + change(1) + change(2)) / (3 * kBlock * kBlock);
+                if (t == 0) continue;
+                bends += internal::second_difference_sum(result, t, x, y);
+                bends_of_truth += internal::second_difference_sum(truth, t, x, y);
+            }
+        for (int y = 0; y < jump.height(); ++y)
+            for (int x = 0; x < jump.width(); ++x)
+                if (std::abs(double(jump(x, y))) > found.worst_jump)
+                    found = {0, std::abs(double(jump(x, y))), 0, int(t), x * kBlock, y * kBlock};
+    }
+    const double values = 3.0 * double(width) * double(height) * double(truth.size() - 1);
+    found.change_db = -10 * std::log10(changes / values);
+    found.shake = std::sqrt(bends / bends_of_truth);
+    return found;
+}
+
+// A shot: sharp pictures with depth, or one for all frames, and the camera of each frame.
+struct Shot {
+    std::vector<RenderedScene> pictures;
+    std::vector<Camera> cameras;
+    const RenderedScene& picture(std::size_t frame) const {
+        return pictures[std::min(frame, pictures.size() - 1)];
+    }
+};
+
+struct Size {
+    int width = 128, height = 72;
+};
+
+// With hidden layers, or with the truth where truth_samples > 0.
+inline RenderedScene rendered(const std::string& scene, Size size, int frame, int truth_samples = 0) {
+    SceneSettings settings;
+    settings.width = size.width;
+    settings.height = size.height;
+    settings.frame = frame;
+    settings.want_truth = truth_samples > 0;
+    settings.want_layers = truth_samples == 0;
+    settings.truth_samples = std::max(1, truth_samples);
+    return std::move(render_scene(scene, settings).value());
+}
+
+// One picture, the focus pulled from `from_m` to `to_m` in equal steps of 1/distance, as an assistant's marks
+// lie; the f-number is the scene's divided by `wider`, which makes small pictures' blurs large in pixels.
+// Hidden layers are known, so that `reference` is the truth.
+inline Shot focus_pull(const std::string& scene, Size size, int frames, double from_m, double to_m,
+                       double wider) {
+    Shot shot;
+    shot.pictures.push_back(rendered(scene, size, 0));
+    for (int t = 0; t < frames; ++t) {
+        const double along = frames > 1 ? double(t) / (frames - 1) : 0;
+        Camera camera = shot.pictures[0].camera;
+        camera.focus_distance_m = 1 / (1 / from_m + along * (1 / to_m - 1 / from_m));
+        camera.f_number /= wider;
+        shot.cameras.push_back(camera);
+    }
+    return shot;
+}
+
+// Consecutive frames of a scene that moves, with their truth. What nearer things hide has to be guessed.
+inline Shot camera_move(const std::string& scene, Size size, int first, int frames, int truth_samples) {
+    Shot shot;
+    for (int t = first; t < first + frames; ++t) {
+        shot.pictures.push_back(rendered(scene, size, t, truth_samples));
+        shot.cameras.push_back(shot.pictures.back().camera);
+    }
+    return shot;
+}
+
+inline DefocusJob job_of(const Shot& shot, std::size_t frame, const std::string& engine, int pupil_points) {
+    DefocusJob job;
+    job.colour = shot.picture(frame).colour;
+    job.depth_m = shot.picture(frame).depth_m;
+    job.display_window = job.data_window = shot.picture(frame).colour.rect();
+    const DeepPicture& layers = shot.picture(frame).layers;
+    job.behind = layers.empty() ? nullptr : &layers;
+    job.camera = shot.cameras[frame];
+    job.engine = engine;
+    job.pupil_points = pupil_points;
+    return job;
+}
+
+inline Frames truths_of(const Shot& shot) {
+    Frames frames;
+    for (const RenderedScene& picture : shot.pictures) frames.push_back(picture.truth.clone());
+    return frames;
+}
+
+inline Frames defocused(const Shot& shot, const std::string& engine, int pupil_points = 128) {
+    Frames frames;
+    for (std::size_t t = 0; t < shot.cameras.size(); ++t)
+        frames.push_back(std::move(defocus(job_of(shot, t, engine, pupil_points)).value().image));
+    return frames;
+}
+
+}  // namespace petzval::flicker

@@ -1,0 +1,64 @@
+// Nothing flickers: what scatter makes of a focus pull and of a camera move changes from frame to frame as
+// the truth does. Small pictures with few frames; `./dev bench flicker` shows the same on more.
+#include "flicker.h"
+
+#include <gtest/gtest.h>
+
+namespace petzval::flicker {
+namespace {
+
+constexpr int kFrames = 8;
+
+// Frames in which the size of every blur jumps to and fro by five per cent, as an engine's would that snaps
+// radii to steps.
+Frames with_jumping_blurs(const Shot& shot) {
+    Frames frames;
+    for (std::size_t t = 0; t < shot.cameras.size(); ++t) {
+        DefocusJob job = job_of(shot, t, "scatter", 1);
+        job.camera.f_number *= t % 2 ? 1.05 : 1;
+        frames.push_back(std::move(defocus(job).value().image));
+    }
+    return frames;
+}
+
+// What was measured, with a little room; a perfect engine would have no change, no jump and a shake of 1.
+struct Limits {
+    double least_change_db, most_jump, most_shake;
+};
+
+void expect_steady(const Steadiness& found, const Limits& limits) {
+    EXPECT_GE(found.change_db, limits.least_change_db);
+    EXPECT_LE(found.worst_jump, limits.most_jump)
+        << "from frame " << found.frame << " on, 8 x 8 pixels at " << found.x << ", " << found.y;
+    EXPECT_LE(found.shake, limits.most_shake);
+    testing::Test::RecordProperty("change_db", std::to_string(found.change_db));
+    testing::Test::RecordProperty("worst_jump", std::to_string(found.worst_jump));
+    testing::Test::RecordProperty("shake", std::to_string(found.shake));
+}
+
+void expect_steady_pull(const Shot& shot, const Limits& limits) {
+    const Frames truth = defocused(shot, "reference");
+    expect_steady(measure(defocused(shot, "scatter"), truth), limits);
+    // A test that cannot fail says nothing: the same shot with blurs that jump is outside the limits.
+    const Steadiness jumping = measure(with_jumping_blurs(shot), truth);
+    EXPECT_LT(jumping.change_db, limits.least_change_db);
+    EXPECT_GT(jumping.shake, limits.most_shake);
+}
+
+TEST(Flicker, AFocusPullThroughLampsIsSteady) {
+    expect_steady_pull(focus_pull("night", {}, kFrames, 5, 4, 3), {37.5, 0.025, 0.9});
+}
+
+TEST(Flicker, AFocusPullAlongATableIsSteady) {
+    expect_steady_pull(focus_pull("table", {}, kFrames, 1.3, 1.1, 3), {45, 0.025, 1.7});
+}
+
+TEST(Flicker, ACameraMoveBehindAFenceIsSteady) {
+    // What wires hide is guessed anew in every frame: three times the truth's shake, the weakest point there
+    // is.
+    const Shot shot = camera_move("fence", {}, 20, 6, 256);
+    expect_steady(measure(defocused(shot, "scatter"), truths_of(shot)), {35, 0.015, 3.2});
+}
+
+}  // namespace
+}  // namespace petzval::flicker
