@@ -10,10 +10,14 @@ import sys
 FUNCTION_LINES = 60
 FILE_LINES = {".h": 300, ".cpp": 500, ".py": 500, "_test.cpp": 600}
 # "path" or "path:function" -> why it may be longer. An entry that is no longer needed fails as well.
-ALLOWED = {}
+ALLOWED = {
+    "src/api/defocus.cpp:defocus": "from a job to an engine's input, field by field",
+    "src/engine/surfaces.cpp:Surfaces::connect_around_corner": "one pass over four pixels' samples",
+    "src/scene/dynamic_range.cpp:add_still_life": "a still life is a list of things",
+}
 
 NOT_A_FUNCTION = re.compile(r"^(inline )?(namespace|class|struct|enum|union|extern|if|for|while|switch|do|else|catch)\b")
-STRIP = re.compile(r'//.*|"(\\.|[^"\\])*"|\'(\\.|[^\'\\])\'|/\*.*?\*/', re.DOTALL)
+STRIP = re.compile(r'//[^\n]*|"(\\.|[^"\\])*"|\'(\\.|[^\'\\])\'|/\*.*?\*/', re.DOTALL)
 
 
 def blank(match):
@@ -71,8 +75,10 @@ def too_long(root):
 
 
 if __name__ == "__main__":
-    found = dict(too_long(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")))
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    found = dict(too_long(root))
     wrong = [message for key, message in found.items() if key not in ALLOWED]
-    wrong += [f"tools/check_sizes.py: {key} no longer needs its exception" for key in ALLOWED if key not in found]
+    wrong += [f"tools/check_sizes.py: {key} no longer needs its exception" for key in ALLOWED
+              if key not in found and (root / key.split(":")[0]).exists()]
     print("\n".join(wrong) or "sizes: ok")
     sys.exit(bool(wrong))

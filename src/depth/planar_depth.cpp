@@ -159,7 +159,7 @@ DepthReport report_of(const Tally& before, const Tally& after) {
                                       ? "every depth is negative: its absolute values were taken"
                                       : std::to_string(before.negative) +
                                             " negative depths were taken as infinitely far");
-    if (!any) report.warnings.push_back("no pixel has a finite depth: everything is infinitely far");
+    if (!any) report.warnings.emplace_back("no pixel has a finite depth: everything is infinitely far");
     return report;
 }
 

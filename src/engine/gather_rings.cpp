@@ -97,8 +97,9 @@ int RingKernels::part_of(double x, double y) const {
 }
 
 std::unique_ptr<const RingKernel> RingKernels::made(int ring, int part) const {
-    const double x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
+    const int column = part % parts_x_, row = part / parts_x_;
+    const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
     const int level = sizes_.level(ring);
     const kernel::PointSpread spread = input_.lens(level).point_spread(
         radius_in_cells(double(sizes_.radius_px(ring)), level), input_.field_at(x, y));

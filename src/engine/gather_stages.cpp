@@ -187,7 +187,7 @@ private:
 Result<Output> run_gather_stage(const Input& input) {
     Output output;
     output.image = Article(input).stage();
-    output.warnings.push_back("this picture is a stage of the published gather method, not a result");
+    output.warnings.emplace_back("this picture is a stage of the published gather method, not a result");
     return output;
 }
 

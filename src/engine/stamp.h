@@ -22,8 +22,8 @@ public:
     Rect extent() const { return extent_; }  // offsets that hold weights
     int groups() const { return groups_; }   // per row
     // First and past-the-last group of a row (counted from the top) that holds any weight.
-    int first_group(int row) const { return spans_[row * 2]; }
-    int last_group(int row) const { return spans_[row * 2 + 1]; }
+    int first_group(int row) const { return spans_[std::ptrdiff_t(row) * 2]; }
+    int last_group(int row) const { return spans_[std::ptrdiff_t(row) * 2 + 1]; }
     const float* row(int row) const { return &weights_.row(row)->r; }
     std::size_t bytes() const { return weights_.bytes(); }
 

@@ -64,7 +64,10 @@ void StampTilted(const StampKernel& kernel, int x, int y, const Rgba& light, flo
     const int most = (area.x1 - left + StampKernel::kGroup - 1) / StampKernel::kGroup;
     // tilt_x times the pixel's place in its group.
     alignas(64) float ramp[kGroupFloats];
-    for (int i = 0; i < kGroupFloats; ++i) ramp[i] = tilt_x * float(i / 4);
+    for (int i = 0; i < kGroupFloats; ++i) {
+        const int pixel = i / 4;
+        ramp[i] = tilt_x * float(pixel);
+    }
     for (int row_y = y0; row_y < y1; ++row_y) {
         const int k = row_y - y - e.y0;
         const int g0 = std::max(kernel.first_group(k), least), g1 = std::min(kernel.last_group(k), most);

@@ -38,8 +38,9 @@ const StampKernel& StampTable::at(int level, int part, float radius) const {
         kernels_[std::size_t(((level * parts_x_ * parts_y_ + part) * 2 + side) * steps_ + step)];
     if (const StampKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
 
-    const double middle_x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double middle_y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
+    const int column = part % parts_x_, row = part / parts_x_;
+    const double middle_x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double middle_y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
     const double signed_radius = (side ? 1 : -1) * double(step) / double(kStepsPerCell);
     auto made = std::make_unique<const StampKernel>(
         input_.lens(level).point_spread(signed_radius, input_.field_at(middle_x, middle_y)));

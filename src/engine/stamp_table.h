@@ -15,8 +15,8 @@ namespace petzval::engine {
 // parts of the picture. Safe to use from many threads: which thread makes a kernel does not change it.
 class StampTable {
 public:
-    // `frame`: the whole picture; places are in its pixels.
-    StampTable(const Input& frame, float largest_radius);
+    // `input`: the whole picture; places are in its pixels.
+    StampTable(const Input& input, float largest_radius);
     ~StampTable();
     StampTable(const StampTable&) = delete;
     StampTable& operator=(const StampTable&) = delete;

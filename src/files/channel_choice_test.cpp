@@ -31,7 +31,7 @@ std::string red_of(const Layout& l, const ReadOptions& options = {}) {
     return std::to_string(c->part) + " " + (c->is_luminance() ? c->luminance : c->red);
 }
 
-std::string depth_of(const Layout& l, ReadOptions options = {}, bool camera_matrix = false) {
+std::string depth_of(const Layout& l, const ReadOptions& options = {}, bool camera_matrix = false) {
     const auto c = choose_colour("f.exr", l, options);
     if (!c) return c.error().message;
     const auto d = choose_depth("f.exr", l, &*c, options, camera_matrix);

@@ -118,8 +118,8 @@ void write_deep_tiles(const std::string& path, int width, int height, int tile) 
     std::array<std::vector<char*>, 5> pointers;
     const std::array names{"R", "G", "B", "A", "Z"};
     for (std::size_t c = 0; c < 5; ++c) {
-        for (std::size_t i = 0; i < first.size(); ++i)
-            pointers[c].push_back(reinterpret_cast<char*>(samples.data() + first[i]) + 4 * c);
+        for (const std::size_t start : first)
+            pointers[c].push_back(reinterpret_cast<char*>(samples.data() + start) + 4 * c);
         buffer.insert(names[c],
                       Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(pointers[c].data()), sizeof(char*),
                                      sizeof(char*) * std::size_t(width), sizeof samples[0]));

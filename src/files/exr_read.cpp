@@ -76,7 +76,7 @@ std::optional<PrimariesConversion> primaries_of(const ExrFile& exr, std::size_t 
         frame.detected.push_back("primaries: from those of the file (" + joined(xy_text, " ") +
                                  ") to Rec.709; written back in those of the file");
     } else if (!is_rec709(xy)) {
-        frame.warnings.push_back("its chromaticities describe no colour space; Rec.709 is assumed");
+        frame.warnings.emplace_back("its chromaticities describe no colour space; Rec.709 is assumed");
     }
     return conversion;
 }
@@ -103,7 +103,7 @@ Status choose_depth_of(const ExrFile& exr, const ReadOptions& options, bool pixe
     const bool asked = !options.depth_channel.empty();
     if (!found && (asked || (options.need_depth && pixels))) return found.error();
     if (!found) {
-        frame.detected.push_back("depth: none");
+        frame.detected.emplace_back("depth: none");
         return Done{};
     }
     choices.depth = *found;
@@ -198,7 +198,8 @@ std::size_t replace_non_finite(Picture& colour) {
 
 }  // namespace
 
-Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels) {
+Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
+                             bool pixels) {
     Result<ExrFile> opened = ExrFile::open(file, options.max_pixels);
     if (!opened) return opened.error();
     const ExrFile& exr = *opened;
@@ -210,7 +211,7 @@ Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOp
     Result<ColourChoice> colour = choose_colour(file->path(), exr.layout, options);
     if (!colour && !pixels && colour.error().code == ErrorCode::InvalidFile) {
         // A header of depth or circles of confusion alone is worth showing.
-        frame.detected.push_back("colour: none");
+        frame.detected.emplace_back("colour: none");
         frame.data_window = exr.layout.parts[0].data_window;
         frame.camera = camera_of(exr, 0);
         describe_camera(frame.camera, frame.detected);

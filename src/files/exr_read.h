@@ -11,7 +11,8 @@ namespace petzval {
 
 // As read_frame() and read_frame_header() promise, for a file that starts like an EXR. `pixels` false: header
 // only.
-Result<Frame> read_exr_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels);
+Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
+                             bool pixels);
 
 // Depth from another file, EXR or PNG, in the colour's data window. Adds a line to `detected`.
 Result<Plane> read_depth_file(const ReadOptions& options, const Rect& display_window, const Rect& data_window,

@@ -14,6 +14,7 @@ Result<PngPixels> read_png_file(const InputFile& file, std::size_t max_pixels);
 Result<PngPixels> read_png_size(const InputFile& file, std::size_t max_pixels);
 
 // Decoded through the sRGB curve and premultiplied; display-referred. `pixels` false: size only.
-Result<Frame> read_png_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels);
+Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
+                             bool pixels);
 
 }  // namespace petzval

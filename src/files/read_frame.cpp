@@ -64,7 +64,7 @@ Result<Plane> depth_of_png(const InputFile& file, std::size_t max_pixels, const 
     return pasted(depth, display, data);
 }
 
-Result<Plane> depth_of_exr(std::shared_ptr<const InputFile> file, const ReadOptions& options,
+Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                            const Rect& display, const Rect& data, std::vector<std::string>& detected) {
     Result<ExrFile> exr = ExrFile::open(file, options.max_pixels);
     if (!exr) return exr.error();
@@ -100,7 +100,8 @@ Result<Plane> read_depth_file(const ReadOptions& options, const Rect& display_wi
     return neither(**file);
 }
 
-Result<Frame> read_png_frame(std::shared_ptr<const InputFile> file, const ReadOptions& options, bool pixels) {
+Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
+                             bool pixels) {
     const Result<PngPixels> png =
         pixels ? read_png_file(*file, options.max_pixels) : read_png_size(*file, options.max_pixels);
     if (!png) return png.error();
@@ -133,7 +134,7 @@ Result<Frame> read_png_frame(std::shared_ptr<const InputFile> file, const ReadOp
     for (std::size_t i = 0; i < frame.colour.size(); ++i) {
         const std::uint16_t* s = png->samples.data() + i * std::size_t(png->channels);
         const float a = frame.has_alpha ? float(s[3]) / float(linear.size() - 1) : 1.f;
-        const int step = png->channels == 1 ? 0 : 1;
+        const std::ptrdiff_t step = png->channels == 1 ? 0 : 1;
         frame.colour.pixels()[i] = {linear[s[0]] * a, linear[s[step]] * a, linear[s[2 * step]] * a, a};
     }
     if (!options.depth_file.empty()) {

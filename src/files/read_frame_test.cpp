@@ -15,7 +15,6 @@ namespace petzval {
 namespace {
 
 using test::quick_rgbaz;
-using test::QuickChannel;
 using test::QuickPart;
 using test::TemporaryFolder;
 using test::write_quick_exr;

@@ -50,7 +50,8 @@ class Checks(unittest.TestCase):
         for head in ("int long_one() {\n", "Result<A<B>> C::long_one(int a,\n          int b) const {\n",
                      "template <typename T>\nvoid long_one(T x) noexcept {\n",
                      "class C {\npublic:\n    C& long_one() {\n", "bool C::operator==(const C& long_one) {\n"):
-            text = "namespace a {\n" + head + LONG_BODY + "}\n" + ("};\n" if "class" in head else "") + "}\n"
+            text = "// A comment, a quote's end.\nnamespace a {\n/* { */ const char* s = \"{\";\n"
+            text += head + LONG_BODY + "}\n" + ("};\n" if "class" in head else "") + "}\n"
             self.assert_found("check_sizes.py", {"src/image/a.cpp": text}, "src/image/a.cpp", "lines, more than 60")
         self.assert_found("check_sizes.py", {"tools/a.py": "def f():\n" + LONG_BODY}, "f has 61 lines")
 
