@@ -109,57 +109,66 @@ struct QuickPart {
     std::function<void(Imf::Header&)> with = [](Imf::Header&) {};
 };
 
-inline void write_quick_exr(const std::string& path, const Rect& display,
-                            const std::vector<QuickPart>& parts) {
+inline Imf::Header quick_header(const Rect& display, const QuickPart& p) {
     const auto box = [](const Rect& r) {
         return Imath::Box2i(Imath::V2i(r.x0, r.y0), Imath::V2i(r.x1 - 1, r.y1 - 1));
     };
+    Imf::Header header(box(display), box(p.data_window));
+    header.setType(p.tile ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+    if (p.tile) header.setTileDescription(Imf::TileDescription(unsigned(p.tile), unsigned(p.tile)));
+    if (!p.name.empty()) header.setName(p.name);
+    if (!p.view.empty()) header.setView(p.view);
+    header.compression() = p.compression;
+    for (const QuickChannel& c : p.channels)
+        header.channels().insert(c.name, Imf::Channel(c.type, c.sampling, c.sampling));
+    p.with(header);
+    return header;
+}
+
+// The samples of one channel, as the file stores them.
+inline std::vector<char> quick_samples(const Rect& window, const QuickChannel& c) {
+    const int width = window.width() / c.sampling, height = window.height() / c.sampling;
+    const std::size_t size = c.type == Imf::HALF ? 2 : 4;
+    std::vector<char> stored(std::size_t(width) * std::size_t(height) * size);
+    char* to = stored.data();
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x, to += size) {
+            const double v = c.value(window.x0 + x * c.sampling, window.y0 + y * c.sampling);
+            if (c.type == Imf::HALF) *reinterpret_cast<Imath::half*>(to) = float(v);
+            if (c.type == Imf::FLOAT) *reinterpret_cast<float*>(to) = float(v);
+            if (c.type == Imf::UINT) *reinterpret_cast<std::uint32_t*>(to) = std::uint32_t(v);
+        }
+    return stored;
+}
+
+inline void write_quick_part(Imf::MultiPartOutputFile& file, int n, const QuickPart& p) {
+    const Rect& w = p.data_window;
+    std::vector<std::vector<char>> stored;
+    Imf::FrameBuffer buffer;
+    for (const QuickChannel& c : p.channels) {
+        stored.push_back(quick_samples(w, c));
+        const std::size_t size = c.type == Imf::HALF ? 2 : 4;
+        const std::size_t row = size * std::size_t(w.width() / c.sampling);
+        buffer.insert(c.name, Imf::Slice::Make(c.type, stored.back().data(), Imath::V2i(w.x0, w.y0),
+                                               w.width(), w.height(), size, row, c.sampling, c.sampling));
+    }
+    if (!p.tile) {
+        Imf::OutputPart out(file, n);
+        out.setFrameBuffer(buffer);
+        return out.writePixels(w.height());
+    }
+    Imf::TiledOutputPart out(file, n);
+    out.setFrameBuffer(buffer);
+    for (int l = 0; l < out.numLevels(); ++l)
+        out.writeTiles(0, out.numXTiles(l) - 1, 0, out.numYTiles(l) - 1, l);
+}
+
+inline void write_quick_exr(const std::string& path, const Rect& display,
+                            const std::vector<QuickPart>& parts) {
     std::vector<Imf::Header> headers;
-    for (const QuickPart& p : parts) {
-        Imf::Header header(box(display), box(p.data_window));
-        header.setType(p.tile ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
-        if (p.tile) header.setTileDescription(Imf::TileDescription(unsigned(p.tile), unsigned(p.tile)));
-        if (!p.name.empty()) header.setName(p.name);
-        if (!p.view.empty()) header.setView(p.view);
-        header.compression() = p.compression;
-        for (const QuickChannel& c : p.channels)
-            header.channels().insert(c.name, Imf::Channel(c.type, c.sampling, c.sampling));
-        p.with(header);
-        headers.push_back(header);
-    }
+    for (const QuickPart& p : parts) headers.push_back(quick_header(display, p));
     Imf::MultiPartOutputFile file(path.c_str(), headers.data(), int(headers.size()));
-    for (std::size_t n = 0; n < parts.size(); ++n) {
-        const QuickPart& p = parts[n];
-        const Rect& w = p.data_window;
-        std::vector<std::vector<char>> stored;
-        Imf::FrameBuffer buffer;
-        for (const QuickChannel& c : p.channels) {
-            const int width = w.width() / c.sampling, height = w.height() / c.sampling;
-            const std::size_t size = c.type == Imf::HALF ? 2 : 4;
-            stored.emplace_back(std::size_t(width) * std::size_t(height) * size);
-            char* to = stored.back().data();
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x, to += size) {
-                    const double v = c.value(w.x0 + x * c.sampling, w.y0 + y * c.sampling);
-                    if (c.type == Imf::HALF) *reinterpret_cast<Imath::half*>(to) = float(v);
-                    if (c.type == Imf::FLOAT) *reinterpret_cast<float*>(to) = float(v);
-                    if (c.type == Imf::UINT) *reinterpret_cast<std::uint32_t*>(to) = std::uint32_t(v);
-                }
-            buffer.insert(c.name, Imf::Slice::Make(c.type, stored.back().data(), Imath::V2i(w.x0, w.y0),
-                                                   w.width(), w.height(), size, size * std::size_t(width),
-                                                   c.sampling, c.sampling));
-        }
-        if (p.tile) {
-            Imf::TiledOutputPart out(file, int(n));
-            out.setFrameBuffer(buffer);
-            for (int l = 0; l < out.numLevels(); ++l)
-                out.writeTiles(0, out.numXTiles(l) - 1, 0, out.numYTiles(l) - 1, l);
-        } else {
-            Imf::OutputPart out(file, int(n));
-            out.setFrameBuffer(buffer);
-            out.writePixels(w.height());
-        }
-    }
+    for (std::size_t n = 0; n < parts.size(); ++n) write_quick_part(file, int(n), parts[n]);
 }
 
 // R, G, B, A half and Z float, all different everywhere.
