@@ -1,0 +1,194 @@
+#include "defocus_flags.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+Result<int> parse_overscan(const std::string& text) {
+    if (text == "auto") return kAutomatic;
+    if (const auto count = parse_size_px(text)) return count;
+    return Error{ErrorCode::InvalidArgument, "not auto or a number of pixels, 1 to 65536"};
+}
+
+const std::vector<std::pair<std::string, Quality>> kQualities{
+    {"draft", Quality::Draft}, {"standard", Quality::Standard}, {"final", Quality::Final}};
+
+}  // namespace
+
+std::string quality_name(Quality quality) {
+    for (const auto& [name, value] : kQualities)
+        if (value == quality) return name;
+    return "?";
+}
+
+void DefocusFlags::add_engine_to(Verb& verb) {
+    FlagGroup(verb, "Engine")
+        .value(
+            "--engine", "NAME", listed(engine_names()) + "; scatter is the default",
+            [](const std::string& text) -> Result<std::string> {
+                const auto names = engine_names();
+                if (std::find(names.begin(), names.end(), text) != names.end()) return text;
+                return Error{ErrorCode::InvalidArgument, "not one of " + listed(names)};
+            },
+            engine)
+        .value(
+            "--quality", "NAME",
+            "draft, standard (default) or final: accuracy only, never the size of the blur",
+            [](const std::string& text) { return parse_name(text, kQualities); }, quality)
+        .value("--pupil-points", "N", "rays per pixel of --engine reference (default 4096)", parse_count,
+               pupil_points)
+        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, seed)
+        .value("--max-memory", "BYTES", "use at most this much for the work, as 2G", parse_bytes,
+               max_memory_bytes);
+}
+
+void DefocusFlags::add_output_to(Verb& verb) {
+    FlagGroup(verb, "Output")
+        .value("-o,--output", "OUT",
+               "the result: .exr holds scene-linear light and all else the input held, .png "
+               "a display picture",
+               parse_text, output)
+        .value(
+            "--view", "NAME",
+            "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha; of "
+            "--engine gaussian: sharp, blur-small, blur-large, focus-index",
+            [](const std::string& text) { return parse_name(text, view_names()); }, view)
+        .value(
+            "--overscan", "PX",
+            "grow the data window by so many pixels, or by as many as the blur reaches (auto), where it ends "
+            "inside the frame",
+            parse_overscan, overscan_px);
+}
+
+void DefocusFlags::add_to(Verb& verb) {
+    input.add_to(verb);
+    input.add_depth_to(verb);
+    input.add_others_to(verb);
+    input.add_transfer_to(verb);
+    plate.add_to(verb);
+    camera.add_to(verb, "file");
+    focus.add_to(verb);
+    lens.add_to(verb);
+    lens.add_character_to(verb);
+    glare.add_to(verb);
+    add_engine_to(verb);
+    engine_options.add_to(verb);
+    add_output_to(verb);
+    run.add_json_to(verb);
+    overwrite.add_to(verb, true);
+    develop.add_to(verb);
+    run.add_threads_to(verb);
+    run.add_log_to(verb, true);
+}
+
+// Radii are given: whatever else would make them has no effect.
+void DefocusFlags::check_coc_input() const {
+    std::vector<std::string> idle = camera.given();
+    for (std::string& name : focus.given()) idle.push_back(std::move(name));
+    if (view == ViewKind::Depth) idle.emplace_back("--view depth");
+    if (!idle.empty())
+        throw UsageError(listed(idle) +
+                         " cannot be used with --depth-kind coc-px: blur radii are given, not depth");
+}
+
+void DefocusFlags::check(const Verb& verb) {
+    require_argument(verb, input.path, "an input picture");
+    require_argument(verb, output, "-o OUT");
+    run.apply();
+    overwrite.check();
+    input.check();
+    lens.check();
+    refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
+    if (focus.focus_falloff && !focus.focus_range_m)
+        throw UsageError("--focus-falloff has no effect without --focus-range, as --focus-range 1.8m,3m");
+    if (pupil_points && engine != "reference")
+        throw UsageError("--pupil-points is for --engine reference; " + engine + " takes --quality");
+    engine_options.check(engine, view);
+    if (input.depth_is_coc()) check_coc_input();
+    glare.check(lens.choice());
+    plate.check();
+    if (plate.expand && !input.behind.empty())
+        throw UsageError("--expand-highlights cannot be used with --behind: a plate has no hidden layers");
+    check_view();
+    check_display();
+}
+
+// Flags that --view has no use for.
+void DefocusFlags::check_view() const {
+    const bool computes = view == ViewKind::Beauty || view == ViewKind::Alpha;
+    const std::string here = " has no effect on --view " + std::string(name_of(view));
+    if (!input.holdout.empty() && !computes) throw UsageError("--holdout" + here);
+    if (overscan_px && !computes) throw UsageError("--overscan" + here);
+    if (view == ViewKind::Beauty) return;
+    if (plate.expand) throw UsageError("--expand-highlights is part of --view beauty only");
+    if (const auto given = glare.given(); !given.empty())
+        throw UsageError(listed(given) + ": glare is part of --view beauty only");
+}
+
+// Flags of display pictures.
+void DefocusFlags::check_display() const {
+    const auto kind = kind_of_output(output);
+    if (!kind) throw UsageError(kind.error().message);
+    if (*kind == FileKind::Png && is_developed(view)) return;
+    for (const auto& [name, given] : {std::pair{"--exposure", develop.exposure_stops.has_value()},
+                                      std::pair{"--contrast", develop.contrast.has_value()},
+                                      std::pair{"--tone", develop.tone.has_value()}})
+        if (given)
+            throw UsageError(std::string(name) +
+                             " is for display pictures: --view beauty or focus with -o FILE.png");
+}
+
+std::vector<std::string> DefocusFlags::input_files() const {
+    std::vector<std::string> files{input.path};
+    if (!input.read.depth_file.empty()) files.push_back(input.read.depth_file);
+    if (!input.behind.empty()) files.push_back(input.behind);
+    if (!engine_options.points.empty()) files.push_back(engine_options.points);
+    if (!input.holdout.empty()) files.push_back(input.holdout);
+    files.insert(files.end(), input.merge.begin(), input.merge.end());
+    for (std::string& file : lens.input_files()) files.push_back(std::move(file));
+    return files;
+}
+
+DefocusJob DefocusFlags::job(const Input& loaded, const Camera& complete) const {
+    DefocusJob job;
+    job.colour = loaded.frame.colour.view();
+    job.depth_m = loaded.frame.depth.view();
+    job.depth_is_coc = input.depth_is_coc();
+    if (!loaded.frame.deep.empty()) job.deep = &loaded.frame.deep;
+    if (!loaded.behind.empty()) job.behind = &loaded.behind;
+    if (!loaded.holdout.empty()) job.holdout = &loaded.holdout;
+    job.display_window = loaded.frame.display_window;
+    job.data_window = loaded.frame.data_window;
+    job.pixel_aspect = loaded.frame.pixel_aspect;
+    job.camera = complete;
+    job.coc = focus.controls();
+    job.lens = lens.choice();
+    job.engine = engine;
+    engine_options.apply(job, view);
+    job.quality = quality;
+    job.pupil_points = pupil_points.value_or(job.pupil_points);
+    job.threads = run.threads;
+    job.max_memory_bytes = max_memory_bytes;
+    job.seed = seed;
+    return job;
+}
+
+Json DefocusFlags::parameters_json(const DefocusJob& job) const {
+    return {{"view", name_of(view)},
+            {"quality", quality_name(job.quality)},
+            {"pupil_points", job.pupil_points},
+            {"threads", job.threads},
+            {"max_memory_bytes", job.max_memory_bytes},
+            {"seed", job.seed},
+            {"near_scale", job.coc.near_scale},
+            {"far_scale", job.coc.far_scale},
+            {"max_radius_px", number(job.coc.max_radius_px)},
+            {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
+            {"focus_falloff", job.coc.focus_falloff},
+            {"expand_highlights", plate.json()},
+            {"engine_options", engine_options.json()}};
+}
+
+}  // namespace petzval::cli
