@@ -44,32 +44,41 @@ void append_side(std::vector<Point>& outline, double from, double to, double cur
     append_arc(outline, circle, middle - spread, middle + spread, tolerance);
 }
 
-double angle_about(const Circle& circle, Point p) {
-    return std::atan2(p.y - circle.centre.y, p.x - circle.centre.x);
-}
-
 bool inside(const Circle& circle, Point p) {
     const Point d = p - circle.centre;
     return d.x * d.x + d.y * d.y <= circle.radius * circle.radius;
 }
 
-// Parameters 0 < t < 1 at which p + t (q - p) crosses the circle, in order.
+// Parameters 0…1 at which p + t (q - p) crosses the circle, in order. The ends decide how often: a root that
+// rounding puts beside the edge is put back on it.
 struct Crossings {
     double t[2] = {};
     int count = 0;
 };
 Crossings crossings(const Circle& circle, Point p, Point q) {
+    const bool from_inside = inside(circle, p), to_inside = inside(circle, q);
+    if (from_inside && to_inside) return {};
     const Point d = q - p, o = p - circle.centre;
     const double a = d.x * d.x + d.y * d.y, b = d.x * o.x + d.y * o.y;
     const double c = o.x * o.x + o.y * o.y - circle.radius * circle.radius;
     const double discriminant = b * b - a * c;
-    Crossings found;
-    if (a == 0 || discriminant <= 0) return found;
-    for (const double sign : {-1.0, 1.0}) {
-        const double t = (-b + sign * std::sqrt(discriminant)) / a;
-        if (t > 0 && t < 1) found.t[found.count++] = t;
+    if (from_inside != to_inside) {
+        const double root = std::sqrt(std::max(0.0, discriminant));
+        return {{std::clamp(from_inside ? (-b + root) / a : (-b - root) / a, 0.0, 1.0)}, 1};
     }
-    return found;
+    if (discriminant <= 0) return {};
+    const double first = (-b - std::sqrt(discriminant)) / a, second = (-b + std::sqrt(discriminant)) / a;
+    if (first <= 0 || second >= 1) return {};
+    return {{first, second}, 2};
+}
+
+// Angle from p to q about the circle's centre, 0…2 pi; `about_none`: of two points that are one but for
+// rounding.
+double turn_about(const Circle& circle, Point p, Point q, double about_none) {
+    const Point a = p - circle.centre, b = q - circle.centre;
+    const double turn = std::atan2(cross(a, b), a.x * b.x + a.y * b.y);
+    if (std::abs(turn) < 1e-9) return about_none;
+    return turn < 0 ? turn + 2 * kPi : turn;
 }
 
 bool contains(const std::vector<Point>& convex, Point p) {
@@ -96,30 +105,34 @@ std::vector<Point> aperture_outline(const ApertureShape& shape, double tolerance
 }
 
 std::vector<Point> clipped(const std::vector<Point>& outline, const Circle& circle, double tolerance) {
-    std::vector<Point> kept;
-    bool gap_open = false;  // the outline went outside at gap_from and has not come back
-    Point gap_from;
-    const auto close_gap = [&](Point to) {
-        const double from = angle_about(circle, gap_from), turn = angle_about(circle, to) - from;
-        append_arc(kept, circle, from, from + (turn > 0 ? turn : turn + 2 * kPi), tolerance);
-        gap_open = false;
+    // What is kept of the outline, in order; after a point that leaves the circle an arc follows.
+    struct Kept {
+        Point at;
+        bool leaves = false;
     };
+    std::vector<Kept> kept;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const Point p = outline[i], q = outline[(i + 1) % outline.size()];
         bool is_inside = inside(circle, p);
-        if (is_inside) kept.push_back(p);
+        if (is_inside) kept.push_back({p});
         const Crossings cuts = crossings(circle, p, q);
-        for (int k = 0; k < cuts.count; ++k, is_inside = !is_inside) {
-            const Point at = p + cuts.t[k] * (q - p);
-            if (gap_open) close_gap(at);
-            if (is_inside) gap_from = at, gap_open = true;
-            kept.push_back(at);
-        }
+        for (int k = 0; k < cuts.count; ++k, is_inside = !is_inside)
+            kept.push_back({p + cuts.t[k] * (q - p), is_inside});
     }
-    if (gap_open) close_gap(kept.front());
+    std::vector<Point> result;
     // No edge meets the circle and none is inside it: it lies wholly inside the outline, or wholly outside.
-    if (kept.empty() && contains(outline, circle.centre)) append_arc(kept, circle, 0, 2 * kPi, tolerance);
-    return kept;
+    if (kept.empty() && contains(outline, circle.centre)) append_arc(result, circle, 0, 2 * kPi, tolerance);
+    // One edge that grazes the circle takes nothing of it away; elsewhere, meeting points are met corners.
+    const double about_none = kept.size() == 2 ? 2 * kPi : 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const Point p = kept[i].at;
+        result.push_back(p);
+        if (!kept[i].leaves) continue;
+        const double turn = turn_about(circle, p, kept[(i + 1) % kept.size()].at, about_none);
+        const double from = std::atan2(p.y - circle.centre.y, p.x - circle.centre.x);
+        if (turn > 0) append_arc(result, circle, from, from + turn, tolerance);
+    }
+    return result;
 }
 
 // Edge by edge, what lies to the right of one is dropped (Sutherland and Hodgman, 1974).
