@@ -175,6 +175,10 @@ std::vector<LensSummary> lens_list() {
     for (const lens_files::ShelfItem& item : lens_files::shelf()) {
         const auto file = lens_files::find_lens(std::string(item.name));
         if (!file) continue;  // the shelf's own test reads every one of them
+        if (file->curves) {
+            list.push_back(summary_of(*file->curves));
+            continue;
+        }
         const auto first = optics::first_order(file->lens, file->lens.primary_um);
         if (first) list.push_back(summary_of(file->lens, *first));
     }
@@ -191,6 +195,13 @@ Result<LensFacts> lens_facts(const std::string& name_or_file) {
     const auto file = lens_files::find_lens(name_or_file);
     if (!file && file.error().code == ErrorCode::InvalidArgument) return unknown_lens(name_or_file);
     if (!file) return file.error();
+    if (file->curves) {
+        LensFacts facts = facts_of(*file->curves);
+        facts.summary.year = file->lens.year, facts.summary.source = file->lens.source;
+        facts.summary.history = file->lens.history;
+        facts.format = file->format, facts.notes = file->lens.notes, facts.warnings = file->warnings;
+        return facts;
+    }
     auto facts = facts_of(*file);
     if (!facts) return Error{ErrorCode::InvalidFile, name_or_file + ": " + facts.error().message};
     return facts;

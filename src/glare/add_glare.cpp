@@ -8,7 +8,7 @@
 #include "glare/light.h"
 #include "glare/star_kernel.h"
 #include "glare/streaks.h"
-#include "kernel/aberration_curves.h"
+#include "kernel/lens_model.h"
 #include "kernel/pupil.h"
 
 #include <sstream>
@@ -117,7 +117,7 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& s) {
 
     GhostModel ghosts;
     if (s.ghosts > 0) {
-        if (s.lens.name == "ideal" || kernel::curve_preset(s.lens.name)) {
+        if (kernel::is_drawn(s.lens.name)) {
             ghosts = sprite_ghosts(s.lens.aperture, height, s.pixel_aspect);
         } else {
             auto traced = prescription_ghosts(s, display.width());

@@ -3,7 +3,7 @@
 #include "petzval/glare.h"
 
 #include "base/parallel.h"
-#include "kernel/aberration_curves.h"
+#include "kernel/lens_model.h"
 #include "kernel/pupil.h"
 #include "lens_files/shelf.h"
 #include "optics/aberrations.h"
@@ -83,7 +83,7 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
     const double mm_per_px = camera.sensor_width_mm / display.width();
 
     Opening opening = barrel(settings);
-    if (settings.lens.name != "ideal" && !kernel::curve_preset(settings.lens.name)) {
+    if (!kernel::is_drawn(settings.lens.name)) {
         auto traced = rims(settings, half_diagonal * mm_per_px);
         if (!traced) return traced.error();
         opening = [cats_eye = std::move(opening), traced = std::move(*traced)](kernel::FieldPosition field) {

@@ -1,13 +1,8 @@
-// Longitudinal aberration curves: where, along the axis, the light of each pupil zone and wavelength meets.
-//
-// Following M. Kawase, "Rendering lecture 2.0", CEDEC 2008: one curve per wavelength of focus shift against
-// pupil height describes what spherical aberration and axial colour do to the blur of a lens. Shift and
-// height are in units of the focal length, so that a lens scales to any focal length and format.
+// Aberration curves in use: sampled for one wavelength and aperture; and the curves that ship.
 #pragma once
 
-#include "petzval/result.h"
-
 #include "kernel/spline.h"
+#include "optics/aberration_curves.h"
 
 #include <string>
 #include <string_view>
@@ -15,20 +10,7 @@
 
 namespace petzval::kernel {
 
-struct AberrationCurves {
-    std::string name, description;
-    // What the curves were drawn for. Wider apertures than f_number stretch the curves' heights so that the
-    // rim keeps its shift; smaller ones use their inner part alone.
-    double focal_length_mm = 50, f_number = 2, sensor_width_mm = 36;
-    std::vector<double> wavelength_nm;  // rising, >= 1
-    std::vector<double> pupil_height;   // rising from 0, >= 2; the last is at least 1/(2 f_number)
-    // shift[w][i]: focus of height i at wavelength w from the paraxial focus at 587.56 nm, + away from the
-    // lens.
-    std::vector<std::vector<double>> shift;
-};
-
-// Errors: InvalidFile saying which list is too short, not rising or of the wrong length.
-Status check_curves(const AberrationCurves& curves);
+using optics::AberrationCurves;
 
 // Names of the curves that ship, in the order they are listed.
 std::vector<std::string> curve_preset_names();
@@ -62,7 +44,7 @@ struct CurveUse {
 // Smooth in height squared and in 1/wavelength^2 (cubic splines), continued straight beyond the ends.
 class CurveSampler {
 public:
-    // Requires: check_curves(curves).
+    // Requires: optics::check(curves).
     CurveSampler(const AberrationCurves& curves, const CurveUse& use);
     ZoneShift at(double wavelength_nm) const;
     // Shift of least mean square blur over the pupil, wavelengths weighted by their luminance: rays of height

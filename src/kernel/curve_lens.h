@@ -19,7 +19,7 @@ namespace petzval::kernel {
 
 class CurveLens final : public GeometricLens {
 public:
-    // Requires: check_curves(curves), check_aperture(choice), camera numbers > 0.
+    // Requires: optics::check(curves), check_aperture(choice), camera numbers > 0.
     CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount);
 
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;

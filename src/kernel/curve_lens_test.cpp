@@ -263,15 +263,15 @@ TEST(CurveLens, WiderThanDrawnForStretchesTheCurvesAndSaysSo) {
 
 TEST(Curves, DamagedCurvesAreRefused) {
     AberrationCurves curves = third_order(0.01);
-    EXPECT_TRUE(check_curves(curves));
+    EXPECT_TRUE(optics::check(curves));
     curves.shift[0].pop_back();
-    EXPECT_FALSE(check_curves(curves));
+    EXPECT_FALSE(optics::check(curves));
     curves = third_order(0.01), curves.pupil_height = {0, 0.1, 0.1};
-    EXPECT_FALSE(check_curves(curves));
+    EXPECT_FALSE(optics::check(curves));
     curves = third_order(0.01), curves.f_number = 1;  // its rim is beyond the last height
-    EXPECT_FALSE(check_curves(curves));
+    EXPECT_FALSE(optics::check(curves));
     curves = third_order(0.01), curves.shift[0][1] = std::nan("");
-    EXPECT_FALSE(check_curves(curves));
+    EXPECT_FALSE(optics::check(curves));
 }
 
 }  // namespace

@@ -82,6 +82,10 @@ struct Mount {
     double pixel_aspect = 1;  // vertical radii in pixels are multiplied by it
 };
 
+// True for the ideal lens and lenses drawn as curves, also from files; false for prescriptions and names of
+// no lens.
+bool is_drawn(const std::string& name);
+
 // Errors: InvalidArgument naming an unknown lens (the message lists the known ones) or an aperture number out
 // of range.
 Result<std::unique_ptr<const LensModel>> make_lens(const LensChoice& choice, const Mount& mount);

@@ -68,10 +68,17 @@ Result<RayLens> ray_lens(const LensChoice& choice, const Mount& mount) {
     const auto file = lens_files::find_lens(choice.name);
     if (!file) return unknown(choice.name, file.error());
     if (const Status status = check_camera(mount); !status) return status.error();
+    if (file->curves) return RayLens(std::make_unique<CurveLens>(*file->curves, choice, mount));
     return TracedModel::make(file->lens, choice, mount);
 }
 
 }  // namespace
+
+bool is_drawn(const std::string& name) {
+    if (name == "ideal" || curve_preset(name)) return true;
+    const auto file = lens_files::find_lens(name);
+    return file && file->curves;
+}
 
 Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
     if (const Status status = check_aperture(choice); !status) return status.error();

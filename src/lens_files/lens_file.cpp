@@ -69,11 +69,12 @@ Result<LensFile> read_lens(std::string_view bytes, const std::string& name) {
     }
     auto file = read_any(decode_text(bytes));
     if (!file) return named(name, file.error());
-    if (const Status status = optics::check(file->lens); !status)
-        return Error{ErrorCode::InvalidFile, name + ": " + status.error().message};
+    const Status status = file->curves ? optics::check(*file->curves) : optics::check(file->lens);
+    if (!status) return Error{ErrorCode::InvalidFile, name + ": " + status.error().message};
     if (file->lens.name.empty())
         file->lens.name = file->lens.id.empty() ? std::filesystem::path(name).stem().string() : file->lens.id;
     if (file->lens.id.empty()) file->lens.id = std::filesystem::path(name).stem().string();
+    if (file->curves) file->curves->name = file->lens.id, file->curves->description = file->lens.name;
     return file;
 }
 

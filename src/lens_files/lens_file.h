@@ -1,6 +1,8 @@
-// Reading lenses: a prescription from the text of any format we know, recognised by its content.
+// Reading lenses: a prescription, or aberration curves, from the text of any format we know, recognised by
+// its content.
 //
-//   own JSON        one entry of a lens list saved alone; lenses/*.json in this repository are examples
+//   own JSON        one entry of a lens list saved alone; lenses/*.json in this repository are examples;
+//                   or longitudinal aberration curves instead of surfaces (docs/lens-files.md)
 //   Zemax .zmx      sequential, refracting, rotationally symmetric
 //   CODE V .seq     likewise
 //   pbrt .dat       radius, thickness, index, aperture diameter; stop has radius 0
@@ -12,8 +14,10 @@
 
 #include "petzval/result.h"
 
+#include "optics/aberration_curves.h"
 #include "optics/prescription.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,14 +25,16 @@
 namespace petzval::lens_files {
 
 struct LensFile {
-    optics::Prescription lens;
-    std::string format;                 // as in the list above
-    std::vector<std::string> warnings;  // one sentence each, for the user
+    optics::Prescription lens;                       // of a lens drawn as curves only the texts
+    std::optional<optics::AberrationCurves> curves;  // instead of surfaces
+    std::string format;                              // as in the list above
+    std::vector<std::string> warnings;               // one sentence each, for the user
 };
 
 inline constexpr std::size_t kLargestLensFile = 2 << 20;  // bytes
 
-// `name` stands in front of every message: "NAME: line 3: …". The result has passed optics::check.
+// `name` stands in front of every message: "NAME: line 3: …". The lens or its curves have passed
+// optics::check.
 // Errors: InvalidFile for damaged or unsupported content, or bytes that are none of the formats.
 Result<LensFile> read_lens(std::string_view bytes, const std::string& name);
 

@@ -320,7 +320,7 @@ Status Reader::finish(const Json& root) {
         const Json* several = root.find("lenses");
         return at_line(root.line, several ? "this is a list of " + std::to_string(several->items.size()) +
                                                 " lenses; save one entry alone"
-                                          : "there are no \"surfaces\": this is no lens");
+                                          : "there are neither \"surfaces\" nor \"curves\": this is no lens");
     }
     if (!has_stop_) {
         lens.stop = 0;
@@ -349,6 +349,13 @@ Status Reader::finish(const Json& root) {
 Result<LensFile> Reader::read(const Json& root) {
     file_.format = "petzval JSON";
     if (!root.is(Json::Type::Object)) return at_line(root.line, "a lens file holds one JSON object");
+    if (root.find("curves")) {
+        if (const Status status = texts(root); !status) return status.error();
+        auto curves = read_json_curves(root);
+        if (!curves) return curves.error();
+        curves->lens = std::move(file_.lens);
+        return curves;
+    }
     if (const Json* units = root.find("units"))
         if (const Status status = scale(*units); !status) return status.error();
     if (const Json* glasses = root.find("glasses")) {

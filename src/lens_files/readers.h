@@ -16,6 +16,8 @@ namespace petzval::lens_files {
 // Each returns errors "line N: …"; read_lens puts the file's name in front.
 Result<LensFile> read_json_lens(const std::string& text);
 Result<LensFile> read_json_lens(const Json& root);
+// Of an object with "curves"; `lens` is left empty.
+Result<LensFile> read_json_curves(const Json& root);
 Result<LensFile> read_zmx(const std::string& text);
 Result<LensFile> read_seq(const std::string& text);
 Result<LensFile> read_pbrt(const std::string& text);
