@@ -26,7 +26,7 @@ ALLOWED = {
 # The room that implements each public header: including it is knowing that room.
 PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
-    "compare": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
+    "compare": "image", "light_point": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
     "dynamic_range": "colour", "lens_facts": "api", "lens_kernel": "api", "defocus": "engine",
     "engine_options": "engine", "glare": "glare", "files": "files", "scene": "scene", "petzval": "api",
 }

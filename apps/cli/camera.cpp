@@ -78,6 +78,9 @@ void FocusFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Focus")
         .value("--focus-at", "X,Y", "focus on what this pixel shows, counted from the top left", parse_pixel,
                focus_at)
+        .value("--focus-point", "X,Y,Z",
+               "focus on this point of the scene's world, in its units, by the file's worldToCamera",
+               parse_place, focus_point)
         .value("--focus-range", "M,M", "keep everything between two distances sharp, as 1.8m,3m",
                parse_range_m, focus_range_m)
         .value("--focus-falloff", "SHARE",
@@ -92,6 +95,7 @@ void FocusFlags::add_to(Verb& verb) {
 std::vector<std::string> FocusFlags::given() const {
     std::vector<std::string> names;
     if (focus_at) names.emplace_back("--focus-at");
+    if (focus_point) names.emplace_back("--focus-point");
     if (focus_range_m) names.emplace_back("--focus-range");
     if (focus_falloff) names.emplace_back("--focus-falloff");
     if (near_scale) names.emplace_back("--near-scale");

@@ -128,6 +128,12 @@ Status Run::choose_camera() {
     if (!needs_camera()) return Done{};
     if (flags_.focus.focus_at)
         if (Status done = focus_on_pixel(input_, *flags_.focus.focus_at); !done) return done;
+    if (flags_.focus.focus_point) {
+        const auto line =
+            focus_on_point(input_, *flags_.focus.focus_point, flags_.input.unit_scale_m.value_or(1));
+        if (!line) return line.error();
+        if (!line->empty()) warn({*line});
+    }
     auto camera = complete_camera(input_.camera, image_scale(), flags_.input.path, flags_.output);
     if (!camera) return camera.error();
     camera_ = *camera;

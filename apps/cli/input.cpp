@@ -324,4 +324,23 @@ Status focus_on_pixel(Input& input, Pixel pixel) {
     return Done{};
 }
 
+Result<std::string> focus_on_point(Input& input, Place place, double unit_scale_m) {
+    const std::string name = "--focus-point " + plain(place.x) + "," + plain(place.y) + "," + plain(place.z);
+    if (!input.camera.camera_from_world)
+        return Error{ErrorCode::InvalidArgument,
+                     name + ": the input has no worldToCamera matrix; give --focus or --focus-at"};
+    const auto& m = *input.camera.camera_from_world;
+    const auto column = [&](std::size_t k) {
+        return place.x * m[k] + place.y * m[4 + k] + place.z * m[8 + k] + m[12 + k];
+    };
+    const double depth = column(2) / column(3) * unit_scale_m;
+    if (!std::isfinite(depth) || depth == 0)
+        return Error{ErrorCode::InvalidArgument,
+                     name + " lies in the plane of the lens by the file's worldToCamera"};
+    input.camera.focus_distance_m = FoundNumber{std::abs(depth), name};
+    if (depth > 0) return std::string();
+    return name + " lies on the camera's -z, where OpenEXR's cameras look along +z; taken as " +
+           plain(-depth) + " m in front of it";
+}
+
 }  // namespace petzval::cli

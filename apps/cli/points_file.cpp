@@ -1,5 +1,7 @@
 #include "points_file.h"
 
+#include "output.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -143,6 +145,26 @@ private:
 
 Result<PointsFile> read_points(const std::string& path, const Rect& data_window) {
     return Reader(path, data_window).read();
+}
+
+Status write_points(const std::string& path, const std::vector<LightPoint>& points,
+                    const std::vector<std::string>& comment) {
+    std::string text;
+    text.reserve(points.size() * 72 + 256);
+    for (const std::string& line : comment) text += "# " + line + "\n";
+    text += "x,y,depth,r,g,b,size\n";
+    for (const LightPoint& p : points) {
+        char separator = '\0';
+        for (const float value : {p.x, p.y, p.depth_m, p.r, p.g, p.b, p.diameter_px}) {
+            std::array<char, 32> digits;
+            if (separator) text += separator;
+            text.append(digits.data(),
+                        std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+            separator = ',';
+        }
+        text += '\n';
+    }
+    return write_text(path, text);
 }
 
 }  // namespace petzval::cli

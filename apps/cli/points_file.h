@@ -23,4 +23,9 @@ struct PointsFile {
 // value missing, too many, or not a number).
 Result<PointsFile> read_points(const std::string& path, const Rect& data_window);
 
+// Points by depth, written so that read_points() reads the same floats again. `comment`: lines without '#'.
+// Errors: OutputFailed.
+Status write_points(const std::string& path, const std::vector<LightPoint>& points,
+                    const std::vector<std::string>& comment);
+
 }  // namespace petzval::cli

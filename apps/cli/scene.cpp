@@ -196,11 +196,18 @@ Status list_scenes(const RunFlags& run) {
                           {"frames", scene.frames},
                           {"camera", camera_json(camera_of_scene(c, "scene " + scene.name), c.image_scale)}});
     }
+    text += "points\n";
+    Json points = Json::array();
+    for (const PointSetSummary& set : point_set_list()) {
+        text += "  " + set.name + std::string(8 - set.name.size(), ' ') + set.purpose + "\n";
+        points.push_back({{"name", set.name}, {"purpose", set.purpose}, {"count", set.count}});
+    }
     if (run.json != "-" && !print(text))
         return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
     if (run.json.empty()) return Done{};
     Json report = new_report("scene list");
     report["scenes"] = scenes;
+    report["points"] = points;
     return write_report(report, run.json);
 }
 
@@ -228,11 +235,13 @@ void add_make(Verb& scene, Action& chosen) {
 }  // namespace
 
 void add_scene(Verb& program, Action& chosen) {
-    Verb& scene = add_verb(program, "scene", "the built-in test scenes: list and make",
+    Verb& scene = add_verb(program, "scene", "the built-in test scenes: list and make; points of light",
                            "petzval scene list\n"
-                           "petzval scene make night -o night.exr");
+                           "petzval scene make night -o night.exr\n"
+                           "petzval scene points city -o city.csv");
     add_list(scene, chosen);
     add_make(scene, chosen);
+    add_scene_points(scene, chosen);
     when_typed(scene, [&scene] { require_verb(scene); });
 }
 

@@ -1,5 +1,6 @@
 #include "values.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -131,6 +132,16 @@ Result<Pixel> parse_pixel(const std::string& text) {
     const auto y = parse_integer(parts ? parts->second : "", -kMost, kMost, "");
     if (!x || !y) return no("must be a pixel, column and row from the top left, as 480,270");
     return Pixel{*x, *y};
+}
+
+Result<Place> parse_place(const std::string& text) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto others = split_at_comma(text.substr(std::min(comma + 1, text.size())));
+    const auto x = whole_number(text.substr(0, comma)), y = whole_number(others ? others->first : ""),
+               z = whole_number(others ? others->second : "");
+    if (!x || !y || !z || !std::isfinite(*x + *y + *z))
+        return no("must be a point of the scene, three numbers in its units, as 1.5,0,-3");
+    return Place{*x, *y, *z};
 }
 
 Result<int> parse_count(const std::string& text) {

@@ -20,6 +20,9 @@ struct Interval {
 struct Pixel {
     int x = 0, y = 0;
 };
+struct Place {
+    double x = 0, y = 0, z = 0;
+};
 
 // A number, "inf" included; never NaN.
 Result<double> parse_number(const std::string& text);
@@ -41,6 +44,8 @@ Result<Interval> parse_range(const std::string& text);
 Result<Interval> parse_range_m(const std::string& text);
 // "480,270".
 Result<Pixel> parse_pixel(const std::string& text);
+// "1.5,0,-3": three finite numbers.
+Result<Place> parse_place(const std::string& text);
 
 Result<int> parse_count(const std::string& text);    // 1 and more
 Result<int> parse_threads(const std::string& text);  // 0 (all) … 1024

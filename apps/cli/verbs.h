@@ -9,6 +9,7 @@ namespace petzval::cli {
 void add_defocus(Verb& program, Action& chosen);
 void add_inspect(Verb& program, Action& chosen);
 void add_scene(Verb& program, Action& chosen);
+void add_scene_points(Verb& scene, Action& chosen);
 void add_compare(Verb& program, Action& chosen);
 void add_develop(Verb& program, Action& chosen);
 void add_lens(Verb& program, Action& chosen);

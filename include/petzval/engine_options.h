@@ -1,7 +1,8 @@
 // What the lighter engines let a user choose. The defaults are what each engine is for.
 #pragma once
 
-#include <limits>
+#include "petzval/light_point.h"
+
 #include <optional>
 
 namespace petzval {
@@ -52,15 +53,6 @@ struct GaussianOptions {
     std::optional<double> depth_offset;
     // Wgld: depths that become 0 and 1; both 0: the nearest and farthest of the picture.
     double depth_near_m = 0, depth_far_m = 0;
-};
-
-// A light of no size, or nearly none, that is drawn as the lens's own kernel.
-struct LightPoint {
-    float x = 0, y = 0;         // pixels of the picture, centres at +0.5; may lie outside it
-    float r = 0, g = 0, b = 0;  // scene-linear, >= 0: what it adds to the one pixel it lights when in focus
-    // Where it is: planar depth (a miss is infinitely far) or, where that is NaN, its signed radius.
-    float depth_m = std::numeric_limits<float>::quiet_NaN(), coc_px = 0;
-    float diameter_px = 0;  // its own size in the picture, as a disc: its kernel is wider by that
 };
 
 enum class SpriteBackground { Gather, Gaussian };

@@ -39,6 +39,9 @@ struct FoundCamera {
     // Where a file gives it; with one of focal length and sensor width known, the other follows (and is
     // filled in where the file holds both of these).
     std::optional<FoundNumber> horizontal_fov_deg;
+    // The file's worldToCamera, rows one after the other: a point of the world as row vector (x, y, z, 1)
+    // times it is that point as the camera sees it, in scene units; OpenEXR's camera looks along +z.
+    std::optional<std::array<double, 16>> camera_from_world = std::nullopt;
 };
 
 // One part of a file, as `inspect` lists it.

@@ -6,6 +6,7 @@
 #include "petzval/deep.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/light_point.h"
 #include "petzval/result.h"
 
 #include <cstdint>
@@ -52,5 +53,30 @@ struct RenderedScene {
 // Deterministic for the same settings and any thread count. Errors: InvalidArgument for an unknown scene (the
 // message lists them) or numbers out of range; Cancelled.
 PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings);
+
+// Lights without a picture, for DefocusJob::points: glitter on water, a city at night, drops on the lens.
+struct PointSetSummary {
+    std::string name, purpose;  // one line each
+    int count = 0;              // lights, unless told otherwise
+    bool has_horizon = false;
+};
+
+PETZVAL_API const std::vector<PointSetSummary>& point_set_list();
+
+struct PointSettings {
+    int width = 960, height = 540;  // of the picture they are meant for
+    // The pinhole that sees them; it looks along the horizon, shifted so that this lies `horizon` of the
+    // height below the top.
+    double focal_length_mm = 50, sensor_width_mm = 36;
+    double horizon = 0.5;
+    int count = 0;  // 0: the set's own
+    std::uint64_t seed = 1;
+};
+
+// By depth, all finite, none negative; the same for the same settings on every machine with IEEE arithmetic.
+// Light is scaled with the area a pixel sees, so that a larger picture shows the same lights. Errors:
+// InvalidArgument for an unknown set (the message lists them), numbers out of range, more than there are.
+PETZVAL_API Result<std::vector<LightPoint>> make_points(const std::string& name,
+                                                        const PointSettings& settings);
 
 }  // namespace petzval

@@ -30,6 +30,18 @@ std::vector<PartSummary> summaries_of(const Layout& layout) {
     return summaries;
 }
 
+std::optional<std::array<double, 16>> camera_matrix_of(const ExrFile& exr, std::size_t colour_part) {
+    std::optional<std::array<double, 16>> rows;
+    for (int p = 0; p < exr.parts->parts(); ++p) {
+        const Imf::Header& header = exr.parts->header(p);
+        if (!Imf::hasWorldToCamera(header) || (rows && std::size_t(p) != colour_part)) continue;
+        const Imath::M44f& matrix = Imf::worldToCamera(header);
+        rows.emplace();
+        for (std::size_t i = 0; i < 16; ++i) (*rows)[i] = double(matrix[int(i / 4)][int(i % 4)]);
+    }
+    return rows;
+}
+
 // The colour's part speaks first: in a multi-part file every part may hold its own metadata.
 FoundCamera camera_of(const ExrFile& exr, std::size_t colour_part) {
     std::vector<NumericAttribute> attributes = numeric_attributes(exr.parts->header(int(colour_part)));
@@ -38,7 +50,9 @@ FoundCamera camera_of(const ExrFile& exr, std::size_t colour_part) {
         for (NumericAttribute& a : numeric_attributes(exr.parts->header(p)))
             attributes.push_back(std::move(a));
     }
-    return camera_from_metadata(attributes);
+    FoundCamera camera = camera_from_metadata(attributes);
+    camera.camera_from_world = camera_matrix_of(exr, colour_part);
+    return camera;
 }
 
 void describe_camera(const FoundCamera& camera, std::vector<std::string>& detected) {

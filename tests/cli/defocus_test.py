@@ -6,7 +6,7 @@ import struct
 import time
 import unittest
 
-from pictures import camera_attributes, picture, plane, read_exr, read_png, write_exr, write_png
+from pictures import attribute, camera_attributes, picture, plane, read_exr, read_png, write_exr, write_png
 from program import CommandLineTest
 
 FOCAL_MM, SENSOR_MM, F_NUMBER, FOCUS_M = 200, 36, 1.4, 2
@@ -100,6 +100,25 @@ class Defocus(CommandLineTest):
         self.assertEqual(report["camera"]["focus_distance_m"], slope(16, 2))
         self.assertEqual(report["camera"]["origins"]["focus_distance_m"], "--focus-at 26,7")
         self.refuse(2, "defocus", "crop.exr", "-o", "o.exr", *CAMERA[:-2], "--focus-at", "3,7", says=["10 to 41"])
+
+    def test_focus_point_goes_through_the_camera_matrix_of_the_file(self):
+        # The camera stands at (1, 2, 3) and looks along +x of the world: its z is x - 1.
+        def matrix(sign):
+            rows = [0, 0, sign, 0, 0, 1, 0, 0, -sign, 0, 0, 0, 3 * sign, -2, -sign, 1]
+            return attribute("worldToCamera", "m44f", struct.pack("<16f", *rows))
+        for sign in (1, -1):
+            write_exr(self.path("world.exr"), picture(32, 20, texture, slope), attributes=matrix(sign))
+            report = self.report("defocus", "world.exr", "-o", "out.exr", *CAMERA[:-2], "--focus-point", "3.5,9,-2")
+            self.assertAlmostEqual(report["camera"]["focus_distance_m"], 2.5)
+            self.assertEqual(report["camera"]["origins"]["focus_distance_m"], "--focus-point 3.5,9,-2")
+            self.assertEqual(any("-z" in w for w in report["warnings"]), sign < 0)
+            report = self.report("defocus", "world.exr", "-o", "out.exr", *CAMERA[:-2], "--focus-point", "351,9,-2",
+                                 "--unit-scale", "0.01")
+            self.assertAlmostEqual(report["camera"]["focus_distance_m"], 3.5, places=6)
+        self.refuse(2, "defocus", "world.exr", "-o", "no.exr", *CAMERA[:-2], "--focus-point", "1,5,5", says=["plane"])
+        write_exr(self.path("none.exr"), picture(32, 20, texture, slope))
+        self.refuse(2, "defocus", "none.exr", "-o", "no.exr", *CAMERA[:-2], "--focus-point", "1,2,3",
+                    says=["worldToCamera", "--focus-at"])
 
     def test_every_flag_that_shapes_the_blur_changes_the_result(self):
         plain = self.beauty()["G"]

@@ -139,6 +139,26 @@ class LightEngines(CommandLineTest):
         self.refuse(3, "defocus", "black.exr", "-o", "no.exr", *CAMERA, "--engine", "sprites", "--points", "none.csv",
                     says=["none.csv"])
 
+    def test_points_of_every_kind_can_be_made_and_drawn(self):
+        sizes = ["--width", "64", "--height", "40", "--focal-length", "40mm"]
+        for kind in ("glints", "city", "drops"):
+            self.succeed("scene", "points", kind, "-o", "points.csv", *sizes, "--count", "12")
+            first = open(self.path("points.csv")).read()
+            self.succeed("scene", "points", kind, "-o", "again.csv", *sizes, "--count", "12", "--seed", "1")
+            self.assertEqual(first, open(self.path("again.csv")).read())
+            self.assertEqual(sum(line[0] not in "#x" for line in first.splitlines()), 12, kind)
+            if kind == "drops":
+                self.assertGreater(sum(map(sum, self.sprites())), 0, kind)
+        self.succeed("scene", "points", "glints", "-o", "points.csv", "--no-clobber")
+        self.assertEqual(first, open(self.path("points.csv")).read())
+
+    def test_points_that_cannot_be_made_are_refused(self):
+        for words, says in ((["rain", "-o", "p.csv"], "glints, city"), (["city", "-o", "p.exr"], ".csv"),
+                            (["city"], "-o FILE.csv"), (["drops", "-o", "p.csv", "--horizon", "0.3"], "--horizon"),
+                            (["city", "-o", "p.csv", "--horizon", "7"], "horizon"),
+                            (["city", "-o", "p.csv", "--width", "64", "--count", "9000000"], "were asked for")):
+            self.refuse(2, "scene", "points", *words, says=[says])
+
     def test_the_report_holds_what_was_asked_for(self):
         report = self.report("defocus", "in.exr", "-o", "out.exr", *CAMERA, "--engine", "gather", "--gather-stage",
                              "cure", "--gather-taps", "16")

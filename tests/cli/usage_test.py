@@ -4,13 +4,13 @@ import unittest
 from pictures import picture, write_exr
 from program import CAMERA, CommandLineTest
 
-VERBS = ["defocus", "lens", "lens list", "lens show", "lens psf", "lens table", "inspect", "scene", "scene list", "scene make", "compare", "develop"]
+VERBS = ["defocus", "lens", "lens list", "lens show", "lens psf", "lens table", "inspect", "scene", "scene list", "scene make", "scene points", "compare", "develop"]
 
 # Every flag of defocus that takes a value, with a value it accepts.
 DEFOCUS_VALUES = {
     "--layer": "x", "--view-name": "left", "--depth": "in.exr", "--depth-channel": "Z", "--depth-kind": "planar",
     "--unit-scale": "0.01", "--behind": "in.exr", "--holdout": "in.exr", "--overscan": "8", "--focal-length": "50mm", "--sensor-width": "36mm", "--fstop": "2",
-    "--focus": "2m", "--focus-at": "1,1", "--image-scale": "rendered", "--focus-range": "1,3",
+    "--focus": "2m", "--focus-at": "1,1", "--focus-point": "1,2,3", "--image-scale": "rendered", "--focus-range": "1,3",
     "--near-scale": "1", "--far-scale": "1", "--max-radius": "9", "--lens": "ideal", "--blades": "5",
     "--squeeze": "2", "--cats-eye": "0.5", "--engine": "reference", "--quality": "draft", "--seed": "3",
     "--bloom": "0.1", "--star": "0", "--ghosts": "0.1", "--veil": "0.1", "--bloom-radius": "0.1", "--transfer": "srgb",
@@ -34,6 +34,9 @@ CONTRADICTIONS = [
     (["-u", "--no-clobber"], ["-u", "--no-clobber"]),
     (["-v", "-q"], ["-v", "-q"]),
     (["--focus", "2", "--focus-at", "1,1"], ["--focus", "--focus-at"]),
+    (["--focus", "2", "--focus-point", "1,1,1"], ["--focus", "--focus-point"]),
+    (["--focus-at", "2,2", "--focus-point", "1,1,1"], ["--focus-at", "--focus-point"]),
+    (["--depth-kind", "coc-px", "--focus-point", "1,1,1"], ["--focus-point", "coc-px"]),
     (["--focus-falloff", "0.2"], ["--focus-falloff", "--focus-range"]),
     (["--blade-rotation", "10"], ["--blade-rotation", "--blades"]),
     (["--blades", "0", "--blade-curvature", "1"], ["--blade-curvature", "--blades"]),
@@ -56,7 +59,7 @@ CONTRADICTIONS = [
 
 WRONG_VALUES = {
     "--focal-length": ["0", "-85mm", "85 mm", "85ft", "mm", "", "nan"], "--focus": ["0m", "3,2", "three"],
-    "--sensor-width": ["0"], "--fstop": ["0", "-2", "f2.8"], "--focus-at": ["1", "1,2,3", "a,b", "1.5,2"],
+    "--sensor-width": ["0"], "--fstop": ["0", "-2", "f2.8"], "--focus-at": ["1", "1,2,3", "a,b", "1.5,2"], "--focus-point": ["1,2", "1,2,3,4", "a,b,c", "1,2,inf"],
     "--image-scale": ["thick"], "--focus-range": ["3m,1m", "2", "0,1"], "--near-scale": ["-1", "inf"],
     "--far-scale": ["x"], "--max-radius": ["0"], "--blades": ["2", "-5", "5.5", "65"], "--blade-curvature": ["1.1"],
     "--squeeze": ["0"], "--cats-eye": ["2"], "--dust": ["2"], "--barrel": ["14", "0,3", "a,b"], "--wavelengths": ["0"],

@@ -1,0 +1,120 @@
+// petzval scene points: lights without a picture, for defocus --engine sprites --points.
+#include "petzval/scene.h"
+
+#include "console.h"
+#include "flags.h"
+#include "output.h"
+#include "points_file.h"
+#include "report.h"
+#include "run_flags.h"
+#include "values.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+namespace petzval::cli {
+namespace {
+
+struct PointsFlags {
+    std::string name, output;
+    PointSettings settings;
+    std::optional<double> horizon;
+    std::optional<int> count;
+    OverwriteFlags overwrite;
+    RunFlags run;
+
+    void add_to(Verb& verb);
+    void check(const Verb& verb);
+};
+
+void PointsFlags::add_to(Verb& verb) {
+    FlagGroup(verb, "Points")
+        .argument("NAME", "glints, city or drops", name)
+        .value("--width", "PX", "width of the picture they are for (default 960)", parse_size_px,
+               settings.width)
+        .value("--height", "PX", "its height (default 540)", parse_size_px, settings.height)
+        .value("--focal-length", "MM", "of its camera (default 50mm)", parse_length_mm,
+               settings.focal_length_mm)
+        .value("--sensor-width", "MM", "of its camera (default 36mm)", parse_length_mm,
+               settings.sensor_width_mm)
+        .value("--horizon", "SHARE", "of the height, from the top, where the horizon lies (default 0.5)",
+               parse_number, horizon)
+        .value("--count", "N", "so many points; default: as many as suit the kind", parse_count, count)
+        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, settings.seed);
+    FlagGroup(verb, "Output")
+        .value("-o,--output", "FILE.csv", "x, y, depth, r, g, b, size", parse_text, output);
+    overwrite.add_to(verb, false);
+    run.add_json_to(verb);
+    run.add_log_to(verb, false);
+}
+
+void PointsFlags::check(const Verb& verb) {
+    require_argument(verb, name, "the NAME of a kind of points");
+    require_argument(verb, output, "-o FILE.csv");
+    run.apply();
+    overwrite.check();
+    if (!output.ends_with(".csv")) throw UsageError("-o " + output + ": the name must end in .csv");
+    const auto& sets = point_set_list();
+    const auto found =
+        std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return set.name == name; });
+    if (found == sets.end()) {
+        std::vector<std::string> names;
+        for (const PointSetSummary& set : sets) names.push_back(set.name);
+        throw UsageError("there are no points called " + name + "; there are " + listed(names));
+    }
+    if (horizon && !found->has_horizon) throw UsageError("--horizon has no effect on " + name);
+    settings.horizon = horizon.value_or(settings.horizon);
+    settings.count = count.value_or(0);
+}
+
+Status make_file(const PointsFlags& flags) {
+    const Stopwatch total;
+    if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
+        note(*reason);
+        return Done{};
+    }
+    if (Status fine = check_output(flags.output, {}); !fine) return fine;
+    const PointSettings& s = flags.settings;
+    const auto points = make_points(flags.name, s);
+    if (!points) return points.error();
+    const std::string camera = plain(s.focal_length_mm) + " mm on a sensor " + plain(s.sensor_width_mm) +
+                               " mm wide, " + std::to_string(s.width) + " x " + std::to_string(s.height) +
+                               " px";
+    Status done = write_points(
+        flags.output, *points,
+        {"petzval scene points " + flags.name + ", seed " + std::to_string(s.seed), "seen by " + camera});
+    if (!done) return done;
+    note("wrote " + flags.output + ": " + std::to_string(points->size()) + " points, seen by " + camera);
+    if (flags.run.json.empty()) return Done{};
+    Json report = new_report("scene points");
+    report["input"] = flags.name;
+    report["output"] = flags.output;
+    report["parameters"] = {{"width", s.width},
+                            {"height", s.height},
+                            {"focal_length_mm", s.focal_length_mm},
+                            {"sensor_width_mm", s.sensor_width_mm},
+                            {"horizon", s.horizon},
+                            {"count", points->size()},
+                            {"seed", s.seed}};
+    report["seconds"]["total"] = total.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    return write_report(report, flags.run.json);
+}
+
+}  // namespace
+
+void add_scene_points(Verb& scene, Action& chosen) {
+    Verb& verb = add_verb(scene, "points", "lights to draw as kernels: glitter on water, a city, drops",
+                          "petzval scene points city -o city.csv --focal-length 85mm\n"
+                          "petzval defocus dusk.exr -o out.exr --engine sprites --points city.csv");
+    auto flags = std::make_shared<PointsFlags>();
+    flags->add_to(verb);
+    when_typed(verb, [flags, &verb, &chosen] {
+        flags->check(verb);
+        chosen = [flags] { return make_file(*flags); };
+    });
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,16 @@
+// A light of no size, or nearly none, that an engine draws as the lens's own kernel.
+#pragma once
+
+#include <limits>
+
+namespace petzval {
+
+struct LightPoint {
+    float x = 0, y = 0;         // pixels of the picture, centres at +0.5; may lie outside it
+    float r = 0, g = 0, b = 0;  // scene-linear, >= 0: what it adds to the one pixel it lights when in focus
+    // Where it is: planar depth (a miss is infinitely far) or, where that is NaN, its signed radius.
+    float depth_m = std::numeric_limits<float>::quiet_NaN(), coc_px = 0;
+    float diameter_px = 0;  // its own size in the picture, as a disc: its kernel is wider by that
+};
+
+}  // namespace petzval
