@@ -207,6 +207,7 @@ Status Run::render(DefocusJob job) {
          plain(done->smallest_radius_px, 3) + " to " + plain(done->largest_radius_px, 3) + " px, " +
          plain(seconds, 3) + " s");
     input_.frame.colour = std::move(done->image);
+    view_.panels = std::move(done->panels);
     return Done{};
 }
 

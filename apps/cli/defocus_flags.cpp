@@ -53,7 +53,8 @@ void DefocusFlags::add_output_to(Verb& verb) {
         .value(
             "--view", "NAME",
             "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha; of "
-            "--engine gaussian: sharp, blur-small, blur-large, focus-index",
+            "--engine gaussian: sharp, blur-small, blur-large, focus-index; levels, what each level of "
+            "detail of scatter drew",
             [](const std::string& text) { return parse_name(text, view_names()); }, view)
         .value(
             "--overscan", "PX",

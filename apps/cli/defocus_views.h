@@ -2,6 +2,7 @@
 // window.
 #pragma once
 
+#include "petzval/defocus.h"
 #include "petzval/depth.h"
 #include "petzval/develop.h"
 #include "petzval/files.h"
@@ -14,7 +15,7 @@
 
 namespace petzval::cli {
 
-enum class ViewKind { Beauty, Coc, Focus, Depth, Alpha, Sharp, BlurSmall, BlurLarge, FocusIndex };
+enum class ViewKind { Beauty, Coc, Focus, Depth, Alpha, Sharp, BlurSmall, BlurLarge, FocusIndex, Levels };
 
 // Those that an engine makes.
 bool is_rendered(ViewKind view);
@@ -25,7 +26,8 @@ const std::vector<std::pair<std::string, ViewKind>>& view_names();
 const char* name_of(ViewKind view);
 
 struct ViewSource {
-    Plane coc_radius_px;  // for Coc and Focus
+    Plane coc_radius_px;        // for Coc and Focus
+    std::vector<Panel> panels;  // for Levels
 };
 
 struct ViewSettings {

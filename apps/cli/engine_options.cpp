@@ -113,6 +113,8 @@ void EngineOptionFlags::check(const std::string& engine, ViewKind view) const {
             "--engine sprites and --find-points on");
     if (gaussian_view(view) && !gaussian)
         throw UsageError(std::string("--view ") + name_of(view) + " is a buffer of --engine gaussian");
+    if (view == ViewKind::Levels && engine != "scatter")
+        throw UsageError("--view levels shows the levels of detail of --engine scatter, not " + engine);
     if (wgld && focus_band.value_or(0) > 1)
         throw UsageError("--focus-band " + plain(*focus_band) +
                          ": a share of all depth with --gaussian-style "
@@ -120,6 +122,7 @@ void EngineOptionFlags::check(const std::string& engine, ViewKind view) const {
 }
 
 void EngineOptionFlags::apply(DefocusJob& job, ViewKind view) const {
+    job.scatter.show_levels = view == ViewKind::Levels;
     job.gather.stage = gather_stage.value_or(job.gather.stage);
     job.gather.taps = gather_taps.value_or(job.gather.taps);
     job.gather.extreme_coc = gather_extreme_coc.value_or(job.gather.extreme_coc);

@@ -41,7 +41,8 @@ struct DefocusJob {
 
     std::string engine = "scatter";  // one of engine_names()
     Quality quality = Quality::Standard;
-    int pupil_points = 4096;   // reference only
+    int pupil_points = 4096;  // reference only
+    ScatterOptions scatter;
     GatherOptions gather;      // gather, and sprites over it
     GaussianOptions gaussian;  // gaussian, and sprites over it
     SpriteOptions sprites;
@@ -59,8 +60,16 @@ struct StageTime {
     double seconds = 0;
 };
 
+// One of several pictures in one.
+struct Panel {
+    std::string name;
+    Rect area;
+    Rgba colour;  // that stands for it in a map among the panels; all 0: none
+};
+
 struct DefocusReport {
-    Picture image;  // same size as the input
+    Picture image;              // same size as the input, unless options ask for several side by side
+    std::vector<Panel> panels;  // then: what lies where
     std::string engine, device, lens;
     double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front
     std::vector<StageTime> stages;

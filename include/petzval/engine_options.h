@@ -7,6 +7,12 @@
 
 namespace petzval {
 
+struct ScatterOptions {
+    // In place of the result: what each level of detail drew, before it is composited, side by side in one
+    // picture larger than the input (docs/published/hexadrive.md).
+    bool show_levels = false;
+};
+
 // A stop on the way of the published gather method (docs/published/gather.md); its buffer becomes the
 // picture. Final is our engine, not the article's last step.
 enum class GatherStage {

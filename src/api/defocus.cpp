@@ -49,6 +49,8 @@ Status check_sizes(const DefocusJob& job) {
         return invalid("the pixel aspect ratio must be positive");
     if (job.points && !job.points->empty() && job.engine != "sprites")
         return invalid("given points are drawn by --engine sprites, not " + job.engine);
+    if (job.scatter.show_levels && job.engine != "scatter")
+        return invalid("levels of detail are those of --engine scatter, not " + job.engine);
     if (!(job.sprites.bright_factor > 0)) return invalid("--bright-factor must be more than 0");
     if (job.pupil_points < 1) return invalid("--pupil-points must be at least 1");
     return Done{};
@@ -235,6 +237,7 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.frame_height = colour.height();
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
+    input.scatter = job.scatter;
     input.gather = job.gather;
     input.gaussian = job.gaussian;
     input.sprites = job.sprites;
@@ -254,6 +257,7 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     if (!output) return output.error();
     DefocusReport report;
     report.image = std::move(output->image);
+    report.panels = std::move(output->panels);
     report.engine = chosen->name;
     report.device = "cpu";
     report.lens = lenses->front()->description();

@@ -102,6 +102,7 @@ struct Input {
     std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
     Quality quality = Quality::Standard;
     int pupil_points = 4096;
+    ScatterOptions scatter;
     GatherOptions gather;
     GaussianOptions gaussian;
     SpriteOptions sprites;
@@ -142,6 +143,7 @@ CocSamples stated_samples(const Input& input);
 
 struct Output {
     Picture image;
+    std::vector<Panel> panels;  // where `image` holds several pictures side by side, else empty
     std::vector<StageTime> stages;
     std::vector<std::string> warnings;
 };

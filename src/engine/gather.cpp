@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "engine/gather_stages.h"
 #include "engine/gather_tile.h"
+#include "engine/memory.h"
 
 #include <algorithm>
 #include <chrono>
@@ -67,41 +68,104 @@ void copy_tile(const Input& input, const Rect& tile, View<Rgba> out) {
         std::copy_n(input.colour.row(y) + tile.x0, tile.width(), out.row(y) + tile.x0);
 }
 
+// Under --max-memory the picture is done in strips of rows, each with as many around it as can matter to it;
+// they begin on whole tiles, cells and blocks, so that they change no bit.
+struct Strips {
+    int rows = 0, halo = 0;
+};
+
+Result<Strips> plan_strips(const Input& input, const RingSizes& sizes) {
+    constexpr std::size_t kBytesPerPixel = 90;  // of cells, light and blocks, where many depths meet
+    const int cell = 1 << (sizes.levels() - 1);
+    const int unit = std::max({kTile, cell, BlockFill::block_px(input.nearest_coc_px)});
+    const auto whole_units = [unit](double rows) {
+        return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
+    };
+    const double largest = double(std::max(-input.nearest_coc_px, input.farthest_coc_px));
+    Strips strips{whole_units(input.height()),
+                  whole_units(1.05 * input.lens(0).reach_px(largest) +
+                              double(BlockFill::reach_px(input.nearest_coc_px)) + 4.0 * cell + 8)};
+    if (input.max_memory_bytes == 0) return strips;
+    const std::size_t row_bytes = kBytesPerPixel * std::size_t(input.width());
+    const std::size_t held =
+        held_bytes(input) + sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
+    const std::size_t rows = (std::max(input.max_memory_bytes, held) - held) / row_bytes;
+    if (rows >= std::size_t(input.height())) return strips;
+    const int least = std::min(unit + 2 * strips.halo, input.height());
+    if (rows < std::size_t(least)) return too_little_memory("gather", held + std::size_t(least) * row_bytes);
+    strips.rows = std::max(unit, (int(rows) - 2 * strips.halo) / unit * unit);
+    return strips;
+}
+
+class Gather {
+public:
+    explicit Gather(const Input& input)
+        : frame_(input),
+          sizes_(input.nearest_coc_px, input.farthest_coc_px, ring_rule(input.quality)),
+          kernels_(input, sizes_),
+          opaque_(is_opaque(input)) {}
+
+    Result<Output> run() {
+        const Result<Strips> strips = plan_strips(frame_, sizes_);
+        if (!strips) return strips.error();
+        Output output;
+        output.image = Picture::uninitialised(frame_.width(), frame_.height());
+        for (int y = 0; y < frame_.height() && !frame_.progress->cancelled(); y += strips->rows)
+            rows(Rect{0, y, frame_.width(), y + strips->rows}.intersected(output.image.rect()), strips->halo,
+                 output.image);
+        if (frame_.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+        output.stages = {{"prefilter", prefilter_s_}, {"gather", gather_s_}};
+        return output;
+    }
+
+private:
+    void rows(const Rect& rows, int halo, View<Rgba> out) {
+        const auto start = std::chrono::steady_clock::now();
+        const int first = std::max(0, rows.y0 - halo), last = std::min(frame_.height(), rows.y1 + halo);
+        const Input input = frame_.rows(first, last);
+        const std::vector<Rect> tiles = tiles_of(input.colour.rect());
+        std::vector<Range> ranges(tiles.size());
+        parallel_for(int(tiles.size()), input.threads,
+                     [&](int i) { ranges[std::size_t(i)] = range_of(input, tiles[std::size_t(i)]); });
+        const bool fills = input.gather.fill_hidden && input.deep.empty();
+        const BlockFill fill = fills ? BlockFill::make(input) : BlockFill();
+        std::vector<CellLevel> levels;
+        for (int l = 1; l < sizes_.levels(); ++l) levels.emplace_back(input, fill, sizes_, l);
+        prefilter_s_ += seconds_since(start);
+
+        const auto gathering = std::chrono::steady_clock::now();
+        const GatherSource source{input, sizes_, kernels_, fill, levels, first, opaque_};
+        const Rect here{0, rows.y0 - first, rows.width(), rows.y1 - first};  // in the rows of `input`
+        const View<Rgba> all = out.part({0, first, out.width(), last});
+        const double share = double(rows.height()) / frame_.height() / double(tiles.size());
+        parallel_for(int(tiles.size()), input.threads, [&](int i) {
+            const Rect& tile = tiles[std::size_t(i)];
+            if (input.progress->cancelled() || tile.intersected(here).empty()) return;
+            if (input.deep.empty() && !is_reached(input, tiles, ranges, tile))
+                copy_tile(input, tile, all);
+            else
+                gather_tile(source, tile, all);
+            input.progress->advance(share);
+        });
+        gather_s_ += seconds_since(gathering);
+    }
+
+    static double seconds_since(std::chrono::steady_clock::time_point start) {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    const Input& frame_;
+    RingSizes sizes_;
+    RingKernels kernels_;
+    bool opaque_;
+    double prefilter_s_ = 0, gather_s_ = 0;
+};
+
 }  // namespace
 
 Result<Output> run_gather(const Input& input) {
     if (input.gather.stage != GatherStage::Final) return run_gather_stage(input);
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    const std::vector<Rect> tiles = tiles_of(input.colour.rect());
-    std::vector<Range> ranges(tiles.size());
-    parallel_for(int(tiles.size()), input.threads,
-                 [&](int i) { ranges[std::size_t(i)] = range_of(input, tiles[std::size_t(i)]); });
-    const RingSizes sizes(input.nearest_coc_px, input.farthest_coc_px, ring_rule(input.quality));
-    const RingKernels kernels(input, sizes);
-    const bool fills = input.gather.fill_hidden && input.deep.empty();
-    const BlockFill fill = fills ? BlockFill::make(input) : BlockFill();
-    std::vector<CellLevel> levels;
-    for (int l = 1; l < sizes.levels(); ++l) levels.emplace_back(input, fill, sizes, l);
-    const double prepared = seconds();
-
-    Output output;
-    output.image = Picture::uninitialised(input.width(), input.height());
-    const GatherSource source{input, sizes, kernels, fill, levels, is_opaque(input)};
-    parallel_for(int(tiles.size()), input.threads, [&](int i) {
-        if (input.progress->cancelled()) return;
-        const Rect& tile = tiles[std::size_t(i)];
-        if (input.deep.empty() && !is_reached(input, tiles, ranges, tile))
-            copy_tile(input, tile, output.image);
-        else
-            gather_tile(source, tile, output.image);
-        input.progress->advance(1 / double(tiles.size()));
-    });
-    if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
-    output.stages = {{"prefilter", prepared}, {"gather", seconds() - prepared}};
-    return output;
+    return Gather(input).run();
 }
 
 }  // namespace petzval::engine

@@ -96,12 +96,22 @@ std::array<std::vector<Offset>, kDirections> search_paths() {
 
 }  // namespace
 
+int BlockFill::block_px(float nearest_coc_px) {
+    int size = kLeastBlock;
+    while (-nearest_coc_px + 2 > float(size * (kLongestSearch - 2))) size *= 2;
+    return size;
+}
+
+int BlockFill::reach_px(float nearest_coc_px) {
+    if (nearest_coc_px > -kBlurredPx) return 0;
+    return int(std::ceil(-nearest_coc_px)) + 5 * block_px(nearest_coc_px);
+}
+
 BlockFill BlockFill::make(const Input& input) {
     const float nearest = input.nearest_coc_px, farthest = input.farthest_coc_px;
     BlockFill fill;
     if (nearest > -kBlurredPx || farthest < nearest + 1) return fill;
-    fill.block_ = kLeastBlock;
-    while (-nearest + 2 > float(fill.block_ * (kLongestSearch - 2))) fill.block_ *= 2;
+    fill.block_ = block_px(nearest);
     const int b = fill.block_;
     Image<Block> blocks((input.width() + b - 1) / b, (input.height() + b - 1) / b);
     parallel_for(blocks.height(), input.threads, [&](int y) {

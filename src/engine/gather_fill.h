@@ -15,6 +15,9 @@ public:
     // Looks from every block that holds something in front of focus, in 16 directions as far as its blur
     // reaches, for farther surfaces around; the one met most, by 1/distance^2, goes on behind.
     static BlockFill make(const Input& input);
+    // Pixels a side of its blocks (a power of two), and how far what decides a fill may lie from it.
+    static int block_px(float nearest_coc_px);
+    static int reach_px(float nearest_coc_px);
 
     // The sample behind the visible one, covering its pixel, blended from the blocks around; none if nothing
     // is farther by a pixel of radius.

@@ -5,6 +5,7 @@
 #include "engine/engine.h"
 #include "engine/gaussian_blur.h"
 #include "engine/gaussian_mix.h"
+#include "engine/memory.h"
 
 #include <algorithm>
 #include <array>
@@ -173,6 +174,16 @@ void mix_by_pixel(const Input& input, float largest_px, const Weights& weights, 
     });
 }
 
+// The result, and the layers with the copies that blurring makes of one, on the finest grid that any needs.
+std::size_t bytes_per_pixel(const Input& input, const Radii& radii) {
+    float smallest_px = radii.largest_px();
+    for (const float side : {-radii.nearest_px, radii.farthest_px})
+        if (side > kWithinPixelPx) smallest_px = std::min(smallest_px, side);
+    const double small_px = double(std::max(smallest_px / 2, kWithinPixelPx));
+    const int level = blur_level(sigma_of(small_px, input.pixel_aspect));
+    return sizeof(Rgba) + ((8 * (sizeof(Rgba) + sizeof(float))) >> (2 * level));
+}
+
 }  // namespace
 
 Result<Output> run_gaussian(const Input& input) {
@@ -180,6 +191,8 @@ Result<Output> run_gaussian(const Input& input) {
     const GaussianOptions& options = input.gaussian;
     const Radii radii{input.nearest_coc_px, input.farthest_coc_px};
     const bool by_depth = options.style == GaussianStyle::Wgld;
+    if (const Status fits = fits_memory(input, bytes_per_pixel(input, radii), "gaussian"); !fits)
+        return fits.error();
     Output output;
     output.image = sharp_copy(input);
     const bool is_sharp = radii.largest_px() <= kWithinPixelPx && options.view == GaussianView::Result;

@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "engine/highlight_spread.h"
 #include "engine/highlights.h"
+#include "engine/scatter_levels.h"
 #include "engine/sources.h"
 #include "engine/tile_spread.h"
 
@@ -134,6 +135,7 @@ Result<Output> run_scatter(const Input& input) {
     Output output;
     Stopwatch watch(output.stages);
     const LevelRule rule = level_rule(input.quality);
+    if (input.scatter.show_levels) return run_scatter_levels(input, rule);
     const Result<StripPlan> plan = plan_strips(input, rule);
     if (!plan) return plan.error();
     const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "engine/engine.h"
 #include "engine/highlights.h"
+#include "engine/memory.h"
 #include "engine/sprites_draw.h"
 
 #include <algorithm>
@@ -59,9 +60,17 @@ Result<Output> run_sprites(const Input& input) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     const bool finds = input.sprites.find && input.deep.empty();
+    // The picture without its lights, and for every light: itself, its copy in a tile, its place in lists.
+    constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba), kBytesPerPoint = 160;
+    if (const Status fits =
+            fits_memory(input, kBytesPerPixel, "sprites", kBytesPerPoint * input.points.size());
+        !fits)
+        return fits.error();
     Parted parted = finds ? part(input) : Parted{};
     Input rest = input;
     if (finds) rest.colour = parted.background;
+    if (input.max_memory_bytes > 0)  // what the background leaves to the points
+        rest.max_memory_bytes -= kBytesPerPoint * input.points.size() + parted.background.bytes();
     rest.gather.stage = GatherStage::Final;
     rest.gaussian.view = GaussianView::Result;
     Result<Output> output =

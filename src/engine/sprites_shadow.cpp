@@ -25,16 +25,12 @@ struct Between {
 
 }  // namespace
 
-bool PupilMask::is_closed() const {
-    return !shares.empty() && std::all_of(shares.begin(), shares.end(), [](float s) { return s <= 0; });
-}
-
 std::array<float, PupilMask::kSide> PupilMask::row(float y) const {
     const Between b(y);
     std::array<float, kSide> values;
-    for (std::size_t i = 0; i < kSide; ++i) {
-        const float top = shares[std::size_t(b.cell * kSide) + i];
-        values[i] = top + b.share * (shares[std::size_t((b.cell + 1) * kSide) + i] - top);
+    for (int i = 0; i < kSide; ++i) {
+        const auto share = [&](int line) { return float(seen >> (line * kSide + i) & 1); };
+        values[std::size_t(i)] = share(b.cell) + b.share * (share(b.cell + 1) - share(b.cell));
     }
     return values;
 }
@@ -89,16 +85,12 @@ PupilMask SpriteShadows::mask(float x, float y, float coc_px) const {
     PupilMask mask;
     if (is_clear(x, y, coc_px)) return mask;
     const float aspect = float(in_.pixel_aspect);
-    bool any = false;
-    mask.shares.assign(PupilMask::kSide * PupilMask::kSide, 1.0f);
     for (int j = 0; j < PupilMask::kSide; ++j)
         for (int i = 0; i < PupilMask::kSide; ++i) {
             const auto middle = [](int k) { return (2 * float(k) + 1) / PupilMask::kSide - 1; };
             if (!is_stopped(x, y, coc_px, middle(i), middle(j) * aspect)) continue;
-            mask.shares[std::size_t(j * PupilMask::kSide + i)] = 0;
-            any = true;
+            mask.seen &= ~(std::uint64_t(1) << (j * PupilMask::kSide + i));
         }
-    if (!any) mask.shares.clear();
     return mask;
 }
 

@@ -8,16 +8,18 @@
 #include "engine/engine.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace petzval::engine {
 
-// Shares on a grid over the pupil's square, -1…1 on both axes, row by row; empty: all is seen.
+// What is seen (1) and hidden (0) on a grid over the pupil's square, -1…1 on both axes, row by row. A bit
+// for each point: there may be ten million lights.
 struct PupilMask {
     static constexpr int kSide = 8;
-    std::vector<float> shares;
-    bool is_open() const { return shares.empty(); }
-    bool is_closed() const;
+    std::uint64_t seen = ~std::uint64_t(0);
+    bool is_open() const { return seen == ~std::uint64_t(0); }
+    bool is_closed() const { return seen == 0; }
     // The shares along the row of the pupil at y (down, clamped to the grid), for at().
     std::array<float, kSide> row(float y) const;
     static float at(const std::array<float, kSide>& row, float x);

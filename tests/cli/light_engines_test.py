@@ -95,6 +95,22 @@ class LightEngines(CommandLineTest):
             rows, channels, _ = read_png(self.path(view + ".png"))
             self.assertEqual((len(rows), channels), (32, 1 if view == "focus-index" else 3), view)
 
+    def test_levels_are_shown_side_by_side_as_exr_and_png(self):
+        self.succeed("defocus", "in.exr", "-o", "levels.exr", *CAMERA, "--view", "levels")
+        channels, header = read_exr(self.path("levels.exr"))
+        self.assertEqual((len(channels["G"]), len(channels["G"][0])), (32 + 16, 2 * 48))
+        self.assertIn(b"LEVEL 0", open(self.path("levels.exr"), "rb").read())
+        self.succeed("defocus", "in.exr", "-o", "levels.png", *CAMERA, "--view", "levels", "--exposure", "1")
+        rows, channels, _ = read_png(self.path("levels.png"))
+        self.assertEqual((len(rows), channels), (48, 3))
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--view", "levels", "--engine", "gather",
+                    says=["--view levels", "scatter"])
+
+    def test_too_little_memory_is_said(self):
+        for engine in ("gather", "gaussian", "sprites"):
+            self.refuse(1, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--engine", engine, "--max-memory", "20M",
+                        says=["--max-memory", engine])
+
     def test_given_points_are_drawn_where_they_are(self):
         self.points("# lamps\n\n X , y,coc , R,g,b,size,vx\n20.5, 15.5,-4, 8,16, 4, 0,3 # one\r\n44.5,25.5,0,1,2,3,0,0\r\n")
         green = self.sprites()
