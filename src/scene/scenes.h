@@ -19,6 +19,7 @@ BuiltInScene table();
 BuiltInScene slant();
 BuiltInScene bars();
 BuiltInScene dynamic_range();
+BuiltInScene lanterns();
 
 // The three passes over a world that was committed.
 Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings);
