@@ -27,13 +27,15 @@ function(petzval_component target)
 endfunction()
 
 file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
-list(FILTER core_headers EXCLUDE REGEX "/(files|scene)\\.h$")
+list(FILTER core_headers EXCLUDE REGEX "/(files|ocio|scene)\\.h$")
 petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES tbb libhwy
                   DESCRIPTION "The depth of field of a real lens, for rendered pictures")
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h
                   REQUIRES petzval OpenEXR libpng DESCRIPTION "EXR and PNG for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
+petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h
+                  REQUIRES petzval OpenColorIO DESCRIPTION "OpenColorIO displays for petzval")
 if(TARGET petzval_cli)
   install(TARGETS petzval_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

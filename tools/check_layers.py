@@ -21,6 +21,7 @@ ALLOWED = {
     "scene": PIXELS | {"optics"},
     "report": LENS,
     "files": PIXELS | {"colour", "optics", "depth"},
+    "ocio": PIXELS,
     "api": LENS | {"engine", "glare"},
 }
 # The room that implements each public header: including it is knowing that room.
@@ -28,7 +29,7 @@ PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
     "compare": "image", "light_point": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
     "dynamic_range": "colour", "lens_facts": "api", "lens_kernel": "api", "defocus": "engine",
-    "engine_options": "engine", "glare": "glare", "files": "files", "scene": "scene", "petzval": "api",
+    "engine_options": "engine", "glare": "glare", "files": "files", "ocio": "ocio", "scene": "scene", "petzval": "api",
 }
 # Headers of other people and the only files that may see them.
 THIRD_PARTY = {
@@ -36,6 +37,7 @@ THIRD_PARTY = {
     r"hwy/": r"src/\w+/\w+_simd(_test)?\.(cpp|h)",
     r"(OpenEXR|Imath)/": r"src/files/",
     r"png\.h": r"src/files/",
+    r"OpenColorIO/": r"src/ocio/",
     r"embree": r"src/scene/",
     r"nlohmann/": r"(apps/cli|src/files|src/report)/",
     r"CLI/": r"apps/cli/",

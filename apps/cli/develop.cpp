@@ -6,12 +6,14 @@
 #include "glare.h"
 #include "input.h"
 #include "lens.h"
+#include "ocio.h"
 #include "output.h"
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
 #include "windows.h"
 
+#include <cmath>
 #include <memory>
 
 namespace petzval::cli {
@@ -24,10 +26,30 @@ struct DevelopVerbFlags {
     GlareFlags glare;
     std::string output;
     DevelopFlags develop;
+    OcioFlags ocio;
     bool no_dither = false;
     OverwriteFlags overwrite;
     RunFlags run;
 };
+
+// What is left for develop() is to round to codes.
+Status show_by_ocio(const DevelopVerbFlags& flags, Picture& shown, DevelopSettings& settings,
+                    std::vector<std::string>& warnings) {
+    const float exposure = float(std::exp2(settings.exposure_stops));
+    for (std::size_t i = 0; i < shown.size(); ++i) shown.pixels()[i] *= exposure;
+    std::string used;
+    std::vector<std::string> said;
+    auto codes = flags.ocio.codes(shown, flags.run.threads, used, said);
+    if (!codes) return codes.error();
+    for (const std::string& line : said) warning(line);
+    warnings.insert(warnings.end(), said.begin(), said.end());
+    note(used);
+    shown = std::move(*codes);
+    settings.exposure_stops = 0;
+    settings.tone = ToneCurve::None;
+    settings.transfer = Transfer::Linear;
+    return Done{};
+}
 
 Status develop_file(const DevelopVerbFlags& flags) {
     const Stopwatch total;
@@ -48,7 +70,9 @@ Status develop_file(const DevelopVerbFlags& flags) {
         flags.develop.settings(input->frame.display_referred, flags.input.transfer, flags.run.threads);
     settings.dither = !flags.no_dither;
     const Frame& frame = input->frame;
-    const Picture shown = through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
+    Picture shown = through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
+    if (flags.ocio.is_on())
+        if (Status fine = show_by_ocio(flags, shown, settings, input->warnings); !fine) return fine;
     Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
     if (!done) return done;
     note("wrote " + flags.output);
@@ -59,11 +83,12 @@ Status develop_file(const DevelopVerbFlags& flags) {
     report["detected"] = input->detected;
     report["warnings"] = input->warnings;
     report["non_finite"]["colour"] = input->frame.non_finite_colour;
-    report["parameters"] = {{"exposure_stops", settings.exposure_stops},
+    report["parameters"] = {{"exposure_stops", flags.develop.exposure_stops.value_or(0)},
                             {"contrast", settings.contrast},
                             {"tone", settings.tone == ToneCurve::Filmic     ? "filmic"
                                      : settings.tone == ToneCurve::Reinhard ? "reinhard"
                                                                             : "none"},
+                            {"ocio", flags.ocio.view},
                             {"bits", settings.bits},
                             {"dither", settings.dither}};
     report["seconds"]["read"] = read_s;
@@ -90,6 +115,10 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     if (!kind || *kind != FileKind::Png)
         throw UsageError("-o " + flags.output + ": the name must end in .png");
     flags.input.read.need_depth = false;
+    flags.ocio.check();
+    refuse_both(flags.ocio.is_on(), "--ocio", flags.develop.tone.has_value(), "--tone");
+    refuse_both(flags.ocio.is_on(), "--ocio", flags.develop.contrast.has_value(), "--contrast");
+    refuse_both(flags.ocio.is_on(), "--ocio", flags.input.transfer.has_value(), "--transfer");
 }
 
 }  // namespace
@@ -112,6 +141,7 @@ void add_develop(Verb& program, Action& chosen) {
     flags->run.add_json_to(verb);
     flags->overwrite.add_to(verb, true);
     flags->develop.add_to(verb);
+    flags->ocio.add_to(verb);
     FlagGroup(verb, "Display picture (PNG)")
         .value("--bits", "N", "8 (default) or 16 per channel", parse_bits, flags->develop.bits)
         .on("--no-dither", "round without the noise that hides bands", flags->no_dither);

@@ -11,7 +11,7 @@ cmake --install "$build" --prefix "$stage/prefix" >"$build/install.log"
 mv "$stage/prefix" "$stage/moved"
 
 components=
-for component in files scenes; do
+for component in files scenes ocio; do
     if [ -e "$stage"/moved/lib/*/libpetzval_$component.a ] || [ -e "$stage/moved/lib/libpetzval_$component.a" ]; then
         components="$components$component;"
     fi
