@@ -49,6 +49,10 @@ void MakeFlags::add_to(Verb& verb) {
         .argument("NAME", "one of petzval scene list", name)
         .value("--width", "PX", "width of the picture (default 960)", parse_size_px, scene.width)
         .value("--height", "PX", "height of the picture (default 540)", parse_size_px, scene.height)
+        .value("--overscan", "PX",
+               "render so many pixels more on every side, for light that the blur brings in (default 0); the "
+               "truth keeps to the frame",
+               parse_index, scene.overscan_px)
         .value("--frame", "N", "frame of a moving scene (default 0)", parse_index, scene.frame)
         .value("--samples", "N", "lens samples per pixel of the truth (default 1024)", parse_count,
                scene.truth_samples)
@@ -106,10 +110,10 @@ Camera complete(const FoundCamera& found, ImageScale image_scale) {
             .image_scale = image_scale};
 }
 
-// A frame that fills its display window.
-Frame whole_frame(Picture colour) {
+Frame frame_of(const Rect& display_window, const Rect& data_window, Picture colour) {
     Frame frame;
-    frame.display_window = frame.data_window = colour.rect();
+    frame.display_window = display_window;
+    frame.data_window = data_window;
     frame.has_alpha = true;
     frame.colour = std::move(colour);
     return frame;
@@ -119,15 +123,16 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
     WriteOptions options;
     options.overwrite = !flags.overwrite.no_clobber;
     options.camera = camera;
-    Frame sharp = whole_frame(std::move(scene.colour));
+    const Rect display{0, 0, flags.scene.width, flags.scene.height};
+    Frame sharp = frame_of(display, scene.data_window, std::move(scene.colour));
     sharp.depth = std::move(scene.depth_m);
     if (Status done = write_exr(flags.output, sharp, options); !done) return done;
     if (!flags.truth.empty())
-        if (Status done = write_exr(flags.truth, whole_frame(std::move(scene.truth)), options); !done)
+        if (Status done = write_exr(flags.truth, frame_of(display, display, std::move(scene.truth)), options);
+            !done)
             return done;
     if (!flags.layers.empty()) {
-        Status done =
-            write_deep_exr(flags.layers, sharp.display_window, sharp.data_window, scene.layers, options);
+        Status done = write_deep_exr(flags.layers, display, scene.data_window, scene.layers, options);
         if (!done) return done;
     }
     for (const std::string& file : flags.outputs()) note("wrote " + file);
@@ -143,6 +148,7 @@ Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale imag
     report["camera"] = camera_json(camera, image_scale);
     report["parameters"] = {{"width", flags.scene.width},
                             {"height", flags.scene.height},
+                            {"overscan", flags.scene.overscan_px},
                             {"frame", flags.scene.frame},
                             {"samples", flags.scene.truth_samples},
                             {"pinhole_samples", flags.scene.samples},

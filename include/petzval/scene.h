@@ -27,6 +27,7 @@ PETZVAL_API const std::vector<SceneSummary>& scene_list();
 
 struct SceneSettings {
     int width = 960, height = 540;
+    int overscan_px = 0;       // beyond the frame on every side, for all but the truth
     int samples = 64;          // per pixel for the pinhole picture's box filter
     int truth_samples = 1024;  // lens samples per pixel for the truth
     std::uint64_t seed = 1;
@@ -39,9 +40,10 @@ struct SceneSettings {
 
 struct RenderedScene {
     Camera camera;
-    Picture colour;  // pinhole, box-filtered
-    Plane depth_m;   // planar, one unfiltered sample at the pixel centre; +infinity for a miss
-    Picture truth;   // through the lens, when asked for
+    Rect data_window;  // of all but the truth; the frame is {0, 0, width, height}
+    Picture colour;    // pinhole, box-filtered
+    Plane depth_m;     // planar, one unfiltered sample at the pixel centre; +infinity for a miss
+    Picture truth;     // through the lens, when asked for
     // Depth-peeled samples when asked for: every surface hidden behind the visible one, each with its own
     // coverage; in pixels where several surfaces show, also the visible ones with their own coverage. So the
     // visible picture comes first where the first sample lies behind depth_m, and is contained in the samples

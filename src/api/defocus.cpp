@@ -109,9 +109,29 @@ Picture finite_picture(View<const Rgba> colour, int threads) {
 }
 
 // Hidden layers describe a pixel completely where they hold a sample at or in front of the visible one;
-// elsewhere the visible sample lies in front of them. Radii of equal depths may differ by rounding
-// (half-float depth).
-constexpr float kSameRadiusPx = 0.02f;
+// elsewhere the visible sample lies in front of them. Equal depths may differ by rounding (half floats have 11
+// bits); far away, radii alone say too little: 110 m and 112 m may be a hundredth of a pixel apart.
+constexpr float kSameRadiusPx = 0.02f, kSameDepth = 1.001f;
+
+bool starts_at_visible(const DefocusJob& job, const Radii& radii, float front, float visible) {
+    return radii(front) <= radii(visible) + kSameRadiusPx &&
+           (job.depth_is_coc || finite_depth(double(front)) <= finite_depth(double(visible)) * kSameDepth);
+}
+
+// Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each keeps the
+// room that those less than kSameRadiusPx in front of it leave.
+void hide_what_is_covered(std::vector<engine::CocSample>& samples, std::size_t first) {
+    for (std::size_t k = samples.size(); k-- > first + 1;) {
+        engine::CocSample& s = samples[k];
+        float room = 1;
+        for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < kSameRadiusPx;)
+            if (samples[j].coc_px < s.coc_px) room -= samples[j].colour.a;
+        if (s.colour.a > room) s.colour = s.colour * (std::max(0.0f, room) / s.colour.a);
+    }
+    samples.erase(std::remove_if(samples.begin() + std::ptrdiff_t(first), samples.end(),
+                                 [](const engine::CocSample& s) { return s.colour == Rgba{}; }),
+                  samples.end());
+}
 
 engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, const Radii& radii) {
     engine::CocSamples all;
@@ -127,13 +147,14 @@ engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, c
             const std::span<const DeepSample> samples = extra->at(x, y);
             const float visible = radii(job.depth_m(x, y));
             const bool complete =
-                !samples.empty() && radii(samples.front().depth_m) <= visible + kSameRadiusPx;
+                !samples.empty() && starts_at_visible(job, radii, samples.front().depth_m, job.depth_m(x, y));
             if (!complete) all.samples.push_back({colour(x, y), visible, visible});
             for (const DeepSample& s : samples)
                 all.samples.push_back({finite_colour(s.colour), radii(s.depth_m), radii(s.depth_back_m)});
             std::stable_sort(
                 all.samples.begin() + std::ptrdiff_t(all.first.back()), all.samples.end(),
                 [](const engine::CocSample& a, const engine::CocSample& b) { return a.coc_px < b.coc_px; });
+            hide_what_is_covered(all.samples, all.first.back());
         }
     all.first.push_back(all.samples.size());
     return all;

@@ -118,10 +118,13 @@ bool lens_sees(const Surfaces& surfaces, const RaySource& source, double u, doub
         if (!area.contains(px, py)) return true;
         for (const Facet& facet : surfaces.at(px, py)) {
             if (facet.coc_px > source.coc_px) break;  // nearest first: the rest lies behind the source
-            const float left = surfaces.dims_itself() ? open * (1 - facet.coverage) : 1 - facet.coverage;
-            if (left >= open || !crosses(facet, px, py, source, u, v)) continue;
-            open = left;
-            if (open <= 1 - chance) return false;
+            if (!crosses(facet, px, py, source, u, v)) continue;
+            if (surfaces.dims_itself()) {
+                open *= 1 - facet.coverage;
+                if (open <= 1 - chance) return false;
+            } else if (facet.takes(chance)) {
+                return false;
+            }
         }
         if (next_x < next_y)
             along = next_x, next_x += per_x, px += step_x;

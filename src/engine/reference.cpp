@@ -73,15 +73,6 @@ bool is_there_by_itself(const Facet& facet, std::uint32_t index, int k) {
     return facet.coverage >= 1 || scrambled(std::uint32_t(k), hashed(index + 1)) < double(facet.coverage);
 }
 
-// Whether a facet that covers part of its pixel is there for a ray; over all rays it is, for just its share.
-// Partly covering facets of one pixel lie beside each other as long as there is room (two surfaces that meet
-// in a pixel), so each takes the part of the unit interval that follows those in front of it. `place`: where
-// the pixel's begins.
-bool is_there(const Facet& facet, double place, double chance) {
-    return facet.coverage >= 1 ||
-           fraction(chance + place - double(facet.coverage_in_front)) < double(facet.coverage);
-}
-
 // One tile of the output, drawn once per pupil point.
 class Tile {
 public:
@@ -155,7 +146,7 @@ private:
                 const double place = fraction(index * 0.7320508075688772);
                 for (const Facet& facet : surfaces_.at(x, y)) {
                     if (surfaces_.dims_itself() ? is_there_by_itself(facet, index, k)
-                                                : is_there(facet, place, chance))
+                                                : facet.takes(chance + place))
                         draw(facet, index, float(x) + shift_x, float(y) + shift_y, ray);
                     ++index;
                 }

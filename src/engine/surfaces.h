@@ -6,6 +6,7 @@
 
 #include "engine/engine.h"
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,6 +19,15 @@ struct Facet {
     float coverage_in_front = 0;  // sum of the coverages of nearer facets of the pixel
     float coc_px = 0;             // signed radius at the centre
     float corner_coc_px[4];       // at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
+
+    // Whether a facet that leaves the rest of its pixel to others is there for a ray of this chance (0…1);
+    // over all chances it is, for just its share. Partly covering facets of one pixel lie beside each other
+    // as long as there is room (two surfaces that meet in a pixel), so each takes the part of the unit
+    // interval that follows those in front of it.
+    bool takes(double chance_of_ray) const {
+        const double from = chance_of_ray - double(coverage_in_front);
+        return coverage >= 1 || from - std::floor(from) < double(coverage);
+    }
 };
 
 // Facets of the picture and of a border of `margin` pixels around it. Beyond an open edge the outermost

@@ -22,14 +22,14 @@ bool LampImage::touches(const Rect& area) const {
            y - reach < float(area.y1);
 }
 
-std::vector<LampImage> lamp_images(const World& world, const LensRays& lens, int width, int height) {
+std::vector<LampImage> lamp_images(const World& world, const LensRays& lens, const Rect& area) {
     std::vector<LampImage> images;
     for (const Lamp& lamp : world.lamps()) {
         const Vec3 c = world.view.from_world(lamp.centre);
         if (c.z <= 0) continue;
         const LampImage image{
             lamp, c, lens.image_x(c), lens.image_y(c), lamp.radius_m / c.z / lens.pixel, lens.radius_px(c.z)};
-        if (image.touches({0, 0, width, height})) images.push_back(image);
+        if (image.touches(area)) images.push_back(image);
     }
     return images;
 }

@@ -21,8 +21,8 @@ struct LampImage {
     bool touches(const Rect& area) const;
 };
 
-// The lamps whose light falls into the picture. A pinhole when `lens` has no aperture.
-std::vector<LampImage> lamp_images(const World& world, const LensRays& lens, int width, int height);
+// The lamps whose light falls into these pixels. A pinhole when `lens` has no aperture.
+std::vector<LampImage> lamp_images(const World& world, const LensRays& lens, const Rect& area);
 
 // Shares of a pixel's square, averaged over the lens.
 struct LampShare {

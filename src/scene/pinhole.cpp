@@ -10,7 +10,7 @@
 namespace petzval::scene {
 namespace {
 
-constexpr int kMaxLayers = 8;  // surfaces that one ray is followed through
+constexpr int kMaxLayers = 24;  // surfaces that one ray is followed through
 constexpr int kMaxSteps = 64;  // including surfaces seen from inside
 // Hits of one object in one pixel whose depths leave a gap of more than this share belong to separate sheets.
 constexpr float kDepthGap = 0.01f;
@@ -34,11 +34,12 @@ public:
     Row(const Pass& pass, const Tools& tools, int y, bool want_layers)
         : pass_(pass), tools_(tools), y_(y), layers_(want_layers ? kMaxLayers : 1) {
         for (const LampImage& lamp : tools.lamps)
-            if (lamp.touches({0, y, pass.width, y + 1})) lamps_.push_back(&lamp);
+            if (lamp.touches({pass.area.x0, y, pass.area.x1, y + 1})) lamps_.push_back(&lamp);
     }
 
-    void render(Picture& colour, Plane& depth_m) {
-        for (int x = 0; x < pass_.width; ++x) {
+    // The row of the pictures that lies at y in the frame.
+    void render(Rgba* colour, float* depth_m) {
+        for (int x = pass_.area.x0; x < pass_.area.x1; ++x) {
             trace_pixel(x);
             Vec3 sum;
             for (const PeeledHit& hit : first_hits_) sum += hit.radiance;
@@ -47,7 +48,7 @@ public:
             if (layers_ > 1) collect_surfaces();
             for (const LampImage* lamp : lamps_)
                 if (lamp->touches({x, y_, x + 1, y_ + 1})) sum += collect_lamp(*lamp, x);
-            colour(x, y_) = opaque(sum);
+            colour[x - pass_.area.x0] = opaque(sum);
             counts.push_back(samples.size() - before);
             std::sort(samples.begin() + std::ptrdiff_t(before), samples.end(),
                       [](const DeepSample& a, const DeepSample& b) { return a.depth_m < b.depth_m; });
@@ -76,7 +77,7 @@ private:
     void collect_surfaces();
     Vec3 collect_lamp(const LampImage& lamp, int x);
     std::vector<Group> groups();
-    void trace_centres(Plane& depth_m) const;
+    void trace_centres(float* depth_m) const;
 
     const Pass& pass_;
     const Tools& tools_;
@@ -187,37 +188,40 @@ Vec3 Row::collect_lamp(const LampImage& lamp, int x) {
     return share.seen * lamp.lamp.radiance;
 }
 
-void Row::trace_centres(Plane& depth_m) const {
-    for (int x = 0; x < pass_.width; x += kPacket) {
+void Row::trace_centres(float* depth_m) const {
+    const int width = pass_.area.width();
+    for (int x = 0; x < width; x += kPacket) {
         Packet packet(pass_.world);
-        const int lanes = std::min(kPacket, pass_.width - x);
+        const int lanes = std::min(kPacket, width - x);
         for (int lane = 0; lane < lanes; ++lane)
-            packet.set(lane, pass_.lens.through(float(x + lane) + 0.5f, float(y_) + 0.5f, {}));
+            packet.set(lane,
+                       pass_.lens.through(float(pass_.area.x0 + x + lane) + 0.5f, float(y_) + 0.5f, {}));
         packet.intersect();
-        for (int lane = 0; lane < lanes; ++lane) depth_m(x + lane, y_) = packet.depth(lane);
+        for (int lane = 0; lane < lanes; ++lane) depth_m[x + lane] = packet.depth(lane);
     }
 }
 
 }  // namespace
 
 bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPicture* layers) {
-    colour = Picture::uninitialised(pass.width, pass.height);
-    depth_m = Plane::uninitialised(pass.width, pass.height);
+    const int width = pass.area.width(), height = pass.area.height();
+    colour = Picture::uninitialised(width, height);
+    depth_m = Plane::uninitialised(width, height);
     LensRays pinhole = pass.lens;
     pinhole.aperture_radius_m = 0;
     const Tools tools{SobolPoints(pass.samples), LampLight(pass.world, pinhole, pass.samples),
-                      lamp_images(pass.world, pinhole, pass.width, pass.height)};
-    std::vector<std::vector<DeepSample>> samples(layers ? std::size_t(pass.height) : 0);
+                      lamp_images(pass.world, pinhole, pass.area)};
+    std::vector<std::vector<DeepSample>> samples(layers ? std::size_t(height) : 0);
     std::vector<std::vector<std::size_t>> counts(samples.size());
-    parallel_for(pass.height, pass.threads, [&](int y) {
+    parallel_for(height, pass.threads, [&](int y) {
         if (pass.progress.cancelled()) return;
-        Row row(pass, tools, y, layers != nullptr);
-        row.render(colour, depth_m);
+        Row row(pass, tools, pass.area.y0 + y, layers != nullptr);
+        row.render(colour.row(y), depth_m.row(y));
         if (layers) {
             samples[std::size_t(y)] = std::move(row.samples);
             counts[std::size_t(y)] = std::move(row.counts);
         }
-        pass.progress.advance(pass.share / pass.height);
+        pass.progress.advance(pass.share / height);
     });
     if (pass.progress.cancelled()) return false;
     if (layers) {
@@ -228,7 +232,7 @@ bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPictu
             all.insert(all.end(), samples[y].begin(), samples[y].end());
             samples[y] = {};
         }
-        *layers = DeepPicture(pass.width, pass.height, std::move(first), std::move(all));
+        *layers = DeepPicture(width, height, std::move(first), std::move(all));
     }
     return true;
 }

@@ -31,9 +31,12 @@ Status check(const SceneSettings& s, int frames) {
     const std::string samples = "1 to " + std::to_string(kMaxSamples);
     if (s.width < 1 || s.width > kMaxSide) return invalid("width (--width)", s.width, side);
     if (s.height < 1 || s.height > kMaxSide) return invalid("height (--height)", s.height, side);
-    if (std::int64_t(s.width) * s.height > kMaxPixels)
-        return invalid("width x height", std::int64_t(s.width) * s.height,
-                       "at most " + std::to_string(kMaxPixels) + " pixels");
+    if (s.overscan_px < 0 || s.overscan_px > kMaxSide)
+        return invalid("overscan (--overscan)", s.overscan_px,
+                       "0 to " + std::to_string(kMaxSide) + " pixels");
+    const std::int64_t pixels = std::int64_t(s.width + 2 * s.overscan_px) * (s.height + 2 * s.overscan_px);
+    if (pixels > kMaxPixels)
+        return invalid("width x height", pixels, "at most " + std::to_string(kMaxPixels) + " pixels");
     if (s.samples < 1 || s.samples > kMaxSamples)
         return invalid("pinhole samples per pixel", s.samples, samples);
     if (s.truth_samples < 1 || s.truth_samples > kMaxSamples)
@@ -68,8 +71,7 @@ Result<RenderedScene> render(const World& world, const Camera& camera, const Sce
     const std::uint32_t seed = hash(std::uint32_t(settings.seed), std::uint32_t(settings.seed >> 32));
     Pass pass{world,
               LensRays(camera, settings.width, settings.height),
-              settings.width,
-              settings.height,
+              Rect{0, 0, settings.width, settings.height}.grown(settings.overscan_px),
               settings.samples,
               seed,
               settings.threads,
@@ -78,9 +80,11 @@ Result<RenderedScene> render(const World& world, const Camera& camera, const Sce
     const Error cancelled{ErrorCode::Cancelled, "rendering of the scene was cancelled"};
     RenderedScene result;
     result.camera = camera;
+    result.data_window = pass.area;
     if (!render_pinhole(pass, result.colour, result.depth_m, settings.want_layers ? &result.layers : nullptr))
         return cancelled;
     if (settings.want_truth) {
+        pass.area = {0, 0, settings.width, settings.height};
         pass.samples = settings.truth_samples, pass.share = truth_share;
         if (!render_truth(pass, result.truth)) return cancelled;
     }

@@ -177,5 +177,23 @@ TEST(SceneLayers, ComposedInOrderTheyMakeThePinholePicture) {
     }
 }
 
+TEST(SceneOverscan, AddsARimAndChangesNothingWithin) {
+    SceneSettings s;
+    s.width = 48, s.height = 27, s.samples = 16, s.truth_samples = 64;
+    s.want_layers = s.want_truth = true;
+    const RenderedScene plain = render_scene("bars", s).value();
+    s.overscan_px = 5;
+    const RenderedScene wide = render_scene("bars", s).value();
+    EXPECT_EQ(wide.data_window, (Rect{-5, -5, 53, 32}));
+    ASSERT_EQ(wide.colour.width(), 58);
+    for (int y = 0; y < s.height; ++y)
+        for (int x = 0; x < s.width; ++x) {
+            EXPECT_EQ(wide.colour(x + 5, y + 5), plain.colour(x, y));
+            EXPECT_EQ(wide.depth_m(x + 5, y + 5), plain.depth_m(x, y));
+            EXPECT_EQ(wide.layers.at(x + 5, y + 5).size(), plain.layers.at(x, y).size());
+            EXPECT_EQ(wide.truth(x, y), plain.truth(x, y));
+        }
+}
+
 }  // namespace
 }  // namespace petzval::scene

@@ -43,7 +43,8 @@ inline Rgba opaque(Vec3 c) { return {c.x, c.y, c.z, 1}; }
 struct Pass {
     const World& world;
     LensRays lens;
-    int width = 0, height = 0, samples = 0;
+    Rect area;  // the pixels to make, in those of the frame; wider than it with overscan
+    int samples = 0;
     std::uint32_t seed = 0;
     int threads = 0;
     Progress& progress;

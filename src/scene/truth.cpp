@@ -95,19 +95,20 @@ void add_lamps(const Pass& pass, const std::vector<LampImage>& lamps, const Lamp
 }  // namespace
 
 bool render_truth(const Pass& pass, Picture& truth) {
-    truth = Picture::uninitialised(pass.width, pass.height);
+    truth = Picture::uninitialised(pass.area.width(), pass.area.height());
     const SobolPoints points(pass.samples);
-    const std::vector<LampImage> lamps = lamp_images(pass.world, pass.lens, pass.width, pass.height);
+    const std::vector<LampImage> lamps = lamp_images(pass.world, pass.lens, pass.area);
     const LampLight light(pass.world, pass.lens, std::max(kFirstSamples, pass.samples / 2));
-    const int columns = (pass.width + kTile - 1) / kTile, rows = (pass.height + kTile - 1) / kTile;
+    const int columns = (truth.width() + kTile - 1) / kTile, rows = (truth.height() + kTile - 1) / kTile;
     parallel_for(columns * rows, pass.threads, [&](int index) {
         if (pass.progress.cancelled()) return;
-        const int x = index % columns * kTile, y = index / columns * kTile;
-        const Tile tile{Rect{x, y, x + kTile, y + kTile}.intersected(truth.rect())};
+        const int x = pass.area.x0 + index % columns * kTile, y = pass.area.y0 + index / columns * kTile;
+        const Tile tile{Rect{x, y, x + kTile, y + kTile}.intersected(pass.area)};
         std::vector<Vec3> radiance(std::size_t(tile.count()));
         render_surfaces(pass, points, tile, radiance);
         add_lamps(pass, lamps, light, tile, radiance);
-        for (int i = 0; i < tile.count(); ++i) truth(tile.x(i), tile.y(i)) = opaque(radiance[std::size_t(i)]);
+        for (int i = 0; i < tile.count(); ++i)
+            truth(tile.x(i) - pass.area.x0, tile.y(i) - pass.area.y0) = opaque(radiance[std::size_t(i)]);
         pass.progress.advance(pass.share / (columns * rows));
     });
     return !pass.progress.cancelled();

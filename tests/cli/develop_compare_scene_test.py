@@ -1,5 +1,6 @@
 """petzval develop, compare, inspect and scene; and the commands of the README one after another."""
 import math
+import struct
 import unittest
 
 from pictures import attribute, picture, plane, read_exr, read_png, write_exr, write_png
@@ -136,6 +137,15 @@ class Scene(CommandLineTest):
                      "--pupil-points", "256")
         sharp = self.report("compare", "truth.exr", "bars.exr")["psnr_lin"]
         self.assertGreater(self.report("compare", "truth.exr", "with.exr")["psnr_lin"], sharp)
+
+    def test_overscan_grows_the_data_window_but_not_the_truth(self):
+        self.succeed("scene", "make", "bars", "-o", "bars.exr", "--truth", "truth.exr", "--layers", "layers.exr",
+                     "--overscan", "6", "--samples", "16", *self.SMALL)
+        windows = {name: struct.unpack("<4i", read_exr(self.path(name))[1]["dataWindow"])
+                   for name in ("bars.exr", "truth.exr")}
+        self.assertEqual(windows, {"bars.exr": (-6, -6, 53, 32), "truth.exr": (0, 0, 47, 26)})
+        self.succeed("defocus", "bars.exr", "-o", "with.exr", "--behind", "layers.exr")
+        self.report("compare", "truth.exr", "with.exr")
 
     def test_camera_flags_hold_for_the_scene_and_are_written(self):
         self.succeed("scene", "make", "slant", "-o", "s.exr", "--fstop", "5.6", "--focus", "150cm", *self.SMALL)

@@ -101,6 +101,47 @@ TEST(Reference, ALampBehindATwigShowsTheTwigsShadowInsideItsDisc) {
     EXPECT_NEAR(image(48, 50).g, inside, 0.01 * inside);
 }
 
+TEST(Reference, ALampRightBehindAWallStaysHidden) {
+    // 122.4 m and 125 m: radii a hundredth of a pixel apart.
+    Shot shot = flat(61, 61, {0, 0, 0, 1}, 122.4f);
+    std::vector<std::size_t> first;
+    std::vector<DeepSample> samples;
+    for (int i = 0; i <= 61 * 61; ++i) {
+        first.push_back(samples.size());
+        if (i == 30 * 61 + 30) samples.push_back({{1000, 1000, 1000, 1}, 125, 125});
+    }
+    shot.behind = DeepPicture(61, 61, std::move(first), std::move(samples));
+    for (const char* engine : {"reference", "scatter"}) {
+        DefocusJob job = shot.job(engine);
+        job.depth_is_coc = false;
+        job.camera = {
+            .focal_length_mm = 105, .sensor_width_mm = 4.5, .f_number = 1.4, .focus_distance_m = 4.8};
+        const Picture image = rendered(job);
+        for (int y = 0; y < 61; ++y)
+            for (int x = 0; x < 61; ++x) EXPECT_LT(image(x, y).g, 1e-6) << engine << " " << x << ", " << y;
+    }
+}
+
+TEST(Reference, TwoSurfacesBesideEachOtherInAPixelHideALampTogether) {
+    // A seam of halves down the middle of a dark wall, in focus, before a lamp: no light comes through.
+    Shot shot = flat(101, 101, {0, 0, 0, 1}, 0);
+    std::vector<std::size_t> first;
+    std::vector<DeepSample> samples;
+    for (int y = 0; y < 101; ++y)
+        for (int x = 0; x < 101; ++x) {
+            first.push_back(samples.size());
+            if (x == 50) samples.push_back({{0, 0, 0, 0.5f}, 0, 0});
+            if (x == 50) samples.push_back({{0, 0, 0, 0.5f}, 0.1f, 0.1f});
+            if (x == 50 && y == 50) samples.push_back({{1000, 1000, 1000, 1}, 30, 30});
+        }
+    first.push_back(samples.size());
+    shot.behind = DeepPicture(101, 101, std::move(first), std::move(samples));
+    const Picture image = rendered(shot.job("reference"));
+    const double open = 1000 / (M_PI * 30 * 30);
+    for (int y = 0; y < 101; ++y)
+        for (int x = 0; x < 101; ++x) EXPECT_LT(image(x, y).g, 0.01 * open) << x << ", " << y;
+}
+
 TEST(Reference, TheSameBitsForAnyThreadCount) {
     Shot shot = flat(70, 50, {}, 5);
     paint_noise(shot.colour, 2);
