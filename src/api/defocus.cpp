@@ -109,8 +109,8 @@ Picture finite_picture(View<const Rgba> colour, int threads) {
 }
 
 // Hidden layers describe a pixel completely where they hold a sample at or in front of the visible one;
-// elsewhere the visible sample lies in front of them. Equal depths may differ by rounding (half floats have 11
-// bits); far away, radii alone say too little: 110 m and 112 m may be a hundredth of a pixel apart.
+// elsewhere the visible sample lies in front of them. Equal depths may differ by rounding (half floats have
+// 11 bits); far away, radii alone say too little: 110 m and 112 m may be a hundredth of a pixel apart.
 constexpr float kSameRadiusPx = 0.02f, kSameDepth = 1.001f;
 
 bool starts_at_visible(const DefocusJob& job, const Radii& radii, float front, float visible) {

@@ -11,7 +11,7 @@ namespace petzval::scene {
 namespace {
 
 constexpr int kMaxLayers = 24;  // surfaces that one ray is followed through
-constexpr int kMaxSteps = 64;  // including surfaces seen from inside
+constexpr int kMaxSteps = 64;   // including surfaces seen from inside
 // Hits of one object in one pixel whose depths leave a gap of more than this share belong to separate sheets.
 constexpr float kDepthGap = 0.01f;
 
