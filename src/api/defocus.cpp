@@ -162,20 +162,12 @@ engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, c
 
 using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
 
-// The lens on the picture's pixels, and on pixels 2, 4, … times as wide for engines that work at several
-// resolutions.
+// The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
 Result<LensLevels> lens_levels(const DefocusJob& job) {
     constexpr int kLevels = 10;
-    LensLevels levels;
-    for (int l = 0; l < kLevels; ++l) {
-        const auto reduced = [&](int size) { return std::max(1, int(std::lround(std::ldexp(size, -l)))); };
-        const kernel::Mount mount{job.camera, reduced(job.display_window.width()),
-                                  reduced(job.display_window.height()), job.pixel_aspect};
-        auto lens = kernel::make_lens(job.lens, mount);
-        if (!lens) return lens.error();
-        levels.push_back(std::move(*lens));
-    }
-    return levels;
+    return kernel::make_lens_levels(
+        job.lens, {job.camera, job.display_window.width(), job.display_window.height(), job.pixel_aspect},
+        kLevels);
 }
 
 const engine::Engine* find_engine(const std::string& name) {

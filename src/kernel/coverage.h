@@ -97,6 +97,15 @@ public:
         return row(j);
     }
 
+    // Hands over the covered area of every pixel of a row, from the left, and clears the row for other
+    // polygons.
+    template <typename Use>
+    void drain_row(int j, const Use& use) {
+        Weight covered{};
+        for (int i = 0; i < extent_.width(); ++i) use(i, covered += row(j)[i]);
+        std::fill_n(row(j), stride_, Weight{});
+    }
+
 private:
     Weight* row(int j) { return &cells_[std::size_t(j) * std::size_t(stride_)]; }
 

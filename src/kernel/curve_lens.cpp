@@ -1,5 +1,6 @@
 #include "kernel/curve_lens.h"
 
+#include "kernel/band_groups.h"
 #include "kernel/mesh_kernel.h"
 #include "kernel/ray_set.h"
 #include "kernel/ring_kernel.h"
@@ -21,7 +22,7 @@ constexpr double kNoColourPx = 0.02;
 // Light outside carries under 1 % of the luminance; it does not decide how many bands are needed.
 // Rays see the pupil's texture through a window of this half width, pupil radii.
 constexpr double kRayWidth = 1.0 / 256;
-constexpr int kLeastRingBands = 31, kLeastSectorBands = 15, kLeastMeshBands = 7, kLeastRayBands = 62;
+constexpr int kLeastRingBands = 31, kLeastMeshBands = 7, kLeastRayBands = 62;
 constexpr double kSeenFrom_nm = 430, kSeenTo_nm = 670;
 
 // Units of LensChoice::coma and ::astigmatism, focal lengths (petzval/lens.h).
@@ -46,6 +47,15 @@ std::string describe(const AberrationCurves& curves, const Camera& camera) {
     return text;
 }
 
+ZoneShift mean_shift(const CurveSampler& sampler, const BandGroup& group) {
+    std::vector<double> mean(sampler.at(group.sum.wavelength_nm).samples().size(), 0.0);
+    for (std::size_t b = 0; b < group.bands.size(); ++b) {
+        const ZoneShift shift = sampler.at(group.bands[b].wavelength_nm);
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += group.say[b] * shift.samples()[i];
+    }
+    return ZoneShift(std::move(mean));
+}
+
 Light weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band.b}; }
 
 }  // namespace
@@ -66,8 +76,8 @@ CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, c
     focus_ = focus_of(sampler_, choice, camera.focal_length_mm);
     const auto add_rung = [&](int count) {
         ladder_.emplace_back();
-        for (const colour::SpectralBand& band : colour::spectral_bands(count))
-            ladder_.back().push_back({band, sampler_.at(band.wavelength_nm)});
+        for (const BandGroup& group : band_groups(count, choice.wavelengths > 0 ? count : kLeastWavelengths))
+            ladder_.back().push_back({group.sum, mean_shift(sampler_, group)});
     };
     if (choice.wavelengths > 0)
         add_rung(choice.wavelengths);
@@ -81,21 +91,24 @@ void CurveLens::measure_curves() {
     const std::size_t samples = bands[0].shift.samples().size();
     for (std::size_t i = 0; i < samples; ++i) {
         const double rho = std::sqrt(double(i) / double(samples - 1));
-        double least = 1e9, most = -1e9;
+        const Band* before = nullptr;
+        double path = 0;
         for (const Band& band : bands) {
             const double miss = rho * (band.shift.samples()[i] - focus_);
             largest_shift_ = std::max(largest_shift_, std::abs(miss));
             if (band.spectrum.wavelength_nm < kSeenFrom_nm || band.spectrum.wavelength_nm > kSeenTo_nm)
                 continue;
-            least = std::min(least, miss), most = std::max(most, miss);
+            largest_seen_ = std::max(largest_seen_, std::abs(miss));
+            if (before) path += rho * std::abs(band.shift.samples()[i] - before->shift.samples()[i]);
+            before = &band;
         }
-        colour_spread_ = std::max(colour_spread_, most - least);
+        colour_path_ = std::max(colour_path_, path);
     }
 }
 
 const std::vector<CurveLens::Band>& CurveLens::bands_for(int at_least) const {
-    const double spread_px = colour_spread_ * aberration_px_;
-    const double needed = spread_px < kNoColourPx ? 1 : std::max(double(at_least), spread_px / kBandStepPx);
+    const double path_px = colour_path_ * aberration_px_;
+    const double needed = path_px < kNoColourPx ? 1 : std::max(double(at_least), path_px / kBandStepPx);
     for (const std::vector<Band>& rung : ladder_)
         if (double(rung.size()) >= needed) return rung;
     return ladder_.back();
@@ -147,10 +160,24 @@ PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition fiel
         const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
         return ring_kernel(rings.bands, rings.reach_px);
     }
-    const Rings rings = rings_of(coc_radius_px, kLeastSectorBands);
-    const std::vector<Point> outline = pupil_.outline(field, mesh_tolerance(rings.reach_px));
+    const std::shared_ptr<const RingSweep> sweep = sweep_of(coc_radius_px);
+    const std::vector<Point> outline = pupil_.outline(field, mesh_tolerance(sweep->reach_px()));
     if (!is_star_about_axis(outline)) return mesh_spread(coc_radius_px, field);
-    return sector_kernel(outline, rings.bands, rings.reach_px, pixel_aspect_);
+    return sector_kernel(outline, *sweep, pixel_aspect_);
+}
+
+// Places of the picture share the sweep of a radius: the last few are kept. Two threads may make the same.
+std::shared_ptr<const RingSweep> CurveLens::sweep_of(double coc_radius_px) const {
+    {
+        const std::lock_guard lock(sweeps_mutex_);
+        for (const auto& [radius, sweep] : sweeps_)
+            if (sweep && radius == coc_radius_px) return sweep;
+    }
+    const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
+    auto sweep = std::make_shared<const RingSweep>(rings.bands, rings.reach_px);
+    const std::lock_guard lock(sweeps_mutex_);
+    sweeps_[next_sweep_++ % sweeps_.size()] = {coc_radius_px, sweep};
+    return sweep;
 }
 
 PointSpread CurveLens::point_spread(double coc_radius_px, FieldPosition field) const {

@@ -14,6 +14,13 @@
 #include "kernel/geometric_lens.h"
 #include "kernel/pupil.h"
 #include "kernel/ring_kernel.h"
+#include "kernel/sector_kernel.h"
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace petzval::kernel {
 
@@ -51,6 +58,7 @@ private:
         double reach_px = 0;
     };
     Rings rings_of(double coc_radius_px, int least_bands) const;
+    std::shared_ptr<const RingSweep> sweep_of(double coc_radius_px) const;
     PointSpread mesh_spread(double coc_radius_px, FieldPosition field) const;
 
     std::string description_;
@@ -64,8 +72,12 @@ private:
     double astigmatism_px_;                  // half the distance between both foci at full field, times K
     double largest_shift_ = 0;               // of rho |shift - s| over pupil and wavelengths
     double largest_seen_ = 0;                // the same of wavelengths that count
-    double colour_spread_ = 0;               // of shift between wavelengths that count, over the pupil
+    double colour_path_ = 0;                 // that rho shift travels over wavelengths that count
     std::vector<std::vector<Band>> ladder_;  // the spectrum cut finer and finer
+
+    mutable std::mutex sweeps_mutex_;
+    mutable std::array<std::pair<double, std::shared_ptr<const RingSweep>>, 4> sweeps_;
+    mutable std::size_t next_sweep_ = 0;
 };
 
 }  // namespace petzval::kernel

@@ -47,6 +47,13 @@ struct Mirrors {
     bool up_down = false;     // (x, -y) against (x, y)
 };
 
+// What a lens needs to know to speak in pixels.
+struct Mount {
+    Camera camera;
+    int display_width_px = 0, display_height_px = 0;
+    double pixel_aspect = 1;  // vertical radii in pixels are multiplied by it
+};
+
 // A lens mounted on a camera, for pictures of one size. Immutable; safe to use from many threads.
 class LensModel {
 public:
@@ -73,13 +80,13 @@ public:
     virtual Mirrors mirrors() const { return {}; }
 
     virtual std::string description() const = 0;
-};
 
-// What a lens needs to know to speak in pixels.
-struct Mount {
-    Camera camera;
-    int display_width_px = 0, display_height_px = 0;
-    double pixel_aspect = 1;  // vertical radii in pixels are multiplied by it
+    // The same lens on the same camera, for pictures of another size of pixels, if that costs less than to
+    // make it anew; else null.
+    virtual std::unique_ptr<const LensModel> on_pixels(const Mount& mount) const {
+        (void)mount;
+        return nullptr;
+    }
 };
 
 // True for the ideal lens and lenses drawn as curves, also from files; false for prescriptions and names of
@@ -89,5 +96,9 @@ bool is_drawn(const std::string& name);
 // Errors: InvalidArgument naming an unknown lens (the message lists the known ones) or an aperture number out
 // of range.
 Result<std::unique_ptr<const LensModel>> make_lens(const LensChoice& choice, const Mount& mount);
+
+// The lens on the picture's pixels, and on pixels 2, 4, … times as wide, `count` in all. Errors: as above.
+Result<std::vector<std::unique_ptr<const LensModel>>> make_lens_levels(const LensChoice& choice,
+                                                                       const Mount& mount, int count);
 
 }  // namespace petzval::kernel

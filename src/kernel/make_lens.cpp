@@ -7,6 +7,7 @@
 #include "kernel/wave_lens.h"
 #include "lens_files/shelf.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace petzval::kernel {
@@ -95,6 +96,26 @@ Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
     if (!lens) return lens.error();
     if (choice.wave) return Lens(std::make_unique<WaveLens>(std::move(*lens), mount, choice.wavelengths));
     return Lens(std::move(*lens));
+}
+
+Result<std::vector<Lens>> make_lens_levels(const LensChoice& choice, const Mount& mount, int count) {
+    std::vector<Lens> levels;
+    for (int level = 0; level < count; ++level) {
+        Mount coarser = mount;
+        const auto reduced = [&](int size) {
+            return std::max(1, int(std::lround(std::ldexp(size, -level))));
+        };
+        coarser.display_width_px = reduced(mount.display_width_px);
+        coarser.display_height_px = reduced(mount.display_height_px);
+        Lens again = level > 0 ? levels[0]->on_pixels(coarser) : nullptr;
+        if (!again) {
+            auto made = make_lens(choice, coarser);
+            if (!made) return made.error();
+            again = std::move(*made);
+        }
+        levels.push_back(std::move(again));
+    }
+    return levels;
 }
 
 }  // namespace petzval::kernel

@@ -25,11 +25,16 @@ public:
         for (int j = 0; j <= rings_; ++j)
             for (const Point& rim : pupil.outline)
                 points_.push_back(centre + (double(j) / rings_) * (rim - centre));
+        std::vector<double> density(points_.size(), 1.0);
+        if (pupil.density) pupil.density(points_, density.data());
+        const auto light_of = [&](std::size_t p, std::size_t q, std::size_t r) {
+            return (density[p] + density[q] + density[r]) / 3 *
+                   light(pupil, points_[p], points_[q], points_[r]);
+        };
         for (int j = 0; j < rings_; ++j)
             for (int k = 0; k < spokes_; ++k) {
-                const Point a = points_[at(j, k)], b = points_[at(j, k + 1)];
-                const Point c = points_[at(j + 1, k + 1)], d = points_[at(j + 1, k)];
-                light_.push_back({light(pupil, a, d, c), light(pupil, a, c, b)});
+                const std::size_t a = at(j, k), b = at(j, k + 1), c = at(j + 1, k + 1), d = at(j + 1, k);
+                light_.push_back({light_of(a, d, c), light_of(a, c, b)});
             }
     }
 
@@ -57,11 +62,11 @@ private:
 // The image of the mesh in one wavelength, drawn into a buffer.
 class Drawing {
 public:
-    Drawing(const Mesh& mesh, CoverageBuffer<Light>& buffer)
+    Drawing(const Mesh& mesh, CoverageBuffer<double>& buffer)
         : mesh_(mesh), buffer_(buffer), density_(mesh.light().size()) {}
 
-    void draw(const Point* landed, const Light& weight) {
-        landed_ = landed, weight_ = weight;
+    void draw(const Point* landed) {
+        landed_ = landed;
         find_densities();
         for (int j = 0; j < mesh_.rings(); ++j)
             for (int k = 0; k < mesh_.spokes(); ++k) {
@@ -81,7 +86,7 @@ private:
     static constexpr double kLeastArea = 1e-9;  // px^2; above, doubles lose nothing to the division
 
     void draw_edge(Point from, Point to, double density) {
-        if (density != 0) buffer_.add_edge(from, to, density * weight_);
+        if (density != 0) buffer_.add_edge(from, to, density);
     }
 
     void find_densities() {
@@ -105,14 +110,13 @@ private:
     // without area, as on a caustic or at a perfect focus, leaves its light in the pixel where it lies.
     double spread(double light, double area_px, Point a, Point b, Point c) {
         if (std::abs(area_px) >= kLeastArea) return light / area_px;
-        if (light != 0) buffer_.add_point((1.0 / 3) * (a + b + c), light * weight_);
+        if (light != 0) buffer_.add_point((1.0 / 3) * (a + b + c), light);
         return 0;
     }
 
     const Mesh& mesh_;
-    CoverageBuffer<Light>& buffer_;
+    CoverageBuffer<double>& buffer_;
     const Point* landed_ = nullptr;
-    Light weight_;
     std::vector<Halves> density_;
 };
 
@@ -134,17 +138,22 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
     for (std::size_t i = 0; i < bands.size(); ++i) bands[i].land(mesh.points(), &landed[i * count]);
 
     const Rect extent = extent_of(landed);
-    CoverageBuffer<Light> buffer(extent);
+    CoverageBuffer<double> buffer(extent);
     Drawing drawing(mesh, buffer);
-    for (std::size_t i = 0; i < bands.size(); ++i) drawing.draw(&landed[i * count], bands[i].weight);
+    Image<Light> sum(extent.width(), extent.height());
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+        drawing.draw(&landed[i * count]);
+        for (int y = 0; y < extent.height(); ++y)
+            buffer.drain_row(
+                y, [&, row = sum.row(y)](int x, double covered) { row[x] += covered * bands[i].weight; });
+    }
 
     PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), false};
     // What rounding leaves where nothing landed, against light of a few units in all.
     const auto cleared = [](double light) { return std::abs(light) < 1e-13 ? 0.0f : float(light); };
-    for (int y = 0; y < extent.height(); ++y) {
-        const Light* covered = buffer.resolve_row(y);
-        for (int x = 0; x < extent.width(); ++x)
-            spread.weights(x, y) = {cleared(covered[x].r), cleared(covered[x].g), cleared(covered[x].b), 0};
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const Light& l = sum.pixels()[i];
+        spread.weights.pixels()[i] = {cleared(l.r), cleared(l.g), cleared(l.b), 0};
     }
     trim(spread);
     normalise(spread);
@@ -158,7 +167,7 @@ double mesh_tolerance(double size_px) { return 0.04 / std::max(size_px, 4.0); }
 double mesh_step(double size_px) { return std::sqrt(8 * mesh_tolerance(size_px)); }
 
 MeshPupil mesh_pupil(const Pupil& pupil, const std::vector<Point>& outline, double size_px, double bend_px) {
-    MeshPupil mesh{subdivided(outline, mesh_step(bend_px)), {}, mesh_rings(size_px)};
+    MeshPupil mesh{subdivided(outline, mesh_step(bend_px)), {}, mesh_rings(size_px), {}};
     if (!pupil.has_texture()) return mesh;
     mesh.rings = std::clamp(int(1.2 * size_px), 32, 256);
     mesh.outline = subdivided(outline, 1.2 / mesh.rings);

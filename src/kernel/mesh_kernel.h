@@ -20,6 +20,8 @@ struct MeshPupil {
     // 0…1, mean over a square; empty: 1 everywhere.
     std::function<double(Point middle, double half_width)> transmission;
     int rings = 16;
+    // Light per area at points, where it is smooth over the pupil; empty: 1 everywhere.
+    std::function<void(std::span<const Point> pupil, double* light)> density = {};
 };
 
 struct MeshBand {

@@ -34,6 +34,12 @@ struct Displacement {
     Displacement& add(double factor, const Displacement& other);
 };
 
+// Where many points of the pupil land; `landed` has room for one per point. Some points at a time (SIMD).
+void land(const Displacement& map, std::span<const Point> pupil, Point* landed);
+// The value of a polynomial of even powers at many points of the pupil.
+void values_at(const std::array<double, kEvenTerms>& polynomial, std::span<const Point> pupil,
+               double* values);
+
 // The part of the stop that no rim but the stop's own cuts off, seen from the beam's object: a polygon around
 // its middle, (along, across), corners at even angles from +along. Where nothing is cut it reaches beyond the
 // unit disc.

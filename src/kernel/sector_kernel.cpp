@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace petzval::kernel {
 namespace {
@@ -40,13 +39,7 @@ std::vector<double> open_areas(const std::vector<Point>& outline, int count) {
     return area;
 }
 
-struct Sample {
-    float r = 0, g = 0, b = 0, unused = 0;
-
-    friend Sample operator+(Sample p, Sample q) { return {p.r + q.r, p.g + q.g, p.b + q.b, 0}; }
-    friend Sample operator-(Sample p, Sample q) { return {p.r - q.r, p.g - q.g, p.b - q.b, 0}; }
-    friend Sample operator*(float s, Sample p) { return {s * p.r, s * p.g, s * p.b, 0}; }
-};
+using Sample = RingSweep::Sample;
 
 // Even steps of signed radius.
 struct RadiusGrid {
@@ -54,7 +47,7 @@ struct RadiusGrid {
     int count = 0;
 
     RadiusGrid(const std::vector<RingBand>& bands, double reach_px) {
-        step = reach_px < 12 ? 0.125 : 0.25;
+        step = reach_px < 12 ? 0.125 : std::max(0.25, reach_px / 2048);
         double high = 0;
         constexpr int kProbes = 256;
         for (const RingBand& band : bands)
@@ -124,88 +117,40 @@ private:
     int first_, last_ = -1;
 };
 
-// Along every direction, light per area integrated over the signed radius.
+// How much of the pupil each of many even directions sees.
 class Directions {
 public:
-    Directions(const std::vector<Point>& outline, const std::vector<RingBand>& bands, double reach_px)
-        : grid_(bands, reach_px), count_(std::bit_ceil(unsigned(std::clamp(8 * reach_px, 128.0, 1024.0)))) {
-        sweep(open_areas(outline, int(count_)), bands, int(std::clamp(3 * reach_px, 48.0, 768.0)));
+    Directions(const std::vector<Point>& outline, const RingSweep& sweep)
+        : sweep_(sweep), count_(std::bit_ceil(unsigned(std::clamp(8 * sweep.reach_px(), 128.0, 1024.0)))) {
+        // Whole zones, and the share of the next one's area.
+        const double zones = sweep.zones();
+        for (const double open : open_areas(outline, int(count_))) {
+            const double whole = std::floor(std::sqrt(open) * zones);
+            zones_open_.push_back(
+                whole + std::clamp((open * zones * zones - whole * whole) / (2 * whole + 1), 0.0, 1 - 1e-12));
+        }
     }
 
     // The direction at an angle of -pi…2 pi.
     unsigned at(double angle) const { return unsigned((angle + kTurn) * (count_ / kTurn)) & (count_ - 1); }
-    bool same(unsigned p, unsigned q) const { return profile_of_[p] == profile_of_[q]; }
+    bool same(unsigned p, unsigned q) const { return zones_open_[p] == zones_open_[q]; }
 
     // Mean along the radius, from `inner` to `outer`, of light from both sides of the axis.
     Sample mean(double inner, double outer, unsigned direction) const {
-        Sample sum = integral(direction, outer) - integral(direction, inner);
-        if (-inner > grid_.low) {
-            const unsigned opposite = (direction + count_ / 2) & (count_ - 1);
-            sum = sum + integral(opposite, -inner) - integral(opposite, -outer);
+        const double here = zones_open_[direction];
+        Sample sum = sweep_.integral(here, outer) - sweep_.integral(here, inner);
+        if (-inner > sweep_.lowest_px()) {
+            const double opposite = zones_open_[(direction + count_ / 2) & (count_ - 1)];
+            sum = sum + sweep_.integral(opposite, -inner) - sweep_.integral(opposite, -outer);
         }
         return float(1 / (outer - inner)) * sum;
     }
-    double largest_radius() const { return std::max(-grid_.low, grid_.low + grid_.step * grid_.count); }
+    double largest_radius() const { return sweep_.largest_px(); }
 
 private:
-    void sweep(const std::vector<double>& open, const std::vector<RingBand>& bands, int zones) {
-        std::vector<int> order(open.size());
-        std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](int p, int q) { return open[std::size_t(p)] < open[std::size_t(q)]; });
-        profile_of_.resize(open.size());
-        std::vector<Sample> arrived(std::size_t(grid_.count));
-        std::vector<double> from(bands.size());
-        for (std::size_t b = 0; b < bands.size(); ++b) from[b] = bands[b].landing_px(0);
-        Zone zone(grid_);
-        auto next = order.begin();
-        double inner = 0;  // area within the zone's inner edge; zones are evenly wide
-        for (int i = 1; i <= zones; ++i) {
-            const double outer = double(i) * i / (double(zones) * zones);
-            zone.clear();
-            for (std::size_t b = 0; b < bands.size(); ++b) {
-                const double to = bands[b].landing_px(outer);
-                zone.add(from[b], to, (outer - inner) * bands[b].weight);
-                from[b] = to;
-            }
-            for (; next != order.end() && open[std::size_t(*next)] < outer; ++next)
-                note(*next, arrived, zone, (open[std::size_t(*next)] - inner) / (outer - inner));
-            zone.add_to(arrived, 1);
-            inner = outer;
-        }
-        // All directions that the outline leaves open share one profile.
-        zone.clear();
-        for (; next != order.end(); ++next) {
-            if (open_ < 0) open_ = note(*next, arrived, zone, 0);
-            profile_of_[std::size_t(*next)] = open_;
-        }
-    }
-
-    int note(int direction, const std::vector<Sample>& arrived, const Zone& zone, double share) {
-        const int profile = int(integrals_.size() / (arrived.size() + 1));
-        profile_of_[std::size_t(direction)] = profile;
-        std::vector<Sample> density = arrived;
-        zone.add_to(density, share);
-        Sample sum;
-        integrals_.push_back(sum);
-        for (const Sample& d : density) integrals_.push_back(sum = sum + float(grid_.step) * d);
-        return profile;
-    }
-
-    Sample integral(unsigned direction, double radius) const {
-        const double at = std::clamp((radius - grid_.low) * per_step_, 0.0, grid_.count - 1e-9);
-        const int i = int(at);
-        const Sample* p =
-            &integrals_[std::size_t(profile_of_[direction]) * std::size_t(grid_.count + 1) + std::size_t(i)];
-        return p[0] + float(at - i) * (p[1] - p[0]);
-    }
-
-    RadiusGrid grid_;
-    double per_step_ = 1 / grid_.step;
+    const RingSweep& sweep_;
     unsigned count_;  // a power of two
-    std::vector<int> profile_of_;
-    std::vector<Sample> integrals_;  // profiles of grid_.count + 1 nodes
-    int open_ = -1;
+    std::vector<double> zones_open_;
 };
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }  // std::hypot minds overflow, and time
@@ -248,11 +193,39 @@ Sample pixel_share(const Directions& directions, double x, double y, double vert
 
 }  // namespace
 
-PointSpread sector_kernel(const std::vector<Point>& outline, const std::vector<RingBand>& bands,
-                          double reach_px, double vertical_scale) {
+RingSweep::RingSweep(const std::vector<RingBand>& bands, double reach_px) : reach_px_(reach_px) {
+    const RadiusGrid grid(bands, reach_px);
+    low_ = grid.low, step_ = grid.step, per_step_ = 1 / grid.step, bins_ = grid.count;
+    zones_ = int(std::clamp(3 * reach_px, 48.0, 768.0));
+    std::vector<Sample> arrived(std::size_t(bins_), Sample{});
+    std::vector<double> from(bands.size());
+    for (std::size_t b = 0; b < bands.size(); ++b) from[b] = bands[b].landing_px(0);
+    Zone zone(grid);
+    integrals_.assign(std::size_t(bins_) + 1, Sample{});
+    integrals_.reserve((std::size_t(bins_) + 1) * (std::size_t(zones_) + 1));
+    for (int i = 1; i <= zones_; ++i) {  // evenly wide
+        const double inner = (i - 1.0) * (i - 1.0) / (double(zones_) * zones_);
+        const double outer = double(i) * i / (double(zones_) * zones_);
+        zone.clear();
+        for (std::size_t b = 0; b < bands.size(); ++b) {
+            const double to = bands[b].landing_px(outer);
+            zone.add(from[b], to, (outer - inner) * bands[b].weight);
+            from[b] = to;
+        }
+        zone.add_to(arrived, 1);
+        Sample sum;
+        integrals_.push_back(sum);
+        for (const Sample& d : arrived) integrals_.push_back(sum = sum + float(step_) * d);
+    }
+}
+
+double RingSweep::largest_px() const { return std::max(-low_, low_ + step_ * bins_); }
+
+PointSpread sector_kernel(const std::vector<Point>& outline, const RingSweep& sweep, double vertical_scale) {
+    const double reach_px = sweep.reach_px();
     const int wide = int(std::ceil(reach_px - 0.5)), tall = int(std::ceil(reach_px * vertical_scale - 0.5));
     if (wide <= 0 && tall <= 0) return single_pixel();
-    const Directions directions(outline, bands, reach_px);
+    const Directions directions(outline, sweep);
     PointSpread spread{{-wide, -tall, wide + 1, tall + 1}, Image<Rgba>(2 * wide + 1, 2 * tall + 1), false};
     for (int y = -tall; y <= tall; ++y)
         for (int x = -wide; x <= wide; ++x) {

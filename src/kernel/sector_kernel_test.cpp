@@ -23,7 +23,7 @@ struct Cubic {
 };
 
 PointSpread sectors(const std::vector<Point>& outline, Cubic v, double vertical_scale = 1) {
-    return sector_kernel(outline, {{kWhite, v}}, v.reach(), vertical_scale);
+    return sector_kernel(outline, RingSweep({{kWhite, v}}, v.reach()), vertical_scale);
 }
 
 PointSpread mesh(const std::vector<Point>& outline, Cubic v, double vertical_scale = 1) {

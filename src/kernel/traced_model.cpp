@@ -1,5 +1,6 @@
 #include "kernel/traced_model.h"
 
+#include "kernel/band_groups.h"
 #include "kernel/outline.h"
 #include "kernel/ray_set.h"
 #include "kernel/spread.h"
@@ -20,6 +21,7 @@ constexpr int kOutlineCorners = 96;       // of what the rims leave open
 // Wavelengths traced; parabolas join three neighbours.
 constexpr double kTraced_nm[] = {420, 455, 495, 540, 590, 640, 690};
 constexpr double kMiddle_nm = 555;
+constexpr double kProbed_nm[] = {430, 490, 550, 610, 670};  // wavelengths that count
 constexpr int kRayBands = 62;
 constexpr double kRayWidth =
     1.0 / 256;  // of the window through which rays see the pupil's texture, pupil radii
@@ -98,6 +100,17 @@ Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Pre
         return status.error();
     model->measure();
     return std::unique_ptr<const GeometricLens>(std::move(model));
+}
+
+// Rays are kept in millimetres.
+std::unique_ptr<const LensModel> TracedModel::on_pixels(const Mount& mount) const {
+    auto same = std::unique_ptr<TracedModel>(new TracedModel(*this));
+    const double factor = mount.display_width_px / mount.camera.sensor_width_mm / px_per_mm_;
+    same->mount_.display_width_px = mount.display_width_px;
+    same->mount_.display_height_px = mount.display_height_px;
+    same->px_per_mm_ *= factor;
+    same->reach_offset_px_ *= factor;
+    return same;
 }
 
 Status TracedModel::trace(const optics::Prescription& lens) {
@@ -258,25 +271,30 @@ std::function<Point(Point)> TracedModel::landing(double wavelength_nm, double co
 
 TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<Point>& outline,
                                             double coc_radius_px) const {
-    const Displacement red = landing(map_at(node, 670), coc_radius_px),
-                       blue = landing(map_at(node, 430), coc_radius_px),
-                       green = landing(map_at(node, kMiddle_nm), coc_radius_px);
+    std::vector<Displacement> maps;
+    for (const double nm : kProbed_nm) maps.push_back(landing(map_at(node, nm), coc_radius_px));
     Fineness fine;
-    double spread_px = 0;
+    double path_px = 0;  // that rims travel over wavelengths that count
     for (std::size_t i = 0; i < outline.size(); i += 1 + outline.size() / 24) {
         const PupilPowers powers(outline[i]);
-        const Point r = red.at(powers), g = green.at(powers), b = blue.at(powers);
-        for (const Point& d : {r - g, g - b, b - r}) spread_px = std::max(spread_px, std::hypot(d.x, d.y));
-        for (const Point& p : {r, g, b}) fine.size_px = std::max(fine.size_px, std::hypot(p.x, p.y));
+        Point before;
+        double path = 0;
+        for (std::size_t w = 0; w < maps.size(); ++w) {
+            const Point p = maps[w].at(powers), step = p - before;
+            fine.size_px = std::max(fine.size_px, std::hypot(p.x, p.y));
+            if (w > 0) path += std::hypot(step.x, step.y);
+            before = p;
+        }
+        path_px = std::max(path_px, path);
     }
     // Rays inside the rim may land farther out than the rim.
     fine.size_px = std::max(fine.size_px, std::abs(coc_radius_px));
     if (choice_.wavelengths > 0) {
         fine.bands = choice_.wavelengths;
-    } else if (wavelength_nm_.size() >= 3 && spread_px >= kNoColourPx) {
+    } else if (wavelength_nm_.size() >= 3 && path_px >= kNoColourPx) {
         fine.bands = kLadder[std::size(kLadder) - 1];
         for (const int count : kLadder)
-            if (count * kBandStepPx >= spread_px) fine.bands = std::min(fine.bands, count);
+            if (count * kBandStepPx >= path_px) fine.bands = std::min(fine.bands, count);
     }
     return fine;
 }
@@ -288,18 +306,27 @@ PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition fi
     const RayMap middle = map_at(node, kMiddle_nm);
     MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(fine.size_px)),
                                  fine.size_px, 2 * fine.size_px - std::abs(coc_radius_px));
-    pupil.transmission = [&](Point p, double half_width) {
-        const double light = light_at(middle, PupilPowers(p));
-        return pupil_.has_texture() ? light * pupil_.transmission(axis.from_axis(p), half_width) : light;
+    pupil.density = [&](std::span<const Point> points, double* light) {
+        values_at(middle.light, points, light);
+        for (std::size_t i = 0; i < points.size(); ++i) light[i] = std::max(0.0, light[i]);
     };
+    if (pupil_.has_texture())
+        pupil.transmission = [&](Point p, double half_width) {
+            return pupil_.transmission(axis.from_axis(p), half_width);
+        };
     std::vector<MeshBand> bands;
-    for (const colour::SpectralBand& band : colour::spectral_bands(fine.bands)) {
-        const Displacement px = landing(map_at(node, band.wavelength_nm), coc_radius_px);
+    const auto groups = band_groups(fine.bands, choice_.wavelengths > 0 ? fine.bands : kLeastWavelengths);
+    for (const BandGroup& group : groups) {
+        Displacement px;
+        for (std::size_t i = 0; i < group.bands.size(); ++i)
+            px.add(group.say[i], landing(map_at(node, group.bands[i].wavelength_nm), coc_radius_px));
+        const colour::SpectralBand& band = group.sum;
         bands.push_back(
             {{band.r, band.g, band.b}, [this, px, axis](std::span<const Point> points, Point* landed) {
-                 for (const Point& p : points) {
-                     const Point image = axis.from_axis(px.at(PupilPowers(p)));
-                     *landed++ = {image.x, image.y * mount_.pixel_aspect};
+                 land(px, points, landed);
+                 for (std::size_t i = 0; i < points.size(); ++i) {
+                     const Point image = axis.from_axis(landed[i]);
+                     landed[i] = {image.x, image.y * mount_.pixel_aspect};
                  }
              }});
     }

@@ -196,6 +196,20 @@ TEST(TracedModel, NothingLandsBeyondItsReach) {
     }
 }
 
+TEST(TracedModel, OnOtherPixelsItIsTheLensTracedForThem) {
+    LensChoice choice;
+    choice.name = "double-gauss", choice.aperture.blades = 7;
+    const Mount fine = full_frame(2.8, 1920), coarse = full_frame(2.8, 480);
+    const auto lens = lens_of(choice, fine);
+    const auto moved = lens->on_pixels(coarse), anew = lens_of(choice, coarse);
+    ASSERT_TRUE(moved);
+    for (const FieldPosition field : {FieldPosition{0, 0}, {0.6, 0.3}}) {
+        const PointSpread a = moved->point_spread(-7, field), b = anew->point_spread(-7, field);
+        EXPECT_LT(largest_difference(a, b), 1e-6 * brightest(b));
+    }
+    EXPECT_NEAR(moved->reach_px(9), anew->reach_px(9), 1e-9);
+}
+
 TEST(TracedModel, BladesAndWavelengthsAndFocusChangeTheKernel) {
     const auto kernel = [](auto set) {
         LensChoice choice;

@@ -78,8 +78,8 @@ std::vector<Share> samples_in(int pixel, double width) {
 }
 
 // Intensity summed over the squares of pixels.
-PointSpread on_pixels(const std::vector<std::complex<float>>& field, int side, double wide, double tall,
-                      const Rect& extent) {
+PointSpread summed_over_pixels(const std::vector<std::complex<float>>& field, int side, double wide,
+                               double tall, const Rect& extent) {
     PointSpread spread{extent, Image<Rgba>(extent.width(), extent.height()), false};
     std::vector<std::vector<Share>> columns;
     for (int x = extent.x0; x < extent.x1; ++x) columns.push_back(samples_in(x, wide));
@@ -184,7 +184,7 @@ PointSpread WaveLens::transformed(double wavelength_nm, FieldPosition field, con
         }
     }
     fft_square(wave, Fft(side), false, 1);
-    return on_pixels(wave, side, per_pixel, per_pixel / pixel_aspect_, extent);
+    return summed_over_pixels(wave, side, per_pixel, per_pixel / pixel_aspect_, extent);
 }
 
 PointSpread WaveLens::sum_of_bands(const Rect& extent,
