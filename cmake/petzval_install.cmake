@@ -27,10 +27,10 @@ function(petzval_component target)
 endfunction()
 
 file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
-list(FILTER core_headers EXCLUDE REGEX "/(files|ocio|scene)\\.h$")
+list(FILTER core_headers EXCLUDE REGEX "/(files|lens_report|ocio|scene)\\.h$")
 petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES tbb libhwy
                   DESCRIPTION "The depth of field of a real lens, for rendered pictures")
-petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h
+petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
                   REQUIRES petzval OpenEXR libpng DESCRIPTION "EXR and PNG for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")

@@ -19,7 +19,7 @@ ALLOWED = {
     "engine": LENS,
     "glare": PIXELS | {"colour", "optics", "lens_files", "kernel"},
     "scene": PIXELS | {"optics"},
-    "report": LENS,
+    "report": LENS | {"api", "files"},
     "files": PIXELS | {"colour", "optics", "depth"},
     "ocio": PIXELS,
     "api": LENS | {"engine", "glare"},
@@ -29,7 +29,8 @@ PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
     "compare": "image", "light_point": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
     "dynamic_range": "colour", "lens_facts": "api", "lens_kernel": "api", "defocus": "engine",
-    "engine_options": "engine", "glare": "glare", "files": "files", "ocio": "ocio", "scene": "scene", "petzval": "api",
+    "engine_options": "engine", "glare": "glare", "files": "files", "lens_report": "report", "ocio": "ocio",
+    "scene": "scene", "petzval": "api",
 }
 # Headers of other people and the only files that may see them.
 THIRD_PARTY = {

@@ -286,13 +286,14 @@ void add_lens_show(Verb& lens, Action& chosen) {
 }  // namespace
 
 void add_lens(Verb& program, Action& chosen) {
-    Verb& lens = add_verb(program, "lens", "lenses: list, show, psf and table",
+    Verb& lens = add_verb(program, "lens", "lenses: list, show, psf, table and report",
                           "petzval lens list\n"
                           "petzval lens show double-gauss\n"
                           "petzval lens psf doublet --defocus 40 -o disc.exr");
     add_lens_list(lens, chosen);
     add_lens_show(lens, chosen);
     add_lens_pictures(lens, chosen);
+    add_lens_report(lens, chosen);
     when_typed(lens, [&lens] { require_verb(lens); });
 }
 

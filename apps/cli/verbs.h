@@ -14,5 +14,6 @@ void add_compare(Verb& program, Action& chosen);
 void add_develop(Verb& program, Action& chosen);
 void add_lens(Verb& program, Action& chosen);
 void add_lens_pictures(Verb& lens, Action& chosen);  // psf and table
+void add_lens_report(Verb& lens, Action& chosen);
 
 }  // namespace petzval::cli

@@ -146,6 +146,8 @@ struct PngPixels {
     std::vector<std::uint16_t> samples;  // 0…255 or 0…65535
 };
 PETZVAL_API Status write_png(const std::string& path, const PngPixels& pixels, bool overwrite = true);
+// The same file as bytes, for pages and mails that carry their pictures inside.
+PETZVAL_API Result<std::string> png_bytes(const PngPixels& pixels);
 // Samples as stored, never transfer-decoded: masks, depth PNGs, aperture images.
 PETZVAL_API Result<PngPixels> read_png(const std::string& path, std::size_t max_pixels = std::size_t(1)
                                                                                          << 28);

@@ -33,7 +33,8 @@ struct PngReading {
 };
 
 struct PngWriting {
-    OutputFile* file = nullptr;
+    OutputFile* file = nullptr;  // one of the two
+    std::string* bytes = nullptr;
     std::uint64_t position = 0;
     char message[256] = {};
     png_structp png = nullptr;
@@ -60,7 +61,10 @@ void on_read(png_structp png, png_bytep to, png_size_t bytes) {
 
 void on_write(png_structp png, png_bytep from, png_size_t bytes) {
     auto* writing = static_cast<PngWriting*>(png_get_io_ptr(png));
-    if (!writing->file->write_at(writing->position, from, bytes)) png_error(png, "it cannot be written");
+    if (writing->bytes)
+        writing->bytes->append(reinterpret_cast<const char*>(from), bytes);
+    else if (!writing->file->write_at(writing->position, from, bytes))
+        png_error(png, "it cannot be written");
     writing->position += bytes;
 }
 
@@ -160,6 +164,29 @@ Result<PngPixels> read(const InputFile& file, std::size_t max_pixels, bool pixel
     return out;
 }
 
+Status check_pixels(const PngPixels& p) {
+    const bool shape = p.width > 0 && p.height > 0 &&
+                       (p.channels == 1 || p.channels == 3 || p.channels == 4) &&
+                       (p.bits == 8 || p.bits == 16);
+    if (!shape || p.samples.size() != std::size_t(p.width) * std::size_t(p.height) * std::size_t(p.channels))
+        return Error{ErrorCode::InvalidArgument,
+                     "a PNG needs width x height x channels samples, 1, 3 or 4 channels and 8 or 16 bits"};
+    return Done{};
+}
+
+// False after an error, which is in w.message unless there was no memory for libpng.
+bool write_pixels(PngWriting& w, const PngPixels& p) {
+    w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w, on_error<PngWriting>, ignore_warning);
+    w.info = w.png ? png_create_info_struct(w.png) : nullptr;
+    if (!w.info) {
+        copy_message(w.message, "no memory for libpng");
+        return false;
+    }
+    std::vector<png_byte> bytes = packed(p);
+    std::vector<png_bytep> rows = row_pointers(bytes, p.height);
+    return write_png_rows(w, p, rows.data());
+}
+
 }  // namespace
 
 Result<PngPixels> read_png_file(const InputFile& file, std::size_t max_pixels) {
@@ -181,24 +208,23 @@ Result<PngPixels> read_png(const std::string& path, std::size_t max_pixels) {
 }
 
 Status write_png(const std::string& path, const PngPixels& p, bool overwrite) {
-    const bool shape = p.width > 0 && p.height > 0 &&
-                       (p.channels == 1 || p.channels == 3 || p.channels == 4) &&
-                       (p.bits == 8 || p.bits == 16);
-    if (!shape || p.samples.size() != std::size_t(p.width) * std::size_t(p.height) * std::size_t(p.channels))
-        return Error{ErrorCode::InvalidArgument,
-                     "a PNG needs width x height x channels samples, 1, 3 or 4 channels and 8 or 16 bits"};
+    if (const Status fine = check_pixels(p); !fine) return fine.error();
     Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path, overwrite);
     if (!file) return file.error();
     PngWriting w;
     w.file = file->get();
-    w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w, on_error<PngWriting>, ignore_warning);
-    w.info = w.png ? png_create_info_struct(w.png) : nullptr;
-    if (!w.info) return Error{ErrorCode::OutOfMemory, printable(path, 4096) + ": no memory for libpng"};
-    std::vector<png_byte> bytes = packed(p);
-    std::vector<png_bytep> rows = row_pointers(bytes, p.height);
-    if (!write_png_rows(w, p, rows.data()) && !(*file)->failed())
+    if (!write_pixels(w, p) && !(*file)->failed())
         return output_failed(path, "cannot be written: " + printable(w.message));
     return (*file)->commit();
+}
+
+Result<std::string> png_bytes(const PngPixels& p) {
+    if (const Status fine = check_pixels(p); !fine) return fine.error();
+    std::string bytes;
+    PngWriting w;
+    w.bytes = &bytes;
+    if (!write_pixels(w, p)) return Error{ErrorCode::OutOfMemory, std::string("PNG: ") + w.message};
+    return bytes;
 }
 
 }  // namespace petzval

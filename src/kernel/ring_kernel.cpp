@@ -57,11 +57,12 @@ private:
 // sees of it is a second difference.
 class RadialProfile {
 public:
-    RadialProfile(const std::vector<Rgb>& energy, double step) : step_(step), nodes_(energy.size() + 1) {
+    RadialProfile(const std::vector<Light>& energy, double step) : step_(step), nodes_(energy.size() + 1) {
         for (std::size_t i = 0; i < energy.size(); ++i) {
             const double ring_area = std::numbers::pi * step * step * double(2 * i + 1);
+            const Rgb light{energy[i].r, energy[i].g, energy[i].b};
             for (std::size_t c = 0; c < 3; ++c) {
-                nodes_[i].density[c] = energy[i][c] / ring_area;
+                nodes_[i].density[c] = light[c] / ring_area;
                 nodes_[i + 1].first[c] = nodes_[i].first[c] + nodes_[i].density[c] * step;
                 nodes_[i + 1].second[c] =
                     nodes_[i].second[c] + step * (nodes_[i].first[c] + 0.5 * nodes_[i].density[c] * step);
@@ -121,25 +122,6 @@ private:
     std::vector<Node> nodes_;
 };
 
-std::vector<Rgb> ring_energy(const std::vector<RingBand>& bands, double reach_px, std::size_t bins) {
-    // Zones of even area, thinner than a tenth of a pixel at the rim.
-    const int zones = int(std::clamp(8 * reach_px, 128.0, 4096.0));
-    std::vector<Rgb> total(bins, Rgb{});
-    for (const RingBand& band : bands) {
-        RingGrid grid(reach_px, bins);
-        double from = band.landing_px(0);
-        for (int i = 1; i <= zones; ++i) {
-            const double to = band.landing_px(double(i) / zones);
-            grid.add_annulus(from, to, 1.0 / zones);
-            from = to;
-        }
-        const Rgb weight{band.weight.r, band.weight.g, band.weight.b};
-        for (std::size_t i = 0; i < bins; ++i)
-            for (std::size_t c = 0; c < 3; ++c) total[i][c] += weight[c] * grid.energy()[i];
-    }
-    return total;
-}
-
 // A pixel is cut into squares so small that circles leave their tangents by less than 0.004 px across one.
 Rgb pixel_share(const RadialProfile& profile, int x, int y) {
     const int cuts = std::clamp(int(std::ceil(5.6 / std::sqrt(std::hypot(x, y)))), 1, 8);
@@ -154,6 +136,23 @@ Rgb pixel_share(const RadialProfile& profile, int x, int y) {
 }
 
 }  // namespace
+
+std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_px, std::size_t bins) {
+    // Zones of even area, thinner than a tenth of a pixel at the rim.
+    const int zones = int(std::clamp(8 * reach_px, 128.0, 4096.0));
+    std::vector<Light> total(bins);
+    for (const RingBand& band : bands) {
+        RingGrid grid(reach_px, bins);
+        double from = band.landing_px(0);
+        for (int i = 1; i <= zones; ++i) {
+            const double to = band.landing_px(double(i) / zones);
+            grid.add_annulus(from, to, 1.0 / zones);
+            from = to;
+        }
+        for (std::size_t i = 0; i < bins; ++i) total[i] += grid.energy()[i] * band.weight;
+    }
+    return total;
+}
 
 PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px) {
     const int radius = int(std::ceil(reach_px - 0.5));  // pixels beyond the first that light touches

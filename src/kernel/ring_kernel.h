@@ -20,6 +20,10 @@ struct RingBand {
     std::function<double(double area)> landing_px;
 };
 
+// The light that falls into each of `bins` rings of even width between the axis and reach_px, the largest
+// |landing| of all bands: exact energies, nothing sampled. Requires: reach_px > 0, bins >= 1.
+std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_px, std::size_t bins);
+
 // Channels sum to 1; colours are not mapped. reach_px: largest |landing| of all bands.
 PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px);
 
