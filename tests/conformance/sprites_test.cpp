@@ -112,6 +112,16 @@ TEST(Sprites, BrightPointsOfThePictureAreFoundAndKeepTheirLight) {
     }
 }
 
+TEST(Sprites, TheRimOfALampIsDrawnWithTheLampWhateverItsDepthSays) {
+    Shot shot = flat(160, 120, {0.05f, 0.05f, 0.05f, 1}, 24);
+    for (int y = 59; y <= 61; ++y)
+        for (int x = 79; x <= 81; ++x) shot.colour(x, y) = {60, 60, 60, 1};
+    shot.colour(80, 60) = {200, 200, 200, 1}, shot.coc_px(80, 60) = 15;
+    const Picture image = rendered(shot.job("sprites"));
+    EXPECT_GT(image(80 + 12, 60).g, 0.5f);
+    EXPECT_NEAR(image(80 + 19, 60).g, 0.05, 0.02);
+}
+
 TEST(Sprites, WhatIsInFocusInFrontHidesALight) {
     Lights lights(120, 80, 30);
     for (int y = 0; y < 80; ++y)

@@ -1,0 +1,127 @@
+"""Every engine beside the others on the same frames: how close to the truth, how fast, how it looks.
+
+Two tables, in Markdown, on stdout, from one run:
+  quality   PSNR and SSIM against what a ray tracer recorded through the lens, and wall seconds of computing, the
+            best of --repeat runs; scenes as in `./dev bench quality`
+  speed     1920 x 1080, largest radius 32 px: wall seconds and CPU seconds / threads, each the best of --repeat
+and build/bench/engines.png: the --frame scene through each, with the truth and the sharp picture.
+
+Usage: ./dev bench engines [--scenes A,B] [--width N] [--samples N] [--frame SCENE] [--repeat N] [--tables A,B]
+Scenes and their truth (of --samples lens samples per pixel) are made once and kept in build/bench.
+"""
+import argparse
+import json
+import pathlib
+import sys
+
+from quality import CACHE, ROOT, SHARED, Scene, machine, path_traced, petzval, print_table, scene_state, score
+from speed import THREADS, measure, picture, seconds
+
+sys.path.insert(0, str(ROOT / "tests/cli"))
+from pictures import read_png, write_png  # noqa: E402
+
+WAYS = [("scatter final", ["--quality", "final"]), ("scatter", []), ("scatter draft", ["--quality", "draft"]),
+        ("gather", ["--engine", "gather"]), ("gather draft", ["--engine", "gather", "--quality", "draft"]),
+        ("sprites", ["--engine", "sprites"]),
+        ("sprites, gaussian", ["--engine", "sprites", "--background", "gaussian"]),
+        ("gaussian", ["--engine", "gaussian"]),
+        ("gaussian wgld", ["--engine", "gaussian", "--gaussian-style", "wgld"])]
+SPEED = [("scatter", "final"), ("scatter", "standard"), ("scatter", "draft"), ("gather", "standard"),
+         ("gather", "draft"), ("sprites", "standard"), ("gaussian", "standard")]
+ON_SHEET = ["scatter", "gather", "sprites", "gaussian", "gaussian wgld"]
+
+
+def built_in(name, width, samples):
+    stem = CACHE / f"{name}_{width}_{samples}_{scene_state()}"
+    sharp, truth = pathlib.Path(f"{stem}_sharp.exr"), pathlib.Path(f"{stem}_truth.exr")
+    if not (sharp.exists() and truth.exists()):
+        print(f"making {name}", file=sys.stderr)
+        petzval("scene", "make", name, "-o", sharp, "--truth", truth, "--width", width, "--height", width * 9 // 16,
+                "--samples", samples, "--overwrite")
+    return Scene(name, sharp, truth, [])
+
+
+def took(scene, flags, out, repeat):
+    """Least seconds of computing; `out` is what the last run wrote."""
+    best = float("inf")
+    for _ in range(repeat):
+        report = json.loads(petzval("defocus", scene.sharp, "-o", out, *scene.camera, *flags, "--overwrite", "--json",
+                                    "-", "-q"))
+        best = min(best, report["seconds"]["kernels"] + report["seconds"]["compute"])
+    return best
+
+
+def shown(light, out):
+    petzval("develop", light, "-o", out, "-q")
+    return out
+
+
+def quality_rows(scene, given, panels):
+    yield [scene.name, "sharp picture", *score(scene, scene.sharp), ""]
+    for label, flags in WAYS:
+        print(f"{scene.name}: {label}", file=sys.stderr)
+        out = CACHE / "engines_out.exr"
+        best = took(scene, flags, out, given.repeat)
+        yield [scene.name, label, *score(scene, out), f"{best:.3f}"]
+        if scene.name == given.frame and label in ON_SHEET:
+            panels.append(shown(out, CACHE / f"engines_{label.replace(' ', '_')}.png"))
+    if scene.name == given.frame:
+        panels.append(shown(scene.truth, CACHE / "engines_truth.png"))
+
+
+def sheet(panels, columns=2, gap=4):
+    """Pictures of one size side by side, row by row."""
+    rows, pictures = [], [read_png(p)[0] for p in panels]
+    width = len(pictures[0][0])
+    for first in range(0, len(pictures), columns):
+        beside = pictures[first:first + columns] + [None] * (first + columns - len(pictures))
+        for y in range(len(pictures[0])):
+            row = []
+            for k, one in enumerate(beside[:columns]):
+                row += ([0] * (3 * gap) if k else []) + (list(one[y]) if one else [0] * width)
+            rows.append(row)
+        rows += [[0] * len(rows[0])] * gap
+    write_png(CACHE / "engines.png", rows[:-gap], channels=3)
+    print(f"{CACHE / 'engines.png'}: {', '.join(p.stem[8:] for p in panels)}", file=sys.stderr)
+
+
+def speed_rows(given):
+    for engine, quality in SPEED:
+        row = [engine, quality]
+        for name in ("table", "night"):
+            run = measure(picture(name, 1920), given, engine=engine, quality=quality, radius=32)
+            row.append(f"{seconds(run['wall_s'])} ({seconds(run['cpu_s'] / THREADS)})" if run else
+                       f"> {given.limit / THREADS:g}")
+        yield [*row, f"{run['peak_mib']:.0f}" if run else ""]
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="./dev bench engines")
+    parser.add_argument("--scenes", default="night,fence,table,lanterns,shared/fence,shared/table")
+    parser.add_argument("--width", type=int, default=480)
+    parser.add_argument("--samples", type=int, default=256)
+    parser.add_argument("--frame", default="night")
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--tables", default="quality,speed")
+    given = parser.parse_args()
+    given.limit = 60
+    CACHE.mkdir(parents=True, exist_ok=True)
+    if "quality" in given.tables:
+        body, panels = [], []
+        for name in given.scenes.split(","):
+            if name.startswith("shared/") and not (SHARED / name[7:]).exists():
+                continue
+            scene = path_traced(name[7:]) if name.startswith("shared/") else built_in(name, given.width, given.samples)
+            body += quality_rows(scene, given, panels)
+        print_table(["scene", "engine", "PSNR dB", "SSIM", "seconds"], body)
+        print(f"\nBuilt-in scenes {given.width} px wide, truth of {given.samples} lens samples.\n")
+        if panels:
+            sheet(panels)
+    if "speed" in given.tables:
+        print_table(["engine", "quality", "table s", "night s", "peak MiB"], list(speed_rows(given)))
+        print("\n1920 x 1080, radius 32 px; in brackets CPU seconds / threads.")
+    print(machine())
+
+
+if __name__ == "__main__":
+    main()
