@@ -54,7 +54,7 @@ struct FieldFacts {
 };
 
 // Of a prescription, at its primary wavelength; lengths in mm, + towards the image. A lens known by its
-// curves alone has efl_mm, f_number and longitudinal_aberration, and has_prescription false.
+// curves alone has efl_mm, f_number, sensor_width_mm and longitudinal_aberration, and has_prescription false.
 struct LensFacts {
     LensSummary summary;
     std::string format;  // of the file it was read from
@@ -62,7 +62,8 @@ struct LensFacts {
     bool has_prescription = false;
 
     double efl_mm = 0, bfl_mm = 0, f_number = 0;
-    double front_focal_position_mm = 0;                                     // from the first vertex
+    double sensor_width_mm = 0;          // of the format that curves were drawn for; 0: not stated
+    double front_focal_position_mm = 0;  // from the first vertex
     double entrance_pupil_position_mm = 0, entrance_pupil_diameter_mm = 0;  // from the first vertex
     double exit_pupil_position_mm = 0, exit_pupil_diameter_mm = 0;          // from the last vertex
     double vertex_length_mm = 0, petzval_radius_mm = 0, lagrange_invariant_mm = 0;

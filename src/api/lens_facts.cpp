@@ -136,6 +136,7 @@ LensFacts facts_of(const kernel::AberrationCurves& curves) {
     LensFacts facts;
     facts.summary = summary_of(curves);
     facts.efl_mm = curves.focal_length_mm;
+    facts.sensor_width_mm = curves.sensor_width_mm;
     facts.f_number = curves.f_number;
     auto& lsa = facts.longitudinal_aberration;
     const double rim = 1 / (2 * curves.f_number);  // focal lengths

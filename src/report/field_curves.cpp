@@ -11,7 +11,7 @@
 namespace petzval::report {
 namespace {
 
-constexpr int kSteps = 24;
+constexpr int kSteps = 24, kAcross = 110;
 constexpr double kWide = 260, kTall = 300;
 
 // Values against field angle, drawn upright: the field is the vertical axis, as lens makers do.
@@ -34,7 +34,9 @@ FieldCurves curves_of(const optics::TracedLens& lens, double field_deg) {
         curves.sagittal.points.push_back({p->sagittal_focus_mm, deg});
         curves.distortion.points.push_back({p->distortion_percent, deg});
         curves.colour_um.points.push_back({1000 * p->lateral_colour_mm, deg});
-        curves.light.points.push_back({100 * p->unvignetted_share, deg});
+        // Finer than field_point() samples it, which shows in a curve.
+        const auto beam = lens.beam(lens.prescription().primary_um, deg * std::numbers::pi / 180);
+        if (beam) curves.light.points.push_back({100 * optics::unvignetted_share(*beam, kAcross), deg});
     }
     return curves;
 }

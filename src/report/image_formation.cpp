@@ -98,7 +98,7 @@ void draw_cones(Svg& svg, Point corner, double width, const Scene& scene, const 
 }
 
 Figure stops(const Subject& subject) {
-    constexpr double kWidth = 1100, kColumn = 258, kLeft = 68, kTop = 34, kCones = 100, kCell = 118;
+    constexpr double kWidth = 1100, kColumn = 258, kLeft = 68, kTop = 34, kCones = 100, kCell = 129;
     constexpr int kPx = 176;
     const double lens_radius_um = 1000 * subject.focal_length_mm() / subject.f_number() / 2;
     struct Disc {

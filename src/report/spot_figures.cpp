@@ -90,15 +90,17 @@ Figure spot_diagrams(const Subject& subject) {
     const double step_um = 0.6 * subject.blur_um();
     constexpr int kSteps = 5;
     std::vector<std::vector<Spot>> spots;
-    double half_um = 1e-6;
+    std::vector<double> half_um;  // of a cell, by row
     for (const double field : fields) {
         auto& row = spots.emplace_back();
+        double largest = 1e-6;
         for (int i = 0; i < kSteps; ++i) {
             row.push_back(spot_of(subject, lines, (i - kSteps / 2) * step_um, field));
-            half_um = std::max(half_um, 2.4 * row.back().rms_um);
+            for (const auto& points : row.back().um)
+                for (const Point& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
         }
+        half_um.push_back(1.08 * largest);
     }
-    half_um = std::min(half_um, 9 * std::max(subject.blur_um(), spots[0][2].rms_um));
     const double airy_um = 1.22 * 0.546 * subject.f_number();
 
     Svg svg(kLeft + kSteps * kCell, kTop + double(fields.size()) * kCell + 20,
@@ -113,10 +115,12 @@ Figure spot_diagrams(const Subject& subject) {
         const double y = kTop + double(row) * kCell;
         const double deg = std::atan(fields[row] * std::tan(subject.corner_deg() * std::numbers::pi / 180)) *
                            180 / std::numbers::pi;
-        svg.text({kLeft - 10, y + kCell / 2}, fields[row] == 0 ? "axis" : number(deg, 1) + "°", "name",
+        svg.text({kLeft - 10, y + kCell / 2 - 6}, fields[row] == 0 ? "axis" : number(deg, 1) + "°", "name",
+                 Anchor::End);
+        svg.text({kLeft - 10, y + kCell / 2 + 10}, "cell " + significant(2 * half_um[row], 2) + " µm", "tick",
                  Anchor::End);
         for (int i = 0; i < kSteps; ++i)
-            draw_cell(svg, {kLeft + i * kCell, y}, spots[row][std::size_t(i)], lines, half_um, airy_um);
+            draw_cell(svg, {kLeft + i * kCell, y}, spots[row][std::size_t(i)], lines, half_um[row], airy_um);
     }
     double x = kLeft;
     const double bottom = kTop + double(fields.size()) * kCell + 12;
@@ -125,10 +129,7 @@ Figure spot_diagrams(const Subject& subject) {
                  line.css);
         x += 92;
     }
-    svg.text({x + 10, bottom},
-             "cell " + significant(2 * half_um, 2) + " µm; dashed circle: Airy disc, radius " +
-                 significant(airy_um, 2) + " µm",
-             "tick");
+    svg.text({x + 10, bottom}, "dashed circle: Airy disc, radius " + significant(airy_um, 2) + " µm", "tick");
     return {
         svg.str(),
         "Each dot is one ray of an even pattern over the pupil, where it meets a sensor that stands nearer "

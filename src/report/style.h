@@ -60,7 +60,7 @@ svg path.wash { fill: var(--second); fill-opacity: .14; }
 .bar { fill: var(--bar); } .sum { fill: var(--sum); }
 .ring { fill: none; stroke: var(--quiet); stroke-dasharray: 3 2; }
 .rim { stroke: #000; stroke-width: 4; }
-.ring-on-night { fill: none; stroke: #fff; stroke-opacity: .75; stroke-dasharray: 3 3; }
+.ring-on-night { fill: none; stroke: #ffae1a; stroke-dasharray: 3 2; }
 .on-night { font-size: 10.5px; fill: #d8d4ca; }
 .line-on-night { stroke: #8d897f; stroke-opacity: .55; }
 .light { isolation: isolate; } .light path { mix-blend-mode: screen; }

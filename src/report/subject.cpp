@@ -158,9 +158,17 @@ std::vector<Point> Subject::zone_foci(double wavelength_nm) const {
         for (std::size_t i = 0; i < zones.size(); ++i)
             points.push_back({lsa.shift_mm[0][i] - lsa.shift_mm[1][0], zones[i]});
     } else if (!facts_.longitudinal_aberration.zones.empty()) {
+        const std::vector<double>& zones = facts_.longitudinal_aberration.zones;
         const auto shifts = shifts_at(facts_.longitudinal_aberration, wavelength_nm / 1000);
-        for (std::size_t i = 0; i < shifts.size(); ++i)
-            points.push_back({shifts[i], facts_.longitudinal_aberration.zones[i]});
+        // Between the listed zones straight over the pupil's area, as the lens itself has it nearly.
+        std::size_t k = 1;
+        for (int i = 0; i <= kZones; ++i) {
+            const double zone = double(i) / kZones;
+            while (k + 1 < zones.size() && zones[k] < zone) ++k;
+            const double from = zones[k - 1] * zones[k - 1], to = zones[k] * zones[k];
+            const double t = std::clamp((zone * zone - from) / (to - from), 0.0, 1.0);
+            points.push_back({(1 - t) * shifts[k - 1] + t * shifts[k], zone});
+        }
     }
     return points;
 }
@@ -183,7 +191,8 @@ Result<Subject> Subject::make(const std::string& name_or_file) {
     if (f.efl_mm > 0) subject.focal_length_mm_ = f.efl_mm;
     // Rounded up, so that the lens has it.
     if (f.f_number > 0) subject.f_number_ = f.f_number * (1 + 1e-9);
-    double corner = 0.5 * std::hypot(1.0, 2.0 / 3) * 36 / 50;
+    const double format = f.sensor_width_mm > 0 ? f.sensor_width_mm / subject.focal_length_mm_ : 0.72;
+    double corner = 0.5 * std::hypot(1.0, 2.0 / 3) * format;
     if (f.has_prescription) {
         auto file = lens_files::find_lens(name_or_file);
         if (!file) return file.error();

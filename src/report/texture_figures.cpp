@@ -84,9 +84,10 @@ void draw(Svg& svg, const Subject& subject, Point corner, double blurs, int wave
     for (const double um : ticks({-0.94 * reach, 0.94 * reach, ""}, 4))
         svg.text({corner.x - 5, corner.y + kHigh * (1 - um / reach) / 2 + 3.5}, significant(std::abs(um), 3),
                  "tick", Anchor::End);
-    svg.text({corner.x + kWide / 2, corner.y + kHigh + 29},
-             "← in front of focus      radius of the circle of confusion, µm      behind →", "label",
-             Anchor::Middle);
+    const double words = corner.y + kHigh + 29;
+    svg.text({corner.x, words}, "← in front of focus", "label");
+    svg.text({corner.x + kWide / 2, words}, "radius of the circle of confusion, µm", "label", Anchor::Middle);
+    svg.text({corner.x + kWide, words}, "behind →", "label", Anchor::End);
 }
 
 // One wavelength, one column: light per area, and the talk's ray density, squared. Both with brightest 1.
@@ -166,7 +167,7 @@ Figure squared_column(const Subject& subject) {
         Plot plot(275, kHeight, (coc < 0 ? "In front, " : "Behind, ") + significant(std::abs(coc), 2) + " µm",
                   {0, p.exact.back().x, "from the middle, µm"}, {0, 1.08, "light, brightest = 1"});
         plot.curve(p.exact, "curve0").curve(p.squared, "curve1");
-        plot.svg().text({258, 44}, number(100 * p.misplaced, 0) + " % misplaced", "note", Anchor::End);
+        plot.svg().text({261, 19}, number(100 * p.misplaced, 0) + " % misplaced", "note", Anchor::End);
         worst = std::max(worst, p.misplaced);
         svg.place({x, 0}, plot.str());
         x += 275;

@@ -107,6 +107,21 @@ std::string strehl(double rms) {
     return value > 0.1 ? ", Strehl " + number(value, 2) : "";
 }
 
+// A map to its own scale, with its numbers below.
+void draw_map(Svg& svg, const WaveMap& map, double x, double side) {
+    double most = 0.02;
+    for (const double w : map.waves)
+        if (!std::isnan(w)) most = std::max(most, std::abs(w));
+    svg.text({x, 16}, map.title, "title");
+    svg.text({x + side, 16}, "scale ±" + significant(most, 2) + " λ", "tick", Anchor::End);
+    svg.image({x, 24}, side, side, picture_of(map, most));
+    std::vector<Point> rim;  // hides the steps of the picture's edge
+    for (const Point& p : map.outline) rim.push_back({x + side / 2 * (1 + p.x), 24 + side / 2 * (1 + p.y)});
+    svg.open_window({x, 24}, side, side).path(rim, "rim", true).close_window();
+    svg.text({x, side + 40}, "rms " + significant(map.rms, 2) + " λ" + strehl(map.rms), "tick");
+    svg.text({x, side + 55}, "peak to valley " + significant(map.peak_to_valley, 2) + " λ", "tick");
+}
+
 Figure wavefronts(const Subject& subject) {
     std::vector<WaveMap> maps;
     if (subject.prescription()) {
@@ -123,30 +138,14 @@ Figure wavefronts(const Subject& subject) {
                 maps.push_back(map_of(**lens, n, 0, "f/" + significant(n, 2)));
         }
     }
-    double most = 0.05;
-    for (const WaveMap& map : maps)
-        for (const double w : map.waves)
-            if (!std::isnan(w)) most = std::max(most, std::abs(w));
     constexpr double kCell = 220;
-    Svg svg(3 * kCell + 60, kCell + 46, "wavefront of " + subject.name());
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        const double x = double(i) * kCell;
-        svg.text({x, 16}, maps[i].title, "title");
-        svg.image({x, 24}, kCell - 16, kCell - 16, picture_of(maps[i], most));
-        std::vector<Point> rim;  // hides the steps of the picture's edge
-        for (const Point& p : maps[i].outline)
-            rim.push_back({x + (kCell - 16) / 2 * (1 + p.x), 24 + (kCell - 16) / 2 * (1 + p.y)});
-        svg.open_window({x, 24}, kCell - 16, kCell - 16).path(rim, "rim", true).close_window();
-        svg.text({x, kCell + 26},
-                 "rms " + significant(maps[i].rms, 2) + " λ, peak to valley " +
-                     significant(maps[i].peak_to_valley, 2) + " λ" + strehl(maps[i].rms),
-                 "tick");
-    }
+    Svg svg(3 * kCell + 76, kCell + 60, "wavefront of " + subject.name());
+    for (std::size_t i = 0; i < maps.size(); ++i) draw_map(svg, maps[i], double(i) * kCell, kCell - 16);
     Picture bar(1, 64);
     for (int y = 0; y < 64; ++y) bar(0, y) = diverging(1 - 2 * (y + 0.5) / 64);
     svg.image({3 * kCell, 24}, 14, kCell - 16, picture_uri(bar));
-    svg.text({3 * kCell + 18, 34}, "+" + significant(most, 2) + " λ", "tick");
-    svg.text({3 * kCell + 18, kCell + 6}, "−" + significant(most, 2) + " λ", "tick");
+    svg.text({3 * kCell + 18, 34}, "ahead", "tick");
+    svg.text({3 * kCell + 18, kCell + 6}, "behind", "tick");
     return {
         svg.str(),
         "How far the wavefront in the pupil is ahead of (orange) or behind (blue) a perfect sphere about the "
@@ -160,13 +159,15 @@ struct WaveCell {
     std::string title, scale;
     kernel::PointSpread disc;
     double gain = 1;
-    bool is_focus = false;
+    double airy_px = 0;  // radius of the first dark ring; 0: not in focus
 };
-constexpr int kCellPx = 150;
+constexpr int kFocusPx = 97, kSmallPx = 150;  // sides of cells
+// Diffraction is followed some 48 pixels from a focus (kernel/wave_lens.cpp): just a cell of these.
+constexpr double kFocusStep = 8;  // pixels per wavelength x N
 
 void even_out(WaveCell& cell) {
     cell.gain = even_gain(cell.disc);
-    if (!cell.is_focus) return;
+    if (cell.airy_px == 0) return;
     float most = 0;
     for (std::size_t i = 0; i < cell.disc.weights.size(); ++i)
         most = std::max(most, cell.disc.weights.pixels()[i].g);
@@ -174,11 +175,11 @@ void even_out(WaveCell& cell) {
 }
 
 WaveCell focus_cell(const Subject& subject, double f_number, int blades) {
-    const double um_per_px = kGreen_um * f_number / 6;
+    const double um_per_px = kGreen_um * f_number / kFocusStep;
     LensChoice character;
     character.aperture.blades = blades;
     WaveCell cell{"f/" + significant(f_number, 2) + (blades ? ", " + std::to_string(blades) + " blades" : ""),
-                  significant(kCellPx * um_per_px, 2) + " µm across",
+                  significant(kFocusPx * um_per_px, 2) + " µm across",
                   {},
                   1,
                   true};
@@ -190,7 +191,7 @@ WaveCell focus_cell(const Subject& subject, double f_number, int blades) {
 // A disc of the lens made small, by rays or by waves.
 WaveCell small_cell(const Subject& subject, double coc_um, double scale, double um_per_px, bool wave) {
     WaveCell cell{std::string(coc_um < 0 ? "in front, " : "behind, ") + (wave ? "waves" : "rays"),
-                  significant(kCellPx * um_per_px, 2) + " µm across",
+                  significant(kSmallPx * um_per_px, 2) + " µm across",
                   {},
                   1,
                   false};
@@ -202,25 +203,29 @@ WaveCell small_cell(const Subject& subject, double coc_um, double scale, double 
     return cell;
 }
 
-std::string row_of(const std::vector<WaveCell>& cells) {
-    Canvas canvas(int(cells.size()) * kCellPx, kCellPx);
+std::string row_of(const std::vector<WaveCell>& cells, int side) {
+    Canvas canvas(int(cells.size()) * side, side);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        const int x = int(i) * kCellPx;
+        const int x = int(i) * side;
         if (!cells[i].disc.extent.empty())
-            canvas.add(cells[i].disc, x + kCellPx / 2, kCellPx / 2, cells[i].gain,
-                       {x + 1, 0, x + kCellPx - 1, kCellPx});
+            canvas.add(cells[i].disc, x + side / 2, side / 2, cells[i].gain, {x + 1, 0, x + side - 1, side});
     }
     return canvas.uri();
 }
 
-Figure drawn(std::vector<WaveCell> cells, const std::string& title, const std::string& caption) {
+Figure drawn(std::vector<WaveCell> cells, int side, const std::string& title, const std::string& caption) {
     for (WaveCell& cell : cells)
         if (!cell.disc.extent.empty()) even_out(cell);
     constexpr double kCell = 136;
     Svg svg(4 * kCell, kCell + 60, title);
-    svg.text({0, 14}, title, "title").image({0, 40}, 4 * kCell, kCell, row_of(cells));
+    svg.text({0, 14}, title, "title").image({0, 40}, 4 * kCell, kCell, row_of(cells, side));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         svg.text({(double(i) + 0.5) * kCell, 33}, cells[i].title, "label", Anchor::Middle);
+        // Pixel centres lie half a pixel right of and below their corners.
+        const double middle = (side / 2 + 0.5) / side * kCell;
+        if (cells[i].airy_px > 0)
+            svg.circle({double(i) * kCell + middle, 40 + middle}, cells[i].airy_px / side * kCell,
+                       "ring-on-night");
         svg.text({(double(i) + 0.5) * kCell, kCell + 54}, cells[i].scale, "tick", Anchor::Middle);
     }
     return {svg.str(), caption, 6};
@@ -244,10 +249,11 @@ std::vector<Figure> wave_figures(const Subject& subject) {
     });
     return {
         wavefronts(subject),
-        drawn(std::move(focus), "In focus, stopped down",
-              "Where diffraction rules: the figure grows with the f-number, its first dark ring at 1.22 λN. "
+        drawn(std::move(focus), kFocusPx, "In focus, stopped down",
+              "Where diffraction rules: the figure grows with the f-number, its first dark ring at 1.22 λN "
+              "(dashed, for 546 nm). "
               "Edges of the iris throw spikes. Bright parts are held back so that rings show."),
-        drawn(std::move(small), "A small sensor, 4.8 mm wide, lens wide open",
+        drawn(std::move(small), kSmallPx, "A small sensor, 4.8 mm wide, lens wide open",
               "The same design made " + significant(1 / scale, 2) +
                   " times smaller, as in a compact camera: light does not shrink along, so discs of ±" +
                   significant(coc_um, 2) +

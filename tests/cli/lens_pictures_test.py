@@ -45,8 +45,19 @@ class LensPsf(CommandLineTest):
                       ["--distortion", "0.05"], ["--wavelengths", "3"], ["--wave"], ["--focus-mode", "paraxial"],
                       ["--focus-shift", "0.2"], ["--blades", "6"], ["--cats-eye", "0.5"], ["--squeeze", "1.5"],
                       ["--barrel", "11,15"], ["--barn-doors", "0.4,0,0,0"], ["--dust", "1"], ["--scratches", "1"],
-                      ["--onion-rings", "1"], ["--fstop", "2.8"], ["--width", "2400"], ["--sensor-width", "24mm"]):
+                      ["--onion-rings", "1"], ["--fstop", "2.8"], ["--width", "2400"], ["--sensor-width", "24mm"],
+                      ["--focal-length", "85mm"]):
             self.assertFalse(plain == self.psf("doublet", "--field", "0.6,0.3", *flags), flags)
+
+    def test_a_lens_scaled_with_its_sensor_makes_the_same_kernel(self):
+        plain = self.psf("doublet")
+        self.assertTrue(plain == self.psf("doublet", "--focal-length", "100mm", "--sensor-width", "72mm"))
+        self.assertFalse(plain == self.psf("doublet", "--focal-length", "85mm"))
+        self.assertFalse(plain == self.psf("doublet", "--fstop", "2.8"))
+
+    def test_a_lens_of_another_format_brings_its_sensor(self):
+        report = self.report("lens", "psf", "doublet-ccd", "--focal-length", "16mm", "-o", "psf.exr")
+        self.assertEqual(report["camera"]["sensor_width_mm"], 4.8)
 
     def test_blades_with_an_iris_that_opens(self):
         open_iris = self.psf("ideal", "--blades", "6", "--iris-open", "2", "--fstop", "2")
