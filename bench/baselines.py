@@ -13,7 +13,7 @@ import pathlib
 import subprocess
 import sys
 
-from quality import (CACHE, PROGRAM, SHARED, built_in, built_in_names, machine, path_traced, petzval, print_table,
+from quality import (CACHE, PROGRAM, SHARED, built_in, BUILT_IN, machine, path_traced, petzval, print_table,
                      score)
 
 BASELINES = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_baselines"
@@ -67,7 +67,7 @@ def main():
     CACHE.mkdir(parents=True, exist_ok=True)
     shared = [f"shared/{p.parent.name}" for p in sorted(SHARED.glob("*/camera.json"))]
     body = []
-    for scene in scenes_of(given.scenes.split(",") if given.scenes else shared + built_in_names(), given.width):
+    for scene in scenes_of(given.scenes.split(",") if given.scenes else shared + BUILT_IN, given.width):
         body.append([scene.name, "pinhole", *score(scene, scene.sharp), "", ""])
         body += [*baseline_rows(scene), *engine_rows(scene)]
     print_table(["scene", "method", "PSNR dB", "SSIM", "wall s", "CPU s"], body)

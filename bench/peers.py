@@ -17,7 +17,7 @@ import subprocess
 import sys
 import time
 
-from quality import CACHE, PROGRAM, SHARED, built_in_names, machine, print_table, score
+from quality import CACHE, PROGRAM, SHARED, BUILT_IN, machine, print_table, score
 from baselines import radii_of, scenes_of
 
 OUT = CACHE / "peers_out.exr"
@@ -63,7 +63,7 @@ def main():
         else:
             print(f"{program} is not installed (apt-get install {program}): left out", file=sys.stderr)
     shared = [f"shared/{p.parent.name}" for p in sorted(SHARED.glob("*/camera.json"))]
-    names = given.scenes.split(",") if given.scenes else shared + built_in_names()
+    names = given.scenes.split(",") if given.scenes else shared + BUILT_IN
     body = []
     for scene in scenes_of(names, given.width):
         for method in there:

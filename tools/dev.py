@@ -153,7 +153,7 @@ def check(*_):
 
 
 def golden(*words):
-    """run | accept: compares small pictures with the stored ones; accept stores the new ones"""
+    """run | accept: small pictures beside stored ones and the truth; accept stores the new ones"""
     if words[:1] not in (("run",), ("accept",)):
         fail("golden needs run or accept")
     make("release")
