@@ -9,8 +9,9 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kBlock = 16;
-constexpr float kOwnSurfacePx = 1;  // what is nearer by less is the light's own surface
-constexpr float kStepPx = 1.5f;     // along a ray's way over the picture
+constexpr float kOwnSurfacePx = 1;     // what is nearer by less is the light's own surface
+constexpr float kWidestPupil = 1.25f;  // from the middle to a corner of the grid, pupil radii
+constexpr float kStepPx = 1.5f;        // along a ray's way over the picture
 
 // The two grid points around a place of the pupil's square.
 struct Between {
@@ -42,55 +43,72 @@ float PupilMask::at(const std::array<float, kSide>& row, float x) {
 }
 
 SpriteShadows::SpriteShadows(const Input& input)
-    : in_(input),
-      nearest_((input.width() + kBlock - 1) / kBlock, (input.height() + kBlock - 1) / kBlock, 1e30f) {
-    parallel_for(nearest_.height(), input.threads, [&](int by) {
+    : in_(input), blocks_((input.width() + kBlock - 1) / kBlock, (input.height() + kBlock - 1) / kBlock) {
+    parallel_for(blocks_.height(), input.threads, [&](int by) {
         for (int y = by * kBlock; y < std::min(input.height(), (by + 1) * kBlock); ++y)
-            for (int x = 0; x < input.width(); ++x)
-                nearest_(x / kBlock, by) = std::min(nearest_(x / kBlock, by), input.coc_px(x, y));
+            for (int x = 0; x < input.width(); ++x) {
+                Block& block = blocks_(x / kBlock, by);
+                block.nearest = std::min(block.nearest, input.coc_px(x, y));
+                block.farthest = std::max(block.farthest, input.coc_px(x, y));
+            }
     });
 }
 
-// Nothing nearer stands anywhere that a ray could pass.
-bool SpriteShadows::is_clear(float x, float y, float coc_px) const {
+// A block is in the way if it holds something nearer than the light and rays can have come as far as it lies
+// by the radius it has.
+SpriteShadows::Blockers SpriteShadows::blockers(float x, float y, float coc_px) const {
     const float limit = coc_px - kOwnSurfacePx;
-    if (in_.nearest_coc_px >= limit) return true;
-    const float reach = (coc_px - in_.nearest_coc_px) * std::max(1.0f, float(in_.pixel_aspect));
-    const auto block = [](float at, int blocks) {
-        return std::clamp(int(std::floor(at / kBlock)), 0, blocks - 1);
+    Blockers found;
+    if (in_.nearest_coc_px >= limit) return found;
+    const float widest = kWidestPupil * std::max(1.0f, float(in_.pixel_aspect));
+    const float reach = (coc_px - in_.nearest_coc_px) * widest;
+    const auto block = [](float at, int count) {
+        return std::clamp(int(std::floor(at / kBlock)), 0, count - 1);
     };
-    const int x0 = block(x - reach, nearest_.width()), x1 = block(x + reach, nearest_.width());
-    const int y0 = block(y - reach, nearest_.height()), y1 = block(y + reach, nearest_.height());
+    const auto gap = [](float at, int cell) {
+        const float begin = float(cell * kBlock);
+        return std::max({0.0f, begin - at, at - (begin + kBlock)});
+    };
+    const int x0 = block(x - reach, blocks_.width()), x1 = block(x + reach, blocks_.width());
+    const int y0 = block(y - reach, blocks_.height()), y1 = block(y + reach, blocks_.height());
     for (int by = y0; by <= y1; ++by)
-        for (int bx = x0; bx <= x1; ++bx)
-            if (nearest_(bx, by) < limit) return false;
-    return true;
+        for (int bx = x0; bx <= x1; ++bx) {
+            const Block& b = blocks_(bx, by);
+            if (b.nearest >= limit) continue;
+            const float dx = gap(x, bx), dy = gap(y, by), far = (coc_px - b.nearest) * widest;
+            if (dx * dx + dy * dy > far * far) continue;
+            found.nearest = std::min(found.nearest, b.nearest);
+            found.farthest = std::max(found.farthest, std::min(b.farthest, limit));
+        }
+    return found;
 }
 
-bool SpriteShadows::is_stopped(float x, float y, float coc_px, float u, float v) const {
-    const float way = (coc_px - in_.nearest_coc_px) * std::hypot(u, v);
-    const int steps = 1 + int(std::min(way / kStepPx, 4096.0f));
-    const float step = (coc_px - in_.nearest_coc_px) / float(steps);
+bool SpriteShadows::is_stopped(float x, float y, float coc_px, float u, float v,
+                               const Blockers& blockers) const {
+    // How far the ray has come, in radius, where it can first and last meet something.
+    const float first = coc_px - blockers.farthest, way = blockers.farthest - blockers.nearest;
+    const int steps = 1 + int(std::min(way * std::sqrt(u * u + v * v) / kStepPx, 4096.0f));
+    const float step = way / float(steps), tolerance = 0.5f * step + 0.25f;
     for (int k = 0; k <= steps; ++k) {
-        const float passed = step * float(k), at = coc_px - passed;
+        const float passed = first + step * float(k);
         const int qx = int(std::floor(x + passed * u)), qy = int(std::floor(y + passed * v));
         if (!in_.coc_px.rect().contains(qx, qy)) return false;
         const float there = in_.coc_px(qx, qy);
-        if (there < coc_px - kOwnSurfacePx && std::abs(there - at) <= 0.5f * step + 0.25f) return true;
+        if (there < coc_px - kOwnSurfacePx && std::abs(there - (coc_px - passed)) <= tolerance) return true;
     }
     return false;
 }
 
 PupilMask SpriteShadows::mask(float x, float y, float coc_px) const {
     PupilMask mask;
-    if (is_clear(x, y, coc_px)) return mask;
+    const Blockers in_the_way = blockers(x, y, coc_px);
+    if (in_the_way.none()) return mask;
     const float aspect = float(in_.pixel_aspect);
+    const auto middle = [](int k) { return (2 * float(k) + 1) / PupilMask::kSide - 1; };
     for (int j = 0; j < PupilMask::kSide; ++j)
-        for (int i = 0; i < PupilMask::kSide; ++i) {
-            const auto middle = [](int k) { return (2 * float(k) + 1) / PupilMask::kSide - 1; };
-            if (!is_stopped(x, y, coc_px, middle(i), middle(j) * aspect)) continue;
-            mask.seen &= ~(std::uint64_t(1) << (j * PupilMask::kSide + i));
-        }
+        for (int i = 0; i < PupilMask::kSide; ++i)
+            if (is_stopped(x, y, coc_px, middle(i), middle(j) * aspect, in_the_way))
+                mask.seen &= ~(std::uint64_t(1) << (j * PupilMask::kSide + i));
     return mask;
 }
 

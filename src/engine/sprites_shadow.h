@@ -33,11 +33,19 @@ public:
     PupilMask mask(float x, float y, float coc_px) const;
 
 private:
-    bool is_clear(float x, float y, float coc_px) const;
-    bool is_stopped(float x, float y, float coc_px, float u, float v) const;
+    // Radii of what may stand in the way of a light, from `nearest` to `farthest`; none if it is clear.
+    struct Blockers {
+        float nearest = 1e30f, farthest = -1e30f;
+        bool none() const { return nearest > farthest; }
+    };
+    Blockers blockers(float x, float y, float coc_px) const;
+    bool is_stopped(float x, float y, float coc_px, float u, float v, const Blockers& blockers) const;
 
     const Input& in_;
-    Plane nearest_;  // smallest radius in each block
+    struct Block {
+        float nearest = 1e30f, farthest = -1e30f;
+    };
+    Image<Block> blocks_;
 };
 
 }  // namespace petzval::engine
