@@ -53,14 +53,29 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
             level = std::max(1, int(std::ceil(std::log2(r / rule.largest_cells) - 1e-4f)));
         levels_.push_back(level);
     }
+    constexpr int kSteps = 512;
+    const float width_px = radii_px_.back() - radii_px_.front();
+    steps_per_px_ = width_px > 0 ? kSteps / width_px : 0;
+    for (int i = 0; i <= kSteps; ++i) {
+        const float start = radii_px_.front() + width_px * float(i) / kSteps;
+        starts_.push_back(
+            int(std::lower_bound(radii_px_.begin(), radii_px_.end(), start) - radii_px_.begin()));
+    }
+}
+
+int RingSizes::first_not_below(float coc_px) const {
+    const float step = (coc_px - radii_px_.front()) * steps_per_px_;
+    int i = starts_[std::size_t(std::clamp(step, 0.0f, float(starts_.size() - 1)))];
+    while (i > 0 && radii_px_[std::size_t(i) - 1] >= coc_px) --i;
+    while (i < count() && radii_px_[std::size_t(i)] < coc_px) ++i;
+    return i;
 }
 
 int RingSizes::levels() const { return 1 + *std::max_element(levels_.begin(), levels_.end()); }
 
 RingSizes::Mix RingSizes::mix(float coc_px) const {
     if (std::abs(coc_px) <= kWithinPixelPx) return {zero_, zero_, 0};
-    const auto at = std::lower_bound(radii_px_.begin(), radii_px_.end(), coc_px);
-    int outer = int(at - radii_px_.begin());
+    int outer = first_not_below(coc_px);
     if (coc_px < 0 && (outer == count() || radii_px_[std::size_t(outer)] > coc_px)) --outer;
     outer = std::clamp(outer, 0, count() - 1);
     const int inner = outer == zero_ ? zero_ : outer < zero_ ? outer + 1 : outer - 1;

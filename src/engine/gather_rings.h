@@ -39,9 +39,15 @@ public:
     Mix mix(float coc_px) const;
 
 private:
+    int first_not_below(float coc_px) const;
+
     std::vector<float> radii_px_;
     std::vector<int> levels_;
     int zero_ = 0;
+    // The first radius not below the start of each of many equal steps from the first radius to the last:
+    // millions of pixels ask.
+    std::vector<int> starts_;
+    float steps_per_px_ = 0;
 };
 
 // One kernel as the inner loop wants it: where each of its samples lies, and its weight.

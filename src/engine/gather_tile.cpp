@@ -55,7 +55,8 @@ struct Combined {
 };
 
 struct Workspace {
-    std::vector<Arrival> arrivals;
+    std::vector<Arrival> arrivals, sorted;
+    std::vector<std::size_t> next;
     std::vector<std::ptrdiff_t> offsets;
     Planes window, gathered;
     Combined cells, tile;
@@ -111,8 +112,18 @@ private:
         w_.arrivals.clear();
         has_beyond_ = false;
         level == 0 ? find_in_picture(begin, end) : find_in_cells(begin, end, level);
-        std::stable_sort(w_.arrivals.begin(), w_.arrivals.end(),
-                         [](const Arrival& a, const Arrival& b) { return a.ring < b.ring; });
+        sort_by_ring(begin, end);
+    }
+
+    // Nearest ring first, within a ring in the order found: by counting, since rings are few.
+    void sort_by_ring(int begin, int end) {
+        std::vector<std::size_t>& next = w_.next;
+        next.assign(std::size_t(end - begin) + 1, 0);
+        for (const Arrival& a : w_.arrivals) ++next[std::size_t(a.ring - begin) + 1];
+        for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+        w_.sorted.resize(w_.arrivals.size());
+        for (const Arrival& a : w_.arrivals) w_.sorted[next[std::size_t(a.ring - begin)]++] = a;
+        w_.arrivals.swap(w_.sorted);
     }
 
     void arrive(int ring, int x, int y, Rgba colour, float covered, float beyond) {
