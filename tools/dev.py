@@ -118,7 +118,8 @@ def bench(*words):
     if not words or words[0] not in known:
         fail(f"bench needs one of: {', '.join(known)}")
     make("release", "petzval_cli", "petzval_bench")
-    run(sys.executable, f"bench/{words[0]}.py", *words[1:], env={**os.environ, "PETZVAL": str(program())})
+    run(sys.executable, f"bench/{words[0]}.py", *words[1:], 
+        env={**os.environ, "PETZVAL": str(program()), "PETZVAL_KERNEL_CACHE": "off"})
 
 
 def format_sources(*words):

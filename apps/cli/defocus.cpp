@@ -197,6 +197,7 @@ Status Run::render(DefocusJob job) {
     }
     warn(done->warnings);
     report_["seconds"]["kernels"] = kernels;
+    report_["kernels_from_cache"] = done->kernels_from_cache;
     report_["seconds"]["compute"] = seconds - kernels;
     report_["engine"] = done->engine;
     report_["device"] = done->device;

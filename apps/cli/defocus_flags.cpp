@@ -1,6 +1,7 @@
 #include "defocus_flags.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace petzval::cli {
@@ -81,6 +82,11 @@ void DefocusFlags::add_to(Verb& verb) {
     overwrite.add_to(verb, true);
     develop.add_to(verb);
     run.add_threads_to(verb);
+    FlagGroup(verb, "Run")
+        .value("--kernel-cache", "FOLDER",
+               "where kernels that take long to make are kept between runs, 1 GiB at most; off keeps none. "
+               "Default: $PETZVAL_KERNEL_CACHE, else petzval/kernels in the user's cache folder",
+               parse_text, kernel_cache);
     run.add_log_to(verb, true);
 }
 
@@ -155,6 +161,19 @@ std::vector<std::string> DefocusFlags::input_files() const {
     return files;
 }
 
+// $PETZVAL_KERNEL_CACHE; else where the XDG base directory specification puts caches.
+std::string DefocusFlags::default_kernel_cache() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::string(value ? value : "");
+    };
+    if (const std::string own = variable("PETZVAL_KERNEL_CACHE"); !own.empty()) return own;
+    if (const std::string caches = variable("XDG_CACHE_HOME"); !caches.empty() && caches[0] == '/')
+        return caches + "/petzval/kernels";
+    const std::string home = variable("HOME");
+    return home.empty() ? "off" : home + "/.cache/petzval/kernels";
+}
+
 DefocusJob DefocusFlags::job(const Input& loaded, const Camera& complete) const {
     DefocusJob job;
     job.colour = loaded.frame.colour.view();
@@ -176,6 +195,8 @@ DefocusJob DefocusFlags::job(const Input& loaded, const Camera& complete) const 
     job.threads = run.threads;
     job.max_memory_bytes = max_memory_bytes;
     job.seed = seed;
+    job.kernel_cache_folder = kernel_cache.value_or(default_kernel_cache());
+    if (job.kernel_cache_folder == "off") job.kernel_cache_folder.clear();
     return job;
 }
 
@@ -186,6 +207,7 @@ Json DefocusFlags::parameters_json(const DefocusJob& job) const {
             {"threads", job.threads},
             {"max_memory_bytes", job.max_memory_bytes},
             {"seed", job.seed},
+            {"kernel_cache", job.kernel_cache_folder.empty() ? Json(nullptr) : Json(job.kernel_cache_folder)},
             {"near_scale", job.coc.near_scale},
             {"far_scale", job.coc.far_scale},
             {"max_radius_px", number(job.coc.max_radius_px)},

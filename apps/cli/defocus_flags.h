@@ -39,6 +39,7 @@ struct DefocusFlags {
     std::optional<int> pupil_points;
     std::size_t max_memory_bytes = 0;
     std::uint64_t seed = 1;
+    std::optional<std::string> kernel_cache;  // a folder, or "off"
     std::string output;
     ViewKind view = ViewKind::Beauty;
     std::optional<int> overscan_px;  // kAutomatic: as far as the blur reaches
@@ -50,6 +51,7 @@ struct DefocusFlags {
     void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
     std::vector<std::string> input_files() const;
     // Requires: `loaded` outlives the job; the camera is complete unless radii are given.
+    static std::string default_kernel_cache();
     DefocusJob job(const Input& loaded, const Camera& complete) const;
     // Those that the report has no other place for.
     Json parameters_json(const DefocusJob& job) const;

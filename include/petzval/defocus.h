@@ -52,6 +52,10 @@ struct DefocusJob {
     int threads = 0;                   // 0: all this process may use; the result never depends on it
     std::size_t max_memory_bytes = 0;  // 0: no limit
     std::uint64_t seed = 1;
+    // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those
+    // not used longest go first; empty: none. The result never depends on it.
+    std::string kernel_cache_folder;
+    std::size_t kernel_cache_bytes = std::size_t(1) << 30;
     std::function<bool(double)> progress;  // share done 0…1, one call at a time; false cancels
 };
 
@@ -74,6 +78,7 @@ struct DefocusReport {
     double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front
     std::vector<StageTime> stages;
     std::vector<std::string> warnings;
+    std::size_t kernels_from_cache = 0;
 };
 
 PETZVAL_API std::vector<std::string> engine_names();

@@ -5,6 +5,7 @@
 #include "api/light_points.h"
 #include "base/parallel.h"
 #include "engine/engine.h"
+#include "kernel/kernel_store.h"
 #include "kernel/lens_model.h"
 
 #include <algorithm>
@@ -162,12 +163,25 @@ engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, c
 
 using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
 
+kernel::Mount mount_of(const DefocusJob& job) {
+    return {job.camera, job.display_window.width(), job.display_window.height(), job.pixel_aspect};
+}
+
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
-Result<LensLevels> lens_levels(const DefocusJob& job) {
+Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store) {
     constexpr int kLevels = 10;
-    return kernel::make_lens_levels(
-        job.lens, {job.camera, job.display_window.width(), job.display_window.height(), job.pixel_aspect},
-        kLevels);
+    auto levels = kernel::make_lens_levels(job.lens, mount_of(job), kLevels);
+    if (!levels || !store) return levels;
+    for (std::size_t i = 0; i < levels->size(); ++i)
+        (*levels)[i] = kernel::kept(std::move((*levels)[i]), store, int(i));
+    return levels;
+}
+
+// Null where nothing is to be kept. The reference engine asks for a new radius with every point of light.
+std::shared_ptr<kernel::KernelStore> store_for(const DefocusJob& job) {
+    if (job.kernel_cache_folder.empty() || job.engine == "reference") return nullptr;
+    return std::make_shared<kernel::KernelStore>(
+        job.kernel_cache_folder, kernel::lens_key(job.lens, mount_of(job)), job.kernel_cache_bytes);
 }
 
 const engine::Engine* find_engine(const std::string& name) {
@@ -216,7 +230,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
         return invalid("--engine " + job.engine + " takes no holdout; scatter and reference do");
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
-    const auto lenses = lens_levels(job);
+    const std::shared_ptr<kernel::KernelStore> store = store_for(job);
+    const auto lenses = lens_levels(job, store);
     if (!lenses) return lenses.error();
     const double lens_ready = seconds();
 
@@ -274,6 +289,7 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     report.engine = chosen->name;
     report.device = "cpu";
     report.lens = lenses->front()->description();
+    report.kernels_from_cache = store ? store->kernels_found() : 0;
     report.stages = {{"kernels", lens_ready}, {"prepare", prepared - lens_ready}};
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
     report.warnings = std::move(point_warnings);

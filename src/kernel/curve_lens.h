@@ -43,6 +43,7 @@ public:
     double pupil_transmission(Point pupil, double half_width) const override {
         return pupil_.transmission(pupil, half_width);
     }
+    bool is_quick() const override { return !varies_over_field() && !pupil_.has_texture(); }
     std::string description() const override { return description_; }
 
 private:

@@ -24,6 +24,7 @@ public:
     double pupil_transmission(Point pupil, double half_width) const override {
         return pupil_.transmission(pupil, half_width);
     }
+    bool is_quick() const override { return true; }
     std::string description() const override { return "ideal: no aberration, a flat disc"; }
 
 private:

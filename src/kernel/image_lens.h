@@ -19,6 +19,7 @@ public:
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override { return pupil_.varies_over_field(); }
+    bool is_quick() const override { return true; }
     std::string description() const override { return "a disc as in the kernel image"; }
 
 private:

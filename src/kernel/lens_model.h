@@ -81,6 +81,9 @@ public:
 
     virtual std::string description() const = 0;
 
+    // Whether kernels are made faster than they could be read from a disk.
+    virtual bool is_quick() const { return !varies_over_field(); }
+
     // The same lens on the same camera, for pictures of another size of pixels, if that costs less than to
     // make it anew; else null.
     virtual std::unique_ptr<const LensModel> on_pixels(const Mount& mount) const {

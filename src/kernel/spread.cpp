@@ -35,7 +35,7 @@ void normalise(PointSpread& spread) {
         Rgba& w = spread.weights.pixels()[i];
         w.r = float(double(w.r) / r), w.g = float(double(w.g) / g), w.b = float(double(w.b) / b);
         spread.neutral = spread.neutral && w.r == w.g && w.g == w.b;
-        w.a = w.r == w.g && w.g == w.b ? w.g : luminance(w);
+        w.a = alpha_of(w);
     }
 }
 

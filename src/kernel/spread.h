@@ -11,7 +11,10 @@ PointSpread single_pixel();
 // Drops border rows and columns that hold no light.
 void trim(PointSpread& spread);
 
-// Scales r, g, b to sum to 1 each, sets a to their luminance, and notes whether all are equal.
+// What alpha is blurred with: the luminance of the weights, and exactly them where they are neutral.
+inline float alpha_of(const Rgba& w) { return w.r == w.g && w.g == w.b ? w.g : luminance(w); }
+
+// Scales r, g, b to sum to 1 each, sets a to alpha_of them, and notes whether all are equal.
 // Requires: each channel's sum is positive.
 void normalise(PointSpread& spread);
 

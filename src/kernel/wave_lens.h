@@ -33,6 +33,7 @@ public:
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override { return lens_->varies_over_field(); }
     Mirrors mirrors() const override { return lens_->mirrors(); }
+    bool is_quick() const override { return false; }
     std::string description() const override { return lens_->description() + ", with diffraction"; }
 
     // One wavelength. Weights sum to 1 in every channel. `extent` is what the kernel is wanted on.

@@ -37,7 +37,7 @@ class CommandLineTest(unittest.TestCase):
                 limits()
         done = subprocess.run([PETZVAL, *args], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=stdout,
                               stderr=subprocess.PIPE, timeout=TIME_LIMIT_S, preexec_fn=before,
-                              env={**os.environ, **(env or {})})
+                              env={**os.environ, "PETZVAL_KERNEL_CACHE": "off", **(env or {})})
         return Outcome(done.returncode, (done.stdout or b"").decode(), done.stderr.decode())
 
     def succeed(self, *args, **options):

@@ -1,0 +1,11 @@
+// What was linked: a different program has a different id.
+#pragma once
+
+#include <string>
+
+namespace petzval {
+
+// The linker's build id of the program or library that holds this code, as bytes; empty if it has none.
+std::string build_id();
+
+}  // namespace petzval
