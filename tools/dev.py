@@ -168,9 +168,17 @@ def validate_lenses(*words):
     run(found[0], *words)
 
 
+def samples(*words):
+    """[--docs]: the night through many lenses, in build/samples; --docs: small, into docs/pictures/samples"""
+    if words not in ((), ("--docs",)):
+        fail("samples takes --docs or nothing")
+    make("release", "petzval_cli")
+    run(sys.executable, "tools/sample_set.py", program(), "docs/pictures/samples" if words else "build/samples", *words)
+
+
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
-         "validate-lenses": validate_lenses}
+         "validate-lenses": validate_lenses, "samples": samples}
 
 
 def help_text():

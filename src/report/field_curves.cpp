@@ -1,5 +1,7 @@
 // Curves over the field of a prescription: image surfaces, distortion, lateral colour, light towards the
 // corner.
+#include "kernel/outline.h"
+#include "kernel/ray_map.h"
 #include "optics/aberrations.h"
 #include "report/figures.h"
 #include "report/plot.h"
@@ -11,7 +13,7 @@
 namespace petzval::report {
 namespace {
 
-constexpr int kSteps = 24, kAcross = 110;
+constexpr int kSteps = 24, kCorners = 96;
 constexpr double kWide = 260, kTall = 300;
 
 // Values against field angle, drawn upright: the field is the vertical axis, as lens makers do.
@@ -24,6 +26,13 @@ struct FieldCurves {
     FieldCurve tangential, sagittal, distortion, colour_um, light;
 };
 
+// Of the stop's area: smoother than field_point()'s share of light, which counts rays on a grid.
+double open_share(const optics::Beam& beam) {
+    const kernel::OpenStop open = kernel::OpenStop::of(beam, kCorners);
+    if (open.corners.empty()) return 0;
+    return std::abs(kernel::area(kernel::clipped(open.corners, kernel::Circle{}, 1e-4))) / std::numbers::pi;
+}
+
 FieldCurves curves_of(const optics::TracedLens& lens, double field_deg) {
     FieldCurves curves;
     for (int i = 0; i <= kSteps; ++i) {
@@ -34,9 +43,8 @@ FieldCurves curves_of(const optics::TracedLens& lens, double field_deg) {
         curves.sagittal.points.push_back({p->sagittal_focus_mm, deg});
         curves.distortion.points.push_back({p->distortion_percent, deg});
         curves.colour_um.points.push_back({1000 * p->lateral_colour_mm, deg});
-        // Finer than field_point() samples it, which shows in a curve.
         const auto beam = lens.beam(lens.prescription().primary_um, deg * std::numbers::pi / 180);
-        if (beam) curves.light.points.push_back({100 * optics::unvignetted_share(*beam, kAcross), deg});
+        if (beam) curves.light.points.push_back({100 * open_share(*beam), deg});
     }
     return curves;
 }
@@ -75,9 +83,9 @@ std::vector<Figure> field_curves(const Subject& subject) {
                   "How much higher the short wavelength's image lies than the long one's (" +
                       number(1000 * subject.facts().short_um, 0) + " and " +
                       number(1000 * subject.facts().long_um, 0) + " nm)."),
-            drawn("Vignetting", {&c.light}, {0, 105, "% of the axis's beam"}, field,
-                  "Share of the light through the stop that also passes all other rims, lens wide open: what "
-                  "is missing is the bite of the cat's eye.")};
+            drawn("Vignetting", {&c.light}, {0, 105, "% of the stop"}, field,
+                  "Share of the stop that no other rim hides, lens wide open: what is missing is the bite of "
+                  "the cat's eye.")};
 }
 
 }  // namespace petzval::report

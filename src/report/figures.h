@@ -29,6 +29,7 @@ Figure squared_column(const Subject& subject);
 
 // disc_strip.cpp
 Figure disc_strip(const Subject& subject);
+Figure line_strip(const Subject& subject);
 
 // field_discs.cpp
 std::vector<Figure> field_discs(const Subject& subject);

@@ -28,7 +28,7 @@ std::vector<Section> sections_of(const Subject& subject) {
     std::vector<Section> sections;
     sections.push_back(
         {"section", subject.prescription() ? "Cross-section" : "Rays", "", {cross_section(subject)}});
-    sections.push_back({"discs", "Discs", "", {disc_strip(subject)}});
+    sections.push_back({"discs", "Discs", "", {disc_strip(subject), line_strip(subject)}});
     sections.push_back(aberrations(subject));
     Figures seidel = seidel_figures(subject);
     if (!seidel.empty()) sections.push_back({"seidel", "Third-order sums", "", std::move(seidel)});

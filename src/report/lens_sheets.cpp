@@ -11,7 +11,7 @@ namespace {
 
 using namespace report;
 
-constexpr int kDiscPx = 132;
+constexpr int kDiscPx = 104;
 constexpr double kDiscCss = 104;
 
 std::string discs_of(const Subject& subject) {

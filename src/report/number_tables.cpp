@@ -84,6 +84,11 @@ Figure remarks(const LensFacts& f) {
     return {text, "", 12};
 }
 
+std::string capitalised(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
+    return text;
+}
+
 std::string fact(const std::string& value, const std::string& name) {
     return "<div><b>" + value + "</b><span>" + name + "</span></div>";
 }
@@ -96,13 +101,10 @@ std::string header_of(const Subject& subject) {
     std::string text = "<header><p class=\"kicker\">" + escaped(s.name);
     if (!s.kind.empty()) text += " · " + escaped(s.kind);
     if (!s.year.empty()) text += " · " + escaped(s.year);
-    // Lenses known by curves have a description for a title.
-    std::string heading = s.model == LensModelKind::Prescription ? s.title : s.name;
-    if (heading.empty()) heading = s.name;
-    if (!heading.empty() && heading[0] >= 'a' && heading[0] <= 'z') heading[0] = char(heading[0] - 'a' + 'A');
-    text += "</p>\n<h1>" + escaped(heading) + "</h1>\n";
-    if (s.model != LensModelKind::Prescription)
-        text += "<p class=\"history\">" + escaped(s.title) + ".</p>\n";
+    // The title of a lens known by curves is a description.
+    const bool is_named = s.model == LensModelKind::Prescription && !s.title.empty();
+    text += "</p>\n<h1>" + escaped(capitalised(is_named ? s.title : s.name)) + "</h1>\n";
+    if (!is_named) text += "<p class=\"history\">" + escaped(capitalised(s.title)) + ".</p>\n";
     if (!s.history.empty()) text += "<p class=\"history\">" + escaped(s.history) + "</p>\n";
     text += "<div class=\"facts\">";
     text += fact(significant(subject.focal_length_mm(), 4) + " mm", "focal length");

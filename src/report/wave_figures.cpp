@@ -222,7 +222,7 @@ Figure drawn(std::vector<WaveCell> cells, int side, const std::string& title, co
     for (std::size_t i = 0; i < cells.size(); ++i) {
         svg.text({(double(i) + 0.5) * kCell, 33}, cells[i].title, "label", Anchor::Middle);
         // Pixel centres lie half a pixel right of and below their corners.
-        const double middle = (side / 2 + 0.5) / side * kCell;
+        const double middle = (std::floor(side / 2.0) + 0.5) / side * kCell;
         if (cells[i].airy_px > 0)
             svg.circle({double(i) * kCell + middle, 40 + middle}, cells[i].airy_px / side * kCell,
                        "ring-on-night");
