@@ -145,6 +145,7 @@ public:
           white_(white) {
         const kernel::BankOptions options{.columns = 32,
                                           .rows = 18,
+                                          .largest_rim_step_px = 0.5,
                                           .aspect = double(input.width()) / input.frame_height,
                                           .relative_step = 0.005,
                                           .least_step_px = 0.0625,

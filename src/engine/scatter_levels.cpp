@@ -71,7 +71,7 @@ void accumulate(const Input& input, const SourceLevel& sources, int level, const
         for (int y = rows.y0 - reach; y < rows.y1 + reach; ++y)
             for (const Source& s : sources.row(y)) {
                 if (is_emptiness(s.layer)) continue;
-                const int part = table.part_of(std::ldexp(s.x + 0.5, level), std::ldexp(y + 0.5, level));
+                const int part = table.part_for(level, s.x, y);
                 stamp(table.at(level, part, s.radius), s.x, y, s.light, s.tilt_x, s.tilt_y, cells);
             }
         for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells.row(y), out.width(), out.row(y));

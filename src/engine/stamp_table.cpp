@@ -25,10 +25,21 @@ StampTable::~StampTable() {
     for (auto& kernel : kernels_) delete kernel.load();
 }
 
-int StampTable::part_of(double x, double y) const {
-    const int px = std::clamp(int((x + 0.5) / input_.width() * parts_x_), 0, parts_x_ - 1);
-    const int py = std::clamp(int((y + 0.5) / input_.height() * parts_y_), 0, parts_y_ - 1);
-    return py * parts_x_ + px;
+int StampTable::part_for(int level, int x, int y) const {
+    if (parts_x_ * parts_y_ == 1) return 0;
+    // Numbers 0…1 that fill every neighbourhood evenly: multiples of powers of the roots of x^3 = x + 1 and
+    // x^4 = x + 1 (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+    const auto even = [&](double per_x, double per_y) {
+        const double sum = x * per_x + y * per_y;
+        return sum - std::floor(sum);
+    };
+    const auto index = [](double place, double chance, int count) {
+        return std::clamp(int(std::floor(place - 0.5 + chance)), 0, count - 1);
+    };
+    const double px = std::ldexp(x + 0.5, level) / input_.width() * parts_x_;
+    const double py = std::ldexp(y + 0.5, level) / input_.height() * parts_y_;
+    return index(py, even(0.8191725134, 0.6710436067), parts_y_) * parts_x_ +
+           index(px, even(0.7548776662, 0.5698402910), parts_x_);
 }
 
 const StampKernel& StampTable::at(int level, int part, float radius) const {

@@ -21,8 +21,10 @@ public:
     StampTable(const StampTable&) = delete;
     StampTable& operator=(const StampTable&) = delete;
 
-    // Part of the picture around pixel (x, y).
-    int part_of(double x, double y) const;
+    // The part of the picture whose kernels the source in cell (x, y) of a level takes: one of the four whose
+    // middles are nearest, each as often as bilinear interpolation weighs it, so that nothing steps where
+    // parts meet.
+    int part_for(int level, int x, int y) const;
     // The kernel for a signed radius in cells of `level`.
     const StampKernel& at(int level, int part, float radius) const;
     // Largest offset of any weight of a kernel of this level, in cells.

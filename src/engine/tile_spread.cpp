@@ -53,9 +53,10 @@ void find_arrivals(const std::vector<SourceLevel>& levels, const StampTable& tab
     });
 }
 
-// Stamps arrivals [begin, end), all of one layer, into `fine`.
+// Stamps arrivals [begin, end), all of one layer, into `fine`. first_row: the row of the picture that is row
+// 0.
 void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, std::size_t end,
-                      const StampTable& table, int part, const Rect& tile, Accumulator& fine,
+                      const StampTable& table, int first_row, const Rect& tile, Accumulator& fine,
                       Accumulator& coarse) {
     fine.reset(tile);
     while (begin < end) {
@@ -64,6 +65,7 @@ void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, s
         if (level > 0) target.reset(cells_of(tile, level));
         for (; begin < end && arrivals[begin].level == level; ++begin) {
             const Source& s = *arrivals[begin].source;
+            const int part = table.part_for(level, s.x, arrivals[begin].y + (first_row >> level));
             stamp(table.at(level, part, s.radius), s.x, arrivals[begin].y, s.light, s.tilt_x, s.tilt_y,
                   target);
         }
@@ -120,7 +122,6 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
     w.free = Plane(width, height, 1.0f);
     w.empty = Plane(width, height, 0.0f);
     if (held) w.let_through = Picture(width, height), w.added.resize(std::size_t(width));
-    const int part = table.part_of(0.5 * (tile.x0 + tile.x1 - 1), first_row + 0.5 * (tile.y0 + tile.y1 - 1));
     find_arrivals(levels, table, tile, w.arrivals);
     const auto end_of_layer = [&](std::size_t begin) {
         std::size_t end = begin;
@@ -135,14 +136,14 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
         if (is_emptiness(layer))
             w.light.reset(tile);
         else
-            accumulate_layer(w.arrivals, begin, end, table, part, tile, w.light, w.coarse);
+            accumulate_layer(w.arrivals, begin, end, table, first_row, tile, w.light, w.coarse);
         const bool then_empty = !is_emptiness(layer) && end < w.arrivals.size() &&
                                 w.arrivals[end].source->layer == layer + kEmptinessAfter;
         const bool partly_empty = is_emptiness(layer) || then_empty;
         if (partly_empty) {
             const std::size_t from = is_emptiness(layer) ? begin : end;
             end = end_of_layer(from);
-            accumulate_layer(w.arrivals, from, end, table, part, tile, w.emptiness, w.coarse);
+            accumulate_layer(w.arrivals, from, end, table, first_row, tile, w.emptiness, w.coarse);
         }
         for (int y = 0; y < height; ++y) {
             Rgba* const sum = held ? w.added.data() : w.sum.row(y);

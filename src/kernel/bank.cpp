@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace petzval::kernel {
 namespace {
@@ -59,24 +61,35 @@ double KernelBank::radius_of(int step) const {
     return std::copysign(radius, double(step));
 }
 
-int KernelBank::cell_of(FieldPosition field) const {
+KernelBank::Cells KernelBank::cells_of(int step) const {
+    Cells cells{options_.columns, options_.rows};
+    if (cells.columns * cells.rows == 1 || options_.largest_rim_step_px <= 0) return cells;
+    constexpr int kMostColumns = 4096;
+    const double rim_px = std::abs(radius_of(step)) * 2 * half_width_;  // from one side to the other
+    while (rim_px > options_.largest_rim_step_px * cells.columns && cells.columns < kMostColumns)
+        cells = {2 * cells.columns, 2 * cells.rows};
+    return cells;
+}
+
+int KernelBank::cell_of(const Cells& cells, FieldPosition field) const {
     const auto index = [](double at, int count) {
         return std::clamp(int(std::floor(at * count)), 0, count - 1);
     };
-    const int column = index(0.5 + 0.5 * field.x / half_width_, options_.columns);
-    const int row = index(0.5 + 0.5 * field.y / half_height_, options_.rows);
-    return row * options_.columns + column;
+    const int column = index(0.5 + 0.5 * field.x / half_width_, cells.columns);
+    const int row = index(0.5 + 0.5 * field.y / half_height_, cells.rows);
+    return row * cells.columns + column;
 }
 
-FieldPosition KernelBank::middle_of(int cell) const {
-    const int column = cell % options_.columns, row = cell / options_.columns;
+FieldPosition KernelBank::middle_of(const Cells& cells, int cell) const {
+    const int column = cell % cells.columns, row = cell / cells.columns;
     // Exactly 0 in the middle cell, whose kernel may be simpler.
-    return {half_width_ * (2 * column + 1 - options_.columns) / options_.columns,
-            half_height_ * (2 * row + 1 - options_.rows) / options_.rows};
+    return {half_width_ * (2 * column + 1 - cells.columns) / cells.columns,
+            half_height_ * (2 * row + 1 - cells.rows) / cells.rows};
 }
 
 std::shared_ptr<const PointSpread> KernelBank::kernel(double coc_radius_px, FieldPosition field) const {
-    return kernel_of(step_of(coc_radius_px), cell_of(field));
+    const int step = step_of(coc_radius_px);
+    return kernel_of(step, cell_of(cells_of(step), field));
 }
 
 std::shared_ptr<const PointSpread> KernelBank::kernel_of(int step, int cell) const {
@@ -102,13 +115,14 @@ std::shared_ptr<const PointSpread> KernelBank::kernel_of(int step, int cell) con
 
 // Cells right of and above the middle mirror those on the other side, where the lens allows it.
 PointSpread KernelBank::made(int step, int cell) const {
-    const int column = cell % options_.columns, row = cell / options_.columns;
+    const Cells cells = cells_of(step);
+    const int column = cell % cells.columns, row = cell / cells.columns;
     const Mirrors mirrors = lens_.mirrors();
-    const bool left_right = mirrors.left_right && 2 * column > options_.columns - 1;
-    const bool up_down = mirrors.up_down && 2 * row > options_.rows - 1;
-    if (!left_right && !up_down) return lens_.point_spread(radius_of(step), middle_of(cell));
-    const int twin = (up_down ? options_.rows - 1 - row : row) * options_.columns +
-                     (left_right ? options_.columns - 1 - column : column);
+    const bool left_right = mirrors.left_right && 2 * column > cells.columns - 1;
+    const bool up_down = mirrors.up_down && 2 * row > cells.rows - 1;
+    if (!left_right && !up_down) return lens_.point_spread(radius_of(step), middle_of(cells, cell));
+    const int twin = (up_down ? cells.rows - 1 - row : row) * cells.columns +
+                     (left_right ? cells.columns - 1 - column : column);
     return mirrored(*kernel_of(step, twin), left_right, up_down);
 }
 
@@ -130,16 +144,18 @@ void KernelBank::keep(const std::shared_ptr<Slot>& slot) const {
 
 void KernelBank::prepare(double least_coc_px, double largest_coc_px, int threads) const {
     const int first = step_of(least_coc_px), last = step_of(largest_coc_px);
-    const int cells = options_.columns * options_.rows;
-    // Large kernels first: they take longest.
-    parallel_for((last - first + 1) * cells, threads, [&](int i) {
-        const int k = i / cells;
+    std::vector<std::pair<int, int>> keys;  // large kernels first: they take longest
+    for (int k = 0; k <= last - first; ++k) {
         const int step = k % 2 == 0 ? first + k / 2 : last - k / 2;
+        const Cells cells = cells_of(step);
+        for (int cell = 0; cell < cells.columns * cells.rows; ++cell) keys.emplace_back(step, cell);
+    }
+    parallel_for(int(keys.size()), threads, [&](int i) {
         {
             const std::lock_guard lock(mutex_);
             if (bytes_ > options_.max_bytes * 9 / 10) return;
         }
-        kernel_of(step, i % cells);
+        kernel_of(keys[std::size_t(i)].first, keys[std::size_t(i)].second);
     });
 }
 

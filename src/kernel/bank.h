@@ -16,7 +16,10 @@
 namespace petzval::kernel {
 
 struct BankOptions {
-    int columns = 9, rows = 6;    // image cells; one cell for lenses that do not vary over the field
+    int columns = 9, rows = 6;  // image cells; one cell for lenses that do not vary over the field
+    // > 0: cells are halved for large radii until a rim that travels by one radius over the half diagonal
+    // moves by no more than this from cell to cell. 0: cells are the same for every radius.
+    double largest_rim_step_px = 0;
     double aspect = 16.0 / 9;     // width / height of the picture, to find cells from field positions; > 0
     double relative_step = 0.03;  // > 0
     double least_step_px = 0.25;  // > 0
@@ -37,7 +40,10 @@ public:
     void prepare(double least_coc_px, double largest_coc_px, int threads = 0) const;
 
     double rounded_radius_px(double coc_radius_px) const { return radius_of(step_of(coc_radius_px)); }
-    FieldPosition cell_middle(FieldPosition field) const { return middle_of(cell_of(field)); }
+    FieldPosition cell_middle(FieldPosition field, double coc_radius_px = 0) const {
+        const Cells cells = cells_of(step_of(coc_radius_px));
+        return middle_of(cells, cell_of(cells, field));
+    }
     std::size_t kernels_held() const;
     std::size_t bytes_held() const;
 
@@ -51,8 +57,12 @@ private:
 
     int step_of(double coc_radius_px) const;
     double radius_of(int step) const;
-    int cell_of(FieldPosition field) const;
-    FieldPosition middle_of(int cell) const;
+    struct Cells {
+        int columns = 1, rows = 1;
+    };
+    Cells cells_of(int step) const;
+    int cell_of(const Cells& cells, FieldPosition field) const;
+    FieldPosition middle_of(const Cells& cells, int cell) const;
     std::shared_ptr<const PointSpread> kernel_of(int step, int cell) const;
     PointSpread made(int step, int cell) const;
     void keep(const std::shared_ptr<Slot>& slot) const;

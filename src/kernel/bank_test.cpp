@@ -119,6 +119,25 @@ TEST(KernelBank, PreparedKernelsAreNotMadeAgain) {
     EXPECT_EQ(lens.made, made);
 }
 
+TEST(KernelBank, CellsOfLargeDiscsAreSoSmallThatNoRimSteps) {
+    const Counting lens(cats_eye());
+    const KernelBank bank(lens, {.columns = 32, .rows = 18, .largest_rim_step_px = 0.5});
+    for (const double radius : {2.0, 9.0, 33.0, 120.0}) {
+        double widest = 0;
+        FieldPosition before = bank.cell_middle({-0.85, 0.1}, radius);
+        for (double x = -0.85; x <= 0.85; x += 1e-4) {
+            const FieldPosition middle = bank.cell_middle({x, 0.1}, radius);
+            widest = std::max(widest, radius * (middle.x - before.x));
+            before = middle;
+        }
+        EXPECT_LE(widest, 0.51) << radius;
+    }
+    for (const FieldPosition field : {FieldPosition{-0.61, 0.23}, {0.61, 0.23}}) {
+        const PointSpread direct = lens.point_spread(bank.rounded_radius_px(33), bank.cell_middle(field, 33));
+        EXPECT_LT(largest_difference(*bank.kernel(33, field), direct), 0.03 * brightest(direct));
+    }
+}
+
 TEST(KernelBank, ManyThreadsAskingForOneKernelMakeItOnce) {
     const Counting lens(cats_eye());
     const KernelBank bank(lens);

@@ -1,0 +1,41 @@
+#include "engine/stamp_table.h"
+
+#include "kernel/lens_model.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+TEST(StampTable, PartsBlendIntoEachOtherByBilinearShares) {
+    constexpr int kWidth = 540, kHeight = 360, kBox = 20;
+    LensChoice choice;
+    choice.cats_eye = 0.5;
+    std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
+    lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 2, 2}, kWidth, kHeight})).value());
+    const Picture colour(kWidth, kHeight);
+    Input input;
+    input.colour = colour;
+    input.lens_levels = lenses;
+    const StampTable table(input, 12);
+    // The mean column of a small box grows evenly from the middle of the first part to that of the last.
+    for (int x = 30; x + kBox < kWidth - 30; x += 7)
+        for (const int y : {60, 177}) {
+            double column = 0, row = 0;
+            for (int v = y; v < y + kBox; ++v)
+                for (int u = x; u < x + kBox; ++u) {
+                    const int part = table.part_for(0, u, v);
+                    column += part % 9, row += part / 9;
+                }
+            EXPECT_NEAR(column / (kBox * kBox), (x + 0.5 * kBox) / 60 - 0.5, 0.06);
+            EXPECT_NEAR(row / (kBox * kBox), (y + 0.5 * kBox) / 60 - 0.5, 0.06);
+        }
+    EXPECT_EQ(table.part_for(0, 0, 0), 0);
+    EXPECT_EQ(table.part_for(0, kWidth - 1, kHeight - 1), 53);
+}
+
+}  // namespace
+}  // namespace petzval::engine
