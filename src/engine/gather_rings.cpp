@@ -52,6 +52,8 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
         if (r > rule.full_res_px)
             level = std::max(1, int(std::ceil(std::log2(r / rule.largest_cells) - 1e-4f)));
         levels_.push_back(level);
+        const float least = std::max(r, kWithinPixelPx);
+        squared_.push_back(least * least);
     }
     constexpr int kSteps = 512;
     const float width_px = radii_px_.back() - radii_px_.front();
@@ -79,11 +81,7 @@ RingSizes::Mix RingSizes::mix(float coc_px) const {
     if (coc_px < 0 && (outer == count() || radii_px_[std::size_t(outer)] > coc_px)) --outer;
     outer = std::clamp(outer, 0, count() - 1);
     const int inner = outer == zero_ ? zero_ : outer < zero_ ? outer + 1 : outer - 1;
-    const auto squared = [&](int ring) {
-        const float r = ring == zero_ ? kWithinPixelPx : radii_px_[std::size_t(ring)];
-        return r * r;
-    };
-    const float low = squared(inner), high = squared(outer);
+    const float low = squared_[std::size_t(inner)], high = squared_[std::size_t(outer)];
     if (high <= low) return {inner, outer, 1};
     return {inner, outer, std::clamp((coc_px * coc_px - low) / (high - low), 0.0f, 1.0f)};
 }

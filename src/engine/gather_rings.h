@@ -41,7 +41,7 @@ public:
 private:
     int first_not_below(float coc_px) const;
 
-    std::vector<float> radii_px_;
+    std::vector<float> radii_px_, squared_;  // squared: of what is taken of them, a pixel's own at least
     std::vector<int> levels_;
     int zero_ = 0;
     // The first radius not below the start of each of many equal steps from the first radius to the last:

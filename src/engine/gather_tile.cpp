@@ -26,6 +26,7 @@ public:
     }
     int width() const { return width_; }
     int height() const { return height_; }
+    std::ptrdiff_t stride() const { return std::ptrdiff_t(stride_); }  // from plane to plane
     float* plane(int i) { return floats_.data() + std::size_t(i) * stride_; }
     float* row(int i, int y) { return plane(i) + std::size_t(y) * std::size_t(width_); }
     void clear(int count) { std::fill_n(floats_.data(), std::size_t(count) * stride_ + kGatherGroup, 0.0f); }
@@ -183,11 +184,14 @@ private:
         const RingKernel& kernel = s_.kernels.at(arrivals.front().ring, part_);
         Rect lit{arrivals.front().x, arrivals.front().y, arrivals.front().x, arrivals.front().y};
         w_.window.shape(kPlanes, window_.width(), window_.height());
-        w_.window.clear(kPlanes);
+        // Alpha is coverage where all is opaque; what lies beyond the picture is seldom near.
+        const int planes = has_beyond_ ? kPlanes : s_.opaque ? kAlpha : kBeyond;
+        w_.window.clear(planes);
         for (const Arrival& a : arrivals) {
             const std::array<float, kPlanes> values{a.colour.r, a.colour.g, a.colour.b,
                                                     a.covered,  a.colour.a, a.beyond};
-            for (int k = 0; k < kPlanes; ++k) w_.window.row(k, a.y)[a.x] += values[std::size_t(k)];
+            float* at = w_.window.row(0, a.y) + a.x;
+            for (int k = 0; k < planes; ++k, at += w_.window.stride()) *at += values[std::size_t(k)];
             lit = {std::min(lit.x0, a.x), std::min(lit.y0, a.y), std::max(lit.x1, a.x + 1),
                    std::max(lit.y1, a.y + 1)};
         }
@@ -227,6 +231,8 @@ private:
             const float* light[4] = {w_.gathered.row(kRed, y), w_.gathered.row(kGreen, y),
                                      w_.gathered.row(kBlue, y),
                                      w_.gathered.row(s_.opaque ? kCovered : kAlpha, y)};
+            float* const sum[4] = {into.planes.row(0, y), into.planes.row(1, y), into.planes.row(2, y),
+                                   into.planes.row(3, y)};
             float* free = into.planes.row(Combined::kFree, y);
             for (int x = reached_.x0; x < reached_.x1; ++x) {
                 const float area = covered[x] + (has_beyond_ ? beyond[x] : 0);
@@ -234,7 +240,7 @@ private:
                 const bool covers = covered[x] > kLeastArea;
                 const float taken = covers ? std::min(area, free[x]) : 0;
                 const float share = covers ? taken / covered[x] : free[x];
-                for (int k = 0; k < 4; ++k) into.planes.row(k, y)[x] += share * light[k][x];
+                for (int k = 0; k < 4; ++k) sum[k][x] += share * light[k][x];
                 free[x] -= taken;
             }
         }
