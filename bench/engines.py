@@ -1,16 +1,17 @@
 """Every engine beside the others on the same frames: how close to the truth, how fast, how it looks.
 
 Two tables, in Markdown, on stdout, from one run:
-  quality   PSNR and SSIM against what a ray tracer recorded through the lens, and wall seconds of computing, the
-            best of --repeat runs; scenes as in `./dev bench quality`
+  quality   one column for each scene: PSNR in dB / SSIM / CPU s, against what a ray tracer recorded
+            through the lens; CPU seconds are those of the whole command, files and all, the least of --repeat runs;
+            scenes as in `./dev bench quality`
   speed     1920 x 1080, largest radius 32 px: wall seconds and CPU seconds / threads, each the best of --repeat
-and build/bench/engines.png: the --frame scene through each, with the truth and the sharp picture.
+and build/bench/engines.png: the --frame scene through each, with the truth last.
 
 Usage: ./dev bench engines [--scenes A,B] [--width N] [--samples N] [--frame SCENE] [--repeat N] [--tables A,B]
 Scenes and their truth (of --samples lens samples per pixel) are made once and kept in build/bench.
 """
 import argparse
-import json
+import os
 import pathlib
 import sys
 
@@ -42,12 +43,13 @@ def built_in(name, width, samples):
 
 
 def took(scene, flags, out, repeat):
-    """Least seconds of computing; `out` is what the last run wrote."""
+    """Least CPU seconds of the command; `out` is what it wrote."""
     best = float("inf")
     for _ in range(repeat):
-        report = json.loads(petzval("defocus", scene.sharp, "-o", out, *scene.camera, *flags, "--overwrite", "--json",
-                                    "-", "-q"))
-        best = min(best, report["seconds"]["kernels"] + report["seconds"]["compute"])
+        before = os.times()
+        petzval("defocus", scene.sharp, "-o", out, *scene.camera, *flags, "--overwrite", "-q")
+        after = os.times()
+        best = min(best, after.children_user + after.children_system - before.children_user - before.children_system)
     return best
 
 
@@ -56,13 +58,19 @@ def shown(light, out):
     return out
 
 
-def quality_rows(scene, given, panels):
-    yield [scene.name, "sharp picture", *score(scene, scene.sharp), ""]
+def cell(scene, test, cpu_s=None):
+    psnr, ssim = score(scene, test)
+    return f"{float(psnr):.1f} / {float(ssim):.3f}" + ("" if cpu_s is None else f" / {cpu_s:.2f}")
+
+
+def quality_column(scene, given, panels):
+    """The column of a scene, top to bottom: the sharp picture itself, then WAYS."""
+    yield cell(scene, scene.sharp)
     for label, flags in WAYS:
         print(f"{scene.name}: {label}", file=sys.stderr)
         out = CACHE / "engines_out.exr"
         best = took(scene, flags, out, given.repeat)
-        yield [scene.name, label, *score(scene, out), f"{best:.3f}"]
+        yield cell(scene, out, best)
         if scene.name == given.frame and label in ON_SHEET:
             panels.append(shown(out, CACHE / f"engines_{label.replace(' ', '_')}.png"))
     if scene.name == given.frame:
@@ -107,13 +115,14 @@ def main():
     given.limit = 60
     CACHE.mkdir(parents=True, exist_ok=True)
     if "quality" in given.tables:
-        body, panels = [], []
+        head, columns, panels = ["engine"], [], []
         for name in given.scenes.split(","):
             if name.startswith("shared/") and not (SHARED / name[7:]).exists():
                 continue
             scene = path_traced(name[7:]) if name.startswith("shared/") else built_in(name, given.width, given.samples)
-            body += quality_rows(scene, given, panels)
-        print_table(["scene", "engine", "PSNR dB", "SSIM", "seconds"], body)
+            head.append(scene.name)
+            columns.append(list(quality_column(scene, given, panels)))
+        print_table(head, list(zip(["sharp picture", *[label for label, _ in WAYS]], *columns)))
         print(f"\nBuilt-in scenes {given.width} px wide, truth of {given.samples} lens samples.\n")
         if panels:
             sheet(panels)

@@ -169,7 +169,8 @@ kernel::Mount mount_of(const DefocusJob& job) {
 
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
 Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store) {
-    constexpr int kLevels = 10;
+    constexpr int kLevels =
+        13;  // the largest radius in cells of the last one is 4, fewer than any engine needs
     auto levels = kernel::make_lens_levels(job.lens, mount_of(job), kLevels);
     if (!levels || !store) return levels;
     for (std::size_t i = 0; i < levels->size(); ++i)

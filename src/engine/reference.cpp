@@ -13,6 +13,7 @@
 #include "engine/highlights.h"
 #include "engine/holdout.h"
 #include "engine/lens_ray.h"
+#include "engine/memory.h"
 #include "engine/surfaces.h"
 
 #include <algorithm>
@@ -272,6 +273,25 @@ double largest_radius(const Input& input) {
     return largest;
 }
 
+// The scene goes on beyond the picture as far as a ray may come from, so wide radii take memory: refused in
+// good time rather than tried.
+Status surfaces_fit(const Input& input, const CocSamples& samples, int margin) {
+    constexpr double kMost = double(std::size_t(8) << 30);
+    const double pixels = double(input.width()) * input.height();
+    const double cells = (double(input.width()) + 2.0 * margin) * (double(input.height()) + 2.0 * margin);
+    const double per_cell =
+        sizeof(std::uint32_t) + sizeof(Facet) * std::max(1.0, double(samples.samples.size()) / pixels);
+    const double bytes = cells * per_cell + double(held_bytes(input));
+    const double most = input.max_memory_bytes > 0 ? double(input.max_memory_bytes) : kMost;
+    if (bytes <= most) return Done{};
+    Error error = too_little_memory("reference", std::size_t(bytes));
+    if (input.max_memory_bytes == 0)
+        error.message =
+            "engine reference takes about " + std::to_string(std::size_t(bytes) >> 20) +
+            "M for this picture and blur; cut radii with --max-radius, or allow it with --max-memory";
+    return error;
+}
+
 }  // namespace
 
 Result<Output> run_reference(const Input& input) {
@@ -285,6 +305,7 @@ Result<Output> run_reference(const Input& input) {
     const std::vector<Highlight> highlights = take_highlights(samples, split, 0, 1, input.threads);
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
+    if (const Status fits = surfaces_fit(input, samples, margin); !fits) return fits.error();
     const Surfaces surfaces =
         Surfaces::make(samples, input.open_edges, margin, input.deep_dims_itself, input.threads);
     const double prepared = seconds();
