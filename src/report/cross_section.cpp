@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace petzval::report {
 namespace {
 
-constexpr double kWidth = 1100, kTallest = 400, kMargin = 26, kWords = 40;
+constexpr double kWidth = 1100, kTallest = 400, kMargin = 26, kWords = 84;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kArcSteps = 24;
 
@@ -164,6 +165,34 @@ void draw_words(Svg& svg, const Frame& frame, const Layout& layout, double heigh
     svg.text({right - bar * frame.scale - 6, y + 4}, significant(bar) + " mm", "label", Anchor::End);
 }
 
+// Where the pupils, principal and focal planes stand, on a line of their own below the glass.
+void draw_cardinal_points(Svg& svg, const Frame& frame, const Layout& layout, const LensFacts& f, double y) {
+    const double last = layout.vertex_mm.back();
+    const struct {
+        const char* name;
+        double z_mm;
+    } points[] = {{"F", f.front_focal_position_mm},
+                  {"H", f.front_focal_position_mm + f.efl_mm},
+                  {"H′", last + f.bfl_mm - f.efl_mm},
+                  {"F′", last + f.bfl_mm},
+                  {"entrance pupil", f.entrance_pupil_position_mm},
+                  {"exit pupil", last + f.exit_pupil_position_mm}};
+    for (std::size_t i = 0; i < std::size(points); ++i) {
+        const double x = frame(points[i].z_mm, 0).x;
+        if (!(x >= kMargin && x <= kWidth - kMargin)) continue;
+        svg.line({x, y - 5}, {x, y + 5}, "axis");
+        if (i < 4) {
+            svg.text({x, y - 8}, points[i].name, "tick", Anchor::Middle);
+            continue;
+        }
+        // Names of pupils stand away from each other.
+        const bool is_left = points[i].z_mm < points[9 - i].z_mm;
+        svg.text({x + (is_left ? 3 : -3), y + 17}, points[i].name, "tick",
+                 is_left ? Anchor::End : Anchor::Start);
+    }
+    svg.line({kMargin, y}, {kWidth - kMargin, y}, "grid");
+}
+
 std::string traced_section(const Subject& subject, const optics::TracedLens& lens) {
     const Layout layout = layout_of(subject, lens);
     double low = -layout.lead_mm;
@@ -180,10 +209,11 @@ std::string traced_section(const Subject& subject, const optics::TracedLens& len
     Svg svg(kWidth, height, "cross-section of " + subject.name() + " with rays");
     svg.line(frame(low, 0), frame(layout.sensor_mm, 0), "optical-axis");
     draw_glass(svg, frame, layout, *subject.prescription());
-    svg.open_window({0, 0}, kWidth, height - kWords + 8);
+    svg.open_window({0, 0}, kWidth, height - kWords + 6);
     draw_rays(svg, frame, layout);
     svg.close_window();
     draw_stop(svg, frame, layout, lens.stop_radius_mm(), subject.prescription()->stop);
+    draw_cardinal_points(svg, frame, layout, subject.facts(), height - 46);
     draw_words(svg, frame, layout, height);
     return svg.str();
 }
@@ -265,11 +295,12 @@ Figure cross_section(const Subject& subject) {
                 12};
     const auto lens = optics::TracedLens::make(*subject.prescription(), {});
     if (!lens) return {"", escaped(lens.error().message), 12};
-    return {
-        traced_section(subject, *lens),
-        "Light comes from the left, from infinity; every ray is traced through the surfaces as they were "
-        "published, and those that a rim would stop are left out. The sensor stands at the paraxial focus.",
-        12};
+    return {traced_section(subject, *lens),
+            "Light comes from the left, from infinity; every ray is traced through the surfaces as they were "
+            "published, and those that a rim would stop are left out. The sensor stands at the paraxial "
+            "focus. Below, "
+            "where the principal planes H and H′, the focal points and the paraxial pupils stand.",
+            12};
 }
 
 }  // namespace petzval::report

@@ -37,6 +37,9 @@ std::vector<Figure> field_discs(const Subject& subject);
 // spot_figures.cpp
 Figure spot_diagrams(const Subject& subject);
 
+// mtf_figure.cpp
+std::vector<Figure> mtf_figures(const Subject& subject);
+
 // wave_figures.cpp
 std::vector<Figure> wave_figures(const Subject& subject);
 

@@ -50,7 +50,9 @@ std::vector<Section> sections_of(const Subject& subject) {
              ? ""
              : "Curves speak of the axis alone; what happens off it is set by flags. Three of them:",
          field_discs(subject)});
-    sections.push_back({"spots", "Spot diagrams", "", {spot_diagrams(subject)}});
+    Figures sharpness{spot_diagrams(subject)};
+    append(sharpness, mtf_figures(subject));
+    sections.push_back({"spots", "Sharpness", "", std::move(sharpness)});
     sections.push_back({"waves", "Waves", "", wave_figures(subject)});
     sections.push_back(
         {"formation", "How the image forms",

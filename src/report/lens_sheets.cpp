@@ -116,9 +116,10 @@ std::string lens_contact_sheet(const std::vector<LensCard>& cards) {
     const auto rows = (cards.size() + kColumns - 1) / kColumns;
     Svg svg(kColumns * kWide + 12, double(rows) * kTall + 12, "contact sheet of lenses");
     for (std::size_t i = 0; i < cards.size(); ++i) {
-        const Point corner{12 + double(i % kColumns) * kWide, 12 + double(i / kColumns) * kTall};
+        const std::size_t column = i % kColumns, row = i / kColumns;
+        const Point corner{12 + double(column) * kWide, 12 + double(row) * kTall};
         svg.place(corner, cards[i].discs);
-        svg.text(corner + Point{0, kDiscCss + 15}, cards[i].name, "name");
+        svg.text(corner + Point{0, kDiscCss + 15}, cards[i].name, "word");
         svg.text(corner + Point{0, kDiscCss + 30},
                  cards[i].focal_length + " " + cards[i].f_number +
                      (cards[i].year.empty() ? "" : ", " + cards[i].year),

@@ -102,6 +102,22 @@ TEST(ZoneCurves, SayWhichDiscsAreSharp) {
     EXPECT_EQ(zone_curves(subject_of("asphere")).caption.find("<b>"), std::string::npos);
 }
 
+// The place list of the first path of a class.
+std::string path_of(const std::string& svg, const std::string& css) {
+    const std::size_t at = svg.find("<path class=\"" + css + "\" d=\"");
+    if (at == std::string::npos) return "";
+    const std::size_t from = svg.find(" d=\"", at) + 4;
+    return svg.substr(from, svg.find('"', from) - from);
+}
+
+TEST(Contrast, OfAPerfectLensIsTheDiffractionLimitAndOfOthersLess) {
+    const std::string perfect = mtf_figures(subject_of("ideal")).front().drawing;
+    EXPECT_NE(path_of(perfect, "mark"), "");
+    EXPECT_EQ(path_of(perfect, "ray0 bold"), path_of(perfect, "mark"));
+    const std::string doublet = mtf_figures(subject_of("doublet")).front().drawing;
+    EXPECT_NE(path_of(doublet, "ray0 bold"), path_of(doublet, "mark"));
+}
+
 TEST(EveryLens, HasAllFiguresWithoutAFault) {
     const std::vector<std::string> names = lens_names();
     ASSERT_GT(names.size(), 35U);
@@ -117,7 +133,8 @@ TEST(EveryLens, HasAllFiguresWithoutAFault) {
                                     rays_near_focus(*subject, 3), spot_diagrams(*subject),
                                     squared_column(*subject)};
         const bool traced = subject->prescription() != nullptr;
-        for (auto& more : {ray_fan_figures(*subject), field_curves(*subject), seidel_figures(*subject)}) {
+        for (const auto& more :
+             {ray_fan_figures(*subject), field_curves(*subject), seidel_figures(*subject)}) {
             if (more.empty() && traced && subject->facts().field_deg > 0.05) faults[std::size_t(i)] = "none";
             figures.insert(figures.end(), more.begin(), more.end());
         }

@@ -53,6 +53,7 @@ svg path.ghost { fill: var(--glass); fill-opacity: .5; stroke: var(--edge); stro
 .ray0 { stroke: var(--accent); } .ray1 { stroke: var(--second); } .ray2 { stroke: var(--third); }
 text.ray0, text.ray1, text.ray2 { stroke: none; font-size: 11.5px; }
 text.ray0 { fill: var(--accent); } text.ray1 { fill: var(--second); } text.ray2 { fill: var(--third); }
+.bold { stroke-width: 2; stroke-opacity: 1; } .broken { stroke-dasharray: 6 3; }
 .curve0, .curve1, .curve2 { stroke-width: 1.9; stroke-linejoin: round; }
 .curve0 { stroke: var(--accent); } .curve1 { stroke: var(--second); stroke-dasharray: 7 3; }
 .curve2 { stroke: var(--third); stroke-dasharray: 2 3; }
@@ -112,9 +113,11 @@ tr.total td { font-weight: 600; border-top: 1px solid var(--axis); }
 .sheet svg { display: block; }
 footer { margin-top: 4em; padding-top: 1em; border-top: 1px solid var(--rule); font-size: .84rem; }
 code { font-size: .86em; }
-@media (max-width: 780px) { body { padding: 22px 16px; } .head { display: block; } figure { grid-column: 1 / -1; }
+@media screen and (max-width: 780px) { body { padding: 22px 16px; } .head { display: block; } figure { grid-column: 1 / -1; }
   .facts { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
-@media print { body { max-width: none; padding: 0; font-size: 10.5pt; } nav { display: none; } h2 { break-after: avoid; }
+@media print { body { max-width: none; padding: 0; font-size: 9.5pt; line-height: 1.4; } h1 { font-size: 20pt; }
+  h2 { margin-top: 1.2em; font-size: 13pt; } figcaption { font-size: 8.5pt; } .figures { gap: .9em .9em; }
+  table { font-size: 7.5pt; } nav { display: none; } h2 { break-after: avoid; }
   svg { print-color-adjust: exact; -webkit-print-color-adjust: exact; } @page { margin: 14mm; } }
 )css";
 

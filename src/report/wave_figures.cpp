@@ -182,7 +182,7 @@ WaveCell focus_cell(const Subject& subject, double f_number, int blades) {
                   significant(kFocusPx * um_per_px, 2) + " µm across",
                   {},
                   1,
-                  true};
+                  1.22 * kGreen_um * f_number / um_per_px};
     if (const auto lens = subject.wave_lens(f_number, um_per_px, 1, character))
         cell.disc = (*lens)->point_spread(0, {});
     return cell;
@@ -194,7 +194,7 @@ WaveCell small_cell(const Subject& subject, double coc_um, double scale, double 
                   significant(kSmallPx * um_per_px, 2) + " µm across",
                   {},
                   1,
-                  false};
+                  0};
     if (!wave) {
         cell.disc = subject.axis().disc(coc_um / scale, um_per_px / scale);
     } else if (const auto lens = subject.wave_lens(subject.f_number(), um_per_px, scale)) {

@@ -35,7 +35,7 @@ class LensReport(CommandLineTest):
         self.succeed("lens", "report", "doublet", "-o", "sheet.html")
         text = self.check_page("sheet.html", 20)
         for words in ("3 wavelengths", "31 wavelengths", "squared", "--cats-eye", "--coma", "Magnification 0.5",
-                      "Magnification 2", "pinhole"):
+                      "Magnification 2", "pinhole", "a line", "Contrast at f/2", "wavefront"):
             self.assertIn(words, text)
         self.assertLess(os.path.getsize(self.path("sheet.html")), 5e6)
 
