@@ -15,16 +15,17 @@ constexpr float kLikeEnough =
     0.1f;  // squared relative difference below which two patches are as good as the same
 constexpr float kOneSided = 10;  // what a surface met on one side counts, against two unlike patches
 
-// The end of a search: a few pixels of the surface that was met, as seen coming from the hidden pixel.
-constexpr int kPatch = 5;
+// The end of a search: a pixel of the surface that was met.
 constexpr int kHits = 2;      // per direction
 constexpr int kSurfaces = 3;  // behind one pixel
 struct Found {
     bool found = false;
-    std::array<Rgba, kPatch> patch;  // the pixel met, one to either side of it, two beyond it
+    int x = 0, y = 0;
     float coc_px = 0, distance_px = 0;
-    const Rgba& colour() const { return patch[0]; }
 };
+// A few pixels around it, as seen coming from the hidden pixel: itself, one to either side, two beyond.
+constexpr int kPatch = 5;
+using Patch = std::array<Rgba, kPatch>;
 
 constexpr int kBlock = 4;  // pixels on a side share one distance to the nearest silhouette
 
@@ -41,12 +42,13 @@ struct Step {
 struct Path {
     Direction direction;
     std::vector<Step> steps;
+    std::vector<std::size_t> at_distance;  // the first step at least so many pixels away
 };
 
 class Filler {
 public:
     Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
-           const Sparse<Mixture>& mixtures, float largest, float farthest)
+           const Sparse<Mixture>& mixtures, float largest, float farthest, int threads)
         : colour_(colour),
           coc_(coc),
           connected_(connected),
@@ -54,26 +56,29 @@ public:
           farthest_(farthest),
           largest_(largest) {
         clean_ = Plane::uninitialised(coc.width(), coc.height());
-        for (int y = 0; y < coc.height(); ++y)
+        parallel_for(coc.height(), threads, [&](int y) {
             for (int x = 0; x < coc.width(); ++x)
                 clean_(x, y) = mixtures.index(x, y) < 0 ? coc(x, y) : -1e30f;
-        measure_distances();
+        });
+        measure_distances(threads);
         lay_paths();
     }
 
-    // What lies behind (x, y), if any surface nearby does.
-    bool fill(int x, int y, std::vector<Hidden>& hidden) const {
+    // Whether any lens ray can come past what hides what is behind (x, y).
+    bool may_hide(int x, int y) const {
+        return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + kPastEdgePx;
+    }
+    // Appends what lies behind (x, y), if any surface nearby does.
+    void fill(int x, int y, std::vector<Hidden>& hidden) const {
         const float own = coc_(x, y);
-        if (beyond_(x / kBlock, y / kBlock) > std::abs(own) + kPastEdgePx) return false;
         Hits hits;
         bool any = false;
         const Slope slope = slope_at(coc_, connected_, x, y);
-        for (int k = 0; k < kDirections; ++k) {
-            hits[std::size_t(k)] = search(x, y, own, slope, paths_[std::size_t(k)]);
-            any = any || hits[std::size_t(k)][0].found;
+        for (std::size_t k = 0; k < kDirections; ++k) {
+            hits[k] = search(x, y, own, slope, paths_[k]);
+            any = any || hits[k][0].found;
         }
         if (any) stack(hits, hidden);
-        return any;
     }
 
 private:
@@ -81,21 +86,28 @@ private:
     // behind it, the smallest. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
     // digital images", 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own
     // blur need no search.
-    void measure_distances() {
+    void measure_distances(int threads) {
         const int width = (coc_.width() + kBlock - 1) / kBlock,
                   height = (coc_.height() + kBlock - 1) / kBlock;
         beyond_ = Plane(width, height, 1e9f);
+        free_ = Image<int>(width, height, 1 << 20);
         Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
-        for (int y = 0; y < coc_.height(); ++y)
-            for (int x = 0; x < coc_.width(); ++x) {
-                const int bx = x / kBlock, by = y / kBlock;
-                nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
-                if (const Mixture* m = mixtures_.at(x, y); m && m->far_coc_px > far(bx, by))
-                    beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
-            }
+        parallel_for(height, threads, [&](int by) {
+            for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y)
+                for (int x = 0; x < coc_.width(); ++x) {
+                    const int bx = x / kBlock;
+                    nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
+                    const Mixture* m = mixtures_.at(x, y);
+                    if (!m) continue;
+                    free_(bx, by) = -kBlock;
+                    if (m->far_coc_px > far(bx, by))
+                        beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
+                }
+        });
         constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
         const auto relax = [&](int x, int y, int dx, int dy) {
             if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
+            free_(x, y) = std::min(free_(x, y), free_(x + dx, y + dy) + kBlock);
             const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
             if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + kBehindPx) return;
             beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
@@ -120,6 +132,8 @@ private:
                           dy = int(std::lround(t * path.direction.y));
                 path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * clean_.width() + dx});
             }
+            for (std::size_t i = 0; i < path.steps.size(); ++i)
+                while (float(path.at_distance.size()) <= path.steps[i].t) path.at_distance.push_back(i);
         }
     }
 
@@ -132,20 +146,31 @@ private:
         std::array<Found, kHits> hits;
         int n = 0;
         float behind = own + kBehindPx;
-        for (const Step& step : path.steps) {
-            if (step.t > longest || n == kHits) break;
+        for (std::size_t i = 0; i < path.steps.size() && n < kHits;) {
+            const Step& step = path.steps[i];
+            if (step.t > longest) break;
             const int u = x + step.x, v = y + step.y;
             if (u < 0 || v < 0 || u >= clean_.width() || v >= clean_.height()) break;
             const float c = start[step.offset];
-            if (c <= behind || c <= own + step.t * own_per_px + kBehindPx) continue;
-            if (step.t <= std::abs(own) + std::abs(c) + kPastEdgePx)
-                hits[std::size_t(n++)] = {true, patch_at(u, v, c, d), c, step.t};
-            behind = c + 2 * kBehindPx;
+            if (c > behind && c > own + step.t * own_per_px + kBehindPx) {
+                if (step.t <= std::abs(own) + std::abs(c) + kPastEdgePx)
+                    hits[std::size_t(n++)] = {true, u, v, c, step.t};
+                behind = c + 2 * kBehindPx;
+            }
+            // No other surface comes before the next silhouette.
+            if (const int free = free_(u / kBlock, v / kBlock); free <= 1) {
+                ++i;
+            } else {
+                const std::size_t distance = std::size_t(step.t) + std::size_t(free);
+                if (distance >= path.at_distance.size()) break;
+                i = std::max(i + 1, path.at_distance[distance]);
+            }
         }
         return hits;
     }
 
-    std::array<Rgba, kPatch> patch_at(int x, int y, float c, Direction d) const {
+    Patch patch_at(const Found& hit, Direction d) const {
+        const int x = hit.x, y = hit.y;
         // Across the direction in a fixed sense, so that patches met in opposite directions can be compared.
         const bool turned = d.y < 0 || (d.y == 0 && d.x < 0);
         const float across_x = turned ? d.y : -d.y, across_y = turned ? -d.x : d.x;
@@ -154,23 +179,24 @@ private:
                                                      {-1.5f * across_x, -1.5f * across_y},
                                                      {1.5f * d.x, 1.5f * d.y},
                                                      {3 * d.x, 3 * d.y}}};
-        std::array<Rgba, kPatch> patch;
+        Patch patch;
         for (int k = 0; k < kPatch; ++k) {
             const Direction o = offsets[std::size_t(k)];
             const int u = x + int(std::lround(o.x)), v = y + int(std::lround(o.y));
-            const bool usable =
-                coc_.rect().contains(u, v) && mixtures_.index(u, v) < 0 && std::abs(coc_(u, v) - c) < 1;
+            const bool usable = coc_.rect().contains(u, v) && mixtures_.index(u, v) < 0 &&
+                                std::abs(coc_(u, v) - hit.coc_px) < 1;
             patch[std::size_t(k)] = usable ? colour_(u, v) : colour_(x, y);
         }
         return patch;
     }
 
     // High where two patches could be two pieces of one surface.
-    static float likeness(const Found& a, const Found& b) {
+    float likeness(const Found& a, Direction to_a, const Found& b, Direction to_b) const {
+        const Patch at_a = patch_at(a, to_a), at_b = patch_at(b, to_b);
         float difference = 0, level = 0;
-        for (int k = 0; k < kPatch; ++k) {
-            const Rgba d = a.patch[std::size_t(k)] - b.patch[std::size_t(k)];
-            const Rgba m = 0.5f * (a.patch[std::size_t(k)] + b.patch[std::size_t(k)]);
+        for (std::size_t k = 0; k < kPatch; ++k) {
+            const Rgba d = at_a[k] - at_b[k];
+            const Rgba m = 0.5f * (at_a[k] + at_b[k]);
             difference += d.r * d.r + d.g * d.g + d.b * d.b;
             level += m.r * m.r + m.g * m.g + m.b * m.b;
         }
@@ -191,7 +217,7 @@ private:
 
     // The surfaces that were met, nearest first. The farthest fills all there is; a nearer one only the share
     // of the surroundings that it has: a wire behind a leaf goes on as a wire.
-    static void stack(Hits& hits, std::vector<Hidden>& hidden) {
+    void stack(Hits& hits, std::vector<Hidden>& hidden) const {
         float share_behind = 0;
         std::array<Hidden, kSurfaces> surfaces{};
         int n = 0;
@@ -212,19 +238,20 @@ private:
     }
 
     // What the hits at `coc_px` agree on; they are used up. share: their weight, the sum of 1/distance.
-    static Hidden surface(Hits& hits, float coc_px, float& share) {
+    Hidden surface(Hits& hits, float coc_px, float& share) const {
         Rgba sum;
         float coc = 0, weight_sum = 0;
         const auto vote = [&](Rgba colour, float c, float weight) {
             sum += weight * colour, coc += weight * c, weight_sum += weight;
         };
-        const auto take = [&](int k) -> Found* {
-            for (Found& f : hits[std::size_t(k)])
+        const auto take = [&](std::size_t k) -> Found* {
+            for (Found& f : hits[k])
                 if (f.found && one_surface(f.coc_px, coc_px)) return &f;
             return nullptr;
         };
-        constexpr int kPairs = kDirections / 2;
-        for (int k = 0; k < kPairs; ++k) {
+        const auto colour_of = [&](const Found& f) { return colour_(f.x, f.y); };
+        constexpr std::size_t kPairs = kDirections / 2;
+        for (std::size_t k = 0; k < kPairs; ++k) {
             Found *a = take(k), *b = take(k + kPairs);
             // Seen on both sides, it most likely goes on between them.
             if (a && b) share += 2 / a->distance_px + 2 / b->distance_px;
@@ -232,11 +259,12 @@ private:
             if (a && b) {
                 const float total = a->distance_px + b->distance_px;
                 const float wa = b->distance_px / total, wb = a->distance_px / total;
-                vote(wa * a->colour() + wb * b->colour(), wa * a->coc_px + wb * b->coc_px,
-                     (1 / a->distance_px + 1 / b->distance_px) * likeness(*a, *b));
+                const float alike = likeness(*a, paths_[k].direction, *b, paths_[k + kPairs].direction);
+                vote(wa * colour_of(*a) + wb * colour_of(*b), wa * a->coc_px + wb * b->coc_px,
+                     (1 / a->distance_px + 1 / b->distance_px) * alike);
             } else if (a || b) {
                 const Found& one = a ? *a : *b;
-                vote(one.colour(), one.coc_px, kOneSided / (one.distance_px * one.distance_px));
+                vote(colour_of(one), one.coc_px, kOneSided / (one.distance_px * one.distance_px));
             }
             if (a) a->found = false;
             if (b) b->found = false;
@@ -248,15 +276,50 @@ private:
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Sparse<Mixture>& mixtures_;
-    Plane clean_;   // radius of pixels that touch no silhouette, else far in front
-    Plane beyond_;  // see measure_distances
+    Plane clean_;      // radius of pixels that touch no silhouette, else far in front
+    Plane beyond_;     // see measure_distances
+    Image<int> free_;  // pixels one can go from anywhere in a block without meeting a silhouette
     std::array<Path, kDirections> paths_;
     float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
 };
 
-// Where blurs are wide, what is hidden is seen only through them: pixels of one surface then share what is
-// found for the first of them in a square of so many.
-int sharing_step(float widest_blur_px) { return widest_blur_px < 40 ? 1 : widest_blur_px < 120 ? 2 : 4; }
+constexpr int kLargestSquare = 8;
+
+// What is hidden is seen through its own blur: pixels of one surface share what was found for the first of
+// them in a square of so many on a side.
+int shared_square(std::span<const Hidden> hidden) {
+    float least_blur_px = 1e30f;
+    for (const Hidden& h : hidden) least_blur_px = std::min(least_blur_px, std::abs(h.coc_px));
+    return least_blur_px < 6 ? 1 : least_blur_px < 16 ? 2 : least_blur_px < 48 ? 4 : kLargestSquare;
+}
+
+struct Range {
+    int begin = 0, end = 0;  // in the samples of its band
+};
+
+// What was found in a square of kLargestSquare pixels so far.
+class Answers {
+public:
+    void clear() { answers_.clear(); }
+    const Range* find(int x, int y, float surface_px) const {
+        for (const Answer& a : answers_)
+            if (x / a.square == a.x / a.square && y / a.square == a.y / a.square &&
+                std::abs(a.surface_px - surface_px) <= kBehindPx / 2)
+                return &a.range;
+        return nullptr;
+    }
+    void add(int x, int y, float surface_px, int square, Range range) {
+        answers_.push_back({x, y, square, surface_px, range});
+    }
+
+private:
+    struct Answer {
+        int x, y, square;
+        float surface_px;
+        Range range;
+    };
+    std::vector<Answer> answers_;
+};
 
 }  // namespace
 
@@ -267,31 +330,29 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
     HiddenLayers layers;
     if (mixtures.values.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
-    const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px);
-    const int step = sharing_step(std::abs(nearest_coc_px) + std::abs(farthest_coc_px));
-    const int bands = (height + step - 1) / step;
-    struct Range {
-        int begin, end;
-    };
+    const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px, threads);
+    const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
-    Image<Range> ranges(width, height, Range{0, 0});  // of each pixel, in its band
+    Image<Range> ranges(width, height);  // of each pixel, in its band
     parallel_for(bands, threads, [&](int band) {
         std::vector<Hidden>& here = found[std::size_t(band)];
-        const int y0 = band * step, y1 = std::min(height, y0 + step);
-        for (int x0 = 0; x0 < width; x0 += step) {
-            const int x1 = std::min(width, x0 + step);
-            float surface = 1e30f;  // radius of the surface that was asked for last
-            Range range{0, 0};
-            for (int y = y0; y < y1; ++y)
-                for (int x = x0; x < x1; ++x) {
-                    if (mixtures.index(x, y) >= 0) continue;
-                    if (std::abs(coc(x, y) - surface) > kBehindPx / 2) {
-                        surface = coc(x, y);
-                        range.begin = int(here.size());
-                        filler.fill(x, y, here);
-                        range.end = int(here.size());
+        Answers answers;
+        for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
+            const Rect square =
+                Rect{x0, band * kLargestSquare, x0 + kLargestSquare, (band + 1) * kLargestSquare}.intersected(
+                    coc.rect());
+            answers.clear();
+            for (int y = square.y0; y < square.y1; ++y)
+                for (int x = square.x0; x < square.x1; ++x) {
+                    if (mixtures.index(x, y) >= 0 || !filler.may_hide(x, y)) continue;
+                    if (const Range* known = answers.find(x, y, coc(x, y))) {
+                        ranges(x, y) = *known;
+                        continue;
                     }
-                    ranges(x, y) = range;
+                    const std::size_t begin = here.size();
+                    filler.fill(x, y, here);
+                    ranges(x, y) = {int(begin), int(here.size())};
+                    answers.add(x, y, coc(x, y), shared_square(std::span(here).subspan(begin)), ranges(x, y));
                 }
         }
     });
@@ -302,7 +363,7 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
     }
     layers.ranges = Image<HiddenLayers::Range>::uninitialised(width, height);
     parallel_for(height, threads, [&](int y) {
-        const std::size_t start = starts[std::size_t(y / step)];
+        const std::size_t start = starts[std::size_t(y / kLargestSquare)];
         for (int x = 0; x < width; ++x) {
             const Range r = ranges(x, y);
             layers.ranges(x, y) = {std::uint32_t(start + std::size_t(r.begin)),

@@ -22,9 +22,9 @@ constexpr int kLargestSquare = 8;  // of highlights
 LevelRule level_rule(Quality quality) {
     switch (quality) {
         case Quality::Draft:
-            return {.largest_cells = 6};
+            return {.largest_cells = 5};
         case Quality::Standard:
-            return {.largest_cells = 12};
+            return {.largest_cells = 8};
         case Quality::Final:
             return {.largest_cells = 24};
     }

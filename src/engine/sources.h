@@ -43,7 +43,7 @@ struct SourceLevel {
 
 // How finely sources are spread.
 struct LevelRule {
-    float largest_cells = 12;  // no source covers more than this radius, in cells of its level…
+    float largest_cells = 8;  // no source covers more than this radius, in cells of its level…
     float fade = 0.15f;        // …but for the fade: across this share of a level it is spread on two
     // Largest radius any source can have on its level.
     float largest_radius() const;

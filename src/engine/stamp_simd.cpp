@@ -28,69 +28,91 @@ struct Light {
     }
 };
 
+// The rows and groups of a kernel that fall on an accumulator.
+struct Overlap {
+    Overlap(const StampKernel& stamped, int x, int y, Accumulator& sums)
+        : kernel(stamped), into(sums), top(y + stamped.extent().y0), left(x + stamped.extent().x0) {
+        constexpr int kGroup = StampKernel::kGroup;
+        const Rect area = into.area();
+        y0 = std::max(top, area.y0), y1 = std::min(y + kernel.extent().y1, area.y1);
+        // Groups that lie in the area or the spill beside it.
+        least = (area.x0 - Accumulator::kSpill - left + kGroup - 1) / kGroup;
+        most = (area.x1 - left + kGroup - 1) / kGroup;
+    }
+    // visit(row, first group, weights from there, sums, floats) for every row with weights.
+    template <typename Visit>
+    HWY_INLINE void for_rows(const Visit& visit) const {
+        for (int y = y0; y < y1; ++y) {
+            const int k = y - top;
+            const int g0 = std::max(kernel.first_group(k), least), g1 = std::min(kernel.last_group(k), most);
+            if (g0 >= g1) continue;
+            visit(y, g0, kernel.row(k) + std::ptrdiff_t(g0) * kGroupFloats,
+                  &into.row(y)[left - into.area().x0 + g0 * StampKernel::kGroup].r, (g1 - g0) * kGroupFloats);
+        }
+    }
+    const StampKernel& kernel;
+    Accumulator& into;
+    int top, left;  // row 0 and group 0 of the kernel, in pixels
+    int y0, y1, least, most;
+};
+
 void StampPlain(const StampKernel& kernel, int x, int y, const Rgba& light, Accumulator& into) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
     const Light repeated(light);
-    const Rect e = kernel.extent(), area = into.area();
-    const int y0 = std::max(y + e.y0, area.y0), y1 = std::min(y + e.y1, area.y1);
-    const int left = x + e.x0;  // pixel of group 0
-    // Groups that lie in the area or the spill beside it.
-    const int least = (area.x0 - Accumulator::kSpill - left + StampKernel::kGroup - 1) / StampKernel::kGroup;
-    const int most = (area.x1 - left + StampKernel::kGroup - 1) / StampKernel::kGroup;
-    for (int row_y = y0; row_y < y1; ++row_y) {
-        const int k = row_y - y - e.y0;
-        const int g0 = std::max(kernel.first_group(k), least), g1 = std::min(kernel.last_group(k), most);
-        if (g0 >= g1) continue;
-        const float* HWY_RESTRICT weights = kernel.row(k) + std::ptrdiff_t(g0) * kGroupFloats;
-        float* HWY_RESTRICT sums = &into.row(row_y)[left - area.x0 + g0 * StampKernel::kGroup].r;
-        const int n = (g1 - g0) * kGroupFloats;
-        for (int i = 0; i < n; i += lanes)
-            hn::StoreU(hn::MulAdd(hn::Load(d, weights + i), hn::Load(d, repeated.values + i % kGroupFloats),
-                                  hn::LoadU(d, sums + i)),
-                       d, sums + i);
-    }
+    Overlap(kernel, x, y, into)
+        .for_rows([&](int, int, const float* HWY_RESTRICT weights, float* HWY_RESTRICT sums, int n) HWY_ATTR {
+            for (int i = 0; i < n; i += lanes)
+                hn::StoreU(
+                    hn::MulAdd(hn::Load(d, weights + i), hn::Load(d, repeated.values + i % kGroupFloats),
+                               hn::LoadU(d, sums + i)),
+                    d, sums + i);
+        });
 }
 
+// Weights times 1 + tilt . offset, which falls below 0 within the kernel only if kClamped.
+template <bool kClamped>
 void StampTilted(const StampKernel& kernel, int x, int y, const Rgba& light, float tilt_x, float tilt_y,
                  Accumulator& into) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
     const Light repeated(light);
-    const Rect e = kernel.extent(), area = into.area();
-    const int y0 = std::max(y + e.y0, area.y0), y1 = std::min(y + e.y1, area.y1);
-    const int left = x + e.x0;
-    const int least = (area.x0 - Accumulator::kSpill - left + StampKernel::kGroup - 1) / StampKernel::kGroup;
-    const int most = (area.x1 - left + StampKernel::kGroup - 1) / StampKernel::kGroup;
-    // tilt_x times the pixel's place in its group.
+    // What the weight changes by from pixel to pixel of a group; and from group to group.
     alignas(64) float ramp[kGroupFloats];
     for (int i = 0; i < kGroupFloats; ++i) {
         const int pixel = i / 4;
         ramp[i] = tilt_x * float(pixel);
     }
-    for (int row_y = y0; row_y < y1; ++row_y) {
-        const int k = row_y - y - e.y0;
-        const int g0 = std::max(kernel.first_group(k), least), g1 = std::min(kernel.last_group(k), most);
-        const float row_tilt = 1 + tilt_y * float(row_y - y);
-        for (int g = g0; g < g1; ++g) {
-            const float* HWY_RESTRICT weights = kernel.row(k) + std::ptrdiff_t(g) * kGroupFloats;
-            float* HWY_RESTRICT sums = &into.row(row_y)[left - area.x0 + g * StampKernel::kGroup].r;
-            const auto start = hn::Set(d, row_tilt + tilt_x * float(e.x0 + g * StampKernel::kGroup));
-            for (int i = 0; i < kGroupFloats; i += lanes) {
-                const auto tilt = hn::Max(hn::Zero(d), hn::Add(start, hn::Load(d, ramp + i)));
-                const auto tilted = hn::Mul(hn::Load(d, repeated.values + i), tilt);
-                hn::StoreU(hn::MulAdd(hn::Load(d, weights + i), tilted, hn::LoadU(d, sums + i)), d, sums + i);
+    const auto step = hn::Set(d, tilt_x * float(StampKernel::kGroup));
+    const int from_source = kernel.extent().x0;
+    Overlap(kernel, x, y, into)
+        .for_rows([&](int row, int group, const float* HWY_RESTRICT weights, float* HWY_RESTRICT sums,
+                      int n) HWY_ATTR {
+            const float start =
+                1 + tilt_y * float(row - y) + tilt_x * float(from_source + group * StampKernel::kGroup);
+            for (int part = 0; part < kGroupFloats; part += lanes) {
+                const auto own = hn::Load(d, repeated.values + part);
+                auto tilt = hn::Add(hn::Set(d, start), hn::Load(d, ramp + part));
+                for (int i = part; i < n; i += kGroupFloats) {
+                    const auto factor = hn::Mul(own, kClamped ? hn::Max(hn::Zero(d), tilt) : tilt);
+                    hn::StoreU(hn::MulAdd(hn::Load(d, weights + i), factor, hn::LoadU(d, sums + i)), d,
+                               sums + i);
+                    tilt = hn::Add(tilt, step);
+                }
             }
-        }
-    }
+        });
 }
 
 void Stamp(const StampKernel& kernel, int x, int y, const Rgba& light, float tilt_x, float tilt_y,
            Accumulator& into) {
-    if (tilt_x == 0 && tilt_y == 0)
-        StampPlain(kernel, x, y, light, into);
+    if (tilt_x == 0 && tilt_y == 0) return StampPlain(kernel, x, y, light, into);
+    const Rect e = kernel.extent();
+    const float steepest =
+        std::abs(tilt_x) * float(std::max(-e.x0, e.x1)) + std::abs(tilt_y) * float(std::max(-e.y0, e.y1));
+    if (steepest < 1)
+        StampTilted<false>(kernel, x, y, light, tilt_x, tilt_y, into);
     else
-        StampTilted(kernel, x, y, light, tilt_x, tilt_y, into);
+        StampTilted<true>(kernel, x, y, light, tilt_x, tilt_y, into);
 }
 
 // One pixel, or as much of it as one register holds.

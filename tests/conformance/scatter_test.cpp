@@ -75,12 +75,12 @@ TEST(Scatter, ASlantedSurfaceThroughFocusMatchesTheReference) {
 }
 
 TEST(Scatter, HardEdgesAcrossASwitchOfLevelsMatchTheReference) {
-    // Radii from 8 to 16 px pass the switch at 12.
+    // Radii from 6 to 20 px pass the switches at 8 and 16.
     Shot shot = flat(220, 120, {}, 0);
     paint_rectangles(shot.colour, 4);
     for (int y = 0; y < 120; ++y)
-        for (int x = 0; x < 220; ++x) shot.coc_px(x, y) = 8 + 8 * float(x) / 220;
-    EXPECT_GE(psnr_against_reference(shot, 20), 52);
+        for (int x = 0; x < 220; ++x) shot.coc_px(x, y) = 6 + 14 * float(x) / 220;
+    EXPECT_GE(psnr_against_reference(shot, 24), 52);
 }
 
 TEST(Scatter, NothingBleedsFromBehindOntoAnEdgeInFocus) {
