@@ -2,6 +2,8 @@
 
 #include "base/parallel.h"
 #include "engine/holdout.h"
+#include "engine/pupil_shadow.h"
+#include "engine/shadow_casters.h"
 #include "kernel/bank.h"
 
 #include <algorithm>
@@ -16,87 +18,10 @@ using kernel::PointSpread;
 // What is nearer by less than this is the highlight's own surface. (The next pixels of a surface that slopes
 // by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
 constexpr float kOwnSurfacePx = 0.02f;
-constexpr int kBlock = 16;
-constexpr float kOverlap = 1.02f;      // of neighbouring squares of shadow
+// A bright light finds every crack between the squares of a sloping surface.
+constexpr float kOverlapPx = 0.02f;
 constexpr float kBrightDisc = 0.002f;  // share of white
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
-
-// Smallest radius of any sample in each block of pixels.
-class NearestBlocks {
-public:
-    NearestBlocks(const CocSamples& samples, int threads)
-        : nearest_((samples.width + kBlock - 1) / kBlock, (samples.height() + kBlock - 1) / kBlock, 1e30f) {
-        const CocSamplesView view = samples;
-        parallel_for(nearest_.height(), threads, [&](int by) {
-            for (int y = by * kBlock; y < std::min((by + 1) * kBlock, samples.height()); ++y)
-                for (int x = 0; x < samples.width; ++x)
-                    for (const CocSample& s : view.at(x, y))
-                        if (s.colour.a > 0)
-                            nearest_(x / kBlock, by) = std::min(nearest_(x / kBlock, by), s.coc_px);
-        });
-        for (std::size_t i = 0; i < nearest_.size(); ++i) overall_ = std::min(overall_, nearest_.pixels()[i]);
-    }
-    float overall() const { return overall_; }
-    const Plane& blocks() const { return nearest_; }
-
-private:
-    Plane nearest_;
-    float overall_ = 1e30f;
-};
-
-// The share of the pupil that nearer samples cover, on a grid whose cells are the taps of the highlight's
-// disc, or equal parts of them where the disc has few.
-class PupilShadow {
-public:
-    // Squares of an even number of pixels have their middle, and so the middle of their taps, between two
-    // pixels.
-    PupilShadow(float coc_px, bool between)
-        : scale_(coc_px < 0 ? std::min(coc_px, -0.5f) : std::max(coc_px, 0.5f)),
-          taps_(2 * int(std::floor(std::abs(coc_px) + 0.5f)) + (between ? 2 : 1)),
-          parts_(std::max(1, kLeastCells / taps_)),
-          covered_(taps_ * parts_, taps_ * parts_) {}
-
-    // A square of the given side around (u, v), in pupil radii. `side` is small against the whole pupil.
-    void cover(float u, float v, float side, float coverage) {
-        const float per_radius = scale_ * float(parts_), middle = 0.5f * float(covered_.width());
-        const float half = 0.5f * side * std::abs(per_radius);
-        const float x0 = middle + u * per_radius - half, x1 = middle + u * per_radius + half;
-        const float y0 = middle + v * per_radius - half, y1 = middle + v * per_radius + half;
-        const auto limited = [&](float at) { return int(std::clamp(at, 0.0f, float(covered_.width()))); };
-        const int left = limited(std::floor(x0)), right = limited(std::ceil(x1));
-        const int top = limited(std::floor(y0)), bottom = limited(std::ceil(y1));
-        for (int y = top; y < bottom; ++y) {
-            const float tall = std::min(y1, float(y + 1)) - std::max(y0, float(y));
-            for (int x = left; x < right; ++x) {
-                const float wide = std::min(x1, float(x + 1)) - std::max(x0, float(x));
-                covered_(x, y) += coverage * tall * wide;
-            }
-        }
-    }
-
-    // The share of the rays to a tap that nothing stops; (dx, dy) counts from the first tap of the disc's
-    // square.
-    float visible(int dx, int dy) const {
-        const int x0 = std::clamp(dx, 0, taps_ - 1) * parts_;
-        const int y0 = std::clamp(dy, 0, taps_ - 1) * parts_;
-        float inside = 0, inside_count = 0, all = 0;
-        for (int y = y0; y < y0 + parts_; ++y)
-            for (int x = x0; x < x0 + parts_; ++x) {
-                const float seen = 1 - std::min(1.0f, covered_(x, y));
-                const float u = (float(x) + 0.5f - 0.5f * float(covered_.width())) / (scale_ * float(parts_));
-                const float v = (float(y) + 0.5f - 0.5f * float(covered_.width())) / (scale_ * float(parts_));
-                all += seen;
-                if (u * u + v * v <= 1) inside += seen, inside_count += 1;
-            }
-        return inside_count > 0 ? inside / inside_count : all / float(parts_ * parts_);
-    }
-
-private:
-    static constexpr int kLeastCells = 16;
-    float scale_;       // signed radius, as taps count it
-    int taps_, parts_;  // along a side of the disc's square; cells along a tap
-    Plane covered_;
-};
 
 // A lens that sees squares of pixels instead of points: each kernel averaged over `size` x `size` places of
 // its source, of which the first is the top-left pixel.
@@ -139,8 +64,7 @@ class Spreader {
 public:
     Spreader(const Input& input, const CocSamples& samples, float white)
         : input_(input),
-          samples_(samples),
-          blocks_(samples, input.threads),
+          casters_(samples, input.threads),
           stretch_(float(std::max(1.0, input.pixel_aspect))),
           white_(white) {
         const kernel::BankOptions options{.columns = 32,
@@ -167,7 +91,7 @@ public:
             luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
         const auto& chosen = on_disc > kBrightDisc * white_ ? fine_banks_[bank] : banks_[bank];
         auto open = chosen->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
-        if (blocks_.overall() >= h.coc_px - kOwnSurfacePx) return open;
+        if (casters_.nearest_coc_px() >= h.coc_px - kOwnSurfacePx) return open;
         PupilShadow shadow(h.coc_px, h.size % 2 == 0);
         if (!collect(h, shadow)) return open;
         return std::make_shared<const PointSpread>(dimmed(*open, h, shadow));
@@ -175,52 +99,43 @@ public:
 
 private:
     bool collect(const Highlight& h, PupilShadow& shadow) const {
+        constexpr int kBlock = ShadowCasters::kBlock;
         bool any = false;
         const auto reach_of = [&](float c) { return (h.coc_px - c) * stretch_ + 1 + float(h.size); };
-        const int farthest = int(reach_of(blocks_.overall())) + kBlock;
+        const int farthest = int(reach_of(casters_.nearest_coc_px())) + kBlock;
+        const Plane& blocks = casters_.nearest_of_blocks();
         const Rect near = Rect{(h.x - farthest) / kBlock, (h.y - farthest) / kBlock,
                                (h.x + farthest) / kBlock + 1, (h.y + farthest) / kBlock + 1}
-                              .intersected(blocks_.blocks().rect());
+                              .intersected(blocks.rect());
         for (int by = near.y0; by < near.y1; ++by)
             for (int bx = near.x0; bx < near.x1; ++bx) {
-                const float c = blocks_.blocks()(bx, by);
+                const float c = blocks(bx, by);
                 if (c >= h.coc_px - kOwnSurfacePx) continue;
                 const int dx = std::max({bx * kBlock - h.x, h.x - (bx + 1) * kBlock + 1, 0});
                 const int dy = std::max({by * kBlock - h.y, h.y - (by + 1) * kBlock + 1, 0});
-                if (float(dx * dx + dy * dy) <= reach_of(c) * reach_of(c))
-                    any = collect_block(h, bx, by, shadow) || any;
+                if (float(dx * dx + dy * dy) > reach_of(c) * reach_of(c)) continue;
+                for (const Caster& caster : casters_.of_block(bx, by)) {
+                    if (h.coc_px - caster.coc_px < kOwnSurfacePx) break;  // nearest first
+                    any = cover(h, caster, shadow) || any;
+                }
             }
         return any;
     }
 
-    bool collect_block(const Highlight& h, int bx, int by, PupilShadow& shadow) const {
-        bool any = false;
+    bool cover(const Highlight& h, const Caster& caster, PupilShadow& shadow) const {
         // Taps at the rim of the disc reach beyond it by half their width.
         const float pupil_end = stretch_ + (0.5f + 0.5f * float(h.size)) / std::max(0.5f, std::abs(h.coc_px));
-        const Rect r = Rect{bx * kBlock, by * kBlock, (bx + 1) * kBlock, (by + 1) * kBlock}.intersected(
-            {0, 0, samples_.width, samples_.height()});
-        const CocSamplesView view = samples_;
-        for (int y = r.y0; y < r.y1; ++y)
-            for (int x = r.x0; x < r.x1; ++x)
-                for (const CocSample& s : view.at(x, y)) {
-                    const float apart = h.coc_px - s.coc_px;
-                    if (apart < kOwnSurfacePx) break;  // nearest first
-                    const float per_px = 1 / apart;
-                    const float middle = 0.5f * float(h.size - 1);
-                    const float u = (float(x - h.x) - middle) * per_px,
-                                v = (float(y - h.y) - middle) * per_px;
-                    // A tap sees each pixel of the highlight through another place of the sample's plane,
-                    // wider apart the further that plane is from focus.
-                    // Whole numbers, so that squares a pixel apart add up to an even shade.
-                    const float smear = std::round(1 + float(h.size - 1) * std::abs(s.coc_px) /
-                                                           std::max(1.0f, std::abs(h.coc_px)));
-                    // A bright light finds every crack between the squares of a sloping surface.
-                    const float side = smear * per_px * kOverlap;
-                    if (std::max(std::abs(u), std::abs(v)) - 0.5f * side >= pupil_end) continue;
-                    shadow.cover(u, v, side, s.colour.a / (smear * smear));
-                    any = true;
-                }
-        return any;
+        const float per_px = 1 / (h.coc_px - caster.coc_px);
+        const float middle = 0.5f * float(h.size - 1);
+        const float u = (caster.x - float(h.x) - middle) * per_px,
+                    v = (caster.y - float(h.y) - middle) * per_px;
+        // A tap sees each pixel of the highlight through another place of the caster's plane, wider apart the
+        // further that plane is from focus.
+        const float blur = float(h.size - 1) * std::abs(caster.coc_px) / std::max(1.0f, std::abs(h.coc_px));
+        const float side = caster.size + kOverlapPx;
+        if (std::max(std::abs(u), std::abs(v)) - 0.5f * (side + blur) * per_px >= pupil_end) return false;
+        shadow.cover(u, v, side * per_px, blur * per_px, caster.coverage);
+        return true;
     }
 
     static PointSpread dimmed(const PointSpread& open, const Highlight& h, const PupilShadow& shadow) {
@@ -235,8 +150,7 @@ private:
     }
 
     const Input& input_;
-    const CocSamples& samples_;
-    NearestBlocks blocks_;
+    ShadowCasters casters_;
     float stretch_;  // of the pupil, vertically, by pixels that are not square
     std::vector<std::unique_ptr<const SquareLens>> lenses_;
     std::vector<std::unique_ptr<const kernel::KernelBank>> banks_, fine_banks_;

@@ -125,6 +125,18 @@ inline std::array<float, 4> Cubic(float t) {
             0.5f * (t3 - t2)};
 }
 
+// The sum of four values, `stride` floats apart, with these weights; never negative where none of them is.
+template <class D>
+HWY_INLINE hn::Vec<D> Interpolated(D d, const float* in, std::size_t stride, const std::array<float, 4>& w) {
+    auto least = hn::Zero(d), sum = hn::Zero(d);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto value = hn::LoadU(d, in + k * stride);
+        sum = hn::MulAdd(hn::Set(d, w[k]), value, sum);
+        least = hn::Min(least, value);
+    }
+    return hn::Max(sum, least);
+}
+
 void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
     const Floats d;
     const OnePixel one;
@@ -147,10 +159,7 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
             const float* in = &coarse.row(y)[cell - 1 - from.x0].r;
             float* out = &wide[stride * std::size_t(y - from.y0) + 4 * std::size_t(x - to.x0)];
             for (std::size_t i = 0; i < 4; i += hn::Lanes(one)) {
-                auto sum = hn::Mul(hn::Set(one, w[0]), hn::LoadU(one, in + i));
-                for (std::size_t k = 1; k < 4; ++k)
-                    sum = hn::MulAdd(hn::Set(one, w[k]), hn::LoadU(one, in + 4 * k + i), sum);
-                hn::StoreU(sum, one, out + i);
+                hn::StoreU(Interpolated(one, in + i, 4, w), one, out + i);
             }
         }
     }
@@ -161,10 +170,7 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
         float* out = &fine.row(y)[0].r;
         const int n = 4 * to.width();
         for (int i = 0; i < n; i += lanes) {  // the last group may spill beyond the row, where there is room
-            auto sum = hn::Mul(hn::Set(d, w[0]), hn::LoadU(d, in + i));
-            for (std::size_t k = 1; k < 4; ++k)
-                sum = hn::MulAdd(hn::Set(d, w[k]), hn::LoadU(d, in + k * stride + std::size_t(i)), sum);
-            hn::StoreU(hn::Add(hn::LoadU(d, out + i), sum), d, out + i);
+            hn::StoreU(hn::Add(hn::LoadU(d, out + i), Interpolated(d, in + i, stride, w)), d, out + i);
         }
     }
 }

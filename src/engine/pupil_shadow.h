@@ -1,0 +1,29 @@
+// The share of the pupil that nearer things cover, as one highlight sees it.
+#pragma once
+
+#include "petzval/image.h"
+
+namespace petzval::engine {
+
+// On a grid whose cells are the taps of the highlight's disc, or equal parts of them where the disc has few.
+class PupilShadow {
+public:
+    // Squares of an even number of pixels have their middle, and so the middle of their taps, between two
+    // pixels: `between`.
+    PupilShadow(float coc_px, bool between);
+
+    // A square of the given side around (u, v), in pupil radii, whose edges are blurred by a box that wide.
+    void cover(float u, float v, float side, float blur, float coverage);
+
+    // The share of the rays to a tap that nothing stops; (dx, dy) counts from the first tap of the disc's
+    // square.
+    float visible(int dx, int dy) const;
+
+private:
+    static constexpr int kLeastCells = 16;
+    float scale_;       // signed radius, as taps count it
+    int taps_, parts_;  // along a side of the disc's square; cells along a tap
+    Plane covered_;
+};
+
+}  // namespace petzval::engine

@@ -1,0 +1,38 @@
+// What can stand between a highlight and the lens, as few squares.
+#pragma once
+
+#include "engine/engine.h"
+
+#include <span>
+#include <vector>
+
+namespace petzval::engine {
+
+// A square of pixels that one surface covers at one radius.
+struct Caster {
+    float x = 0, y = 0;  // its middle, in pixels; the middle of pixel 0 is 0
+    float size = 1;      // pixels on a side
+    float coc_px = 0;
+    float coverage = 1;
+};
+
+// The samples of a picture by blocks of pixels. Opaque samples of nearly one radius are merged into squares
+// of up to a block.
+class ShadowCasters {
+public:
+    static constexpr int kBlock = 16;
+    ShadowCasters(const CocSamples& samples, int threads);
+
+    float nearest_coc_px() const { return nearest_; }  // of all
+    // Blocks are counted from the picture's corner.
+    const Plane& nearest_of_blocks() const { return nearest_of_blocks_; }
+    std::span<const Caster> of_block(int bx, int by) const;  // nearest first
+
+private:
+    Plane nearest_of_blocks_;
+    float nearest_ = 1e30f;
+    std::vector<std::vector<Caster>> rows_;  // of blocks
+    std::vector<std::vector<std::size_t>> first_;
+};
+
+}  // namespace petzval::engine
