@@ -67,9 +67,8 @@ CocSamples deep_completed(const Input& input) {
 
 }  // namespace
 
-CocSamples completed(const Input& input) {
+CocSamples completed(const Input& input, View<const unsigned char> connected) {
     if (!input.deep.empty()) return deep_completed(input);
-    const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
     const auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
     const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures,
                                            input.nearest_coc_px, input.farthest_coc_px, input.threads);

@@ -1,5 +1,6 @@
 // The final-frame engine: complete, split, spread by levels, composite by lens area (docs/design/scatter.md).
 #include "base/parallel.h"
+#include "depth/connectivity.h"
 #include "engine/complete.h"
 #include "engine/engine.h"
 #include "engine/highlight_spread.h"
@@ -104,14 +105,15 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
                   View<Rgba> out) {
     const int first = std::max(0, rows.y0 - halo), last = std::min(frame.height(), rows.y1 + halo);
     const Input input = frame.rows(first, last);
-    CocSamples samples = completed(input);
+    const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
+    CocSamples samples = completed(input, connected);
     watch.lap("complete");
     const std::vector<Highlight> highlights =
         take_highlights(samples, split, first, kLargestSquare, input.threads);
     if (input.deep_dims_itself) share_lens_area(samples, input.threads);
     watch.lap("split");
     const std::vector<SourceLevel> levels =
-        make_sources(samples, input.coc_px, input.open_edges, rule, input.threads);
+        make_sources(samples, input.coc_px, connected, input.open_edges, rule, input.threads);
     watch.lap("sources");
 
     const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;

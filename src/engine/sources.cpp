@@ -83,8 +83,9 @@ private:
 // Visits every sample once and hands it to its level, or to two where one fades into the next.
 class Maker {
 public:
-    Maker(const CocSamples& samples, View<const float> coc_px, const LevelRule& rule, int threads)
-        : samples_(samples), coc_px_(coc_px), rule_(rule), connected_(depth::connections(coc_px, threads)) {}
+    Maker(const CocSamples& samples, View<const float> coc_px, View<const unsigned char> connected,
+          const LevelRule& rule)
+        : samples_(samples), coc_px_(coc_px), connected_(connected), rule_(rule) {}
 
     // Pixel (x, y), clamped to the picture; put(level, layer, light, coc_px, tilt).
     template <typename Put>
@@ -116,46 +117,41 @@ public:
 private:
     CocSamplesView samples_;
     View<const float> coc_px_;
+    View<const unsigned char> connected_;
     LevelRule rule_;
-    Image<unsigned char> connected_;
 };
 
-// Beyond an open edge the outermost cells are repeated, beyond a closed one there is emptiness.
-void add_margins(SourceLevel& level, int margin, const OpenEdges& open, int threads) {
-    const int width = level.area.width() - 2 * margin, height = level.area.height() - 2 * margin;
-    const auto copy_of = [](Source s, int x, bool is_open) {
-        s.x = x;
-        if (!is_open) s.light = {0, 0, 0, s.light.a}, s.layer = kEmptyLayer, s.tilt_x = s.tilt_y = 0;
-        return s;
+// A source of an outermost cell, repeated at cell x beyond an edge: beyond an open one the picture goes on,
+// beyond a closed one there is emptiness.
+Source beyond_edge(Source s, int x, bool open) {
+    s.x = x;
+    if (!open) s.light = {0, 0, 0, s.light.a}, s.layer = kEmptyLayer, s.tilt_x = s.tilt_y = 0;
+    return s;
+}
+
+// A row of cells 0…width-1 with `margin` more at either end.
+std::vector<Source> with_margins(std::span<const Source> row, int width, int margin, const OpenEdges& open) {
+    std::size_t head = 0, tail = 0;  // sources in the first and the last cell: rows ascend in x
+    while (head < row.size() && row[head].x == 0) ++head;
+    while (tail < row.size() && row[row.size() - 1 - tail].x == width - 1) ++tail;
+    std::vector<Source> whole;
+    whole.reserve(row.size() + std::size_t(margin) * (head + tail));
+    for (int x = -margin; x < 0; ++x)
+        for (const Source& s : row.first(head)) whole.push_back(beyond_edge(s, x, open.left));
+    whole.insert(whole.end(), row.begin(), row.end());
+    for (int x = width; x < width + margin; ++x)
+        for (const Source& s : row.last(tail)) whole.push_back(beyond_edge(s, x, open.right));
+    return whole;
+}
+
+// Rows above and below the picture.
+void add_margin_rows(SourceLevel& level, int margin, const OpenEdges& open) {
+    const auto repeat = [&](std::size_t from, std::size_t to, bool is_open) {
+        for (const Source& s : level.rows[from]) level.rows[to].push_back(beyond_edge(s, s.x, is_open));
     };
-    parallel_for(height, threads, [&](int y) {
-        std::vector<Source>& row = level.rows[std::size_t(y + margin)];
-        std::vector<Source> whole;
-        whole.reserve(row.size() + 4 * std::size_t(margin));
-        const auto repeat = [&](int from_x, int x0, int x1, bool is_open) {
-            for (int x = x0; x < x1; ++x)
-                for (const Source& s : row)
-                    if (s.x == from_x) whole.push_back(copy_of(s, x, is_open));
-        };
-        // Only the few sources at the ends are looked at: rows ascend in x.
-        const std::vector<Source> all = std::move(row);
-        std::size_t head = 0, tail = all.size();
-        while (head < all.size() && all[head].x == 0) ++head;
-        while (tail > 0 && all[tail - 1].x == width - 1) --tail;
-        row.assign(all.begin(), all.begin() + std::ptrdiff_t(head));
-        repeat(0, -margin, 0, open.left);
-        whole.insert(whole.end(), all.begin(), all.end());
-        row.assign(all.begin() + std::ptrdiff_t(tail), all.end());
-        repeat(width - 1, width, width + margin, open.right);
-        row = std::move(whole);
-    });
-    for (int k = 0; k < margin; ++k) {
-        const auto& top = level.rows[std::size_t(margin)];
-        const auto& bottom = level.rows[std::size_t(margin + height - 1)];
-        for (const Source& s : top) level.rows[std::size_t(k)].push_back(copy_of(s, s.x, open.top));
-        for (const Source& s : bottom)
-            level.rows[std::size_t(margin + height + k)].push_back(copy_of(s, s.x, open.bottom));
-    }
+    const std::size_t top = std::size_t(margin), bottom = level.rows.size() - 1 - top;
+    for (std::size_t k = 0; k < top; ++k)
+        repeat(top, k, open.top), repeat(bottom, bottom + 1 + k, open.bottom);
 }
 
 }  // namespace
@@ -177,10 +173,11 @@ float radius_in_pixels(float radius, int level) {
 float LevelRule::largest_radius() const { return largest_cells * std::exp2(fade); }
 
 std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
-                                      const OpenEdges& open, const LevelRule& rule, int threads) {
+                                      View<const unsigned char> connected, const OpenEdges& open,
+                                      const LevelRule& rule, int threads) {
     float largest = 0;
     for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
-    const Maker maker(samples, coc_px, rule, threads);
+    const Maker maker(samples, coc_px, connected, rule);
     const int coarsest = int(std::ceil(level_position(largest, rule)));
     const int margin = int(std::ceil(rule.largest_radius())) + 3;
     const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
@@ -193,8 +190,13 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
     // A band of rows as tall as the largest cell is done by one thread.
     const int band_height = 1 << coarsest;
     parallel_for(cells(coc_px.height(), coarsest), threads, [&](int band) {
-        std::vector<std::vector<Cell>> row_cells(
-            levels.size());  // of the row of cells under way, per coarse level
+        std::vector<std::vector<Cell>> row_cells(levels.size());  // of the row under way, per coarse level
+        std::vector<Source> row_sources;
+        const auto finish_row = [&](int l, int y) {
+            levels[std::size_t(l)].rows[std::size_t(y + margin)] =
+                with_margins(row_sources, cells(coc_px.width(), l), margin, open);
+            row_sources.clear();
+        };
         for (int l = 1; l <= coarsest; ++l)
             row_cells[std::size_t(l)].resize(std::size_t(cells(coc_px.width(), l)));
         for (int y = band * band_height; y < (band + 1) * band_height; ++y) {
@@ -204,20 +206,20 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
                         if (std::size_t(x >> l) < row_cells[std::size_t(l)].size())
                             row_cells[std::size_t(l)][std::size_t(x >> l)].add(layer, light, coc, tilt);
                     } else if (x < coc_px.width() && y < coc_px.height()) {
-                        levels[0].rows[std::size_t(y + margin)].push_back(
-                            {light, coc, tilt.x, tilt.y, x, layer});
+                        row_sources.push_back({light, coc, tilt.x, tilt.y, x, layer});
                     }
                 });
+            if (y < coc_px.height()) finish_row(0, y);
             for (int l = 1; l <= coarsest; ++l) {
                 const int row = y >> l;
                 if ((y + 1) % (1 << l) != 0 || row >= cells(coc_px.height(), l)) continue;
-                std::vector<Source>& sources = levels[std::size_t(l)].rows[std::size_t(row + margin)];
                 for (std::size_t x = 0; x < row_cells[std::size_t(l)].size(); ++x)
-                    row_cells[std::size_t(l)][x].flush(int(x), 1 << l, sources);
+                    row_cells[std::size_t(l)][x].flush(int(x), 1 << l, row_sources);
+                finish_row(l, row);
             }
         }
     });
-    for (SourceLevel& level : levels) add_margins(level, margin, open, threads);
+    for (SourceLevel& level : levels) add_margin_rows(level, margin, open);
     return levels;
 }
 

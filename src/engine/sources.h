@@ -44,7 +44,7 @@ struct SourceLevel {
 // How finely sources are spread.
 struct LevelRule {
     float largest_cells = 8;  // no source covers more than this radius, in cells of its level…
-    float fade = 0.15f;        // …but for the fade: across this share of a level it is spread on two
+    float fade = 0.15f;       // …but for the fade: across this share of a level it is spread on two
     // Largest radius any source can have on its level.
     float largest_radius() const;
 };
@@ -53,8 +53,9 @@ struct LevelRule {
 float radius_in_pixels(float radius, int level);
 
 // Sources of all levels, 0 first. `samples` are complete (engine/complete.h); coc_px is what the picture
-// shows, for the slopes of its surfaces.
+// shows, and `connected` which of its pixels are one surface (depth/connectivity.h), for the slopes.
 std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
-                                      const OpenEdges& open, const LevelRule& rule, int threads);
+                                      View<const unsigned char> connected, const OpenEdges& open,
+                                      const LevelRule& rule, int threads);
 
 }  // namespace petzval::engine
