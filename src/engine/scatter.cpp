@@ -113,7 +113,7 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
     if (input.deep_dims_itself) share_lens_area(samples, input.threads);
     watch.lap("split");
     const std::vector<SourceLevel> levels =
-        make_sources(samples, input.coc_px, connected, input.open_edges, rule, input.threads);
+        make_sources(samples, input.coc_px, connected, input.open_edges, rule, table, input.threads);
     watch.lap("sources");
 
     const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;
@@ -143,7 +143,7 @@ Result<Output> run_scatter(const Input& input) {
     const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
     watch.lap("split");
     output.image = Picture::uninitialised(input.width(), input.height());
-    const StampTable table(input, rule.largest_radius());
+    const StampTable table(input, rule);
     for (int y = 0; y < input.height() && !input.progress->cancelled(); y += plan->rows) {
         const Rect rows = Rect{0, y, input.width(), y + plan->rows}.intersected(output.image.rect());
         scatter_rows(input, split, rule, table, rows, plan->halo, double(rows.height()) / input.height(),

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "depth/connectivity.h"
+#include "engine/stamp_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,59 +26,66 @@ depth::Slope tilt_of(depth::Slope slope, float coc_px) {
     return {slope.x / coc_px, slope.y / coc_px};
 }
 
-// The radius of a disc that, averaged over a cell of size x size pixels, is as wide as one of coc_px over a
-// pixel: a square of side a adds a^2/12 to the mean square along each axis, a disc of radius r has r^2/4.
-float narrowed(float coc_px, int size) {
-    const float square = coc_px * coc_px - (float(size * size) - 1) / 3;
-    return std::copysign(std::sqrt(std::max(0.0f, square)), coc_px);
-}
+// What a cell gathers from its pixels for one source.
+struct Gathered {
+    int layer = 0, skirt_of = 0;
+    Rgba light;                             // summed over pixels
+    float coc = 0, tilt_x = 0, tilt_y = 0;  // summed times light.a
+    Gathered() = default;
+    Gathered(int in_layer, Rgba pixel, float coc_px, depth::Slope tilt)
+        : layer(in_layer),
+          light(pixel),
+          coc(pixel.a * coc_px),
+          tilt_x(pixel.a * tilt.x),
+          tilt_y(pixel.a * tilt.y) {}
+    bool same_source(const Gathered& other) const {
+        return layer == other.layer && skirt_of == other.skirt_of;
+    }
+    void operator+=(const Gathered& other) {
+        light += other.light, coc += other.coc, tilt_x += other.tilt_x, tilt_y += other.tilt_y;
+    }
+    // As a source at cell x of a level.
+    Source source(int x, int level) const {
+        const float mean = 1 / light.a, size = float(1 << level);
+        return {light * (1 / (size * size)),
+                radius_in_cells(coc * mean, level),
+                tilt_x * mean * size,
+                tilt_y * mean * size,
+                x,
+                layer,
+                skirt_of};
+    }
+};
 
-// Sources of one cell of a coarse level, gathered from its pixels: one per layer.
+// One cell of a coarse level: one source per layer and piece of kernel. Mostly there is one.
 class Cell {
 public:
-    void add(int layer, Rgba light, float coc_px, depth::Slope tilt) {
-        Sum& sum = of_layer(layer);
-        sum.light += light;
-        sum.coc += light.a * coc_px, sum.tilt_x += light.a * tilt.x, sum.tilt_y += light.a * tilt.y;
+    void add(const Gathered& more) {
+        if (!used_) {
+            first_ = more, used_ = true;
+        } else if (first_.same_source(more)) {
+            first_ += more;
+        } else {
+            for (Gathered& g : others_)
+                if (g.same_source(more)) {
+                    g += more;
+                    return;
+                }
+            others_.push_back(more);
+        }
     }
-    // Appends the sums as sources at cell x of a level with cells of size x size pixels, and starts anew.
-    void flush(int x, int size, std::vector<Source>& row) {
-        if (first_.light.a > 0) row.push_back(source(first_, x, size));
-        for (const Sum& s : more_)
-            if (s.light.a > 0) row.push_back(source(s, x, size));
-        first_ = {}, more_.clear();
+    // Visits what was gathered, and starts anew.
+    template <typename Visit>
+    void take(const Visit& visit) {
+        if (used_) visit(first_);
+        for (const Gathered& g : others_) visit(g);
+        used_ = false, others_.clear();
     }
 
 private:
-    struct Sum {
-        int layer = kNone;
-        Rgba light;
-        float coc = 0, tilt_x = 0, tilt_y = 0;
-    };
-    static constexpr int kNone = std::numeric_limits<int>::min();
-
-    Sum& of_layer(int layer) {
-        if (first_.layer == layer || first_.layer == kNone) {
-            first_.layer = layer;
-            return first_;
-        }
-        for (Sum& s : more_)
-            if (s.layer == layer) return s;
-        more_.push_back({layer, {}, 0, 0, 0});
-        return more_.back();
-    }
-    static Source source(const Sum& s, int x, int size) {
-        const float mean = 1 / s.light.a, cells = 1 / float(size);
-        return {s.light * (cells * cells),
-                narrowed(s.coc * mean, size) * cells,
-                s.tilt_x * mean * float(size),
-                s.tilt_y * mean * float(size),
-                x,
-                s.layer};
-    }
-
-    Sum first_;
-    std::vector<Sum> more_;
+    bool used_ = false;
+    Gathered first_;
+    std::vector<Gathered> others_;
 };
 
 // Visits every sample once and hands it to its level, or to two where one fades into the next.
@@ -87,7 +95,7 @@ public:
           const LevelRule& rule)
         : samples_(samples), coc_px_(coc_px), connected_(connected), rule_(rule) {}
 
-    // Pixel (x, y), clamped to the picture; put(level, layer, light, coc_px, tilt).
+    // Pixel (x, y), clamped to the picture; put(level, gathered).
     template <typename Put>
     void visit(int x, int y, const Put& put) const {
         const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
@@ -105,8 +113,8 @@ public:
             const int level = int(std::ceil(at));
             const float share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule_.fade);
             const auto put_both = [&](int in_layer, Rgba light) {
-                put(level, in_layer, share * light, s.coc_px, tilt);
-                if (share < 1) put(level - 1, in_layer, (1 - share) * light, s.coc_px, tilt);
+                put(level, Gathered(in_layer, share * light, s.coc_px, tilt));
+                if (share < 1) put(level - 1, Gathered(in_layer, (1 - share) * light, s.coc_px, tilt));
             };
             if (s.colour.a > 0) put_both(layer, s.colour);
             if (s.empty > 0)
@@ -154,6 +162,73 @@ void add_margin_rows(SourceLevel& level, int margin, const OpenEdges& open) {
         repeat(top, k, open.top), repeat(bottom, bottom + 1 + k, open.bottom);
 }
 
+// Fills the rows of all levels, from top to bottom; a band begins and ends on whole cells of every level.
+class Band {
+public:
+    Band(std::vector<SourceLevel>& levels, const StampTable& table, int width, std::span<const int> margins,
+         const OpenEdges& open)
+        : levels_(levels),
+          table_(table),
+          width_(width),
+          margins_(margins),
+          open_(open),
+          cells_(levels.size()) {
+        // As many cells as the coarsest level spans: those beyond the picture give to larger ones.
+        const int coarsest = int(levels.size()) - 1;
+        for (int l = 1; l <= coarsest; ++l)
+            cells_[std::size_t(l)].resize(std::size_t(cells_across(coarsest)) << (coarsest - l));
+    }
+    // What column x of the row under way gives to a level; columns beyond the picture only fill its last
+    // cells.
+    void put(int level, int x, const Gathered& g) {
+        if (level > 0) return add_to_cell(level, x, g);
+        const Source source = g.source(x, 0);
+        if (x < width_) fine_.push_back(source);
+        send_skirt(source, 0, x, g);
+    }
+    // Ends row y of pixels, and the rows of cells that end there.
+    void finish_row(int y) {
+        store(0, y, fine_);
+        for (int l = 1; l < int(levels_.size()) && (y + 1) % (1 << l) == 0; ++l) {
+            row_.clear();
+            for (int x = 0; x < int(cells_[std::size_t(l)].size()); ++x) {
+                cells_[std::size_t(l)][std::size_t(x)].take([&](const Gathered& g) {
+                    const Source source = g.source(x, l);
+                    if (x < cells_across(l)) row_.push_back(source);
+                    send_skirt(source, l, x << l, g);
+                });
+            }
+            store(l, y >> l, row_);
+        }
+        fine_.clear();
+    }
+
+private:
+    int cells_across(int level) const { return ((width_ - 1) >> level) + 1; }
+    void add_to_cell(int level, int x, const Gathered& g) {
+        cells_[std::size_t(level)][std::size_t(x >> level)].add(g);
+    }
+    void send_skirt(const Source& source, int level, int x, Gathered g) {
+        if (g.skirt_of > 0) return;
+        g.skirt_of = std::min(table_.skirt_levels(level, source.radius), int(levels_.size()) - 1 - level);
+        if (g.skirt_of > 0) add_to_cell(level + g.skirt_of, x, g);
+    }
+    void store(int level, int y, std::span<const Source> row) {
+        const int margin = margins_[std::size_t(level)];
+        auto& rows = levels_[std::size_t(level)].rows;
+        if (std::size_t(y + 2 * margin) < rows.size())
+            rows[std::size_t(y + margin)] = with_margins(row, cells_across(level), margin, open_);
+    }
+
+    std::vector<SourceLevel>& levels_;
+    const StampTable& table_;
+    int width_;
+    std::span<const int> margins_;
+    const OpenEdges& open_;
+    std::vector<Source> fine_, row_;        // of the row of pixels under way; of a row of cells
+    std::vector<std::vector<Cell>> cells_;  // per coarse level, of the row under way
+};
+
 }  // namespace
 
 int layer_of(float coc_px) {
@@ -164,25 +239,34 @@ int layer_of(float coc_px) {
     return kNextLayer * (coc_px < 0 ? -step : step);
 }
 
+// A square of side a adds a^2/12 to the mean square along each axis, a disc of radius r has r^2/4.
+float radius_in_cells(float coc_px, int level) {
+    const float size = float(1 << level), square = coc_px * coc_px - (size * size - 1) / 3;
+    return level == 0 ? coc_px : std::copysign(std::sqrt(std::max(0.0f, square)) / size, coc_px);
+}
+
 float radius_in_pixels(float radius, int level) {
     const float size = float(1 << level), square = radius * radius * size * size;
-    return level == 0 ? radius
-                      : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);  // narrowed()
+    return level == 0 ? radius : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);
 }
 
 float LevelRule::largest_radius() const { return largest_cells * std::exp2(fade); }
 
 std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
-                                      const LevelRule& rule, int threads) {
+                                      const LevelRule& rule, const StampTable& table, int threads) {
     float largest = 0;
     for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
     const Maker maker(samples, coc_px, connected, rule);
-    const int coarsest = int(std::ceil(level_position(largest, rule)));
-    const int margin = int(std::ceil(rule.largest_radius())) + 3;
+    const int coarsest = int(std::ceil(level_position(largest, rule))) +
+                         (table.has_skirts() ? StampTable::kMostSkirtLevels : 0);
     const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
     std::vector<SourceLevel> levels(std::size_t(coarsest) + 1);
+    std::vector<int> margins;
+    constexpr int kEnlarging = 3;  // cells read around a tile
     for (int l = 0; l <= coarsest; ++l) {
+        const int margin = table.reach(l) + kEnlarging;
+        margins.push_back(margin);
         levels[std::size_t(l)].area =
             Rect{0, 0, cells(coc_px.width(), l), cells(coc_px.height(), l)}.grown(margin);
         levels[std::size_t(l)].rows.resize(std::size_t(levels[std::size_t(l)].area.height()));
@@ -190,36 +274,14 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
     // A band of rows as tall as the largest cell is done by one thread.
     const int band_height = 1 << coarsest;
     parallel_for(cells(coc_px.height(), coarsest), threads, [&](int band) {
-        std::vector<std::vector<Cell>> row_cells(levels.size());  // of the row under way, per coarse level
-        std::vector<Source> row_sources;
-        const auto finish_row = [&](int l, int y) {
-            levels[std::size_t(l)].rows[std::size_t(y + margin)] =
-                with_margins(row_sources, cells(coc_px.width(), l), margin, open);
-            row_sources.clear();
-        };
-        for (int l = 1; l <= coarsest; ++l)
-            row_cells[std::size_t(l)].resize(std::size_t(cells(coc_px.width(), l)));
+        Band rows(levels, table, coc_px.width(), margins, open);
         for (int y = band * band_height; y < (band + 1) * band_height; ++y) {
             for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
-                maker.visit(x, y, [&](int l, int layer, Rgba light, float coc, depth::Slope tilt) {
-                    if (l > 0) {
-                        if (std::size_t(x >> l) < row_cells[std::size_t(l)].size())
-                            row_cells[std::size_t(l)][std::size_t(x >> l)].add(layer, light, coc, tilt);
-                    } else if (x < coc_px.width() && y < coc_px.height()) {
-                        row_sources.push_back({light, coc, tilt.x, tilt.y, x, layer});
-                    }
-                });
-            if (y < coc_px.height()) finish_row(0, y);
-            for (int l = 1; l <= coarsest; ++l) {
-                const int row = y >> l;
-                if ((y + 1) % (1 << l) != 0 || row >= cells(coc_px.height(), l)) continue;
-                for (std::size_t x = 0; x < row_cells[std::size_t(l)].size(); ++x)
-                    row_cells[std::size_t(l)][x].flush(int(x), 1 << l, row_sources);
-                finish_row(l, row);
-            }
+                maker.visit(x, y, [&](int level, const Gathered& g) { rows.put(level, x, g); });
+            rows.finish_row(y);
         }
     });
-    for (SourceLevel& level : levels) add_margin_rows(level, margin, open);
+    for (std::size_t l = 0; l < levels.size(); ++l) add_margin_rows(levels[l], margins[l], open);
     return levels;
 }
 

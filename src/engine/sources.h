@@ -20,6 +20,7 @@ struct Source {
     float tilt_x = 0, tilt_y = 0;  // change of the weight per cell away from the source: slope / radius
     int x = 0;                     // cell on the level's grid, may lie outside the picture
     int layer = 0;
+    int skirt_of = 0;  // the piece of the kernel it sends (engine/stamp_table.h)
 };
 
 // Order of compositing by signed radius: nearest first. Intervals of one pixel near focus, an eighth of an
@@ -51,11 +52,16 @@ struct LevelRule {
 
 // The signed radius in pixels of a source whose radius is given in cells of its level.
 float radius_in_pixels(float radius, int level);
+// And back: the radius of a disc that, averaged over cells of its level, is as wide as one of coc_px over a
+// pixel.
+float radius_in_cells(float coc_px, int level);
+
+class StampTable;
 
 // Sources of all levels, 0 first. `samples` are complete (engine/complete.h); coc_px is what the picture
 // shows, and `connected` which of its pixels are one surface (depth/connectivity.h), for the slopes.
 std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
-                                      const LevelRule& rule, int threads);
+                                      const LevelRule& rule, const StampTable& table, int threads);
 
 }  // namespace petzval::engine

@@ -8,17 +8,83 @@ namespace {
 
 constexpr float kStepsPerCell = 16;
 constexpr int kPartsX = 9, kPartsY = 6;
+constexpr float kCoreEnd = 1.5f;       // times the radius a level is made for
+constexpr float kTrace = 0.004f;       // share of light outside that is not worth a skirt
+constexpr float kNegligible = 0.001f;  // share of light in all that is cut away from a piece
+
+// The light of a kernel from each whole distance outwards.
+std::vector<float> light_beyond(const kernel::PointSpread& spread) {
+    const Rect e = spread.extent;
+    const int farthest = int(std::hypot(std::max(-e.x0, e.x1), std::max(-e.y0, e.y1))) + 2;
+    std::vector<float> beyond(std::size_t(farthest), 0);
+    for (int y = e.y0; y < e.y1; ++y)
+        for (int x = e.x0; x < e.x1; ++x)
+            beyond[std::size_t(std::hypot(x, y))] += spread.weights(x - e.x0, y - e.y0).a;
+    for (std::size_t i = beyond.size() - 1; i > 0; --i) beyond[i - 1] += beyond[i];
+    return beyond;
+}
+
+// The distance outside of which there is at most this share of the light.
+int radius_but_for(const std::vector<float>& beyond, float share) {
+    int radius = int(beyond.size());
+    while (radius > 0 && beyond[std::size_t(radius - 1)] <= share * beyond[0]) --radius;
+    return radius;
+}
+
+// 1 up to `begin`, 0 from `end` on: smoothstep.
+float fade(float distance, float begin, float end) {
+    const float t = std::clamp((end - distance) / (end - begin), 0.0f, 1.0f);
+    return t * t * (3 - 2 * t);
+}
+
+// The part of a kernel within `radius` of its middle, each weight times factor(distance).
+template <typename Factor>
+kernel::PointSpread cut(const kernel::PointSpread& spread, int radius, const Factor& factor) {
+    const Rect from = spread.extent, e = from.intersected({-radius, -radius, radius + 1, radius + 1});
+    kernel::PointSpread piece{e, Picture(e.width(), e.height()), spread.neutral};
+    for (int y = e.y0; y < e.y1; ++y)
+        for (int x = e.x0; x < e.x1; ++x) {
+            const float distance = float(std::hypot(x, y));
+            if (distance <= float(radius))
+                piece.weights(x - e.x0, y - e.y0) =
+                    spread.weights(x - from.x0, y - from.y0) * factor(distance);
+        }
+    return piece;
+}
+
+Rgba sum_of(const kernel::PointSpread& spread) {
+    Rgba sum;
+    for (std::size_t i = 0; i < spread.weights.size(); ++i) sum += spread.weights.pixels()[i];
+    return sum;
+}
+
+void scale(kernel::PointSpread& spread, Rgba by) {
+    for (std::size_t i = 0; i < spread.weights.size(); ++i) {
+        Rgba& w = spread.weights.pixels()[i];
+        w = {w.r * by.r, w.g * by.g, w.b * by.b, w.a * by.a};
+    }
+}
 
 }  // namespace
 
-StampTable::StampTable(const Input& input, float largest_radius)
-    : input_(input), steps_(int(std::ceil(largest_radius * kStepsPerCell)) + 2) {
+StampTable::StampTable(const Input& input, const LevelRule& rule)
+    : input_(input),
+      levels_(int(input.lens_levels.size())),
+      steps_(int(std::ceil(rule.largest_radius() * kStepsPerCell)) + 2),
+      core_begin_(rule.largest_cells),
+      core_end_(kCoreEnd * rule.largest_cells) {
     if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
-    const int levels = int(input.lens_levels.size());
-    for (int l = 0; l < levels; ++l)
-        reach_.push_back(int(std::ceil(input.lens(l).reach_px(double(largest_radius)) + 0.5)));
-    kernels_ =
-        std::vector<std::atomic<const StampKernel*>>(std::size_t(levels * parts_x_ * parts_y_ * 2 * steps_));
+    const int longest = int(std::ceil(core_end_));
+    for (int l = 0; l < levels_; ++l) {
+        const int reach = int(std::ceil(input.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
+        has_skirts_ = has_skirts_ || reach > longest;
+        reach_.push_back(std::min(reach, longest));
+    }
+    const std::size_t radii = std::size_t(levels_ * 2 * steps_);
+    kernels_ = std::vector<std::atomic<const StampKernel*>>(
+        radii * std::size_t(parts_x_ * parts_y_ * (has_skirts_ ? 1 + kMostSkirtLevels : 1)));
+    skirt_levels_ = std::vector<std::atomic<signed char>>(has_skirts_ ? radii : 0);
+    for (auto& levels : skirt_levels_) levels = -1;
 }
 
 StampTable::~StampTable() {
@@ -42,22 +108,84 @@ int StampTable::part_for(int level, int x, int y) const {
            index(px, even(0.7548776662, 0.5698402910), parts_x_);
 }
 
-const StampKernel& StampTable::at(int level, int part, float radius) const {
+std::size_t StampTable::slot_of(int level, int part, float radius, int skirt_of) const {
     const int step = std::min(int(std::abs(radius) * kStepsPerCell + 0.5f), steps_ - 1);
-    const int side = radius < 0 ? 0 : 1;
-    std::atomic<const StampKernel*>& slot =
-        kernels_[std::size_t(((level * parts_x_ * parts_y_ + part) * 2 + side) * steps_ + step)];
-    if (const StampKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
+    const int side = radius < 0 ? 0 : 1, piece = skirt_of * parts_x_ * parts_y_ + part;
+    return std::size_t(((piece * levels_ + level) * 2 + side) * steps_ + step);
+}
 
-    const int column = part % parts_x_, row = part / parts_x_;
-    const double middle_x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double middle_y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
-    const double signed_radius = (side ? 1 : -1) * double(step) / double(kStepsPerCell);
-    auto made = std::make_unique<const StampKernel>(
-        input_.lens(level).point_spread(signed_radius, input_.field_at(middle_x, middle_y)));
+float StampTable::stepped(float radius) const {
+    const float step = std::min(std::floor(std::abs(radius) * kStepsPerCell + 0.5f), float(steps_ - 1));
+    return (radius < 0 ? -1 : 1) * step / kStepsPerCell;
+}
+
+kernel::PointSpread StampTable::whole(int level, int part, float radius) const {
+    const double x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
+    return input_.lens(level).point_spread(double(stepped(radius)), input_.field_at(x, y));
+}
+
+kernel::PointSpread StampTable::piece(int level, int part, float radius, int skirt_of) const {
+    const kernel::PointSpread all = whole(level, part, radius);
+    const float finer = 1 / float(1 << skirt_of);
+    const auto core = [&](float distance) { return fade(distance, core_begin_ * finer, core_end_ * finer); };
+    const int longest = int(std::ceil(core_end_));
+    if (skirt_of > 0)
+        return skirt(cut(all, longest, [&](float d) { return 1 - core(d); }), level, part, radius, skirt_of);
+    if (skirt_levels(level, radius) > 0) return cut(all, longest, core);
+    // What little is cut away is made up for.
+    kernel::PointSpread rest = cut(all, longest, [](float) { return 1.0f; });
+    const Rgba sum = sum_of(rest);
+    scale(rest, {1 / sum.r, 1 / sum.g, 1 / sum.b, 1 / sum.a});
+    return rest;
+}
+
+// A skirt with just the light that its core lacks.
+kernel::PointSpread StampTable::skirt(kernel::PointSpread cut_out, int level, int part, float radius,
+                                      int skirt_of) const {
+    const int finer = level - skirt_of;
+    const Rgba core = sum_of(piece(finer, part, radius_in_cells(radius_in_pixels(radius, level), finer), 0));
+    const Rgba sum = sum_of(cut_out);
+    const auto factor = [](float has, float asked) {
+        return has > 0 ? std::max(0.0f, 1 - asked) / has : 0.0f;
+    };
+    const Rgba f{factor(sum.r, core.r), factor(sum.g, core.g), factor(sum.b, core.b), factor(sum.a, core.a)};
+    scale(cut_out, f);
+    return cut_out;
+}
+
+const StampKernel& StampTable::at(int level, int part, float radius, int skirt_of) const {
+    level = std::min(level, levels_ - 1);
+    std::atomic<const StampKernel*>& slot = kernels_[slot_of(level, part, radius, skirt_of)];
+    if (const StampKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
+    auto made = std::make_unique<const StampKernel>(has_skirts_ ? piece(level, part, radius, skirt_of)
+                                                                : whole(level, part, radius));
     const StampKernel* expected = nullptr;
     if (slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
     return *expected;  // another thread was first, with the same kernel
+}
+
+int StampTable::skirt_levels(int level, float radius) const {
+    if (!has_skirts_) return 0;
+    level = std::min(level, levels_ - 1);
+    std::atomic<signed char>& known = skirt_levels_[slot_of(level, 0, radius, 0)];
+    int levels = known.load(std::memory_order_relaxed);
+    if (levels < 0) known = static_cast<signed char>(levels = find_skirt_levels(level, radius));
+    return levels;
+}
+
+// As many as make the skirt as small as a core, wherever in the picture it is largest.
+int StampTable::find_skirt_levels(int level, float radius) const {
+    int levels = 0;
+    const int centre = parts_y_ / 2 * parts_x_ + parts_x_ / 2, corner = 0;
+    for (const int part : {centre, corner}) {
+        const std::vector<float> beyond = light_beyond(whole(level, part, radius));
+        if (radius_but_for(beyond, kTrace) <= int(core_end_)) continue;
+        const float farthest = float(radius_but_for(beyond, kNegligible));
+        const int coarser = int(std::ceil(std::log2(farthest / core_end_)));
+        levels = std::max(levels, std::clamp(coarser, 1, kMostSkirtLevels));
+    }
+    return levels;
 }
 
 }  // namespace petzval::engine

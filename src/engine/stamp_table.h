@@ -1,8 +1,13 @@
 // Kernels ready for stamping, at finely stepped radii, for every level and image cell; made when first asked
 // for.
+//
+// A kernel with more than a trace of light far outside its level's reach (aberrations spread light wide that
+// defocus alone would not) is stamped in two pieces: its core here, its skirt on a coarser level, where it is
+// as small. Both fade into each other and add up to the kernel.
 #pragma once
 
 #include "engine/engine.h"
+#include "engine/sources.h"
 #include "engine/stamp.h"
 
 #include <atomic>
@@ -16,7 +21,7 @@ namespace petzval::engine {
 class StampTable {
 public:
     // `input`: the whole picture; places are in its pixels.
-    StampTable(const Input& input, float largest_radius);
+    StampTable(const Input& input, const LevelRule& rule);
     ~StampTable();
     StampTable(const StampTable&) = delete;
     StampTable& operator=(const StampTable&) = delete;
@@ -25,16 +30,32 @@ public:
     // middles are nearest, each as often as bilinear interpolation weighs it, so that nothing steps where
     // parts meet.
     int part_for(int level, int x, int y) const;
-    // The kernel for a signed radius in cells of `level`.
-    const StampKernel& at(int level, int part, float radius) const;
+    // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
+    // a skirt; n: the skirt of the kernel n levels finer.
+    const StampKernel& at(int level, int part, float radius, int skirt_of) const;
+    // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
+    int skirt_levels(int level, float radius) const;
+    static constexpr int kMostSkirtLevels = 3;
+    bool has_skirts() const { return has_skirts_; }
     // Largest offset of any weight of a kernel of this level, in cells.
-    int reach(int level) const { return reach_[std::size_t(level)]; }
+    int reach(int level) const { return reach_[std::min(std::size_t(level), reach_.size() - 1)]; }
 
 private:
+    std::size_t slot_of(int level, int part, float radius, int skirt_of) const;
+    kernel::PointSpread whole(int level, int part, float radius) const;
+    kernel::PointSpread piece(int level, int part, float radius, int skirt_of) const;
+    kernel::PointSpread skirt(kernel::PointSpread cut_out, int level, int part, float radius,
+                              int skirt_of) const;
+    int find_skirt_levels(int level, float radius) const;
+    float stepped(float radius) const;  // the radius that stands for it
+
     const Input& input_;
-    int parts_x_ = 1, parts_y_ = 1, steps_ = 0;  // steps_: kernels on either side of focus
+    int levels_, parts_x_ = 1, parts_y_ = 1, steps_ = 0;  // steps_: kernels on either side of focus
+    float core_begin_, core_end_;                         // cells from the middle where cores fade out
+    bool has_skirts_ = false;
     std::vector<int> reach_;
     mutable std::vector<std::atomic<const StampKernel*>> kernels_;
+    mutable std::vector<std::atomic<signed char>> skirt_levels_;  // per level and radius; -1: not known yet
 };
 
 }  // namespace petzval::engine

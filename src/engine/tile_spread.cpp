@@ -66,8 +66,8 @@ void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, s
         for (; begin < end && arrivals[begin].level == level; ++begin) {
             const Source& s = *arrivals[begin].source;
             const int part = table.part_for(level, s.x, arrivals[begin].y + (first_row >> level));
-            stamp(table.at(level, part, s.radius), s.x, arrivals[begin].y, s.light, s.tilt_x, s.tilt_y,
-                  target);
+            stamp(table.at(level, part, s.radius, s.skirt_of), s.x, arrivals[begin].y, s.light, s.tilt_x,
+                  s.tilt_y, target);
         }
         if (level > 0) add_enlarged(coarse, level, fine);
     }
