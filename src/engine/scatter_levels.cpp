@@ -1,6 +1,7 @@
 #include "engine/scatter_levels.h"
 
 #include "base/parallel.h"
+#include "depth/connectivity.h"
 #include "engine/complete.h"
 #include "engine/highlight_spread.h"
 #include "engine/highlights.h"
@@ -71,8 +72,8 @@ void accumulate(const Input& input, const SourceLevel& sources, int level, const
         for (int y = rows.y0 - reach; y < rows.y1 + reach; ++y)
             for (const Source& s : sources.row(y)) {
                 if (is_emptiness(s.layer)) continue;
-                const int part = table.part_for(level, s.x, y);
-                stamp(table.at(level, part, s.radius), s.x, y, s.light, s.tilt_x, s.tilt_y, cells);
+                stamp(table.at(level, table.part_for(level, s.x, y), s.radius, s.skirt_of), s.x, y, s.light,
+                      s.tilt_x, s.tilt_y, cells);
             }
         for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells.row(y), out.width(), out.row(y));
     });
@@ -106,14 +107,15 @@ void draw_map(const Input& input, View<const Rgba> atlas, const Layout& layout, 
 Result<Output> run_scatter_levels(const Input& input, const LevelRule& rule) {
     if (const Status fits = fits_memory(input, kBytesPerPixel, "--view levels"); !fits) return fits.error();
     Output output;
-    CocSamples samples = completed(input);
+    const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
+    CocSamples samples = completed(input, connected);
     const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
     const std::vector<Highlight> highlights =
         take_highlights(samples, split, 0, kLargestSquare, input.threads);
     if (input.deep_dims_itself) share_lens_area(samples, input.threads);
+    const StampTable table(input, rule);
     const std::vector<SourceLevel> levels =
-        make_sources(samples, input.coc_px, input.open_edges, rule, input.threads);
-    const StampTable table(input, rule.largest_radius());
+        make_sources(samples, input.coc_px, connected, input.open_edges, rule, table, input.threads);
 
     const Layout layout(input.width(), input.height(), int(levels.size()));
     output.image = Picture(layout.all.width(), layout.all.height(), Rgba{0, 0, 0, 1});
