@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace petzval::engine {
@@ -23,11 +24,11 @@ constexpr int kLargestSquare = 8;  // of highlights
 LevelRule level_rule(Quality quality) {
     switch (quality) {
         case Quality::Draft:
-            return {.largest_cells = 5};
+            return {.largest_cells = 5, .surfaces_for_cells = std::numeric_limits<int>::max()};
         case Quality::Standard:
-            return {.largest_cells = 8};
+            return {.largest_cells = 8, .surfaces_for_cells = 2};
         case Quality::Final:
-            return {.largest_cells = 24};
+            return {.largest_cells = 24, .surfaces_for_cells = 2};
     }
     return {};
 }
@@ -63,10 +64,11 @@ constexpr std::size_t kBytesPerPixel = 160;  // of working memory, measured on t
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(1400) << 20;
 constexpr std::size_t kFixedWorkingBytes = std::size_t(100) << 20;  // kernels, tables, code
 
-Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule) {
+Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const StampTable& table) {
     const double largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
     const int coarsest =
-        std::max(0, int(std::ceil(std::log2(std::max(1.0, largest / double(rule.largest_cells))))));
+        std::max(0, int(std::ceil(std::log2(std::max(1.0, largest / double(rule.largest_cells)))))) +
+        (table.has_skirts() ? StampTable::kMostSkirtLevels : 0);
     const int unit = std::max(kTile, 1 << coarsest);
     const auto whole_units = [unit](double rows) {
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
@@ -122,7 +124,7 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
         if (input.progress->cancelled()) return;
         const int x = i % tiles_x * kTile, y = here.y0 + i / tiles_x * kTile;
         spread_tile(levels, table, input.holdout, Rect{x, y, x + kTile, y + kTile}.intersected(here), first,
-                    out);
+                    rule.surfaces_for_cells, out);
         input.progress->advance(0.9 * share / (tiles_x * tiles_y));
     });
     watch.lap("spread");
@@ -138,12 +140,12 @@ Result<Output> run_scatter(const Input& input) {
     Stopwatch watch(output.stages);
     const LevelRule rule = level_rule(input.quality);
     if (input.scatter.show_levels) return run_scatter_levels(input, rule);
-    const Result<StripPlan> plan = plan_strips(input, rule);
+    const StampTable table(input, rule);
+    const Result<StripPlan> plan = plan_strips(input, rule, table);
     if (!plan) return plan.error();
     const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
     watch.lap("split");
     output.image = Picture::uninitialised(input.width(), input.height());
-    const StampTable table(input, rule);
     for (int y = 0; y < input.height() && !input.progress->cancelled(); y += plan->rows) {
         const Rect rows = Rect{0, y, input.width(), y + plan->rows}.intersected(output.image.rect());
         scatter_rows(input, split, rule, table, rows, plan->halo, double(rows.height()) / input.height(),

@@ -31,6 +31,7 @@ struct Gathered {
     int layer = 0, skirt_of = 0;
     Rgba light;                             // summed over pixels
     float coc = 0, tilt_x = 0, tilt_y = 0;  // summed times light.a
+    float x = 0, y = 0;                     // the same, from the cell's first pixel
     Gathered() = default;
     Gathered(int in_layer, Rgba pixel, float coc_px, depth::Slope tilt)
         : layer(in_layer),
@@ -43,16 +44,30 @@ struct Gathered {
     }
     void operator+=(const Gathered& other) {
         light += other.light, coc += other.coc, tilt_x += other.tilt_x, tilt_y += other.tilt_y;
+        x += other.x, y += other.y;
     }
-    // As a source at cell x of a level.
-    Source source(int x, int level) const {
+    // The same in a cell whose first pixel lies (dx, dy) before that of this one.
+    Gathered from(int dx, int dy) const {
+        Gathered moved = *this;
+        moved.x += light.a * float(dx), moved.y += light.a * float(dy);
+        return moved;
+    }
+    // As a source at cell cell_x of a row of a level.
+    Source source(int cell_x, int level) const {
         const float mean = 1 / light.a, size = float(1 << level);
+        const auto off = [&](float sum) {
+            constexpr float kLeast = 0.03f;  // less shows nowhere
+            const float cells = (sum * mean + 0.5f) / size - 0.5f;
+            return std::abs(cells) < kLeast ? 0.0f : cells;
+        };
         return {light * (1 / (size * size)),
                 radius_in_cells(coc * mean, level),
                 tilt_x * mean * size,
                 tilt_y * mean * size,
-                x,
+                cell_x,
                 layer,
+                level > 0 ? off(x) : 0,
+                level > 0 ? off(y) : 0,
                 skirt_of};
     }
 };
@@ -132,7 +147,7 @@ private:
 // A source of an outermost cell, repeated at cell x beyond an edge: beyond an open one the picture goes on,
 // beyond a closed one there is emptiness.
 Source beyond_edge(Source s, int x, bool open) {
-    s.x = x;
+    s.x = x, s.off_x = s.off_y = 0;
     if (!open) s.light = {0, 0, 0, s.light.a}, s.layer = kEmptyLayer, s.tilt_x = s.tilt_y = 0;
     return s;
 }
@@ -180,11 +195,11 @@ public:
     }
     // What column x of the row under way gives to a level; columns beyond the picture only fill its last
     // cells.
-    void put(int level, int x, const Gathered& g) {
-        if (level > 0) return add_to_cell(level, x, g);
+    void put(int level, int x, int y, const Gathered& g) {
+        if (level > 0) return add_to_cell(level, x, y, g);
         const Source source = g.source(x, 0);
         if (x < width_) fine_.push_back(source);
-        send_skirt(source, 0, x, g);
+        send_skirt(source, 0, x, y, g);
     }
     // Ends row y of pixels, and the rows of cells that end there.
     void finish_row(int y) {
@@ -195,7 +210,7 @@ public:
                 cells_[std::size_t(l)][std::size_t(x)].take([&](const Gathered& g) {
                     const Source source = g.source(x, l);
                     if (x < cells_across(l)) row_.push_back(source);
-                    send_skirt(source, l, x << l, g);
+                    send_skirt(source, l, x << l, y >> l << l, g);
                 });
             }
             store(l, y >> l, row_);
@@ -205,13 +220,15 @@ public:
 
 private:
     int cells_across(int level) const { return ((width_ - 1) >> level) + 1; }
-    void add_to_cell(int level, int x, const Gathered& g) {
-        cells_[std::size_t(level)][std::size_t(x >> level)].add(g);
+    // What lies in (a cell that begins at) pixel (x, y).
+    void add_to_cell(int level, int x, int y, const Gathered& g) {
+        const int within = (1 << level) - 1;
+        cells_[std::size_t(level)][std::size_t(x >> level)].add(g.from(x & within, y & within));
     }
-    void send_skirt(const Source& source, int level, int x, Gathered g) {
+    void send_skirt(const Source& source, int level, int x, int y, Gathered g) {
         if (g.skirt_of > 0) return;
         g.skirt_of = std::min(table_.skirt_levels(level, source.radius), int(levels_.size()) - 1 - level);
-        if (g.skirt_of > 0) add_to_cell(level + g.skirt_of, x, g);
+        if (g.skirt_of > 0) add_to_cell(level + g.skirt_of, x, y, g);
     }
     void store(int level, int y, std::span<const Source> row) {
         const int margin = margins_[std::size_t(level)];
@@ -263,9 +280,9 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
     const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
     std::vector<SourceLevel> levels(std::size_t(coarsest) + 1);
     std::vector<int> margins;
-    constexpr int kEnlarging = 3;  // cells read around a tile
+    constexpr int kAround = 4;  // cells read around a tile, and sources that lie off their cell's middle
     for (int l = 0; l <= coarsest; ++l) {
-        const int margin = table.reach(l) + kEnlarging;
+        const int margin = table.reach(l) + kAround;
         margins.push_back(margin);
         levels[std::size_t(l)].area =
             Rect{0, 0, cells(coc_px.width(), l), cells(coc_px.height(), l)}.grown(margin);
@@ -277,7 +294,7 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
         Band rows(levels, table, coc_px.width(), margins, open);
         for (int y = band * band_height; y < (band + 1) * band_height; ++y) {
             for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
-                maker.visit(x, y, [&](int level, const Gathered& g) { rows.put(level, x, g); });
+                maker.visit(x, y, [&](int level, const Gathered& g) { rows.put(level, x, y, g); });
             rows.finish_row(y);
         }
     });

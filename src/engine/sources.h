@@ -20,6 +20,8 @@ struct Source {
     float tilt_x = 0, tilt_y = 0;  // change of the weight per cell away from the source: slope / radius
     int x = 0;                     // cell on the level's grid, may lie outside the picture
     int layer = 0;
+    // Where in its cell the middle of what it gathers lies, -0.5…0.5: 0 where the cell is evenly filled.
+    float off_x = 0, off_y = 0;
     int skirt_of = 0;  // the piece of the kernel it sends (engine/stamp_table.h)
 };
 
@@ -44,8 +46,9 @@ struct SourceLevel {
 
 // How finely sources are spread.
 struct LevelRule {
-    float largest_cells = 8;  // no source covers more than this radius, in cells of its level…
-    float fade = 0.15f;       // …but for the fade: across this share of a level it is spread on two
+    float largest_cells = 8;     // no source covers more than this radius, in cells of its level…
+    int surfaces_for_cells = 3;  // see engine/tile_spread.h
+    float fade = 0.15f;          // …but for the fade: across this share of a level it is spread on two
     // Largest radius any source can have on its level.
     float largest_radius() const;
 };

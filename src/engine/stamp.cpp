@@ -23,9 +23,13 @@ StampKernel::StampKernel(const kernel::PointSpread& spread)
 
 void Accumulator::reset(const Rect& area) {
     const int width = area.width() + 2 * kSpill;
-    if (pixels_.width() != width || pixels_.height() < area.height()) pixels_ = Picture(width, area.height());
-    area_ = area;
-    std::fill_n(pixels_.pixels(), std::size_t(width) * std::size_t(area.height()), Rgba{});
+    if (pixels_.width() != width || pixels_.height() < area.height()) {
+        pixels_ = Picture(width, area.height());
+    } else {
+        for (int y = touched_.begin; y < touched_.end; ++y)
+            std::fill_n(pixels_.row(y - area_.y0), width, Rgba{});
+    }
+    area_ = area, touched_ = {};
 }
 
 }  // namespace petzval::engine

@@ -7,6 +7,7 @@
 
 #include "kernel/lens_model.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 
@@ -34,6 +35,15 @@ private:
     std::unique_ptr<short[]> spans_;
 };
 
+struct Rows {
+    int begin = 0, end = 0;
+    bool empty() const { return begin >= end; }
+    Rows with(Rows other) const {
+        if (empty() || other.empty()) return empty() ? other : *this;
+        return {std::min(begin, other.begin), std::max(end, other.end)};
+    }
+};
+
 // Accumulated light over an area of cells, with room on either side of every row for whole groups to spill
 // into.
 class Accumulator {
@@ -42,11 +52,15 @@ public:
     // Zeroes the area. Keeps its memory when it has been larger.
     void reset(const Rect& area);
     const Rect& area() const { return area_; }
+    // Rows that may hold light.
+    Rows touched() const { return touched_; }
+    void touch(Rows rows) { touched_ = touched_.with(rows); }
     Rgba* row(int y) { return pixels_.row(y - area_.y0) + kSpill; }
     const Rgba* row(int y) const { return pixels_.row(y - area_.y0) + kSpill; }
 
 private:
     Rect area_;
+    Rows touched_;
     Picture pixels_;
 };
 

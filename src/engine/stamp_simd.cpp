@@ -36,6 +36,7 @@ struct Overlap {
         const Rect area = into.area();
         y0 = std::max(top, area.y0), y1 = std::min(y + kernel.extent().y1, area.y1);
         // Groups that lie in the area or the spill beside it.
+        into.touch({y0, y1});
         least = (area.x0 - Accumulator::kSpill - left + kGroup - 1) / kGroup;
         most = (area.x1 - left + kGroup - 1) / kGroup;
     }
@@ -148,6 +149,12 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
         cell = int(std::floor(position));
         return Cubic(position - float(cell));
     };
+    const Rows touched = coarse.touched();
+    if (touched.empty()) return;
+    // A row of cells reaches two rows of cells to either side.
+    const int size = 1 << level;
+    const Rows rows{std::max(to.y0, (touched.begin - 2) * size), std::min(to.y1, (touched.end + 2) * size)};
+    fine.touch(rows);
     // Rows are enlarged first, each coarse row once; then columns.
     const std::size_t stride = 4 * std::size_t((to.width() + 3) / 4 * 4);
     thread_local std::vector<float> wide;
@@ -155,7 +162,7 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
     for (int x = to.x0; x < to.x1; ++x) {
         int cell = 0;
         const auto w = place(x, cell);
-        for (int y = from.y0; y < from.y1; ++y) {
+        for (int y = std::max(from.y0, touched.begin - 4); y < std::min(from.y1, touched.end + 4); ++y) {
             const float* in = &coarse.row(y)[cell - 1 - from.x0].r;
             float* out = &wide[stride * std::size_t(y - from.y0) + 4 * std::size_t(x - to.x0)];
             for (std::size_t i = 0; i < 4; i += hn::Lanes(one)) {
@@ -163,7 +170,7 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
             }
         }
     }
-    for (int y = to.y0; y < to.y1; ++y) {
+    for (int y = rows.begin; y < rows.end; ++y) {
         int cell = 0;
         const auto w = place(y, cell);
         const float* in = &wide[stride * std::size_t(cell - 1 - from.y0)];

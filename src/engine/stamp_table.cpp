@@ -65,6 +65,14 @@ void scale(kernel::PointSpread& spread, Rgba by) {
     }
 }
 
+// Keeps what was made in a slot, unless another thread was first (with the same).
+template <typename T>
+const T& keep_first(std::atomic<const T*>& slot, std::unique_ptr<const T> made) {
+    const T* expected = nullptr;
+    if (slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *expected;
+}
+
 }  // namespace
 
 StampTable::StampTable(const Input& input, const LevelRule& rule)
@@ -81,7 +89,7 @@ StampTable::StampTable(const Input& input, const LevelRule& rule)
         reach_.push_back(std::min(reach, longest));
     }
     const std::size_t radii = std::size_t(levels_ * 2 * steps_);
-    kernels_ = std::vector<std::atomic<const StampKernel*>>(
+    kernels_ = std::vector<std::atomic<const Kernel*>>(
         radii * std::size_t(parts_x_ * parts_y_ * (has_skirts_ ? 1 + kMostSkirtLevels : 1)));
     skirt_levels_ = std::vector<std::atomic<signed char>>(has_skirts_ ? radii : 0);
     for (auto& levels : skirt_levels_) levels = -1;
@@ -126,7 +134,8 @@ kernel::PointSpread StampTable::whole(int level, int part, float radius) const {
 }
 
 kernel::PointSpread StampTable::piece(int level, int part, float radius, int skirt_of) const {
-    const kernel::PointSpread all = whole(level, part, radius);
+    kernel::PointSpread all = whole(level, part, radius);
+    if (!has_skirts_) return all;
     const float finer = 1 / float(1 << skirt_of);
     const auto core = [&](float distance) { return fade(distance, core_begin_ * finer, core_end_ * finer); };
     const int longest = int(std::ceil(core_end_));
@@ -154,15 +163,81 @@ kernel::PointSpread StampTable::skirt(kernel::PointSpread cut_out, int level, in
     return cut_out;
 }
 
-const StampKernel& StampTable::at(int level, int part, float radius, int skirt_of) const {
+const StampTable::Kernel& StampTable::kernel_at(std::size_t slot, int level, int part, float radius,
+                                                int skirt_of) const {
+    if (const Kernel* kernel = kernels_[slot].load(std::memory_order_acquire)) return *kernel;
+    return keep_first(kernels_[slot],
+                      std::make_unique<const Kernel>(StampKernel(piece(level, part, radius, skirt_of))));
+}
+
+const StampKernel& StampTable::at(int level, int part, float radius, int skirt_of, int cell) const {
     level = std::min(level, levels_ - 1);
-    std::atomic<const StampKernel*>& slot = kernels_[slot_of(level, part, radius, skirt_of)];
-    if (const StampKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
-    auto made = std::make_unique<const StampKernel>(has_skirts_ ? piece(level, part, radius, skirt_of)
-                                                                : whole(level, part, radius));
-    const StampKernel* expected = nullptr;
-    if (slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
-    return *expected;  // another thread was first, with the same kernel
+    const Kernel& kernel = kernel_at(slot_of(level, part, radius, skirt_of), level, part, radius, skirt_of);
+    if (cell == kWholePupil) return kernel.whole;
+    const Cells* cells = kernel.cells.load(std::memory_order_acquire);
+    if (!cells) cells = &keep_first(kernel.cells, cells_of(piece(level, part, radius, skirt_of), radius < 0));
+    return (*cells)[std::size_t(cell)];
+}
+
+// Cells of equal light: rings around the middle, cut across by angle. Taps that lie in several give to each.
+// In front of focus the pupil appears turned by 180 degrees.
+std::unique_ptr<const StampTable::Cells> StampTable::cells_of(const kernel::PointSpread& all, bool turned) {
+    struct Grain {
+        Rgba light;
+        int x, y;
+        double distance, turns;
+    };
+    const Rect e = all.extent;
+    const int points = e.width() < 8 ? 4 : e.width() < 14 ? 2 : 1;  // per side of a pixel
+    std::vector<Grain> grains;
+    for (int y = e.y0; y < e.y1; ++y)
+        for (int x = e.x0; x < e.x1; ++x) {
+            const Rgba light = all.weights(x - e.x0, y - e.y0) * (1 / float(points * points));
+            if (light.a <= 0) continue;
+            for (int i = 0; i < points * points; ++i) {
+                const double u = x + (i % points + 0.5) / points - 0.5,
+                             v = y + (i / points + 0.5) / points - 0.5;
+                const double turns = std::atan2(v, u) / (2 * M_PI) + (turned ? 1 : 0.5);
+                grains.push_back({light, x, y, std::hypot(u, v), turns - std::floor(turns)});
+            }
+        }
+    const auto by = [&](std::size_t begin, std::size_t end, double Grain::*key) {
+        std::stable_sort(grains.begin() + std::ptrdiff_t(begin), grains.begin() + std::ptrdiff_t(end),
+                         [key](const Grain& a, const Grain& b) { return a.*key < b.*key; });
+    };
+    // Cuts the grains from `begin` on where their light comes to `light`; returns the first beyond.
+    const auto cut_at = [&](std::size_t begin, float light) {
+        float sum = 0;
+        std::size_t i = begin;
+        while (i < grains.size() && sum + grains[i].light.a <= light) sum += grains[i++].light.a;
+        if (i == grains.size() || light - sum < 1e-7f) return i;
+        const float share = (light - sum) / grains[i].light.a;
+        Grain rest = grains[i];
+        rest.light *= 1 - share, grains[i].light *= share;
+        grains.insert(grains.begin() + std::ptrdiff_t(i) + 1, rest);
+        return i + 1;
+    };
+    float whole = 0;
+    for (const Grain& g : grains) whole += g.light.a;
+    by(0, grains.size(), &Grain::distance);
+    auto cells = std::make_unique<Cells>();
+    std::size_t cell = 0, begin = 0;
+    for (const int in_ring : kCellsOfRings) {
+        const bool last_ring = cell + std::size_t(in_ring) == kCells;
+        std::size_t ring_end = last_ring ? grains.size() : cut_at(begin, whole * float(in_ring) / kCells);
+        by(begin, ring_end, &Grain::turns);
+        for (int i = 0; i < in_ring; ++i, ++cell) {
+            const std::size_t before = grains.size();
+            const std::size_t end = i + 1 == in_ring ? ring_end : cut_at(begin, whole / kCells);
+            ring_end += grains.size() - before;
+            kernel::PointSpread part{e, Picture(e.width(), e.height()), all.neutral};
+            for (; begin < end; ++begin)
+                part.weights(grains[begin].x - e.x0, grains[begin].y - e.y0) +=
+                    float(kCells) * grains[begin].light;
+            (*cells)[cell] = StampKernel(part);
+        }
+    }
+    return cells;
 }
 
 int StampTable::skirt_levels(int level, float radius) const {

@@ -10,8 +10,10 @@
 #include "engine/sources.h"
 #include "engine/stamp.h"
 
+#include <array>
 #include <atomic>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace petzval::engine {
@@ -31,8 +33,10 @@ public:
     // parts meet.
     int part_for(int level, int x, int y) const;
     // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
-    // a skirt; n: the skirt of the kernel n levels finer.
-    const StampKernel& at(int level, int part, float radius, int skirt_of) const;
+    // a skirt; n: the skirt of the kernel n levels finer. cell: what comes through one part of the pupil
+    // (0…kCells-1, times kCells); kWholePupil: everything.
+    const StampKernel& at(int level, int part, float radius, int skirt_of, int cell = kWholePupil) const;
+    static constexpr int kCellsOfRings[] = {1, 5}, kCells = 6, kWholePupil = -1;
     // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
     int skirt_levels(int level, float radius) const;
     static constexpr int kMostSkirtLevels = 3;
@@ -41,6 +45,15 @@ public:
     int reach(int level) const { return reach_[std::min(std::size_t(level), reach_.size() - 1)]; }
 
 private:
+    using Cells = std::array<StampKernel, kCells>;
+    struct Kernel {
+        StampKernel whole;
+        mutable std::atomic<const Cells*> cells = nullptr;
+        explicit Kernel(StampKernel kernel) : whole(std::move(kernel)) {}
+        ~Kernel() { delete cells.load(); }
+    };
+    const Kernel& kernel_at(std::size_t slot, int level, int part, float radius, int skirt_of) const;
+    static std::unique_ptr<const Cells> cells_of(const kernel::PointSpread& all, bool turned);
     std::size_t slot_of(int level, int part, float radius, int skirt_of) const;
     kernel::PointSpread whole(int level, int part, float radius) const;
     kernel::PointSpread piece(int level, int part, float radius, int skirt_of) const;
@@ -54,7 +67,7 @@ private:
     float core_begin_, core_end_;                         // cells from the middle where cores fade out
     bool has_skirts_ = false;
     std::vector<int> reach_;
-    mutable std::vector<std::atomic<const StampKernel*>> kernels_;
+    mutable std::vector<std::atomic<const Kernel*>> kernels_;
     mutable std::vector<std::atomic<signed char>> skirt_levels_;  // per level and radius; -1: not known yet
 };
 

@@ -20,7 +20,7 @@ TEST(StampTable, PartsBlendIntoEachOtherByBilinearShares) {
     Input input;
     input.colour = colour;
     input.lens_levels = lenses;
-    const StampTable table(input, 12);
+    const StampTable table(input, LevelRule{});
     // The mean column of a small box grows evenly from the middle of the first part to that of the last.
     for (int x = 30; x + kBox < kWidth - 30; x += 7)
         for (const int y : {60, 177}) {

@@ -3,7 +3,9 @@
 #include "engine/holdout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace petzval::engine {
 namespace {
@@ -17,13 +19,25 @@ struct Arrival {
     int level;
 };
 
+// What one cell of the pupil, or all of it, has given to each pixel of a tile so far.
+struct Budget {
+    Picture sum;
+    Plane free, empty;    // lens area that nothing took yet, and that emptiness took
+    Picture let_through;  // what a holdout leaves of `sum`
+
+    void start(const Rect& tile, bool held) {
+        sum = Picture(tile.width(), tile.height());
+        free = Plane(tile.width(), tile.height(), 1.0f);
+        empty = Plane(tile.width(), tile.height(), 0.0f);
+        if (held) let_through = Picture(tile.width(), tile.height());
+    }
+};
+
 // Memory one thread keeps from tile to tile.
 struct Workspace {
     std::vector<Arrival> arrivals;
     Accumulator light, emptiness, coarse;
-    Picture sum;
-    Plane free, empty;
-    Picture let_through;  // what a holdout leaves of `sum`
+    std::array<Budget, StampTable::kCells> budgets;
     std::vector<Rgba> added;
 };
 
@@ -38,7 +52,7 @@ void find_arrivals(const std::vector<SourceLevel>& levels, const StampTable& tab
                    std::vector<Arrival>& arrivals) {
     arrivals.clear();
     for (int l = 0; l < int(levels.size()); ++l) {
-        const Rect reached = cells_of(tile, l).grown(table.reach(l));
+        const Rect reached = cells_of(tile, l).grown(table.reach(l) + 1);
         for (int y = reached.y0; y < reached.y1; ++y) {
             const std::span<const Source> row = levels[std::size_t(l)].row(y);
             const auto before = [](const Source& s, int x) { return s.x < x; };
@@ -53,11 +67,24 @@ void find_arrivals(const std::vector<SourceLevel>& levels, const StampTable& tab
     });
 }
 
+// A source that lies off the middle of its cell is shared with its neighbours.
+void stamp_off_middle(const StampKernel& kernel, const Source& s, int y, Accumulator& into) {
+    const int to_x = s.off_x < 0 ? -1 : 1, to_y = s.off_y < 0 ? -1 : 1;
+    const float share_x = std::abs(s.off_x), share_y = std::abs(s.off_y);
+    const auto add = [&](int dx, int dy, float share) {
+        if (share > 0) stamp(kernel, s.x + dx, y + dy, share * s.light, s.tilt_x, s.tilt_y, into);
+    };
+    add(0, 0, (1 - share_x) * (1 - share_y));
+    add(to_x, 0, share_x * (1 - share_y));
+    add(0, to_y, (1 - share_x) * share_y);
+    add(to_x, to_y, share_x * share_y);
+}
+
 // Stamps arrivals [begin, end), all of one layer, into `fine`. first_row: the row of the picture that is row
 // 0.
 void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, std::size_t end,
-                      const StampTable& table, int first_row, const Rect& tile, Accumulator& fine,
-                      Accumulator& coarse) {
+                      const StampTable& table, int first_row, int pupil_cell, const Rect& tile,
+                      Accumulator& fine, Accumulator& coarse) {
     fine.reset(tile);
     while (begin < end) {
         const int level = arrivals[begin].level;
@@ -66,8 +93,8 @@ void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, s
         for (; begin < end && arrivals[begin].level == level; ++begin) {
             const Source& s = *arrivals[begin].source;
             const int part = table.part_for(level, s.x, arrivals[begin].y + (first_row >> level));
-            stamp(table.at(level, part, s.radius, s.skirt_of), s.x, arrivals[begin].y, s.light, s.tilt_x,
-                  s.tilt_y, target);
+            stamp_off_middle(table.at(level, part, s.radius, s.skirt_of, pupil_cell), s, arrivals[begin].y,
+                             target);
         }
         if (level > 0) add_enlarged(coarse, level, fine);
     }
@@ -101,67 +128,116 @@ Interval radii_of(const std::vector<Arrival>& arrivals, std::size_t begin, std::
 }
 
 // Adds what a layer gave to row y of the tile, and what the holdout lets through of it.
-void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, int y, Workspace& w) {
+void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, int y,
+              std::span<const Rgba> row, Budget& budget) {
     for (int x = 0; x < tile.width(); ++x) {
-        const Rgba added = w.added[std::size_t(x)];
+        const Rgba added = row[std::size_t(x)];
         if (added == Rgba{}) continue;
-        w.sum(x, y) += added;
-        w.let_through(x, y) +=
+        budget.sum(x, y) += added;
+        budget.let_through(x, y) +=
             added * let_through(holdout.at(tile.x0 + x, tile.y0 + y), radii.low, radii.high);
     }
 }
 
+// How many surfaces, one behind the other, reach the tile.
+int count_surfaces(const std::vector<Arrival>& arrivals) {
+    constexpr int kApart = 3 * kNextLayer;  // layers; surfaces nearer to each other are one that slopes
+    int surfaces = 0, last = 0;
+    for (const Arrival& a : arrivals) {
+        if (surfaces == 0 || a.source->layer - last >= kApart) ++surfaces;
+        last = a.source->layer;
+    }
+    return surfaces;
+}
+
+// Composites what arrives at one tile, layer by layer.
+class Compositor {
+public:
+    Compositor(const StampTable& table, CocSamplesView holdout, const Rect& tile, int first_row,
+               int pupil_cells, Workspace& w)
+        : table_(table),
+          holdout_(holdout),
+          tile_(tile),
+          first_row_(first_row),
+          pupil_cells_(pupil_cells),
+          w_(w) {
+        for (int c = 0; c < pupil_cells; ++c) w.budgets[std::size_t(c)].start(tile, held());
+        w.added.resize(std::size_t(tile.width()));
+    }
+    // The layer of arrival `begin`, with the emptiness at its depth; returns the first arrival of the next.
+    std::size_t add_layer(std::size_t begin) {
+        const int layer = w_.arrivals[begin].source->layer;
+        const std::size_t middle = is_emptiness(layer) ? begin : end_of_layer(begin);
+        std::size_t end = middle;
+        if (is_emptiness(layer) ||
+            (middle < w_.arrivals.size() && w_.arrivals[middle].source->layer == layer + kEmptinessAfter))
+            end = end_of_layer(middle);
+        const Interval radii = held() ? radii_of(w_.arrivals, begin, middle) : Interval{};
+        // What is as narrow as a pixel comes alike through all cells.
+        const bool once = std::abs(layer) <= kNextLayer;
+        for (int c = 0; c < pupil_cells_; ++c) {
+            if (c == 0 || !once) {
+                const int pupil_cell = once || pupil_cells_ == 1 ? StampTable::kWholePupil : c;
+                accumulate_layer(w_.arrivals, begin, middle, table_, first_row_, pupil_cell, tile_, w_.light,
+                                 w_.coarse);
+                if (end > middle)
+                    accumulate_layer(w_.arrivals, middle, end, table_, first_row_, pupil_cell, tile_,
+                                     w_.emptiness, w_.coarse);
+            }
+            take(w_.budgets[std::size_t(c)], end > middle, radii);
+        }
+        return end;
+    }
+
+private:
+    bool held() const { return !holdout_.empty(); }
+    std::size_t end_of_layer(std::size_t begin) const {
+        std::size_t end = begin;
+        while (end < w_.arrivals.size() && w_.arrivals[end].source->layer == w_.arrivals[begin].source->layer)
+            ++end;
+        return end;
+    }
+    void take(Budget& budget, bool partly_empty, const Interval& radii) {
+        Rows rows = w_.light.touched();
+        if (partly_empty) rows = rows.with(w_.emptiness.touched());
+        for (int y = rows.begin - tile_.y0; y < rows.end - tile_.y0; ++y) {
+            Rgba* const sum = held() ? w_.added.data() : budget.sum.row(y);
+            if (held()) std::fill(w_.added.begin(), w_.added.end(), Rgba{});
+            if (partly_empty)
+                take_budget_with_emptiness(w_.light.row(tile_.y0 + y), w_.emptiness.row(tile_.y0 + y), sum,
+                                           budget.free.row(y), budget.empty.row(y), tile_.width());
+            else
+                take_budget(w_.light.row(tile_.y0 + y), sum, budget.free.row(y), tile_.width());
+            if (held()) add_held(holdout_, radii, tile_, y, w_.added, budget);
+        }
+    }
+
+    const StampTable& table_;
+    CocSamplesView holdout_;
+    Rect tile_;
+    int first_row_, pupil_cells_;
+    Workspace& w_;
+};
+
 }  // namespace
 
 void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, CocSamplesView holdout,
-                 const Rect& tile, int first_row, View<Rgba> out) {
+                 const Rect& tile, int first_row, int surfaces_for_cells, View<Rgba> out) {
     thread_local Workspace w;
-    const bool held = !holdout.empty();
-    const int width = tile.width(), height = tile.height();
-    w.sum = Picture(width, height);
-    w.free = Plane(width, height, 1.0f);
-    w.empty = Plane(width, height, 0.0f);
-    if (held) w.let_through = Picture(width, height), w.added.resize(std::size_t(width));
     find_arrivals(levels, table, tile, w.arrivals);
-    const auto end_of_layer = [&](std::size_t begin) {
-        std::size_t end = begin;
-        while (end < w.arrivals.size() && w.arrivals[end].source->layer == w.arrivals[begin].source->layer)
-            ++end;
-        return end;
-    };
-    for (std::size_t begin = 0; begin < w.arrivals.size();) {
-        const int layer = w.arrivals[begin].source->layer;
-        std::size_t end = end_of_layer(begin);
-        const Interval radii = held && !is_emptiness(layer) ? radii_of(w.arrivals, begin, end) : Interval{};
-        if (is_emptiness(layer))
-            w.light.reset(tile);
-        else
-            accumulate_layer(w.arrivals, begin, end, table, first_row, tile, w.light, w.coarse);
-        const bool then_empty = !is_emptiness(layer) && end < w.arrivals.size() &&
-                                w.arrivals[end].source->layer == layer + kEmptinessAfter;
-        const bool partly_empty = is_emptiness(layer) || then_empty;
-        if (partly_empty) {
-            const std::size_t from = is_emptiness(layer) ? begin : end;
-            end = end_of_layer(from);
-            accumulate_layer(w.arrivals, from, end, table, first_row, tile, w.emptiness, w.coarse);
-        }
-        for (int y = 0; y < height; ++y) {
-            Rgba* const sum = held ? w.added.data() : w.sum.row(y);
-            if (held) std::fill(w.added.begin(), w.added.end(), Rgba{});
-            if (partly_empty)
-                take_budget_with_emptiness(w.light.row(tile.y0 + y), w.emptiness.row(tile.y0 + y), sum,
-                                           w.free.row(y), w.empty.row(y), width);
-            else
-                take_budget(w.light.row(tile.y0 + y), sum, w.free.row(y), width);
-            if (held) add_held(holdout, radii, tile, y, w);
-        }
-        begin = end;
-    }
+    const int pupil_cells = count_surfaces(w.arrivals) >= surfaces_for_cells ? StampTable::kCells : 1;
+    Compositor compositor(table, holdout, tile, first_row, pupil_cells, w);
+    for (std::size_t begin = 0; begin < w.arrivals.size();) begin = compositor.add_layer(begin);
     // Discrete sources leave a little of the lens free; it goes to those that did arrive.
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const float taken = w.sum(x, y).a + w.empty(x, y);
-            const Rgba light = held ? w.let_through(x, y) : w.sum(x, y);
+    for (int y = 0; y < tile.height(); ++y)
+        for (int x = 0; x < tile.width(); ++x) {
+            Rgba light;
+            float taken = 0;
+            for (int c = 0; c < pupil_cells; ++c) {
+                const Budget& budget = w.budgets[std::size_t(c)];
+                taken += budget.sum(x, y).a + budget.empty(x, y);
+                light += holdout.empty() ? budget.sum(x, y) : budget.let_through(x, y);
+            }
             out(tile.x0 + x, first_row + tile.y0 + y) = taken > 0 ? light * (1 / taken) : Rgba{};
         }
 }

@@ -10,7 +10,9 @@ namespace petzval::engine {
 // Writes the pixels of `tile`, which counts rows as the sources do: from row first_row of `out`, the whole
 // picture. Where there is a holdout, what a layer adds to a pixel is dimmed by what lies in front of it
 // there; the lens area that it takes from farther layers stays.
+// One budget for the whole lens does not know which part of it each of three surfaces takes: where at least
+// `surfaces_for_cells` reach a tile, parts of the pupil are composited each on its own.
 void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, CocSamplesView holdout,
-                 const Rect& tile, int first_row, View<Rgba> out);
+                 const Rect& tile, int first_row, int surfaces_for_cells, View<Rgba> out);
 
 }  // namespace petzval::engine
