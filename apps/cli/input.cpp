@@ -267,8 +267,9 @@ Result<Input> load_input(const InputFlags& flags, const CameraFlags& camera) {
     input.detected = input.frame.detected;
     input.warnings = input.frame.warnings;
     if (const std::size_t broken = input.frame.non_finite_colour; broken > 0)
-        input.warnings.push_back(std::to_string(broken) +
-                                 " colour values are not finite: NaN counts as 0, infinity as 65504");
+        input.warnings.push_back(
+            std::to_string(broken) +
+            " colour values are not finite: NaN and -infinity count as 0, infinity as 65504");
     input.camera = merged_camera(input.frame.camera, camera, flags.unit_scale_m.value_or(1));
     const DepthSettings settings = depth_settings(flags, input.camera);
     if (flags.depth_is_coc()) {

@@ -13,7 +13,8 @@ int usable_threads() { return std::max(1, oneapi::tbb::info::default_concurrency
 
 void parallel_for(int count, int threads, const std::function<void(int)>& body) {
     if (count <= 0) return;
-    const int wanted = threads > 0 ? threads : usable_threads();
+    // More threads than there are places for them would only make oneTBB warn on standard error.
+    const int wanted = threads > 0 ? std::min(threads, usable_threads()) : usable_threads();
     if (wanted == 1 || count == 1) {
         for (int i = 0; i < count; ++i) body(i);
         return;

@@ -17,6 +17,14 @@ TEST(ParallelFor, VisitsEveryIndexOnceForAnyThreadCount) {
     }
 }
 
+TEST(ParallelFor, AThousandThreadsAreNoCauseForAWarning) {
+    testing::internal::CaptureStderr();
+    std::atomic<int> visits = 0;
+    parallel_for(5000, 1000, [&](int) { ++visits; });
+    EXPECT_EQ(visits, 5000);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ParallelFor, NothingToDoIsFine) {
     parallel_for(0, 2, [](int) { FAIL(); });
     parallel_for(-3, 2, [](int) { FAIL(); });

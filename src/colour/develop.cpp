@@ -4,17 +4,14 @@
 #include "base/parallel.h"
 #include "colour/dither.h"
 #include "colour/tone.h"
+#include "image/srgb.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace petzval {
 
-double srgb_encode(double linear) {
-    const double x = std::abs(linear);
-    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-    return std::copysign(encoded, linear);
-}
+double srgb_encode(double linear) { return std::copysign(srgb_code(std::abs(linear)), linear); }
 
 double srgb_decode(double encoded) {
     const double x = std::abs(encoded);

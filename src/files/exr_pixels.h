@@ -14,10 +14,11 @@
 
 namespace petzval {
 
-// Replaces NaN by 0 and infinities by the largest half; false if there was nothing to replace.
+// Replaces infinity by the largest half, NaN and -infinity (light is not negative) by 0; false if there was
+// nothing to replace.
 inline bool made_finite(float& v) {
     if (std::isfinite(v)) return false;
-    v = std::isnan(v) ? 0 : std::copysign(kLargestHalf, v);
+    v = v > 0 ? kLargestHalf : 0;
     return true;
 }
 

@@ -4,8 +4,8 @@
 #include "files/test_exr.h"
 
 #include <array>
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -134,14 +134,14 @@ TEST(HostileFile, NeitherReadingNorWritingBackAMutatedFileCrashesOrHangs) {
         const std::string good = quick_bytes(folder, parts);
         test::mutate(good, 150, [&](const std::string& bad) {
             write_bytes(folder / "bad.exr", bad);
-            const auto start = std::chrono::steady_clock::now();
+            const std::clock_t start = std::clock();
             (void)read_frame_header(folder / "bad.exr");
             const Result<Frame> frame = read_frame(folder / "bad.exr");
             if (frame)
                 (void)write_exr(folder / "out.exr", *frame);
             else
                 ASSERT_THAT(frame.error().message, HasSubstr("bad.exr"));
-            ASSERT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+            ASSERT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5);
         });
     }
     EXPECT_LE(folder.files(), 3u);

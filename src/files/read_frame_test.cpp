@@ -88,7 +88,7 @@ TEST(ReadFrame, NonFiniteColourIsReplacedAndCounted) {
     EXPECT_EQ(frame->non_finite_colour, 18u);
     EXPECT_EQ(frame->colour(1, 0).r, 0);
     EXPECT_EQ(frame->colour(2, 0).r, 65504);
-    EXPECT_EQ(frame->colour(3, 0).r, -65504);
+    EXPECT_EQ(frame->colour(3, 0).r, 0);
 }
 
 TEST(ReadFrame, DepthOfAnotherPartIsPastedAndMissesWhereItCoversNothing) {

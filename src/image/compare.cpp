@@ -8,6 +8,7 @@
 #include "petzval/compare.h"
 
 #include "base/parallel.h"
+#include "image/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -34,10 +35,8 @@ float encoded(float x, Transfer transfer) {
     switch (transfer) {
         case Transfer::Linear:
             return clipped(x, 1);
-        case Transfer::Srgb: {  // IEC 61966-2-1
-            const float c = clipped(x, 1);
-            return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-        }
+        case Transfer::Srgb:
+            return srgb_code(clipped(x, 1));
         case Transfer::Log:
             break;
     }

@@ -3,8 +3,8 @@
 #include "image/deep_pixel.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <random>
 
@@ -123,9 +123,10 @@ TEST(Deep, APixelOfAHundredThousandSamplesIsSummedUpInABlink) {
     }
     std::vector<float> cuts;
     for (int i = 1; i < 200; ++i) cuts.push_back(0.1f * float(i));
-    const auto start = std::chrono::steady_clock::now();
+    // Of this process alone: the machine may be busy.
+    const std::clock_t start = std::clock();
     const auto parts = tidied(pixel, cuts);
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5);
+    EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5);
     EXPECT_LE(parts.size(), cuts.size() + 1);
     EXPECT_NEAR(over(parts).a, 1 - free, 1e-3);
     EXPECT_NEAR(over(parts).r, 0.75 * double(over(parts).a), 1e-3);
