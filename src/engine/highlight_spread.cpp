@@ -76,6 +76,8 @@ public:
                                           .max_bytes = std::size_t(64) << 20};
         kernel::BankOptions fine = options;
         fine.relative_step = 0.001, fine.least_step_px = 0.02;
+        // Of bright discs; final quality gives each the kernel of its own place.
+        fine.largest_rim_step_px = input.quality == Quality::Final ? 0.01 : 0.1;
         for (const int size : kSizes) {
             lenses_.push_back(std::make_unique<const SquareLens>(input.lens(0), size));
             banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), options));

@@ -65,7 +65,7 @@ KernelBank::Cells KernelBank::cells_of(int step) const {
     Cells cells{options_.columns, options_.rows};
     if (cells.columns * cells.rows == 1 || options_.largest_rim_step_px <= 0) return cells;
     constexpr int kMostColumns = 4096;
-    const double rim_px = std::abs(radius_of(step)) * 2 * half_width_;  // from one side to the other
+    const double rim_px = lens_.reach_px(radius_of(step)) * 2 * half_width_;  // from one side to the other
     while (rim_px > options_.largest_rim_step_px * cells.columns && cells.columns < kMostColumns)
         cells = {2 * cells.columns, 2 * cells.rows};
     return cells;

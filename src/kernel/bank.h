@@ -17,8 +17,8 @@ namespace petzval::kernel {
 
 struct BankOptions {
     int columns = 9, rows = 6;  // image cells; one cell for lenses that do not vary over the field
-    // > 0: cells are halved for large radii until a rim that travels by one radius over the half diagonal
-    // moves by no more than this from cell to cell. 0: cells are the same for every radius.
+    // > 0: cells are halved for large radii until a rim that travels by the kernel's reach over the half
+    // diagonal moves by no more than this from cell to cell. 0: cells are the same for every radius.
     double largest_rim_step_px = 0;
     double aspect = 16.0 / 9;     // width / height of the picture, to find cells from field positions; > 0
     double relative_step = 0.03;  // > 0

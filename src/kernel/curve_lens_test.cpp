@@ -134,6 +134,101 @@ TEST(CurveLens, LargeDefocusFlattensTheDisc) {
     EXPECT_GT(unevenness(30), 2 * unevenness(120));
 }
 
+TEST(CurveLens, RelativeColourFallsWithDefocusAndWhenStoppedDown) {
+    const auto colour = [](double radius, double f_number) {
+        float sum = 0;
+        for (const Rgba& c :
+             radial_profile(lens_named("doublet", f_number)->point_spread(radius, {}), radius))
+            sum += std::abs(c.r - c.g) + std::abs(c.b - c.g);
+        return sum / float(radius);
+    };
+    for (const double side : {-1.0, 1.0}) {
+        const auto of = [&](double radius, double f_number) {
+            return std::abs(colour(side * radius, f_number));
+        };
+        EXPECT_GT(of(15, 2), 1.5f * of(40, 2));
+        EXPECT_GT(of(40, 2), 1.5f * of(120, 2));
+        EXPECT_GT(of(15, 2), 1.5f * of(15, 5.6));
+    }
+}
+
+TEST(CurveLens, FiveBladesTurnOverThroughFocusSixAndEightDoNot) {
+    const auto flipped_difference = [](int blades) {
+        LensChoice choice;
+        choice.aperture.blades = blades;
+        const auto lens = lens_of(choice);
+        const PointSpread near = lens->point_spread(-20, {}), far = lens->point_spread(20, {});
+        double turned = 0, same = 0;
+        for (int y = -21; y <= 21; ++y)
+            for (int x = -21; x <= 21; ++x) {
+                const double n = double(weight_at(near, x, y).a);
+                turned = std::max(turned, std::abs(n - double(weight_at(far, -x, -y).a)));
+                same = std::max(same, std::abs(n - double(weight_at(far, x, y).a)));
+            }
+        return std::pair{turned / brightest(far), same / brightest(far)};
+    };
+    for (const int blades : {5, 6, 7, 8}) {
+        const auto [turned, same] = flipped_difference(blades);
+        EXPECT_LT(turned, 1e-4) << blades;
+        if (blades % 2 == 0) {
+            EXPECT_LT(same, 1e-4) << blades;
+        } else {
+            EXPECT_GT(same, 0.5) << blades;
+        }
+    }
+}
+
+TEST(CurveLens, ResidualsGoContinuouslyThroughZeroToReversed) {
+    // Share of the light, in all channels, that lies elsewhere.
+    const auto moved = [](const PointSpread& p, const PointSpread& q) {
+        double sum = 0;
+        for (int y = -60; y <= 60; ++y)
+            for (int x = -60; x <= 60; ++x) {
+                const Rgba d = weight_at(p, x, y) - weight_at(q, x, y);
+                sum += std::abs(double(d.r)) + std::abs(double(d.g)) + std::abs(double(d.b));
+            }
+        return sum / 6;
+    };
+    for (const bool colour : {false, true}) {
+        const auto at = [&](double factor) {
+            LensChoice choice = named("uncorrected");
+            choice.wavelengths = 62;
+            choice.focus_mode = FocusMode::Paraxial;
+            (colour ? choice.axial_colour : choice.spherical) = factor;
+            return lens_of(choice)->point_spread(18, {});
+        };
+        EXPECT_GT(moved(at(1), at(-1)), colour ? 0.15 : 0.5);
+        PointSpread before = at(1.2);
+        for (double factor = 1.1; factor > -1.25; factor -= 0.1) {
+            PointSpread here = at(factor);
+            EXPECT_GT(moved(here, before), 1e-3) << factor;
+            EXPECT_LT(moved(here, before), 0.25) << factor;
+            before = std::move(here);
+        }
+    }
+}
+
+TEST(CurveLens, ComaLeavesOneBrightEdgeAndATailThatFades) {
+    LensChoice choice = named("ideal");
+    choice.coma = 0.8;
+    const PointSpread s = lens_of(choice)->point_spread(12, {0.9, 0});
+    double inner = 0, outer = 0;  // brightest towards the middle of the picture, and towards its edge
+    for (int y = s.extent.y0; y < s.extent.y1; ++y)
+        for (int x = s.extent.x0; x < s.extent.x1; ++x)
+            (x < 0 ? inner : outer) = std::max(x < 0 ? inner : outer, double(weight_at(s, x, y).a));
+    EXPECT_GT(inner, 1.5 * outer);
+    EXPECT_GT(s.extent.x1, -s.extent.x0) << "the tail points outward";
+}
+
+TEST(CurveLens, DistortionStretchesDiscsAlongTheField) {
+    LensChoice choice = named("ideal");
+    choice.distortion = 0.1;
+    const Moments right = moments(lens_of(choice)->point_spread(20, {1, 0})),
+                  up = moments(lens_of(choice)->point_spread(20, {0, 1}));
+    EXPECT_NEAR(std::sqrt(right.xx / right.yy), 1.3 / 1.1, 0.01);
+    EXPECT_NEAR(std::sqrt(up.yy / up.xx), 1.3 / 1.1, 0.01);
+}
+
 TEST(CurveLens, BestFocusBlursLessThanAnyOtherPlace) {
     for (const std::string& name : curve_preset_names()) {
         LensChoice choice = named(name);

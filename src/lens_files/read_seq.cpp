@@ -27,9 +27,10 @@ const std::set<std::string> kHarmlessInSurface = {"ASP", "SPH", "CON", "CCY", "T
                                                   "AC",  "BC",  "CC",  "DC",  "EC",  "FC",  "GC",
                                                   "HC",  "JC",  "SLB", "PIM", "COM", "CUC"};
 // Harmless for the lens as a whole: weights, title data, results, how pupils are sampled.
-const std::set<std::string> kHarmless = {"LEN", "WTW", "WTF", "WTX", "WTY", "INI", "TEM", "PRE",
-                                         "AFC", "DER", "GO",  "CWL", "SAV", "DDM", "UID", "EVR",
-                                         "LIS", "VIE", "COM", "PUI", "PUX", "PUY"};
+const std::set<std::string> kHarmless = {"LEN", "WTW", "WTF", "WTX", "WTY", "INI", "TEM", "PRE", "AFC",
+                                         "DER", "GO",  "CWL", "SAV", "DDM", "UID", "EVR", "LIS", "VIE",
+                                         "COM", "PUI", "PUX", "PUY", "PFR", "PTP", "POR"};  // the last three:
+                                                                                            // polarisation
 
 class Reader {
 public:
