@@ -108,7 +108,7 @@ public:
             add(prefix + "B", picture, &Rgba::b);
         if (with_alpha) add(prefix + "A", picture, &Rgba::a);
     }
-    void add(const std::string& channel, Plane plane) { kept_.push_back({channel, std::move(plane)}); }
+    void add(const std::string& channel, Plane plane) { kept_.emplace_back(channel, std::move(plane)); }
     Status write(const std::string& path, std::vector<std::pair<std::string, std::string>> attributes,
                  bool overwrite) const {
         std::vector<NamedPlane> named;

@@ -65,7 +65,9 @@ public:
     // Through what is open of the stop for the primary wavelength, whose chief ray is the origin.
     RayMapFitter(const optics::Beam& primary, const OpenStop& open);
     // False where too few rays get through.
-    bool usable() const { return even_.solvable() && odd_.solvable() && samples_.size() > 2 * kEvenTerms; }
+    bool usable() const {
+        return even_.solvable() && odd_.solvable() && samples_.size() > 2 * std::size_t(kEvenTerms);
+    }
     // Requires: usable(). Rays that do not get through at this wavelength count as those of the primary one.
     RayMap fit(const optics::Beam& beam) const;
 

@@ -51,6 +51,19 @@ void add_line(Canvas& canvas, const kernel::PointSpread& disc, int x0) {
 
 }  // namespace
 
+std::string disc_pair(const Subject& subject, int disc_px) {
+    constexpr double kCss = 104, kBlurs = 2.2;
+    Canvas canvas(2 * disc_px, disc_px);
+    for (const int side : {-1, 1}) {
+        const double coc = side * kBlurs * subject.blur_um();
+        const auto disc = subject.axis().disc(coc, subject.axis().reach_um(coc) / (0.44 * disc_px));
+        const int x = side < 0 ? 0 : disc_px;
+        canvas.add(disc, x + disc_px / 2, disc_px / 2, even_gain(disc), {x, 0, x + disc_px, disc_px});
+    }
+    Svg svg(2 * kCss, kCss, "discs of " + subject.name() + " in front of focus and behind");
+    return svg.image({0, 0}, 2 * kCss, kCss, canvas.uri()).str();
+}
+
 Figure line_strip(const Subject& subject) {
     constexpr int kHigh = 60;
     constexpr double kHighCss = kHigh * kCellCss / kCell;

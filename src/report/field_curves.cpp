@@ -52,8 +52,8 @@ FieldCurves curves_of(const optics::TracedLens& lens, double field_deg) {
 Figure drawn(const std::string& title, const std::vector<const FieldCurve*>& curves, Axis x, double field_deg,
              const std::string& caption) {
     Plot plot(kWide, kTall, title, std::move(x), {0, 1.03 * field_deg, "field, degrees"});
-    const char* const classes[] = {"curve0", "curve1"};
-    for (std::size_t i = 0; i < curves.size(); ++i) plot.curve(curves[i]->points, classes[i]);
+    for (const FieldCurve* curve : curves)
+        plot.curve(curve->points, curve == curves[0] ? "curve0" : "curve1");
     return {plot.str(), caption, 3};
 }
 

@@ -28,6 +28,8 @@ Figure bokeh_textures(const Subject& subject);
 Figure squared_column(const Subject& subject);
 
 // disc_strip.cpp
+// A disc somewhat in front of focus and one behind, 208 by 104, with so many pixels each.
+std::string disc_pair(const Subject& subject, int disc_px);
 Figure disc_strip(const Subject& subject);
 Figure line_strip(const Subject& subject);
 

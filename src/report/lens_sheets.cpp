@@ -12,19 +12,7 @@ namespace {
 using namespace report;
 
 constexpr int kDiscPx = 104;
-constexpr double kDiscCss = 104;
-
-std::string discs_of(const Subject& subject) {
-    Canvas canvas(2 * kDiscPx, kDiscPx);
-    for (const int side : {-1, 1}) {
-        const double coc = side * 2.2 * subject.blur_um();
-        const auto disc = subject.axis().disc(coc, subject.axis().reach_um(coc) / (0.44 * kDiscPx));
-        const int x = side < 0 ? 0 : kDiscPx;
-        canvas.add(disc, x + kDiscPx / 2, kDiscPx / 2, even_gain(disc), {x, 0, x + kDiscPx, kDiscPx});
-    }
-    Svg svg(2 * kDiscCss, kDiscCss, "discs of " + subject.name() + " in front of focus and behind");
-    return svg.image({0, 0}, 2 * kDiscCss, kDiscCss, canvas.uri()).str();
-}
+constexpr double kDiscCss = 104;  // as disc_pair() draws it
 
 std::string curve_of(const Subject& subject) {
     constexpr double kWide = 96, kTall = 104;
@@ -77,7 +65,7 @@ Result<LensCard> lens_card(const std::string& name_or_file) {
     card.focal_length = significant(subject->focal_length_mm(), 4) + " mm";
     card.f_number = "f/" + significant(subject->f_number(), 3);
     card.blur = significant(2 * subject->axis().reach_um(0), 3) + " µm";
-    card.discs = discs_of(*subject);
+    card.discs = disc_pair(*subject, kDiscPx);
     card.curve = curve_of(*subject);
     card.rays = small_rays(*subject);
     card.texture = texture_of(*subject);

@@ -12,7 +12,8 @@ struct Row {
 
 std::string table(const std::vector<Row>& rows) {
     std::string text = "<table class=\"words\">";
-    for (const Row& row : rows) text += "<tr><td>" + row.name + "</td><td>" + row.value + "</td></tr>";
+    for (const Row& row : rows)
+        text += "<tr><td>" + row.name + "</td><td>" + escaped(row.value) + "</td></tr>";
     return text + "</table>";
 }
 
@@ -70,7 +71,7 @@ Figure use(const Subject& subject) {
                     "light within " + significant(subject.axis().reach_um(0)) + " µm of the middle"});
     rows.push_back(
         {"Airy disc, wide open", "radius " + number(1.22 * 0.546074 * subject.f_number(), 2) + " µm"});
-    if (!f.format.empty()) rows.push_back({"Read from", escaped(f.format)});
+    if (!f.format.empty()) rows.push_back({"Read from", f.format});
     return {table(rows), "", 6};
 }
 
@@ -98,7 +99,7 @@ std::string fact(const std::string& value, const std::string& name) {
 std::string header_of(const Subject& subject) {
     const LensFacts& f = subject.facts();
     const LensSummary& s = f.summary;
-    std::string text = "<header><p class=\"kicker\">" + escaped(s.name);
+    std::string text = "<header><div class=\"head\"><div><p class=\"kicker\">" + escaped(s.name);
     if (!s.kind.empty()) text += " · " + escaped(s.kind);
     if (!s.year.empty()) text += " · " + escaped(s.year);
     // The title of a lens known by curves is a description.
@@ -106,11 +107,12 @@ std::string header_of(const Subject& subject) {
     text += "</p>\n<h1>" + escaped(capitalised(is_named ? s.title : s.name)) + "</h1>\n";
     if (!is_named) text += "<p class=\"history\">" + escaped(capitalised(s.title)) + ".</p>\n";
     if (!s.history.empty()) text += "<p class=\"history\">" + escaped(s.history) + "</p>\n";
-    text += "<div class=\"facts\">";
+    text += "</div><figure style=\"--share:1\">" + disc_pair(subject, 220) +
+            "<figcaption>A point of light a little in front of the focus, and a little behind.</figcaption>"
+            "</figure></div>\n<div class=\"facts\">";
     text += fact(significant(subject.focal_length_mm(), 4) + " mm", "focal length");
     text += fact("f/" + significant(subject.f_number(), 3), "wide open");
-    text +=
-        fact(significant(2 * subject.axis().reach_um(0), 3) + " µm", "blur left in focus, across, wide open");
+    text += fact(significant(2 * subject.axis().reach_um(0), 3) + " µm", "blur left in focus, across");
     if (f.has_prescription) {
         text += fact(significant(2 * f.field_deg, 3) + "°", "field");
         text += fact(std::to_string(f.seidel_per_surface.size()), "surfaces");

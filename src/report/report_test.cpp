@@ -48,6 +48,7 @@ TEST(Number, IsWrittenAsPeopleDo) {
     EXPECT_EQ(significant(1234.5), "1230");
     EXPECT_EQ(significant(9.996, 3), "10");
     EXPECT_EQ(escaped("a<b & \"c\"\n"), "a&lt;b &amp; &quot;c&quot; ");
+    EXPECT_EQ(escaped("-3 µm, f-2 --coma -1"), "−3 µm, f-2 --coma −1");
 }
 
 TEST(Base64, AgreesWithRfc4648) {

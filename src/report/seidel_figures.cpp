@@ -73,7 +73,7 @@ Figure table(const LensFacts& facts) {
     text += "</tr>";
     const auto row = [&](const std::string& name, const SeidelFacts& s, const char* attribute) {
         text += std::string("<tr") + attribute + "><td>" + name + "</td>";
-        for (const Sum& sum : kSums) text += "<td>" + number(s.*sum.value, 6) + "</td>";
+        for (const Sum& sum : kSums) text += "<td>" + escaped(number(s.*sum.value, 6)) + "</td>";
         text += "</tr>";
     };
     for (std::size_t i = 0; i < facts.seidel_per_surface.size(); ++i)

@@ -88,14 +88,14 @@ Figure spot_diagrams(const Subject& subject) {
     const std::vector<double> fields =
         has_field ? std::vector<double>{0, 0.5, 0.8, 1} : std::vector<double>{0};
     const double step_um = 0.6 * subject.blur_um();
-    constexpr int kSteps = 5;
+    constexpr int kSteps = 5, kMiddle = 2;
     std::vector<std::vector<Spot>> spots;
     std::vector<double> half_um;  // of a cell, by row
     for (const double field : fields) {
         auto& row = spots.emplace_back();
         double largest = 1e-6;
         for (int i = 0; i < kSteps; ++i) {
-            row.push_back(spot_of(subject, lines, (i - kSteps / 2) * step_um, field));
+            row.push_back(spot_of(subject, lines, (i - kMiddle) * step_um, field));
             for (const auto& points : row.back().um)
                 for (const Point& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
         }
@@ -106,7 +106,7 @@ Figure spot_diagrams(const Subject& subject) {
     Svg svg(kLeft + kSteps * kCell, kTop + double(fields.size()) * kCell + 20,
             "spot diagrams of " + subject.name());
     for (int i = 0; i < kSteps; ++i) {
-        const double mm = (i - kSteps / 2) * step_um / 1000 * 2 * subject.f_number();
+        const double mm = (i - kMiddle) * step_um / 1000 * 2 * subject.f_number();
         svg.text({kLeft + (i + 0.5) * kCell - 4, kTop - 9},
                  mm == 0 ? "at best focus" : (mm > 0 ? "+" : "") + significant(mm, 2) + " mm", "title",
                  Anchor::Middle);

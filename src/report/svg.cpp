@@ -61,8 +61,13 @@ std::string significant(double value, int digits) {
 
 std::string escaped(const std::string& text) {
     std::string result;
-    for (const char c : text) {
-        if (c == '<')
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        // A number's sign is a minus, not a hyphen.
+        if (c == '-' && (i == 0 || text[i - 1] == ' ') && i + 1 < text.size() && text[i + 1] >= '0' &&
+            text[i + 1] <= '9')
+            result += "−";
+        else if (c == '<')
             result += "&lt;";
         else if (c == '>')
             result += "&gt;";

@@ -19,7 +19,7 @@ using kernel::Point;
 std::string number(double value, int decimals);
 // With so many significant digits, as people write them: 0.0123, 45.7, 1230.
 std::string significant(double value, int digits = 3);
-// Text for HTML and SVG: < > & " as entities, control characters as spaces.
+// Text for HTML and SVG: < > & " as entities, control characters as spaces, signs of numbers as minus signs.
 std::string escaped(const std::string& text);
 
 enum class Anchor { Start, Middle, End };
