@@ -88,6 +88,10 @@ void FocusFlags::add_to(Verb& verb) {
                focus_falloff)
         .value("--near-scale", "FACTOR", "multiply radii in front of focus", parse_not_negative, near_scale)
         .value("--far-scale", "FACTOR", "multiply radii behind focus", parse_not_negative, far_scale)
+        .value(
+            "--permissible-radius", "PX",
+            "blur radius that still counts as sharp, for --view focus and the limits in --json (default 1)",
+            parse_positive, permissible_radius_px)
         .value("--max-radius", "PX", "cut radii off here; smaller ones stay as they are", parse_positive,
                max_radius_px);
 }
@@ -101,6 +105,7 @@ std::vector<std::string> FocusFlags::given() const {
     if (near_scale) names.emplace_back("--near-scale");
     if (far_scale) names.emplace_back("--far-scale");
     if (max_radius_px) names.emplace_back("--max-radius");
+    if (permissible_radius_px) names.emplace_back("--permissible-radius");
     return names;
 }
 

@@ -32,6 +32,8 @@ struct FocusFlags {
     std::optional<Place> focus_point;  // of the world, in scene units
     std::optional<Interval> focus_range_m;
     std::optional<double> max_radius_px, near_scale, far_scale, focus_falloff;
+    // Blur that still counts as sharp, for the focus view and the limits in the report.
+    std::optional<double> permissible_radius_px;
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;

@@ -6,6 +6,7 @@
 #include "console.h"
 #include "defocus_flags.h"
 #include "interrupt.h"
+#include "light_report.h"
 #include "points_file.h"
 #include "verbs.h"
 
@@ -37,6 +38,7 @@ private:
     void warn(const std::vector<std::string>& lines);
 
     ImageScale image_scale() const { return flags_.camera.image_scale.value_or(ImageScale::Rendered); }
+    double permissible_radius_px() const { return flags_.focus.permissible_radius_px.value_or(1); }
     bool needs_camera() const { return !flags_.input.depth_is_coc() && flags_.view != ViewKind::Depth; }
 
     DefocusFlags& flags_;
@@ -139,6 +141,8 @@ Status Run::choose_camera() {
     camera_ = *camera;
     note(camera_line(input_.camera, image_scale()));
     report_["camera"] = camera_json(input_.camera, image_scale());
+    const auto limits = focus_limits(camera_, input_.frame.display_window.width(), permissible_radius_px());
+    if (limits) report_["focus_limits"] = limits_json(*limits, permissible_radius_px());
     return Done{};
 }
 
@@ -229,6 +233,7 @@ Status Run::write() {
                           .develop = flags_.develop.settings(input_.frame.display_referred,
                                                              flags_.input.transfer, flags_.run.threads),
                           .camera = input_.camera,
+                          .permissible_radius_px = permissible_radius_px(),
                           .depth = input_.depth,
                           .attributes = {},
                           .warnings = &warnings};

@@ -110,6 +110,8 @@ void DefocusFlags::check(const Verb& verb) {
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_point.has_value(),
                 "--focus-point");
+    if (focus.permissible_radius_px && view != ViewKind::Focus && run.json.empty())
+        throw UsageError("--permissible-radius has no effect without --view focus or --json");
     refuse_both(focus.focus_at.has_value(), "--focus-at", focus.focus_point.has_value(), "--focus-point");
     if (focus.focus_falloff && !focus.focus_range_m)
         throw UsageError("--focus-falloff has no effect without --focus-range, as --focus-range 1.8m,3m");

@@ -128,8 +128,10 @@ Status write_focus(Frame& frame, const ViewSource& source, const ViewSettings& s
     const Picture display = shown(sharp, settings.develop);
     const Plane radii =
         in_output_window(source.coc_radius_px, frame, settings, std::numeric_limits<float>::quiet_NaN());
-    return write_display_picture(focus_overlay(display.view(), radii.view(), legend_title(settings.camera)),
-                                 frame, settings);
+    return write_display_picture(
+        focus_overlay(display.view(), radii.view(), float(settings.permissible_radius_px),
+                      legend_title(settings.camera)),
+        frame, settings);
 }
 
 // Several pictures in one, larger than the input: as EXR light alone, as PNG each with its name.

@@ -35,6 +35,7 @@ struct ViewSettings {
     bool overwrite = true;
     DevelopSettings develop;
     FoundCamera camera;
+    double permissible_radius_px = 1;
     DepthReport depth;
     std::vector<std::pair<std::string, std::string>> attributes;  // of an EXR
     std::vector<std::string>* warnings = nullptr;                 // what writing had to change

@@ -69,7 +69,8 @@ void draw_legend(View<Rgba> picture, const std::string& title, const std::vector
 
 }  // namespace
 
-Picture focus_overlay(View<const Rgba> display, View<const float> coc, const std::string& title) {
+Picture focus_overlay(View<const Rgba> display, View<const float> coc, float permissible_radius_px,
+                      const std::string& title) {
     const Largest largest = largest_radii(coc);
     Picture view(coc.width(), coc.height());
     for (int y = 0; y < coc.height(); ++y)
@@ -79,17 +80,18 @@ Picture focus_overlay(View<const Rgba> display, View<const float> coc, const std
                 view(x, y) = {0, 0, 0, 1};
                 continue;
             }
-            const bool sharp = std::abs(radius) < kInFocusRadius_px;
+            const bool sharp = std::abs(radius) < permissible_radius_px;
             const Rgba tint = sharp ? kInFocus : radius < 0 ? kNear : kFar;
             // Deeper blur is tinted more strongly, each side by its own measure; all of it stays readable.
-            const float deepest = std::max(radius < 0 ? largest.near_px : largest.far_px, kInFocusRadius_px);
+            const float deepest =
+                std::max(radius < 0 ? largest.near_px : largest.far_px, permissible_radius_px);
             const float strength = sharp ? 0.6f : 0.35f + 0.45f * std::sqrt(std::abs(radius) / deepest);
             const Rgba grey = 0.5f * light * Rgba{1, 1, 1, 1};
             view(x, y) = grey * (1 - strength) + tint * (strength * (0.3f + 0.7f * light));
             view(x, y).a = 1;
         }
     draw_legend(view.view(), title,
-                legend_of(largest, "IN FOCUS  RADIUS UNDER " + plain(kInFocusRadius_px) + " PX"));
+                legend_of(largest, "IN FOCUS  RADIUS UNDER " + plain(permissible_radius_px) + " PX"));
     return view;
 }
 

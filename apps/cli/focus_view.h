@@ -7,9 +7,6 @@
 
 namespace petzval::cli {
 
-// Radii below this count as in focus: the disc covers no more than about two pixels.
-inline constexpr float kInFocusRadius_px = 1;
-
 // Display-linear 0…1 pictures, the same size as `coc_radius_px` (signed, + is far; NaN: nothing there,
 // black).
 //
@@ -17,7 +14,9 @@ inline constexpr float kInFocusRadius_px = 1;
 // (after Okabe and Ito, "Color universal design", 2008), and carry a legend unless the picture is too small.
 // The overlay shows the picture dimmed and tinted, in focus white; `display` is that picture, display-linear.
 // The map is black where the radius is 0 and full colour at the largest radius.
-Picture focus_overlay(View<const Rgba> display, View<const float> coc_radius_px, const std::string& title);
+// Radii below permissible_radius_px count as in focus.
+Picture focus_overlay(View<const Rgba> display, View<const float> coc_radius_px, float permissible_radius_px,
+                      const std::string& title);
 Picture coc_map(View<const float> coc_radius_px, const std::string& title);
 
 }  // namespace petzval::cli

@@ -94,7 +94,7 @@ Result<Output> run_sprites(const Input& input) {
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     output->stages = {{"background", drawn_background}, {"sprites", seconds() - drawn_background}};
     if (input.sprites.find && !finds)
-        output->warnings.push_back("bright points are not looked for in pictures with hidden layers");
+        output->warnings.emplace_back("bright points are not looked for in pictures with hidden layers");
     return output;
 }
 

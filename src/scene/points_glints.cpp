@@ -61,7 +61,8 @@ public:
     void draw(Dice& dice, float& x, float& y) const {
         const auto found = std::upper_bound(sums_.begin(), sums_.end(), double(dice.next()) * total_);
         const int cell = std::min(int(found - sums_.begin()), kSide * kSide - 1);
-        x = (float(cell % kSide) + dice.next()) * wide_, y = (float(cell / kSide) + dice.next()) * high_;
+        const int column = cell % kSide, row = cell / kSide;
+        x = (float(column) + dice.next()) * wide_, y = (float(row) + dice.next()) * high_;
     }
 
 private:

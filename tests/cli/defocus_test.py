@@ -101,6 +101,18 @@ class Defocus(CommandLineTest):
         self.assertEqual(report["camera"]["origins"]["focus_distance_m"], "--focus-at 26,7")
         self.refuse(2, "defocus", "crop.exr", "-o", "o.exr", *CAMERA[:-2], "--focus-at", "3,7", says=["10 to 41"])
 
+    def test_the_permissible_radius_sets_the_limits_and_what_the_focus_view_shows_white(self):
+        def shown(*flags):
+            self.succeed("defocus", "in.exr", "-o", "focus.png", *CAMERA, "--view", "focus", *flags)
+            return read_png(self.path("focus.png"))[0]
+        self.assertEqual(shown(), shown("--permissible-radius", "1"))
+        self.assertNotEqual(shown(), shown("--permissible-radius", "3"))
+        for radius in (0.5, 1):
+            flags = ["--permissible-radius", str(radius)]
+            limits = self.report("defocus", "in.exr", "-o", "out.exr", *CAMERA, *flags)["focus_limits"]
+            self.assertEqual(limits, self.report("inspect", "in.exr", *CAMERA, *flags)["focus_limits"])
+            self.assertAlmostEqual(radius_px(limits["near_m"], 32), -radius, places=4)
+
     def test_focus_point_goes_through_the_camera_matrix_of_the_file(self):
         # The camera stands at (1, 2, 3) and looks along +x of the world: its z is x - 1.
         def matrix(sign):
