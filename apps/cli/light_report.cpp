@@ -11,7 +11,8 @@ void describe_range(const DynamicRange& range, std::ostream& out) {
         << ", diffuse " << plain(range.diffuse, 3) << ", specular " << plain(range.specular, 3)
         << "  (5, 50, 90 and 99.9 % of the lit pixels are darker); brightest " << plain(range.brightest, 4)
         << "\n  diffuse over shadow " << plain(range.diffuse_over_shadow_stops, 3)
-        << " stops, specular over diffuse " << plain(range.specular_over_diffuse_stops, 3) << " stops\n  "
+        << " stops, specular over diffuse " << plain(range.specular_over_diffuse_stops, 3) << " stops\n"
+        << (range.comparison.empty() ? "" : "  diffuse is " + range.comparison + "\n") << "  "
         << plain(100 * range.clipped_share, 3) << " % clipped, " << plain(100 * range.black_share, 3)
         << " % without light\n";
 }
@@ -24,6 +25,7 @@ Json range_json(const DynamicRange& range) {
             {"brightest", range.brightest},
             {"diffuse_over_shadow_stops", range.diffuse_over_shadow_stops},
             {"specular_over_diffuse_stops", range.specular_over_diffuse_stops},
+            {"comparison", range.comparison},
             {"clipped_share", range.clipped_share},
             {"black_share", range.black_share},
             {"looks_encoded", range.looks_encoded}};

@@ -77,26 +77,25 @@ std::string rounded(double value) {
     return text.str();
 }
 
-}  // namespace
+// The ratios of M. Kawase (CEDEC 2008; docs/published/dynamic-range.md): sun to shade 10 to 100, shade to a
+// room about 10.
+std::string compared(double diffuse_over_shadow) {
+    const std::string times = rounded(diffuse_over_shadow) + " times the shadow";
+    if (diffuse_over_shadow < 10)
+        return times + ": less than sun to shade or shade to a room, which are 10 and more";
+    if (diffuse_over_shadow <= 100) return times + ": as sun to shade, 10 to 100";
+    return times + ": more than sun to shade, 10 to 100; as outdoors and a room in one picture";
+}
 
-DynamicRange measure_dynamic_range(View<const Rgba> picture, bool display_referred) {
+DynamicRange nothing_lit(const Tally& t) {
     DynamicRange range;
-    if (picture.empty()) return range;
-    const Tally t = tally(picture);
     range.black_share = 1 - double(t.lit) / double(t.pixels);
     range.brightest = t.brightest;
-    if (t.lit == 0) return range;
-    range.shadow = level_at(t, 0.05), range.middle = level_at(t, 0.5);
-    range.diffuse = level_at(t, 0.9), range.specular = level_at(t, 0.999);
-    range.diffuse_over_shadow_stops = std::log2(range.diffuse / range.shadow);
-    range.specular_over_diffuse_stops = std::log2(range.specular / range.diffuse);
-    const bool low = t.brightest <= kOneInHalf;
-    if (low && t.brightest > 0.9995) range.clipped_share = share_at_top(picture, 0.9995);
-    if (t.brightest >= kLargestHalf) range.clipped_share = share_at_top(picture, kLargestHalf);
-    const bool codes = double(t.on_grid) > 0.9 * double(t.codes);
-    const double stops = range.diffuse_over_shadow_stops;
-    const bool pale = range.middle > 0.25 && stops > 0.5 && stops < 4;  // a flat card says nothing
-    range.looks_encoded = !display_referred && low && (codes || pale);
+    return range;
+}
+
+// What a picture's levels call for, in words.
+void add_advice(DynamicRange& range, bool low, bool display_referred) {
     if (range.looks_encoded)
         range.advice.push_back(
             "nothing is brighter than 1 and the middle lies at " + rounded(range.middle) +
@@ -108,6 +107,33 @@ DynamicRange measure_dynamic_range(View<const Rgba> picture, bool display_referr
             rounded(100 * range.clipped_share) +
             " % of the pixels are clipped at 1: lights hold no more than diffuse white, so "
             "their blur will be dull; --expand-highlights gives them back by assumption");
+    const double stops = range.diffuse_over_shadow_stops;
+    if (!display_referred && stops > 0.5 && stops < 2 && range.specular_over_diffuse_stops < 1.5)
+        range.advice.emplace_back(
+            "all light lies within a few stops; if the picture looks flat, see whether the "
+            "scene's lights stand in the ratios of real ones before reaching for --contrast");
+}
+
+}  // namespace
+
+DynamicRange measure_dynamic_range(View<const Rgba> picture, bool display_referred) {
+    if (picture.empty()) return {};
+    const Tally t = tally(picture);
+    DynamicRange range = nothing_lit(t);
+    if (t.lit == 0) return range;
+    range.shadow = level_at(t, 0.05), range.middle = level_at(t, 0.5);
+    range.diffuse = level_at(t, 0.9), range.specular = level_at(t, 0.999);
+    range.diffuse_over_shadow_stops = std::log2(range.diffuse / range.shadow);
+    range.specular_over_diffuse_stops = std::log2(range.specular / range.diffuse);
+    range.comparison = compared(range.diffuse / range.shadow);
+    const bool low = t.brightest <= kOneInHalf;
+    if (low && t.brightest > 0.9995) range.clipped_share = share_at_top(picture, 0.9995);
+    if (t.brightest >= kLargestHalf) range.clipped_share = share_at_top(picture, kLargestHalf);
+    const bool codes = double(t.on_grid) > 0.9 * double(t.codes);
+    const double stops = range.diffuse_over_shadow_stops;
+    const bool pale = range.middle > 0.25 && stops > 0.5 && stops < 4;  // a flat card says nothing
+    range.looks_encoded = !display_referred && low && (codes || pale);
+    add_advice(range, low, display_referred);
     return range;
 }
 

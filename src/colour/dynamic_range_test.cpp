@@ -36,6 +36,31 @@ TEST(DynamicRange, IsCountedInStopsBetweenLevels) {
     EXPECT_FALSE(range.looks_encoded);
 }
 
+TEST(DynamicRange, IsHeldAgainstTheRatiosOfRealLight) {
+    const auto said = [](float ratio) {
+        return measure_dynamic_range(outdoors(ratio).view(), false).comparison;
+    };
+    EXPECT_NE(said(6).find("less than sun to shade"), std::string::npos) << said(6);
+    EXPECT_NE(said(32).find("as sun to shade"), std::string::npos) << said(32);
+    EXPECT_NE(said(400).find("more than sun to shade"), std::string::npos) << said(400);
+}
+
+TEST(DynamicRange, IsAdvisedBeforeContrast) {
+    Picture flat(60, 60), range(60, 60);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        const float t = float(i) / float(flat.size());
+        const auto grey = [](float v) { return Rgba{v, v, v, 1}; };
+        flat.pixels()[i] = grey(0.11f + 0.1f * t), range.pixels()[i] = grey(0.01f * std::exp2(7 * t));
+    }
+    const auto speaks_of_contrast = [](const Picture& picture) {
+        for (const std::string& line : measure_dynamic_range(picture.view(), false).advice)
+            if (line.find("before reaching for --contrast") != std::string::npos) return true;
+        return false;
+    };
+    EXPECT_TRUE(speaks_of_contrast(flat));
+    EXPECT_FALSE(speaks_of_contrast(range));
+}
+
 TEST(DynamicRange, DisplayCodesTakenForLightAreRecognised) {
     Picture codes = outdoors(30), pale = outdoors(30);
     for (std::size_t i = 0; i < codes.size(); ++i) {
