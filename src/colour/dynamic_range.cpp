@@ -14,7 +14,7 @@ constexpr double kLargestHalf = 65504;
 constexpr double kOneInHalf = 1.0005;  // 1, and one step of half float above
 
 struct Tally {
-    std::array<std::size_t, kPerStop * kStops> by_level{};
+    std::array<std::size_t, std::size_t(kPerStop) * std::size_t(kStops)> by_level{};
     std::size_t pixels = 0, lit = 0;
     std::size_t codes = 0, on_grid = 0;  // channel values above 0; those that are n/255
     double brightest = 0;
