@@ -17,7 +17,7 @@ struct DynamicRange {
     double shadow = 0, middle = 0, diffuse = 0, specular = 0;  // 5, 50, 90 and 99.9 % of pixels are darker
     double brightest = 0;                                      // largest channel
     double diffuse_over_shadow_stops = 0, specular_over_diffuse_stops = 0;
-    std::string comparison;  // diffuse over shadow beside the ratios of real light, one line
+    std::string comparison;    // diffuse over shadow beside the ratios of real light, one line
     double black_share = 0;    // pixels without light, of all
     double clipped_share = 0;  // pixels with a channel at the top of the format, of all: 1 where nothing is
                                // above it, or 65504
