@@ -93,13 +93,13 @@ float largest(const Plane& radii) {
     return most;
 }
 
-// Colour values that the spread has to add, if levels keep radii at or below twelve of their texels
+// Colour values that the spread has to add, if levels keep radii at or below eight of their texels
 // (docs/design/scatter.md): what the arithmetic ceiling is held against.
 double spread_taps(const Plane& radii) {
     double taps = 0;
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const double r = std::abs(double(radii.pixels()[i]));
-        const double shrink = std::exp2(std::max(0.0, std::ceil(std::log2(std::max(r, 1.0) / 12))));
+        const double shrink = std::exp2(std::max(0.0, std::ceil(std::log2(std::max(r, 1.0) / 8))));
         taps += std::max(1.0, std::numbers::pi * (r / shrink + 0.5) * (r / shrink + 0.5)) / (shrink * shrink);
     }
     return taps;

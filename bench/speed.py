@@ -26,7 +26,7 @@ from quality import CACHE, PROGRAM, ROOT, machine, petzval, print_table, scene_s
 
 BUILT = pathlib.Path(PROGRAM).parents[2] / "bench"
 THREADS = len(os.sched_getaffinity(0))
-DOUBLET = "preset-doublet-overcorrected"
+DOUBLET = "doublet"
 # engine, quality, of every line of the main table; reference is asked for few points and small pictures alone
 WAYS = [("scatter", "standard"), ("scatter", "draft")]
 LIMITS = {(3840, "standard"): 1.5, (1920, "standard"): 0.4}  # seconds asked of wall
