@@ -31,7 +31,7 @@ std::string caption(const Subject& subject) {
            "as spherical aberration falls with the cube of the aperture, flatter. Brightness is evened out: "
            "in "
            "truth light per area falls with the square of the radius. <code>petzval lens psf " +
-           escaped(subject.name()) + " --defocus 40 -o disc.exr</code>";
+           escaped(subject.asked()) + " --defocus 40 -o disc.exr</code>";
 }
 
 // A thin line through the source, upright: the disc's columns, each as bright as all of it together.

@@ -95,6 +95,16 @@ TEST(SquaredColumn, AgreesForAPerfectLensAndNotForOthers) {
     EXPECT_EQ(squared_column(subject_of("doublet")).caption.find("agree within"), std::string::npos);
 }
 
+TEST(ZoneCurves, AreThoseOfTheLens) {
+    const Subject subject = subject_of("doublet");
+    const LongitudinalAberrationFacts& lsa = subject.facts().longitudinal_aberration;
+    for (const std::size_t w : {5U, 11U, 18U}) {
+        const auto foci = subject.zone_foci(1000 * lsa.wavelengths_um[w]);
+        EXPECT_NEAR(foci.front().x, lsa.shift_mm[w].front(), 2e-3);
+        EXPECT_NEAR(foci.back().x, lsa.shift_mm[w].back(), 2e-3);
+    }
+}
+
 TEST(ZoneCurves, SayWhichDiscsAreSharp) {
     // The talk's law: a marginal focus towards the lens sharpens the near edge.
     EXPECT_NE(zone_curves(subject_of("uncorrected")).caption.find("<b>in front</b>"), std::string::npos);

@@ -36,19 +36,6 @@ double reach_of(const std::vector<kernel::RingBand>& bands) {
     return 1.02 * reach + 1e-6;
 }
 
-// Linear between the listed wavelengths.
-std::vector<double> shifts_at(const LongitudinalAberrationFacts& lsa, double um) {
-    const auto& list = lsa.wavelengths_um;
-    const auto next = std::upper_bound(list.begin(), list.end(), um);
-    const std::size_t high = std::min(std::size_t(next - list.begin()), list.size() - 1),
-                      low = high - (high > 0);
-    const double t = high == low ? 0 : std::clamp((um - list[low]) / (list[high] - list[low]), 0.0, 1.0);
-    std::vector<double> shifts;
-    for (std::size_t z = 0; z < lsa.zones.size(); ++z)
-        shifts.push_back((1 - t) * lsa.shift_mm[low][z] + t * lsa.shift_mm[high][z]);
-    return shifts;
-}
-
 }  // namespace
 
 Axial::Axial(RayLens lens_in_um) : lens_(std::move(lens_in_um)) {
@@ -157,17 +144,13 @@ std::vector<Point> Subject::zone_foci(double wavelength_nm) const {
         // From the paraxial focus at d, whatever the lens's own primary wavelength is.
         for (std::size_t i = 0; i < zones.size(); ++i)
             points.push_back({lsa.shift_mm[0][i] - lsa.shift_mm[1][0], zones[i]});
-    } else if (!facts_.longitudinal_aberration.zones.empty()) {
-        const std::vector<double>& zones = facts_.longitudinal_aberration.zones;
-        const auto shifts = shifts_at(facts_.longitudinal_aberration, wavelength_nm / 1000);
-        // Between the listed zones straight over the pupil's area, as the lens itself has it nearly.
-        std::size_t k = 1;
+    } else if (facts_.summary.model == LensModelKind::Curves) {
+        // By similar triangles, from where rays meet the sensor: what the kernels are made of.
+        const auto height = axis_->height_um(wavelength_nm, 0);
         for (int i = 0; i <= kZones; ++i) {
-            const double zone = double(i) / kZones;
-            while (k + 1 < zones.size() && zones[k] < zone) ++k;
-            const double from = zones[k - 1] * zones[k - 1], to = zones[k] * zones[k];
-            const double t = std::clamp((zone * zone - from) / (to - from), 0.0, 1.0);
-            points.push_back({(1 - t) * shifts[k - 1] + t * shifts[k], zone});
+            const double zone = std::max(double(i), 0.1) / kZones;
+            points.push_back(
+                {best_focus_mm_ - height(zone) / zone * 2 * f_number_ / 1000, double(i) / kZones});
         }
     }
     return points;

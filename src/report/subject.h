@@ -60,6 +60,7 @@ public:
     static Result<Subject> make(const std::string& name_or_file);
 
     const std::string& name() const { return facts_.summary.name; }
+    const std::string& asked() const { return asked_; }  // name or file, as commands take it
     const LensFacts& facts() const { return facts_; }
     const optics::Prescription* prescription() const { return lens_ ? &*lens_ : nullptr; }
     double focal_length_mm() const { return focal_length_mm_; }

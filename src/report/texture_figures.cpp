@@ -152,7 +152,7 @@ Figure bokeh_textures(const Subject& subject) {
             "of the focus, to the right behind. Turned about its middle, a column becomes the disc. Three "
             "wavelengths leave rings that stand apart (below); over 31 they melt into the colours "
             "that a photograph shows. <code>petzval lens table " +
-                escaped(subject.name()) + " -o table.exr</code> writes the texture for use.",
+                escaped(subject.asked()) + " -o table.exr</code> writes the texture for use.",
             12};
 }
 

@@ -1,4 +1,5 @@
 """petzval lens report: one page that any XML reader takes, with every figure, the same bytes each time; clear errors."""
+import json
 import os
 import pathlib
 import re
@@ -50,6 +51,13 @@ class LensReport(CommandLineTest):
         pathlib.Path(file).write_text((LENSES / "singlet.json").read_text())
         self.succeed("lens", "report", file, "-o", "new/folder")
         self.check_page("new/folder/my-lens.html", 20)
+
+    def test_curves_in_a_file_have_a_page_too(self):
+        curves = {"id": "drawn", "name": "Drawn", "source": "this test", "focal_length_mm": 85, "f_number": 2, "units": "mm",
+                  "pupil_height": [0, 15, 21.25], "curves": [{"wavelength_nm": "G", "shift": [0, -0.4, 0.3]}]}
+        pathlib.Path(self.path("drawn.json")).write_text(json.dumps(curves))
+        self.succeed("lens", "report", "drawn.json", "-o", "sheet.html")
+        self.assertIn("85 mm", self.check_page("sheet.html", 20))
 
     def test_the_same_lens_makes_the_same_bytes(self):
         for name in ("a.html", "b.html"):
