@@ -75,9 +75,10 @@ Result<Frame> load_other(Input& input, const std::string& what, const std::strin
         if (!converted) return Error{converted.error().code, path + ": " + converted.error().message};
         report = *converted;
     }
-    for (const auto& line : read->detected) input.detected.push_back(what + ": " + line);
-    for (const auto& line : read->warnings) input.warnings.push_back(what + ": " + line);
-    for (const auto& line : report.warnings) input.warnings.push_back(what + ": " + line);
+    const std::string from = what + ": ";
+    for (const auto& line : read->detected) input.detected.push_back(from + line);
+    for (const auto& line : read->warnings) input.warnings.push_back(from + line);
+    for (const auto& line : report.warnings) input.warnings.push_back(from + line);
     return read;
 }
 

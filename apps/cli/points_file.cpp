@@ -80,7 +80,7 @@ private:
             std::string name(field);
             std::transform(name.begin(), name.end(), name.begin(),
                            [](unsigned char c) { return char(c >= 'A' && c <= 'Z' ? c + 32 : c); });
-            const auto known = std::find(kNames.begin(), kNames.end(), name);
+            const auto* const known = std::find(kNames.begin(), kNames.end(), name);
             const auto column = std::size_t(known - kNames.begin());
             if (known == kNames.end())
                 wrong = quoted(field) + " is not a column; the first line names them: " + kAccepted;

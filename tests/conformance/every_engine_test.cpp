@@ -27,7 +27,7 @@ double light_tolerance(const std::string& engine) {
 
 class EveryEngine : public testing::TestWithParam<std::string> {
 protected:
-    DefocusJob job(const Shot& shot) const {
+    static DefocusJob job(const Shot& shot) {
         DefocusJob job = shot.job(GetParam());
         job.pupil_points = 4096;
         return job;
