@@ -111,12 +111,13 @@ def cpu_seconds():
 def rows(scene, engines, quality, pupil_points):
     yield [scene.name, "pinhole", *score(scene, scene.sharp), ""]
     for label, given, flags in methods(scene, engines, quality, pupil_points):
-        print(f"{scene.name}: {label}", file=sys.stderr)
         out = CACHE / "defocused.exr"
         before = cpu_seconds()
         petzval("defocus", given, "-o", out, *scene.camera, *flags, "--overwrite", "-q")
         seconds = cpu_seconds() - before
-        yield [scene.name, label, *score(scene, out), f"{seconds:.1f}"]
+        row = [scene.name, label, *score(scene, out), f"{seconds:.1f}"]
+        print(f"{scene.name}: {label}: {row[2]} dB", file=sys.stderr, flush=True)
+        yield row
 
 
 def first_line(*command):
