@@ -93,7 +93,10 @@ class Interrupt(CommandLineTest):
         self.assertEqual(last["stage"], "defocus")
 
     def on_terminal(self, command, env, until):
-        master, slave = pty.openpty()
+        try:
+            master, slave = pty.openpty()
+        except OSError as error:  # a container without /dev/pts
+            self.skipTest(f"no terminal to be had: {error}")
         process = subprocess.Popen([PETZVAL, *command], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=slave,
                                    env={**os.environ, **env})
         os.close(slave)
