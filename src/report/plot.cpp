@@ -6,7 +6,7 @@
 namespace petzval::report {
 namespace {
 
-constexpr double kLeft = 52, kRight = 14, kTop = 30, kBottom = 42;
+constexpr double kLeft = 60, kRight = 14, kTop = 30, kBottom = 42;
 
 int decimals_for(double step) { return std::max(0, int(std::ceil(-std::log10(step) - 1e-9))); }
 
@@ -81,7 +81,7 @@ void Plot::draw_frame(const std::string& title) {
     }
     svg_.text({left_, top_ - 11}, title, "title");
     svg_.text({left_ + width_ / 2, top_ + height_ + 32}, x_.name, "label", Anchor::Middle);
-    svg_.upward_text({13, top_ + height_ / 2}, y_.name, "label");
+    svg_.upward_text({10, top_ + height_ / 2}, y_.name, "label");
 }
 
 Plot& Plot::curve(const std::vector<Point>& points, const std::string& classes) {
