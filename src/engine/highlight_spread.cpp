@@ -127,7 +127,9 @@ private:
     bool cover(const Highlight& h, const Caster& caster, PupilShadow& shadow) const {
         // Taps at the rim of the disc reach beyond it by half their width.
         const float pupil_end = stretch_ + (0.5f + 0.5f * float(h.size)) / std::max(0.5f, std::abs(h.coc_px));
-        const float per_px = 1 / (h.coc_px - caster.coc_px);
+        const float apart = h.coc_px - caster.coc_px;
+        if (caster.size > 1 && apart < ShadowCasters::kSameRadiusPx) return false;
+        const float per_px = 1 / apart;
         const float middle = 0.5f * float(h.size - 1);
         const float u = (caster.x - float(h.x) - middle) * per_px,
                     v = (caster.y - float(h.y) - middle) * per_px;

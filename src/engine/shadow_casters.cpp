@@ -9,8 +9,6 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kOpaque = 0.98f;
-// How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a tap.
-constexpr float kSameRadiusPx = 0.2f;
 
 // The samples of one rank (0: nearest of its pixel) in a block, merged.
 class BlockCasters {
@@ -45,7 +43,7 @@ private:
         if (size == 1) {
             const CocSample& s = *at(x0, y0);
             if (s.colour.a > 0) out_.push_back({float(x0), float(y0), 1, s.coc_px, s.colour.a});
-        } else if (whole && high - low <= kSameRadiusPx) {
+        } else if (whole && high - low <= ShadowCasters::kSameRadiusPx) {
             const float middle = 0.5f * float(size - 1);
             out_.push_back({float(x0) + middle, float(y0) + middle, float(size), 0.5f * (low + high), 1});
         } else {

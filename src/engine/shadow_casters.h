@@ -21,6 +21,9 @@ struct Caster {
 class ShadowCasters {
 public:
     static constexpr int kBlock = 16;
+    // How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a
+    // tap. To what is behind one by less it is no shadow: it may be its own surface.
+    static constexpr float kSameRadiusPx = 0.2f;
     ShadowCasters(const CocSamples& samples, int threads);
 
     float nearest_coc_px() const { return nearest_; }  // of all

@@ -145,6 +145,25 @@ TEST(Scatter, TheSameBitsForAnyThreadCount) {
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 
+TEST(Scatter, ALightIsNotInTheShadowOfTheSurfaceItStandsOn) {
+    // The surface leans by 0.15 px of radius from left to right: no ray from it meets it again.
+    Shot shot = flat(120, 90, {0.02f, 0.02f, 0.02f, 1}, 0);
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 120; ++x) shot.coc_px(x, y) = 20 + 0.01f * float(x % 16);
+    const auto light = [](const Shot& of) {
+        const Picture image = rendered(of.job("scatter"));
+        double all = 0;
+        for (std::size_t i = 0; i < image.size(); ++i) all += double(image.pixels()[i].g);
+        return all;
+    };
+    const double dark = light(shot);
+    for (const int x : {49, 55, 63}) {
+        Shot lit = {shot.colour.clone(), shot.coc_px.clone(), {}};
+        lit.colour(x, 45) = {500, 500, 500, 1};
+        EXPECT_NEAR(light(lit) - dark, 500, 2) << x;
+    }
+}
+
 TEST(Scatter, TheSameBitsForAnyMemoryLimitAndAClearAnswerWhenItIsTooSmall) {
     Shot shot = flat(96, 1000, {}, 4);
     paint_rectangles(shot.colour, 8);
