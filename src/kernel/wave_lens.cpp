@@ -205,14 +205,27 @@ PointSpread WaveLens::raw_point_spread(double coc_radius_px, FieldPosition field
     if (is_wave_at(coc_radius_px))
         return sum_of_bands(extent,
                             [&](double nm) { return monochromatic(nm, coc_radius_px, field, extent); });
-    // The figure of a perfect focus through this pupil, as far as the grid holds it, laid over the rays.
-    const int half = std::min(int(std::ceil(tail_px())), (kLargestGrid / samples_per_pixel() - 1) / 2);
-    const Rect near{-half, -half, half + 1, half + 1};
-    const PointSpread figure = sum_of_bands(
-        near, [&](double nm) { return transformed(nm, field, near, [](Point) { return 0.0; }); });
-    PointSpread spread = convolved(lens_->raw_point_spread(coc_radius_px, field), figure);
+    PointSpread spread = convolved(lens_->raw_point_spread(coc_radius_px, field), *focus_figure(field));
     normalise(spread);
     return spread;
+}
+
+// The figure of a perfect focus through the pupil, as far as the grid holds it. It is small against a pixel,
+// so one does for a sixteenth of the half diagonal around, and all of them are kept.
+std::shared_ptr<const PointSpread> WaveLens::focus_figure(FieldPosition field) const {
+    constexpr double kSteps = 16;
+    std::pair<int, int> place{0, 0};
+    if (lens_->varies_over_field())
+        place = {int(std::lround(kSteps * field.x)), int(std::lround(kSteps * field.y))};
+    const FieldPosition middle{place.first / kSteps, place.second / kSteps};
+    const std::lock_guard lock(figures_mutex_);  // while it is made, too: others would make the same
+    std::shared_ptr<const PointSpread>& figure = figures_[place];
+    if (figure) return figure;
+    const int half = std::min(int(std::ceil(tail_px())), (kLargestGrid / samples_per_pixel() - 1) / 2);
+    const Rect near{-half, -half, half + 1, half + 1};
+    figure = std::make_shared<const PointSpread>(sum_of_bands(
+        near, [&](double nm) { return transformed(nm, middle, near, [](Point) { return 0.0; }); }));
+    return figure;
 }
 
 PointSpread WaveLens::point_spread(double coc_radius_px, FieldPosition field) const {

@@ -13,7 +13,10 @@
 
 #include "kernel/geometric_lens.h"
 
+#include <map>
 #include <memory>
+#include <mutex>
+#include <utility>
 
 namespace petzval::kernel {
 
@@ -52,9 +55,14 @@ private:
                             const std::function<double(Point)>& waves) const;
     PointSpread sum_of_bands(const Rect& extent, const std::function<PointSpread(double)>& one_band) const;
 
+    std::shared_ptr<const PointSpread> focus_figure(FieldPosition field) const;
+
     std::unique_ptr<const GeometricLens> lens_;
     double f_number_, pixel_mm_, pixel_aspect_;
     int wavelengths_;
+
+    mutable std::mutex figures_mutex_;
+    mutable std::map<std::pair<int, int>, std::shared_ptr<const PointSpread>> figures_;
 };
 
 }  // namespace petzval::kernel

@@ -76,6 +76,7 @@ private:
     Ignored ignored_;
     double mm_ = 1;
     bool radius_mode_ = false, in_private_ = false, has_stop_ = false, seen_image_ = false;
+    int stop_line_ = 0;
     bool vignetting_factors_ = false;
     bool edge_only_ = false;                // the current surface's radius is that of its edge
     std::optional<ApertureKind> aperture_;  // none: the stop's clear radius rules
@@ -251,11 +252,17 @@ Status Reader::aspheric(const Command& c) {
 }
 
 Status Reader::stop(const Command& c) {
-    if (c.words.size() > 1)
-        return at_line(c.line, "STO with a surface number is not supported; put STO below it");
     if (has_stop_) return at_line(c.line, "a second STO");
     has_stop_ = true;
     file_.lens.stop = int(file_.lens.surfaces.size()) - 1;
+    if (c.words.size() < 2) return Done{};
+    // "STO S3", where the object is surface 0.
+    const std::string surface = upper_case(c.words[1]);
+    const auto number = parse_number(surface.substr(surface[0] == 'S' ? 1 : 0));
+    if (!number || !(*number >= 1 && *number <= optics::kMostSurfaces) || *number != std::floor(*number))
+        return at_line(c.line, quoted(c.words[1]) + " is no surface number for STO");
+    file_.lens.stop = int(*number) - 1;
+    stop_line_ = c.line;
     return Done{};
 }
 
@@ -454,6 +461,8 @@ void Reader::set_field() {
 Status Reader::finish() {
     if (file_.lens.surfaces.empty()) return at_line(1, "no surface (S) is given");
     if (!has_stop_) file_.warnings.emplace_back("no surface is marked STO; the first is taken");
+    if (file_.lens.stop >= int(file_.lens.surfaces.size()))
+        return at_line(stop_line_, "STO names a surface that the lens does not have");
     if (const Status status = set_aperture(); !status) return status.error();
     set_wavelengths();
     set_field();
