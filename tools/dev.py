@@ -62,7 +62,7 @@ def sources(*suffixes):
 
 def demo(*_):
     """the night scene through a Petzval lens: leaves build/demo/night_defocused.png and prints its path"""
-    make("release")
+    make("release", "petzval_cli")
     out = ROOT / "build/demo"
     out.mkdir(parents=True, exist_ok=True)
     sharp, behind, taken, shown = (out / name for name in ("night.exr", "night_behind.exr", "night_defocused.exr",
