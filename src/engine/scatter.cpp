@@ -61,7 +61,8 @@ struct StripPlan {
 };
 
 constexpr std::size_t kBytesPerPixel = 160;  // of working memory, measured on the built-in scenes
-constexpr std::size_t kDefaultWorkingBytes = std::size_t(1400) << 20;
+// Strips of wide frames that are narrower are mostly halo.
+constexpr std::size_t kDefaultWorkingBytes = std::size_t(2600) << 20;
 constexpr std::size_t kFixedWorkingBytes = std::size_t(100) << 20;  // kernels, tables, code
 
 Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const StampTable& table) {
