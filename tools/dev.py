@@ -61,14 +61,14 @@ def sources(*suffixes):
 
 
 def demo(*_):
-    """the night scene through a Petzval lens: leaves build/demo/night_defocused.png and prints its path"""
+    """the night scene through a doublet: leaves build/demo/night_defocused.png and prints its path"""
     make("release", "petzval_cli")
     out = ROOT / "build/demo"
     out.mkdir(parents=True, exist_ok=True)
     sharp, behind, taken, shown = (out / name for name in ("night.exr", "night_behind.exr", "night_defocused.exr",
                                                            "night_defocused.png"))
     run(program(), "scene", "make", "night", "-o", sharp, "--layers", behind, "--overscan", "60")
-    run(program(), "defocus", sharp, "-o", taken, "--behind", behind, "--lens", "petzval-laikin")
+    run(program(), "defocus", sharp, "-o", taken, "--behind", behind, "--lens", "doublet")
     run(program(), "develop", taken, "-o", shown, "--exposure", "0.8")
     print(shown)
 
