@@ -119,13 +119,16 @@ bool starts_at_visible(const DefocusJob& job, const Radii& radii, float front, f
            (job.depth_is_coc || finite_depth(double(front)) <= finite_depth(double(visible)) * kSameDepth);
 }
 
+// Engines take what is nearer by less than this for the light's own surface.
+constexpr float kNoRoomPx = 0.2f;
+
 // Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each keeps the
-// room that those less than kSameRadiusPx in front of it leave.
+// room that those less than kNoRoomPx in front of it leave.
 void hide_what_is_covered(std::vector<engine::CocSample>& samples, std::size_t first) {
     for (std::size_t k = samples.size(); k-- > first + 1;) {
         engine::CocSample& s = samples[k];
         float room = 1;
-        for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < kSameRadiusPx;)
+        for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < kNoRoomPx;)
             if (samples[j].coc_px < s.coc_px) room -= samples[j].colour.a;
         if (s.colour.a > room) s.colour = s.colour * (std::max(0.0f, room) / s.colour.a);
     }
