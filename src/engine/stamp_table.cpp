@@ -99,11 +99,13 @@ StampTable::~StampTable() {
     for (auto& kernel : kernels_) delete kernel.load();
 }
 
-int StampTable::part_for(int level, int x, int y) const {
+int StampTable::part_for(int level, int x, int y, float radius) const {
     if (parts_x_ * parts_y_ == 1) return 0;
+    constexpr float kHidesTheChoice = 3;  // cells of radius
     // Numbers 0…1 that fill every neighbourhood evenly: multiples of powers of the roots of x^3 = x + 1 and
     // x^4 = x + 1 (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
     const auto even = [&](double per_x, double per_y) {
+        if (std::abs(radius) < kHidesTheChoice) return 0.5;
         const double sum = x * per_x + y * per_y;
         return sum - std::floor(sum);
     };

@@ -30,8 +30,8 @@ public:
 
     // The part of the picture whose kernels the source in cell (x, y) of a level takes: one of the four whose
     // middles are nearest, each as often as bilinear interpolation weighs it, so that nothing steps where
-    // parts meet.
-    int part_for(int level, int x, int y) const;
+    // parts meet. Nearly sharp sources take the nearest, lest the choice be seen.
+    int part_for(int level, int x, int y, float radius) const;
     // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
     // a skirt; n: the skirt of the kernel n levels finer. cell: what comes through one part of the pupil
     // (0…kCells-1, times kCells); kWholePupil: everything.

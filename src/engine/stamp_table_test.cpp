@@ -27,14 +27,14 @@ TEST(StampTable, PartsBlendIntoEachOtherByBilinearShares) {
             double column = 0, row = 0;
             for (int v = y; v < y + kBox; ++v)
                 for (int u = x; u < x + kBox; ++u) {
-                    const int part = table.part_for(0, u, v);
+                    const int part = table.part_for(0, u, v, 5);
                     column += part % 9, row += part / 9;
                 }
             EXPECT_NEAR(column / (kBox * kBox), (x + 0.5 * kBox) / 60 - 0.5, 0.06);
             EXPECT_NEAR(row / (kBox * kBox), (y + 0.5 * kBox) / 60 - 0.5, 0.06);
         }
-    EXPECT_EQ(table.part_for(0, 0, 0), 0);
-    EXPECT_EQ(table.part_for(0, kWidth - 1, kHeight - 1), 53);
+    EXPECT_EQ(table.part_for(0, 0, 0, 5), 0);
+    EXPECT_EQ(table.part_for(0, kWidth - 1, kHeight - 1, 5), 53);
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, s
         if (level > 0) target.reset(cells_of(tile, level));
         for (; begin < end && arrivals[begin].level == level; ++begin) {
             const Source& s = *arrivals[begin].source;
-            const int part = table.part_for(level, s.x, arrivals[begin].y + (first_row >> level));
+            const int part = table.part_for(level, s.x, arrivals[begin].y + (first_row >> level), s.radius);
             stamp_off_middle(table.at(level, part, s.radius, s.skirt_of, pupil_cell), s, arrivals[begin].y,
                              target);
         }
