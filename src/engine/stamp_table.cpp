@@ -91,7 +91,7 @@ StampTable::StampTable(const Input& input, const LevelRule& rule)
     const std::size_t radii = std::size_t(levels_ * 2 * steps_);
     kernels_ = std::vector<std::atomic<const Kernel*>>(
         radii * std::size_t(parts_x_ * parts_y_ * (has_skirts_ ? 1 + kMostSkirtLevels : 1)));
-    skirt_levels_ = std::vector<std::atomic<signed char>>(has_skirts_ ? radii : 0);
+    skirt_levels_ = std::vector<std::atomic<short>>(has_skirts_ ? radii : 0);
     for (auto& levels : skirt_levels_) levels = -1;
 }
 
@@ -130,8 +130,9 @@ float StampTable::stepped(float radius) const {
 }
 
 kernel::PointSpread StampTable::whole(int level, int part, float radius) const {
-    const double x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
+    const int column = part % parts_x_, row = part / parts_x_;
+    const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
     return input_.lens(level).point_spread(double(stepped(radius)), input_.field_at(x, y));
 }
 
@@ -197,8 +198,8 @@ std::unique_ptr<const StampTable::Cells> StampTable::cells_of(const kernel::Poin
             const Rgba light = all.weights(x - e.x0, y - e.y0) * (1 / float(points * points));
             if (light.a <= 0) continue;
             for (int i = 0; i < points * points; ++i) {
-                const double u = x + (i % points + 0.5) / points - 0.5,
-                             v = y + (i / points + 0.5) / points - 0.5;
+                const int column = i % points, row = i / points;
+                const double u = x + (column + 0.5) / points - 0.5, v = y + (row + 0.5) / points - 0.5;
                 const double turns = std::atan2(v, u) / (2 * M_PI) + (turned ? 1 : 0.5);
                 grains.push_back({light, x, y, std::hypot(u, v), turns - std::floor(turns)});
             }
@@ -245,9 +246,9 @@ std::unique_ptr<const StampTable::Cells> StampTable::cells_of(const kernel::Poin
 int StampTable::skirt_levels(int level, float radius) const {
     if (!has_skirts_) return 0;
     level = std::min(level, levels_ - 1);
-    std::atomic<signed char>& known = skirt_levels_[slot_of(level, 0, radius, 0)];
+    std::atomic<short>& known = skirt_levels_[slot_of(level, 0, radius, 0)];
     int levels = known.load(std::memory_order_relaxed);
-    if (levels < 0) known = static_cast<signed char>(levels = find_skirt_levels(level, radius));
+    if (levels < 0) known = static_cast<short>(levels = find_skirt_levels(level, radius));
     return levels;
 }
 

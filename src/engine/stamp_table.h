@@ -68,7 +68,7 @@ private:
     bool has_skirts_ = false;
     std::vector<int> reach_;
     mutable std::vector<std::atomic<const Kernel*>> kernels_;
-    mutable std::vector<std::atomic<signed char>> skirt_levels_;  // per level and radius; -1: not known yet
+    mutable std::vector<std::atomic<short>> skirt_levels_;  // per level and radius; -1: not known yet
 };
 
 }  // namespace petzval::engine

@@ -24,14 +24,14 @@ TEST(StampTable, PartsBlendIntoEachOtherByBilinearShares) {
     // The mean column of a small box grows evenly from the middle of the first part to that of the last.
     for (int x = 30; x + kBox < kWidth - 30; x += 7)
         for (const int y : {60, 177}) {
-            double column = 0, row = 0;
+            int column = 0, row = 0;
             for (int v = y; v < y + kBox; ++v)
                 for (int u = x; u < x + kBox; ++u) {
                     const int part = table.part_for(0, u, v, 5);
                     column += part % 9, row += part / 9;
                 }
-            EXPECT_NEAR(column / (kBox * kBox), (x + 0.5 * kBox) / 60 - 0.5, 0.06);
-            EXPECT_NEAR(row / (kBox * kBox), (y + 0.5 * kBox) / 60 - 0.5, 0.06);
+            EXPECT_NEAR(double(column) / (kBox * kBox), (x + 0.5 * kBox) / 60 - 0.5, 0.06);
+            EXPECT_NEAR(double(row) / (kBox * kBox), (y + 0.5 * kBox) / 60 - 0.5, 0.06);
         }
     EXPECT_EQ(table.part_for(0, 0, 0, 5), 0);
     EXPECT_EQ(table.part_for(0, kWidth - 1, kHeight - 1, 5), 53);
