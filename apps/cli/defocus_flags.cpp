@@ -54,8 +54,10 @@ void DefocusFlags::add_output_to(Verb& verb) {
         .value(
             "--view", "NAME",
             "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha; of "
-            "--engine gaussian: sharp, blur-small, blur-large, focus-index; levels, what each level of "
-            "detail of scatter drew",
+            "--engine gaussian: sharp, blur-small, blur-large, focus-index; of "
+            "scatter: layers, the surfaces seen and found behind them; levels, what each level of detail "
+            "drew; "
+            "highlights, light spread by itself",
             [](const std::string& text) { return parse_name(text, view_names()); }, view)
         .value(
             "--overscan", "PX",

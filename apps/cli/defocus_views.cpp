@@ -3,6 +3,7 @@
 #include "console.h"
 #include "focus_view.h"
 #include "output.h"
+#include "panels.h"
 #include "text.h"
 #include "values.h"
 #include "windows.h"
@@ -49,26 +50,6 @@ std::string legend_title(const FoundCamera& camera) {
     return title;
 }
 
-// The panel's name at its top left, behind a swatch of its colour; the largest letters that fit.
-void label(View<Rgba> picture, const Panel& panel) {
-    const Rect& r = panel.area;
-    int scale = std::clamp(r.width() / 420, 1, 4);
-    const bool swatch = panel.colour != Rgba{};
-    std::string text = panel.name;
-    if (const std::size_t first = text.find("  ");
-        text_width_px(text, scale) + 3 * text_height_px(scale) > r.width() && first != std::string::npos)
-        text.resize(first);
-    const int high = text_height_px(scale), margin = 2 * scale;
-    const int wide = text_width_px(text, scale) + (swatch ? 2 * high : 0);
-    if (wide + 2 * margin > r.width() || high + 2 * margin > r.height()) return;
-    for (int y = r.y0; y < r.y0 + high + 2 * margin; ++y)
-        for (int x = r.x0; x < r.x0 + wide + 2 * margin; ++x) picture(x, y) = {0.01f, 0.01f, 0.01f, 1};
-    const int top = r.y0 + margin, left = r.x0 + margin;
-    for (int y = 0; swatch && y < high; ++y)
-        for (int x = 0; x < high; ++x) picture(left + x, top + y) = panel.colour;
-    draw_text(picture, left + (swatch ? 2 * high : 0), top, text, scale, {0.8f, 0.8f, 0.8f, 1});
-}
-
 // A picture meant for displays: as PNG it goes out as it is, as EXR its light is display-linear.
 Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& settings) {
     if (!is_exr(settings)) {
@@ -112,17 +93,6 @@ Status write_coc(Frame& frame, const ViewSource& source, const ViewSettings& set
     return write_plane("coc_radius_px", source.coc_radius_px.view(), frame, settings, options);
 }
 
-// A picture as it is shown, display-linear: what may be drawn on before it is written.
-Picture shown(const Picture& light, const DevelopSettings& settings) {
-    const auto codes = develop(light.view(), settings);
-    const double largest = (1 << settings.bits) - 1;
-    Picture display(light.width(), light.height());
-    const auto value = [&](std::size_t i) { return float(srgb_decode(codes[i] / largest)); };
-    for (std::size_t i = 0; i < display.size(); ++i)
-        display.pixels()[i] = {value(3 * i), value(3 * i + 1), value(3 * i + 2), 1};
-    return display;
-}
-
 Status write_focus(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
     const Picture sharp = in_output_window(frame.colour, frame, settings, Rgba{});
     const Picture display = shown(sharp, settings.develop);
@@ -134,26 +104,26 @@ Status write_focus(Frame& frame, const ViewSource& source, const ViewSettings& s
         frame, settings);
 }
 
-// Several pictures in one, larger than the input: as EXR light alone, as PNG each with its name.
-Status write_levels(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
-    Frame atlas;
-    atlas.display_window = atlas.data_window = frame.colour.rect();
-    atlas.pixel_aspect = frame.pixel_aspect;
-    atlas.has_alpha = true;
-    if (is_exr(settings)) {
-        WriteOptions options = exr_options(settings);
-        std::string places;
-        for (const Panel& p : source.panels)
-            places += p.name + ": " + std::to_string(p.area.width()) + " x " +
-                      std::to_string(p.area.height()) + " at " + std::to_string(p.area.x0) + "," +
-                      std::to_string(p.area.y0) + "; ";
-        options.attributes.emplace_back("petzval:panels", places);
-        atlas.colour = std::move(frame.colour);
-        return write_exr(settings.output, atlas, options);
+// Several pictures in one, larger than the input: as PNG each with its name; as EXR the layers of a picture
+// of the input's size where they can be, else light alone.
+Status write_panels(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
+    const Picture atlas = std::move(frame.colour);
+    if (!is_exr(settings))
+        return write_display_picture(drawn_panels(atlas, source.panels, settings.develop), frame, settings);
+    WriteOptions options = exr_options(settings);
+    if (const std::vector<PanelPlane> planes = planes_of(atlas, source.panels); !planes.empty()) {
+        std::vector<NamedPlane> named;
+        for (const PanelPlane& p : planes) named.push_back({p.channel, p.values.view()});
+        options.type = PixelType::Float;
+        return write_exr_planes(settings.output, frame.display_window, frame.data_window, named, options);
     }
-    Picture display = shown(frame.colour, settings.develop);
-    for (const Panel& p : source.panels) label(display.view(), p);
-    return write_display_picture(std::move(display), atlas, settings);
+    options.attributes.emplace_back("petzval:panels", places_of(source.panels));
+    Frame alone;
+    alone.display_window = alone.data_window = atlas.rect();
+    alone.pixel_aspect = frame.pixel_aspect;
+    alone.has_alpha = true;
+    alone.colour = atlas.clone();
+    return write_exr(settings.output, alone, options);
 }
 
 // As PNG: nearest/z, so that infinity is 0 and the file can be read again as inverse depth.
@@ -201,7 +171,9 @@ const std::vector<std::pair<std::string, ViewKind>>& view_names() {
                                                                      {"blur-small", ViewKind::BlurSmall},
                                                                      {"blur-large", ViewKind::BlurLarge},
                                                                      {"focus-index", ViewKind::FocusIndex},
-                                                                     {"levels", ViewKind::Levels}};
+                                                                     {"levels", ViewKind::Levels},
+                                                                     {"layers", ViewKind::Layers},
+                                                                     {"highlights", ViewKind::Highlights}};
     return table;
 }
 
@@ -233,7 +205,9 @@ Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const V
         case ViewKind::FocusIndex:
             return write_index(frame, settings);
         case ViewKind::Levels:
-            return write_levels(frame, source, settings);
+        case ViewKind::Layers:
+        case ViewKind::Highlights:
+            return write_panels(frame, source, settings);
         default:
             return write_beauty(frame, settings);
     }

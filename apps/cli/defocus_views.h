@@ -15,7 +15,20 @@
 
 namespace petzval::cli {
 
-enum class ViewKind { Beauty, Coc, Focus, Depth, Alpha, Sharp, BlurSmall, BlurLarge, FocusIndex, Levels };
+enum class ViewKind {
+    Beauty,
+    Coc,
+    Focus,
+    Depth,
+    Alpha,
+    Sharp,
+    BlurSmall,
+    BlurLarge,
+    FocusIndex,
+    Levels,
+    Layers,
+    Highlights
+};
 
 // Those that an engine makes.
 bool is_rendered(ViewKind view);
@@ -27,7 +40,7 @@ const char* name_of(ViewKind view);
 
 struct ViewSource {
     Plane coc_radius_px;        // for Coc and Focus
-    std::vector<Panel> panels;  // for Levels
+    std::vector<Panel> panels;  // for Levels, Layers, Highlights
 };
 
 struct ViewSettings {

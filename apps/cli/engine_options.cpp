@@ -47,6 +47,19 @@ std::optional<GaussianView> gaussian_view(ViewKind view) {
     }
 }
 
+ScatterView scatter_view(ViewKind view) {
+    switch (view) {
+        case ViewKind::Layers:
+            return ScatterView::Layers;
+        case ViewKind::Levels:
+            return ScatterView::Levels;
+        case ViewKind::Highlights:
+            return ScatterView::Highlights;
+        default:
+            return ScatterView::Result;
+    }
+}
+
 void require(bool fits, bool given, const std::string& flag, const std::string& needed) {
     if (given && !fits) throw UsageError(flag + " has no effect without " + needed);
 }
@@ -113,8 +126,9 @@ void EngineOptionFlags::check(const std::string& engine, ViewKind view) const {
             "--engine sprites and --find-points on");
     if (gaussian_view(view) && !gaussian)
         throw UsageError(std::string("--view ") + name_of(view) + " is a buffer of --engine gaussian");
-    if (view == ViewKind::Levels && engine != "scatter")
-        throw UsageError("--view levels shows the levels of detail of --engine scatter, not " + engine);
+    if (scatter_view(view) != ScatterView::Result && engine != "scatter")
+        throw UsageError(std::string("--view ") + name_of(view) + " shows what --engine scatter does, not " +
+                         engine);
     if (wgld && focus_band.value_or(0) > 1)
         throw UsageError("--focus-band " + plain(*focus_band) +
                          ": a share of all depth with --gaussian-style "
@@ -122,7 +136,7 @@ void EngineOptionFlags::check(const std::string& engine, ViewKind view) const {
 }
 
 void EngineOptionFlags::apply(DefocusJob& job, ViewKind view) const {
-    job.scatter.show_levels = view == ViewKind::Levels;
+    job.scatter.view = scatter_view(view);
     job.gather.stage = gather_stage.value_or(job.gather.stage);
     job.gather.taps = gather_taps.value_or(job.gather.taps);
     job.gather.extreme_coc = gather_extreme_coc.value_or(job.gather.extreme_coc);

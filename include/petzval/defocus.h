@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,9 @@ struct StageTime {
 struct Panel {
     std::string name;
     Rect area;
-    Rgba colour;  // that stands for it in a map among the panels; all 0: none
+    Rgba colour;                            // that stands for it in a map among the panels; all 0: none
+    std::optional<std::string> layer = {};  // of a file, that can hold it: it is of the input's size
+    bool is_numbers = false;                // red holds a number for every pixel, NaN for none; not light
 };
 
 struct DefocusReport {

@@ -7,10 +7,18 @@
 
 namespace petzval {
 
+// What the scatter engine made on its way, in place of its result: several pictures in one, DefocusReport
+// says where each lies.
+enum class ScatterView {
+    Result,
+    Layers,  // what it takes the scene for: the surfaces seen, and those found behind them; after each, by
+             // number, the depth layer it is composited in
+    Levels,  // what each level of detail drew, before it is composited (docs/published/hexadrive.md)
+    Highlights,  // the light that is spread by itself: as it was taken out of the picture, and as it is drawn
+};
+
 struct ScatterOptions {
-    // In place of the result: what each level of detail drew, before it is composited, side by side in one
-    // picture larger than the input (docs/published/hexadrive.md).
-    bool show_levels = false;
+    ScatterView view = ScatterView::Result;
 };
 
 // A stop on the way of the published gather method (docs/published/gather.md); its buffer becomes the

@@ -50,8 +50,9 @@ Status check_sizes(const DefocusJob& job) {
         return invalid("the pixel aspect ratio must be positive");
     if (job.points && !job.points->empty() && job.engine != "sprites")
         return invalid("given points are drawn by --engine sprites, not " + job.engine);
-    if (job.scatter.show_levels && job.engine != "scatter")
-        return invalid("levels of detail are those of --engine scatter, not " + job.engine);
+    if (job.scatter.view != ScatterView::Result && job.engine != "scatter")
+        return invalid("layers, levels of detail and highlights are those of --engine scatter, not " +
+                       job.engine);
     if (!(job.sprites.bright_factor > 0)) return invalid("--bright-factor must be more than 0");
     if (job.pupil_points < 1) return invalid("--pupil-points must be at least 1");
     return Done{};

@@ -116,7 +116,6 @@ Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
 
 namespace {
 
-constexpr int kLargestSquare = 8;
 constexpr float kSquaresPerRadius = 4;
 constexpr float kSameRadius = 0.01f;  // pixels of a square differ by less than this share of their radius
 

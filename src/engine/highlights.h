@@ -58,6 +58,8 @@ private:
     static constexpr int kBlock = 16;
 };
 
+constexpr int kLargestSquare = 8;  // of highlights; a power of 2
+
 // Splits every sample in place; returns what was taken. Bright areas are taken as few squares: what all
 // pixels of a square of 8, then 4, then 2 have in common goes first, and what is then left of a pixel and no
 // longer stands out stays in the base. largest_square = 1 takes pixels alone. `samples` are rows of the

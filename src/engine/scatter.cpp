@@ -6,6 +6,7 @@
 #include "engine/highlight_spread.h"
 #include "engine/highlights.h"
 #include "engine/scatter_levels.h"
+#include "engine/scatter_views.h"
 #include "engine/sources.h"
 #include "engine/tile_spread.h"
 
@@ -19,7 +20,6 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kTile = 64;
-constexpr int kLargestSquare = 8;  // of highlights
 
 LevelRule level_rule(Quality quality) {
     switch (quality) {
@@ -91,7 +91,7 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
         plan.rows = whole_units(input.height());
         return plan;
     }
-    const std::ptrdiff_t own = std::ptrdiff_t(rows) - 2 * plan.halo;
+    const std::ptrdiff_t own = std::ptrdiff_t(rows) - 2 * std::ptrdiff_t(plan.halo);
     plan.rows = int(std::max<std::ptrdiff_t>(unit, own / unit * unit));
     const std::size_t least = std::min(std::size_t(unit + 2 * plan.halo), std::size_t(input.height()));
     if (input.max_memory_bytes > 0 && rows < least)
@@ -140,7 +140,16 @@ Result<Output> run_scatter(const Input& input) {
     Output output;
     Stopwatch watch(output.stages);
     const LevelRule rule = level_rule(input.quality);
-    if (input.scatter.show_levels) return run_scatter_levels(input, rule);
+    switch (input.scatter.view) {
+        case ScatterView::Result:
+            break;
+        case ScatterView::Layers:
+            return run_scatter_layers(input);
+        case ScatterView::Levels:
+            return run_scatter_levels(input, rule);
+        case ScatterView::Highlights:
+            return run_scatter_highlights(input);
+    }
     const StampTable table(input, rule);
     const Result<StripPlan> plan = plan_strips(input, rule, table);
     if (!plan) return plan.error();

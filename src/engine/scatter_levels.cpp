@@ -15,8 +15,7 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kBand = 64;          // rows of cells done at once
-constexpr int kLargestSquare = 8;  // of highlights
+constexpr int kBand = 64;  // rows of cells done at once
 constexpr std::size_t kBytesPerPixel = 260;
 
 // Linear; level 0 is grey, the others after Okabe and Ito ("Color universal design", 2008), whom colour blind

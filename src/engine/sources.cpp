@@ -16,8 +16,6 @@ float level_position(float coc_px, const LevelRule& rule) {
     return r <= rule.largest_cells ? 0.0f : std::log2(r / rule.largest_cells);
 }
 
-constexpr float kOpaque = 0.97f;
-
 // The change of weight per pixel away from a source: a facet of a slanted surface is seen larger from one
 // side of the pupil than from the other, by 1 + slope . u with u = offset / radius.
 depth::Slope tilt_of(depth::Slope slope, float coc_px) {
@@ -114,12 +112,9 @@ public:
     template <typename Put>
     void visit(int x, int y, const Put& put) const {
         const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
-        // What an opaque sample of the same pixel hides comes after it, also where both fall into one
-        // interval.
-        int least_layer = std::numeric_limits<int>::min();
+        LayersOfPixel layers;
         for (const CocSample& s : samples_.at(u, v)) {
-            const int layer = std::max(least_layer, layer_of(s.coc_px));
-            if (s.colour.a + s.empty > kOpaque) least_layer = layer + kNextLayer;
+            const int layer = layers.next(s);
             // Only what is seen has a known slope.
             const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
             const depth::Slope slope = visible ? depth::slope_at(coc_px_, connected_, u, v) : depth::Slope{};

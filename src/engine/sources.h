@@ -34,6 +34,21 @@ constexpr int kEmptinessAfter = 1, kNextLayer = 2;
 inline bool is_emptiness(int layer) { return layer % kNextLayer != 0; }
 constexpr int kEmptyLayer = std::numeric_limits<int>::max();  // emptiness behind everything
 
+// The layers of one pixel's samples, nearest first: what an opaque sample hides comes after it, also where
+// both fall into one interval.
+class LayersOfPixel {
+public:
+    int next(const CocSample& s) {
+        constexpr float kOpaque = 0.97f;
+        const int layer = std::max(least_, layer_of(s.coc_px));
+        if (s.colour.a + s.empty > kOpaque) least_ = layer + kNextLayer;
+        return layer;
+    }
+
+private:
+    int least_ = std::numeric_limits<int>::min();
+};
+
 // One grid of cells with the sources on it.
 struct SourceLevel {
     Rect area;                              // cells covered, outside ones included

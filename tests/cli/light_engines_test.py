@@ -106,6 +106,21 @@ class LightEngines(CommandLineTest):
         self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--view", "levels", "--engine", "gather",
                     says=["--view levels", "scatter"])
 
+    def test_layers_and_highlights_are_layers_of_an_exr_and_panels_of_a_png(self):
+        for view, prefix, extra in (("layers", "second.", ["depth_layer", "second.depth_layer"]), ("highlights", "taken.", [])):
+            self.succeed("defocus", "in.exr", "-o", view + ".exr", *CAMERA, "--view", view)
+            channels, _ = read_exr(self.path(view + ".exr"))
+            expected = [p + c for p in ("", prefix) for c in "RGBA"] + extra
+            self.assertEqual(set(expected) - set(channels), set())
+            self.assertEqual((len(channels["G"]), len(channels["G"][0])), (32, 48))
+            self.succeed("defocus", "in.exr", "-o", view + ".png", *CAMERA, "--view", view)
+            rows, channels, _ = read_png(self.path(view + ".png"))
+            self.assertEqual((len(rows) % 32, len(rows[0]) // channels), (0, 2 * 48), view)
+            self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--view", view, "--engine", "gather",
+                        says=["--view " + view, "scatter"])
+        both, _ = read_exr(self.path("layers.exr"))
+        self.assertTrue(any(v == v and v < 0 for row in both["depth_layer"] for v in row), "nothing in front of focus")
+
     def test_too_little_memory_is_said(self):
         for engine in ("gather", "gaussian", "sprites"):
             self.refuse(1, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--engine", engine, "--max-memory", "20M",

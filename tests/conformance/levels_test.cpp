@@ -6,7 +6,7 @@ namespace {
 
 DefocusReport levels_of(const Shot& shot, Quality quality = Quality::Standard) {
     DefocusJob job = shot.job("scatter");
-    job.scatter.show_levels = true;
+    job.scatter.view = ScatterView::Levels;
     job.quality = quality;
     auto report = defocus(job);
     EXPECT_TRUE(report);
@@ -63,7 +63,7 @@ TEST(Levels, WiderRadiiAreDrawnByCoarserOnes) {
 
 TEST(Levels, AreThoseOfScatter) {
     DefocusJob job = a_point(3, 1).job("gather");
-    job.scatter.show_levels = true;
+    job.scatter.view = ScatterView::Levels;
     const auto refused = defocus(job);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("--engine scatter"), std::string::npos);

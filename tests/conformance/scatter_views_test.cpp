@@ -1,0 +1,114 @@
+// --view layers and --view highlights: what scatter takes a scene for.
+#include "shots.h"
+
+namespace petzval::conformance {
+namespace {
+
+DefocusReport view_of(const Shot& shot, ScatterView view) {
+    DefocusJob job = shot.job("scatter");
+    job.scatter.view = view;
+    auto report = defocus(job);
+    EXPECT_TRUE(report);
+    return std::move(*report);
+}
+
+Picture panel(const DefocusReport& report, std::size_t i) {
+    const View<const Rgba> part = report.image.view().part(report.panels.at(i).area);
+    Picture copy(part.width(), part.height());
+    for (int y = 0; y < part.height(); ++y) std::copy_n(part.row(y), part.width(), copy.view().row(y));
+    return copy;
+}
+
+constexpr Rgba kRed{0.6f, 0.1f, 0.1f, 1}, kBlue{0.1f, 0.2f, 0.6f, 1};
+
+// A red square 9 px in front of focus before blue 5 px behind it.
+Shot a_square() {
+    Shot shot = flat(96, 64, kBlue, 5);
+    for (int y = 20; y < 44; ++y)
+        for (int x = 30; x < 60; ++x) shot.colour(x, y) = kRed, shot.coc_px(x, y) = -9;
+    return shot;
+}
+
+TEST(Layers, ShowWhatIsSeenAndWhatWasFoundBehindIt) {
+    const DefocusReport report = view_of(a_square(), ScatterView::Layers);
+    ASSERT_EQ(report.panels.size(), 4U);  // a second surface, but no third
+    const Picture nearest = panel(report, 0), second = panel(report, 2);
+    EXPECT_EQ(nearest(10, 10), kBlue);
+    EXPECT_EQ(nearest(33, 23), kRed);
+    EXPECT_EQ(second(10, 10), Rgba{});
+    EXPECT_NEAR(second(33, 23).b, kBlue.b, 1e-4);
+    EXPECT_NEAR(second(33, 23).a, 1, 1e-4);
+}
+
+TEST(Layers, AreNumberedFromFocusNegativeInFront) {
+    const DefocusReport report = view_of(a_square(), ScatterView::Layers);
+    const Picture nearest = panel(report, 1), second = panel(report, 3);
+    EXPECT_TRUE(report.panels[1].is_numbers && report.panels[3].is_numbers);
+    EXPECT_EQ(nearest(10, 10).r, 5);
+    EXPECT_LT(nearest(33, 23).r, -8);
+    EXPECT_EQ(second(33, 23).r, 5);
+    EXPECT_TRUE(std::isnan(second(10, 10).r));
+}
+
+TEST(Layers, OfAPictureThatKnowsWhatIsHiddenAreThose) {
+    Shot shot = a_square();
+    put_behind(
+        shot,
+        [](int, int) {
+            return Rgba{0.2f, 0.5f, 0.1f, 1};
+        },
+        [](int, int) { return 12.0f; });
+    const Picture second = panel(view_of(shot, ScatterView::Layers), 2);
+    EXPECT_EQ(second(33, 23), (Rgba{0.2f, 0.5f, 0.1f, 1}));
+    EXPECT_EQ(second(10, 10), (Rgba{0.2f, 0.5f, 0.1f, 1}));
+}
+
+TEST(Layers, BeyondTheFourthAreSaidNotToBeShown) {
+    Shot shot = flat(16, 16, kBlue, 0);
+    std::vector<std::size_t> first{0};
+    std::vector<DeepSample> samples;
+    for (int i = 0; i < 16 * 16; ++i) {
+        for (int k = 1; k <= 5; ++k) samples.push_back({kRed, float(3 * k), float(3 * k)});
+        first.push_back(samples.size());
+    }
+    shot.behind = DeepPicture(16, 16, std::move(first), std::move(samples));
+    const DefocusReport report = view_of(shot, ScatterView::Layers);
+    EXPECT_EQ(report.panels.size(), 8U);
+    ASSERT_EQ(report.warnings.size(), 1U);
+    EXPECT_NE(report.warnings[0].find("up to 6"), std::string::npos);
+}
+
+TEST(Highlights, HoldTheLightTakenFromThePicture) {
+    for (const float coc : {0.0f, -9.0f, 20.0f}) {
+        Shot shot = flat(160, 120, {0.2f, 0.2f, 0.2f, 1}, coc);
+        shot.colour(80, 60) = {90, 60, 30, 1};
+        const DefocusReport report = view_of(shot, ScatterView::Highlights);
+        const Picture drawn = panel(report, 0), taken = panel(report, 1);
+        EXPECT_GT(taken(80, 60).r, 80);
+        EXPECT_EQ(taken(80, 60).a, 1);
+        EXPECT_EQ(taken(79, 60), Rgba{});
+        double sent = 0, arrived = 0;
+        for (std::size_t i = 0; i < drawn.size(); ++i)
+            sent += double(taken.pixels()[i].g), arrived += double(drawn.pixels()[i].g);
+        EXPECT_NEAR(arrived, sent, 1e-3 * sent) << coc;
+    }
+}
+
+TEST(Highlights, AndTheRestAreTheResult) {
+    Shot shot = flat(160, 120, {0.2f, 0.2f, 0.2f, 1}, 12);
+    shot.colour(80, 60) = {900, 900, 900, 1};
+    const Picture drawn = panel(view_of(shot, ScatterView::Highlights), 0);
+    const Picture result = rendered(shot.job("scatter"));
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x)
+            EXPECT_NEAR(result(x, y).g - drawn(x, y).g, 0.2, 0.01) << x << ", " << y;
+    EXPECT_GT(result(80, 60).g, 1.5f);
+}
+
+TEST(Highlights, AreNoneWhereNothingStandsOut) {
+    const DefocusReport report = view_of(flat(64, 48, kBlue, 7), ScatterView::Highlights);
+    for (std::size_t i = 0; i < report.image.size(); ++i) EXPECT_EQ(report.image.pixels()[i], Rgba{});
+}
+
+}  // namespace
+}  // namespace petzval::conformance
