@@ -61,6 +61,8 @@ Status Run::operator()() {
     for (const std::string& path : {flags_.output, flags_.run.json})
         if (!path.empty() && path != "-")
             if (Status fine = check_output(path, inputs); !fine) return fine;
+    if (flags_.ocio.is_on())
+        if (Status fine = flags_.ocio.try_out(); !fine) return fine;
     for (const auto step : {&Run::read, &Run::read_lights, &Run::choose_camera, &Run::grow, &Run::compute,
                             &Run::add_glare, &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
@@ -232,11 +234,17 @@ Status Run::write() {
                           .overwrite = !flags_.overwrite.no_clobber,
                           .develop = flags_.develop.settings(input_.frame.display_referred,
                                                              flags_.input.transfer, flags_.run.threads),
+                          .ocio = &flags_.ocio,
                           .camera = input_.camera,
                           .permissible_radius_px = permissible_radius_px(),
                           .depth = input_.depth,
                           .attributes = {},
                           .warnings = &warnings};
+    if (*kind_of_output(flags_.output) == FileKind::Png)
+        report_["parameters"]["display"] = {{"exposure_stops", settings.develop.exposure_stops},
+                                            {"contrast", settings.develop.contrast},
+                                            {"tone", name_of(settings.develop.tone)},
+                                            {"ocio", flags_.ocio.view}};
     if (flags_.plate.expand)
         settings.attributes.emplace_back("petzval:expandHighlights", flags_.plate.in_words());
     if (Status done = write_view(flags_.view, input_.frame, view_, settings); !done) return done;

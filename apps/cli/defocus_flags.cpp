@@ -83,6 +83,7 @@ void DefocusFlags::add_to(Verb& verb) {
     run.add_json_to(verb);
     overwrite.add_to(verb, true);
     develop.add_to(verb);
+    ocio.add_to(verb);
     run.add_threads_to(verb);
     FlagGroup(verb, "Run")
         .value("--kernel-cache", "FOLDER",
@@ -145,6 +146,9 @@ void DefocusFlags::check_view() const {
 void DefocusFlags::check_display() const {
     const auto kind = kind_of_output(output);
     if (!kind) throw UsageError(kind.error().message);
+    ocio.check(develop, input.transfer);
+    if (ocio.is_on() && (*kind != FileKind::Png || view != ViewKind::Beauty))
+        throw UsageError("--ocio is for display pictures: --view beauty with -o FILE.png");
     if (*kind == FileKind::Png && is_developed(view)) return;
     for (const auto& [name, given] : {std::pair{"--exposure", develop.exposure_stops.has_value()},
                                       std::pair{"--contrast", develop.contrast.has_value()},

@@ -11,6 +11,7 @@
 #include "glare.h"
 #include "input.h"
 #include "lens.h"
+#include "ocio.h"
 #include "output.h"
 #include "plate.h"
 #include "report.h"
@@ -44,6 +45,7 @@ struct DefocusFlags {
     ViewKind view = ViewKind::Beauty;
     std::optional<int> overscan_px;  // kAutomatic: as far as the blur reaches
     DevelopFlags develop;
+    OcioFlags ocio;
     OverwriteFlags overwrite;
     RunFlags run;
 

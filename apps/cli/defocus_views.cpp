@@ -67,10 +67,17 @@ Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& 
 }
 
 Status write_beauty(Frame& frame, const ViewSettings& settings) {
-    if (!is_exr(settings))
-        return write_developed(settings.output,
-                               in_output_window(frame.colour, frame, settings, Rgba{}).view(),
-                               settings.develop, settings.overwrite);
+    if (!is_exr(settings)) {
+        Picture light = in_output_window(frame.colour, frame, settings, Rgba{});
+        DevelopSettings develop = settings.develop;
+        if (settings.ocio && settings.ocio->is_on()) {
+            std::string used;
+            Status done = settings.ocio->show(light, develop, used, *settings.warnings);
+            if (!done) return done;
+            note(used);
+        }
+        return write_developed(settings.output, light.view(), develop, settings.overwrite);
+    }
     WriteReport changed;
     WriteOptions options = exr_options(settings);
     options.report = &changed;

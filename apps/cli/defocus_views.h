@@ -9,6 +9,8 @@
 #include "petzval/image.h"
 #include "petzval/result.h"
 
+#include "ocio.h"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +49,7 @@ struct ViewSettings {
     std::string output;
     bool overwrite = true;
     DevelopSettings develop;
+    const OcioFlags* ocio = nullptr;  // of Beauty, as PNG; may be null
     FoundCamera camera;
     double permissible_radius_px = 1;
     DepthReport depth;

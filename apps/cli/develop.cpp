@@ -32,25 +32,6 @@ struct DevelopVerbFlags {
     RunFlags run;
 };
 
-// What is left for develop() is to round to codes.
-Status show_by_ocio(const DevelopVerbFlags& flags, Picture& shown, DevelopSettings& settings,
-                    std::vector<std::string>& warnings) {
-    const float exposure = float(std::exp2(settings.exposure_stops));
-    for (std::size_t i = 0; i < shown.size(); ++i) shown.pixels()[i] *= exposure;
-    std::string used;
-    std::vector<std::string> said;
-    auto codes = flags.ocio.codes(shown, flags.run.threads, used, said);
-    if (!codes) return codes.error();
-    for (const std::string& line : said) warning(line);
-    warnings.insert(warnings.end(), said.begin(), said.end());
-    note(used);
-    shown = std::move(*codes);
-    settings.exposure_stops = 0;
-    settings.tone = ToneCurve::None;
-    settings.transfer = Transfer::Linear;
-    return Done{};
-}
-
 Status develop_file(const DevelopVerbFlags& flags) {
     const Stopwatch total;
     if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {flags.input.path})) {
@@ -71,8 +52,14 @@ Status develop_file(const DevelopVerbFlags& flags) {
     settings.dither = !flags.no_dither;
     const Frame& frame = input->frame;
     Picture shown = through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
-    if (flags.ocio.is_on())
-        if (Status fine = show_by_ocio(flags, shown, settings, input->warnings); !fine) return fine;
+    if (flags.ocio.is_on()) {
+        std::string used;
+        std::vector<std::string> said;
+        if (Status fine = flags.ocio.show(shown, settings, used, said); !fine) return fine;
+        for (const std::string& line : said) warning(line);
+        input->warnings.insert(input->warnings.end(), said.begin(), said.end());
+        note(used);
+    }
     Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
     if (!done) return done;
     note("wrote " + flags.output);
@@ -85,9 +72,7 @@ Status develop_file(const DevelopVerbFlags& flags) {
     report["non_finite"]["colour"] = input->frame.non_finite_colour;
     report["parameters"] = {{"exposure_stops", flags.develop.exposure_stops.value_or(0)},
                             {"contrast", settings.contrast},
-                            {"tone", settings.tone == ToneCurve::Filmic     ? "filmic"
-                                     : settings.tone == ToneCurve::Reinhard ? "reinhard"
-                                                                            : "none"},
+                            {"tone", name_of(settings.tone)},
                             {"ocio", flags.ocio.view},
                             {"bits", settings.bits},
                             {"dither", settings.dither}};
@@ -115,10 +100,7 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     if (!kind || *kind != FileKind::Png)
         throw UsageError("-o " + flags.output + ": the name must end in .png");
     flags.input.read.need_depth = false;
-    flags.ocio.check();
-    refuse_both(flags.ocio.is_on(), "--ocio", flags.develop.tone.has_value(), "--tone");
-    refuse_both(flags.ocio.is_on(), "--ocio", flags.develop.contrast.has_value(), "--contrast");
-    refuse_both(flags.ocio.is_on(), "--ocio", flags.input.transfer.has_value(), "--transfer");
+    flags.ocio.check(flags.develop, flags.input.transfer);
 }
 
 }  // namespace

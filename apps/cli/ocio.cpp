@@ -2,6 +2,9 @@
 
 #include "values.h"
 
+#include <cmath>
+#include <utility>
+
 #ifdef PETZVAL_OCIO
 #include "petzval/ocio.h"
 #endif
@@ -19,8 +22,32 @@ void OcioFlags::add_to(Verb& verb) {
                "what the config calls scene-linear Rec.709, if it does not say itself", parse_text, space);
 }
 
-void OcioFlags::check() const {
+void OcioFlags::check(const DevelopFlags& develop, std::optional<Transfer> transfer) const {
     if (!space.empty() && !is_on()) throw UsageError("--ocio-space has no effect without --ocio");
+    refuse_both(is_on(), "--ocio", develop.tone.has_value(), "--tone");
+    refuse_both(is_on(), "--ocio", develop.contrast.has_value(), "--contrast");
+    refuse_both(is_on(), "--ocio", transfer.has_value(), "--transfer");
+}
+
+Status OcioFlags::try_out() const {
+    Picture light(1, 1);
+    DevelopSettings settings;
+    std::string used;
+    std::vector<std::string> warnings;
+    return show(light, settings, used, warnings);
+}
+
+Status OcioFlags::show(Picture& light, DevelopSettings& settings, std::string& used,
+                       std::vector<std::string>& warnings) const {
+    const float exposure = float(std::exp2(settings.exposure_stops));
+    for (std::size_t i = 0; i < light.size(); ++i) light.pixels()[i] *= exposure;
+    auto found = codes(light, settings.threads, used, warnings);
+    if (!found) return found.error();
+    light = std::move(*found);
+    settings.exposure_stops = 0;
+    settings.tone = ToneCurve::None;
+    settings.transfer = Transfer::Linear;
+    return Done{};
 }
 
 #ifdef PETZVAL_OCIO

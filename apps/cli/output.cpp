@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::vector<std::pair<std::string, ToneCurve>> kTones{
+    {"filmic", ToneCurve::Filmic}, {"reinhard", ToneCurve::Reinhard}, {"none", ToneCurve::None}};
+
 Error cannot_write(const std::string& path, const std::string& why) {
     return {ErrorCode::OutputFailed, "cannot write " + path + ": " + why};
 }
@@ -90,6 +93,12 @@ std::optional<std::string> OverwriteFlags::reason_to_skip(const std::vector<std:
     return listed(outputs) + ": newer than " + listed(inputs) + ", nothing to do (-u)";
 }
 
+const char* name_of(ToneCurve tone) {
+    for (const auto& [name, value] : kTones)
+        if (value == tone) return name.c_str();
+    return "?";
+}
+
 void DevelopFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Display picture (PNG)")
         .value("--exposure", "STOPS", "brighter by this many stops, as 1.5 or -2", parse_number,
@@ -100,12 +109,7 @@ void DevelopFlags::add_to(Verb& verb) {
             "--tone", "NAME",
             "filmic: mid-grey kept, highlights roll off and pale, hue kept (default; none for PNG input); "
             "reinhard: n/(1 + n); none: clip",
-            [](const std::string& text) {
-                return parse_name<ToneCurve>(text, {{"filmic", ToneCurve::Filmic},
-                                                    {"reinhard", ToneCurve::Reinhard},
-                                                    {"none", ToneCurve::None}});
-            },
-            tone);
+            [](const std::string& text) { return parse_name(text, kTones); }, tone);
 }
 
 DevelopSettings DevelopFlags::settings(bool display_referred, std::optional<Transfer> transfer,

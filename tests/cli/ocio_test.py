@@ -1,8 +1,9 @@
-"""develop --ocio: displays and views of a small config written here; and what is said without one."""
+"""--ocio of develop and defocus: displays and views of a small config written here; and what is said without one."""
+import json
 import unittest
 
 from pictures import picture, plane, read_png, write_exr
-from program import CommandLineTest
+from program import CAMERA, CommandLineTest
 
 # Scene reference: ACES2065-1 where `aces` names it, else scene-linear Rec.709.
 CONFIG = """ocio_profile_version: 2
@@ -106,7 +107,29 @@ class Ocio(CommandLineTest):
         broken = self.environment("roles: [\nno")
         self.refuse(3, "develop", "in.exr", "-o", "no.png", "--ocio", "default", says=["$OCIO", "config.ocio"], env=broken)
 
+    def test_defocus_shows_by_it_as_develop_does(self):
+        self.need()
+        light = picture(12, 8, lambda x, y: (x + y) / 24, 2.0)
+        write_exr(self.path("in.exr"), light)
+        env = self.environment(config("lin_rec709"))
+        self.succeed("defocus", "in.exr", "-o", "out.png", *CAMERA, "--ocio", "sRGB,Half", "--exposure", "1",
+                     "--json", "report.json", env=env)
+        rows = read_png(self.path("out.png"))[0]
+        for x, y in ((1, 0), (5, 3), (11, 7)):
+            self.assertAlmostEqual(rows[y][3 * x], 255 * (x + y) / 24, delta=1.01)
+        with open(self.path("report.json")) as file:
+            self.assertEqual(json.load(file)["parameters"]["display"]["ocio"], "sRGB,Half")
+
+    def test_defocus_says_what_is_wrong_before_it_works(self):
+        self.need()
+        env = self.environment(config("lin_rec709"))
+        self.refuse(2, "defocus", "no.exr", "-o", "no.png", "--ocio", "sRGB,Film", says=["Gamma, Half"], env=env)
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", "--ocio", "sRGB", says=["--ocio", ".png"], env=env)
+        self.refuse(2, "defocus", "in.exr", "-o", "no.png", "--ocio", "sRGB", "--view", "coc", says=["--ocio"], env=env)
+
     def test_flags_that_ocio_replaces_are_refused(self):
+        for verb in ("develop", "defocus"):
+            self.refuse(2, verb, "in.exr", "-o", "no.png", "--ocio", "default", "--tone", "none", says=["--ocio", "--tone"])
         for flags in (["--tone", "none"], ["--contrast", "1.2"], ["--transfer", "srgb"]):
             self.refuse(2, "develop", "in.exr", "-o", "no.png", "--ocio", "default", *flags, says=["--ocio", flags[0]])
         self.refuse(2, "develop", "in.exr", "-o", "no.png", "--ocio-space", "x", says=["--ocio"])
