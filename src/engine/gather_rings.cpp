@@ -1,6 +1,9 @@
 #include "engine/gather_rings.h"
 
+#include "engine/gather_taps.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace petzval::engine {
@@ -42,7 +45,7 @@ RingRule ring_rule(Quality quality) {
 
 RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) {
     for (const float r : steps_down_from(-nearest_px, rule.ratio)) radii_px_.push_back(-r);
-    zero_ = count();
+    const int zero_of_rings = count();
     radii_px_.push_back(0);
     const std::vector<float> far = steps_down_from(farthest_px, rule.ratio);
     radii_px_.insert(radii_px_.end(), far.rbegin(), far.rend());
@@ -52,39 +55,29 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
         if (r > rule.full_res_px)
             level = std::max(1, int(std::ceil(std::log2(r / rule.largest_cells) - 1e-4f)));
         levels_.push_back(level);
-        const float least = std::max(r, kWithinPixelPx);
-        squared_.push_back(least * least);
     }
-    constexpr int kSteps = 512;
+    const auto squared = [&](int ring) {
+        const float r = std::max(std::abs(radius_px(ring)), kWithinPixelPx);
+        return r * r;
+    };
+    for (int i = 0; i <= count(); ++i) {
+        const int below = std::max(0, i - 1), above = std::min(i, count() - 1);
+        const int inner = i <= zero_of_rings ? above : below, outer = i <= zero_of_rings ? below : above;
+        const float apart = squared(outer) - squared(inner);
+        // Beyond the largest radius there is nothing but that.
+        intervals_.push_back({inner, outer, apart > 0 ? squared(inner) : -1, apart > 0 ? 1 / apart : 1e30f});
+    }
+    constexpr int kSteps = 4096;
     const float width_px = radii_px_.back() - radii_px_.front();
     steps_per_px_ = width_px > 0 ? kSteps / width_px : 0;
     for (int i = 0; i <= kSteps; ++i) {
-        const float start = radii_px_.front() + width_px * float(i) / kSteps;
+        const float start = radii_px_.front() + width_px * (float(i) - 0.01f) / kSteps;
         starts_.push_back(
-            int(std::lower_bound(radii_px_.begin(), radii_px_.end(), start) - radii_px_.begin()));
+            std::uint16_t(std::lower_bound(radii_px_.begin(), radii_px_.end(), start) - radii_px_.begin()));
     }
 }
 
-int RingSizes::first_not_below(float coc_px) const {
-    const float step = (coc_px - radii_px_.front()) * steps_per_px_;
-    int i = starts_[std::size_t(std::clamp(step, 0.0f, float(starts_.size() - 1)))];
-    while (i > 0 && radii_px_[std::size_t(i) - 1] >= coc_px) --i;
-    while (i < count() && radii_px_[std::size_t(i)] < coc_px) ++i;
-    return i;
-}
-
 int RingSizes::levels() const { return 1 + *std::max_element(levels_.begin(), levels_.end()); }
-
-RingSizes::Mix RingSizes::mix(float coc_px) const {
-    if (std::abs(coc_px) <= kWithinPixelPx) return {zero_, zero_, 0};
-    int outer = first_not_below(coc_px);
-    if (coc_px < 0 && (outer == count() || radii_px_[std::size_t(outer)] > coc_px)) --outer;
-    outer = std::clamp(outer, 0, count() - 1);
-    const int inner = outer == zero_ ? zero_ : outer < zero_ ? outer + 1 : outer - 1;
-    const float low = squared_[std::size_t(inner)], high = squared_[std::size_t(outer)];
-    if (high <= low) return {inner, outer, 1};
-    return {inner, outer, std::clamp((coc_px * coc_px - low) / (high - low), 0.0f, 1.0f)};
-}
 
 RingKernels::RingKernels(const Input& input, const RingSizes& sizes)
     : input_(input), sizes_(sizes), reach_(std::size_t(sizes.levels()), 0) {
@@ -119,12 +112,20 @@ std::unique_ptr<const RingKernel> RingKernels::made(int ring, int part) const {
     auto made = std::make_unique<RingKernel>();
     made->neutral = spread.neutral;
     made->extent = spread.extent;
-    for (int dy = 0; dy < spread.extent.height(); ++dy)
-        for (int dx = 0; dx < spread.extent.width(); ++dx) {
-            const Rgba w = spread.weights(dx, dy);
-            if (w == Rgba{}) continue;
-            made->taps.push_back({spread.extent.x0 + dx, spread.extent.y0 + dy});
-            made->weights.push_back(w);
+    const Rect& e = spread.extent;
+    for (int dy = 1 - e.y1; dy < kGatherRows - e.y0; ++dy)
+        for (int dx = 1 - e.x1; dx <= -e.x0; ++dx) {
+            std::array<Rgba, kGatherRows> rows;  // of output: each lies its number further from what is read
+            for (int k = 0; k < kGatherRows; ++k)
+                if (const int v = k - dy - e.y0; v >= 0 && v < e.height())
+                    rows[std::size_t(k)] = spread.weights(-dx - e.x0, v);
+            if (rows == std::array<Rgba, kGatherRows>{}) continue;
+            made->steps.push_back({dx, dy});
+            for (const Rgba& w : rows)
+                if (spread.neutral)
+                    made->weights.push_back(w.r);
+                else
+                    made->weights.insert(made->weights.end(), {w.r, w.g, w.b, w.a});
         }
     return made;
 }

@@ -7,7 +7,9 @@
 
 #include "engine/engine.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -36,29 +38,41 @@ public:
         int inner = 0, outer = 0;
         float outer_share = 0;
     };
-    Mix mix(float coc_px) const;
+    Mix mix(float coc_px) const {
+        const float step = (coc_px - radii_px_.front()) * steps_per_px_;
+        std::size_t i = starts_[std::size_t(std::clamp(step, 0.0f, float(starts_.size() - 1)))];
+        while (i < radii_px_.size() && radii_px_[i] < coc_px) ++i;
+        const Interval& between = intervals_[i];
+        return {between.inner, between.outer,
+                std::clamp((coc_px * coc_px - between.low) * between.scale, 0.0f, 1.0f)};
+    }
 
 private:
-    int first_not_below(float coc_px) const;
-
-    std::vector<float> radii_px_, squared_;  // squared: of what is taken of them, a pixel's own at least
+    // What is handed out between two radii, with the smaller one's c^2 and 1 / (outer^2 - inner^2). What a
+    // pixel holds anyway is not blurred: no c^2 counts as less than that of a disc within its pixel.
+    struct Interval {
+        int inner, outer;
+        float low, scale;
+    };
+    std::vector<float> radii_px_;
     std::vector<int> levels_;
-    int zero_ = 0;
+    std::vector<Interval> intervals_;  // [i]: up to radii_px_[i]; the last: beyond all
     // The first radius not below the start of each of many equal steps from the first radius to the last:
     // millions of pixels ask.
-    std::vector<int> starts_;
+    std::vector<std::uint16_t> starts_;
     float steps_per_px_ = 0;
 };
 
-// One kernel as the inner loop wants it: where each of its samples lies, and its weight.
+// One kernel as the inner loop wants it (engine/gather_taps.h): which cells it reads for a few rows of output
+// at once, and the weight each has in them.
 struct RingKernel {
-    struct Tap {
-        int dx, dy;  // from the source to where its light lands, cells
+    struct Step {
+        int dx, dy;  // from the first of the rows to what is read, cells
     };
-    std::vector<Tap> taps;
-    std::vector<Rgba> weights;  // of each tap; a: for coverage
-    bool neutral = true;        // r = g = b = a
-    Rect extent;                // of the taps
+    std::vector<Step> steps;
+    std::vector<float> weights;
+    bool neutral = true;  // one weight per row for all channels, else r, g, b and a for coverage
+    Rect extent;          // of where light lands, from its source
 };
 
 // Kernels of all rings for all parts of the picture, made when first asked for. Thread-safe. What a kernel

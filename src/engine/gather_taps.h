@@ -26,7 +26,24 @@ struct TapJob {
 };
 
 void gather_one(const TapJob& job, const TapPlane& plane);
-// Four planes; plane k has its weights at job.weights + k * (0 if neutral, else 1).
-void gather_four(const TapJob& job, const TapPlane planes[4], bool neutral);
+
+// Rows of output done together: each value that is read serves them all.
+constexpr int kGatherRows = 4;
+
+// A kernel cut into steps: one value read for each of kGatherRows rows of output, with the weight it has in
+// each (0 where the kernel does not reach). Of output row y, a multiple of kGatherRows, step t reads
+// in(x + offsets[t]) of row y. weights: kGatherRows per step, or where channels differ kGatherRows times four
+// channels. Rows beyond height, up to a multiple of kGatherRows, are written too.
+struct StepJob {
+    const std::ptrdiff_t* offsets;
+    const float* weights;
+    int steps;
+    bool neutral;  // channels do not differ
+    int width, height;
+    std::ptrdiff_t in_stride, out_stride;
+};
+
+// Two planes at once; `channel` 0…3 says whose weights a plane takes.
+void gather_two(const StepJob& job, const TapPlane& a, int channel_a, const TapPlane& b, int channel_b);
 
 }  // namespace petzval::engine

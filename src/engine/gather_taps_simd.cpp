@@ -37,57 +37,45 @@ void GatherOne(const TapJob& job, const TapPlane& plane) {
     if (y < job.height) RowsOfOne<1>(job, plane.in + y * job.in_stride, plane.out + y * job.out_stride);
 }
 
-template <int kRows, bool kNeutral>
-HWY_INLINE void RowsOfFour(const TapJob& job, const TapPlane* planes, int y) {
+// Four rows of two planes: eight sums under way, in no more registers than the smaller instruction sets have.
+template <bool kNeutral>
+HWY_INLINE void FourRows(const StepJob& job, const float* in_a, int channel_a, const float* in_b,
+                         int channel_b, float* out_a, float* out_b) {
+    static_assert(kGatherRows == 4);
+    constexpr int kPerRow = kNeutral ? 1 : 4;
     const Floats d;
-    const std::ptrdiff_t below = job.in_stride;
+    const int a = kNeutral ? 0 : channel_a, b = kNeutral ? 0 : channel_b;
     for (int x = 0; x < job.width; x += int(hn::Lanes(d))) {
-        const std::ptrdiff_t from = y * job.in_stride + x;
-        const float *r = planes[0].in + from, *g = planes[1].in + from, *b = planes[2].in + from,
-                    *m = planes[3].in + from;
-        auto r0 = hn::Zero(d), g0 = hn::Zero(d), b0 = hn::Zero(d), m0 = hn::Zero(d);
-        auto r1 = hn::Zero(d), g1 = hn::Zero(d), b1 = hn::Zero(d), m1 = hn::Zero(d);
-        const float* weight = job.weights;
-        for (int t = 0; t < job.taps; ++t, weight += job.weight_step) {
-            const std::ptrdiff_t o = job.offsets[t];
-            const auto w = hn::Set(d, weight[0]);
-            const auto wg = kNeutral ? w : hn::Set(d, weight[1]);
-            const auto wb = kNeutral ? w : hn::Set(d, weight[2]);
-            const auto wm = kNeutral ? w : hn::Set(d, weight[3]);
-            r0 = hn::MulAdd(w, hn::LoadU(d, r + o), r0);
-            g0 = hn::MulAdd(wg, hn::LoadU(d, g + o), g0);
-            b0 = hn::MulAdd(wb, hn::LoadU(d, b + o), b0);
-            m0 = hn::MulAdd(wm, hn::LoadU(d, m + o), m0);
-            if constexpr (kRows == 2) {
-                r1 = hn::MulAdd(w, hn::LoadU(d, r + o + below), r1);
-                g1 = hn::MulAdd(wg, hn::LoadU(d, g + o + below), g1);
-                b1 = hn::MulAdd(wb, hn::LoadU(d, b + o + below), b1);
-                m1 = hn::MulAdd(wm, hn::LoadU(d, m + o + below), m1);
-            }
+        auto a0 = hn::Zero(d), a1 = hn::Zero(d), a2 = hn::Zero(d), a3 = hn::Zero(d);
+        auto b0 = hn::Zero(d), b1 = hn::Zero(d), b2 = hn::Zero(d), b3 = hn::Zero(d);
+        const float* w = job.weights;
+        for (int t = 0; t < job.steps; ++t, w += kGatherRows * kPerRow) {
+            const auto va = hn::LoadU(d, in_a + x + job.offsets[t]);
+            const auto vb = hn::LoadU(d, in_b + x + job.offsets[t]);
+            a0 = hn::MulAdd(hn::Set(d, w[a]), va, a0), b0 = hn::MulAdd(hn::Set(d, w[b]), vb, b0);
+            a1 = hn::MulAdd(hn::Set(d, w[kPerRow + a]), va, a1);
+            b1 = hn::MulAdd(hn::Set(d, w[kPerRow + b]), vb, b1);
+            a2 = hn::MulAdd(hn::Set(d, w[2 * kPerRow + a]), va, a2);
+            b2 = hn::MulAdd(hn::Set(d, w[2 * kPerRow + b]), vb, b2);
+            a3 = hn::MulAdd(hn::Set(d, w[3 * kPerRow + a]), va, a3);
+            b3 = hn::MulAdd(hn::Set(d, w[3 * kPerRow + b]), vb, b3);
         }
-        const std::ptrdiff_t to = y * job.out_stride + x;
-        hn::StoreU(r0, d, planes[0].out + to), hn::StoreU(g0, d, planes[1].out + to);
-        hn::StoreU(b0, d, planes[2].out + to), hn::StoreU(m0, d, planes[3].out + to);
-        if constexpr (kRows == 2) {
-            const std::ptrdiff_t next = to + job.out_stride;
-            hn::StoreU(r1, d, planes[0].out + next), hn::StoreU(g1, d, planes[1].out + next);
-            hn::StoreU(b1, d, planes[2].out + next), hn::StoreU(m1, d, planes[3].out + next);
-        }
+        const std::ptrdiff_t row = job.out_stride;
+        hn::StoreU(a0, d, out_a + x), hn::StoreU(b0, d, out_b + x);
+        hn::StoreU(a1, d, out_a + row + x), hn::StoreU(b1, d, out_b + row + x);
+        hn::StoreU(a2, d, out_a + 2 * row + x), hn::StoreU(b2, d, out_b + 2 * row + x);
+        hn::StoreU(a3, d, out_a + 3 * row + x), hn::StoreU(b3, d, out_b + 3 * row + x);
     }
 }
 
-template <bool kNeutral>
-HWY_INLINE void FourPlanes(const TapJob& job, const TapPlane* planes) {
-    int y = 0;
-    for (; y + 1 < job.height; y += 2) RowsOfFour<2, kNeutral>(job, planes, y);
-    if (y < job.height) RowsOfFour<1, kNeutral>(job, planes, y);
-}
-
-void GatherFour(const TapJob& job, const TapPlane* planes, bool neutral) {
-    if (neutral)
-        FourPlanes<true>(job, planes);
-    else
-        FourPlanes<false>(job, planes);
+void GatherTwo(const StepJob& job, const TapPlane& a, int channel_a, const TapPlane& b, int channel_b) {
+    for (int y = 0; y < job.height; y += kGatherRows) {
+        const std::ptrdiff_t from = y * job.in_stride, to = y * job.out_stride;
+        if (job.neutral)
+            FourRows<true>(job, a.in + from, channel_a, b.in + from, channel_b, a.out + to, b.out + to);
+        else
+            FourRows<false>(job, a.in + from, channel_a, b.in + from, channel_b, a.out + to, b.out + to);
+    }
 }
 
 }  // namespace petzval::engine::HWY_NAMESPACE
@@ -97,11 +85,11 @@ HWY_AFTER_NAMESPACE();
 namespace petzval::engine {
 
 HWY_EXPORT(GatherOne);
-HWY_EXPORT(GatherFour);
+HWY_EXPORT(GatherTwo);
 
 void gather_one(const TapJob& job, const TapPlane& plane) { HWY_DYNAMIC_DISPATCH(GatherOne)(job, plane); }
-void gather_four(const TapJob& job, const TapPlane planes[4], bool neutral) {
-    HWY_DYNAMIC_DISPATCH(GatherFour)(job, planes, neutral);
+void gather_two(const StepJob& job, const TapPlane& a, int channel_a, const TapPlane& b, int channel_b) {
+    HWY_DYNAMIC_DISPATCH(GatherTwo)(job, a, channel_a, b, channel_b);
 }
 
 }  // namespace petzval::engine

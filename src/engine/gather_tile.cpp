@@ -39,7 +39,7 @@ private:
 
 // Light of one ring that may reach the tile, at its place in the window.
 struct Arrival {
-    int ring, x, y;
+    int x, y;
     Rgba colour;
     float covered, beyond;
 };
@@ -56,8 +56,7 @@ struct Combined {
 };
 
 struct Workspace {
-    std::vector<Arrival> arrivals, sorted;
-    std::vector<std::size_t> next;
+    std::vector<std::vector<Arrival>> arrivals;  // by ring
     std::vector<std::ptrdiff_t> offsets;
     Planes window, gathered;
     Combined cells, tile;
@@ -96,40 +95,29 @@ private:
         target_ = cells_of(tile_, level);
         window_ = target_.grown(s_.kernels.reach(level));
         find_arrivals(begin, end, level);
-        if (w_.arrivals.empty()) return;
+        if (std::all_of(w_.arrivals.begin() + begin, w_.arrivals.begin() + end,
+                        [](const auto& arrivals) { return arrivals.empty(); }))
+            return;
         Combined& into = level == 0 ? w_.tile : w_.cells;
         if (level > 0) into.reset(target_.width(), target_.height());
-        for (std::size_t i = 0; i < w_.arrivals.size();) {
-            std::size_t j = i;
-            while (j < w_.arrivals.size() && w_.arrivals[j].ring == w_.arrivals[i].ring) ++j;
-            gather_ring(std::span(w_.arrivals).subspan(i, j - i));
+        for (int ring = begin; ring < end; ++ring) {
+            if (w_.arrivals[std::size_t(ring)].empty()) continue;
+            gather_ring(ring);
             take(into);
-            i = j;
         }
         if (level > 0) enlarge(level);
     }
 
     void find_arrivals(int begin, int end, int level) {
-        w_.arrivals.clear();
+        w_.arrivals.resize(std::size_t(s_.sizes.count()));
+        for (int ring = begin; ring < end; ++ring) w_.arrivals[std::size_t(ring)].clear();
         has_beyond_ = false;
         level == 0 ? find_in_picture(begin, end) : find_in_cells(begin, end, level);
-        sort_by_ring(begin, end);
-    }
-
-    // Nearest ring first, within a ring in the order found: by counting, since rings are few.
-    void sort_by_ring(int begin, int end) {
-        std::vector<std::size_t>& next = w_.next;
-        next.assign(std::size_t(end - begin) + 1, 0);
-        for (const Arrival& a : w_.arrivals) ++next[std::size_t(a.ring - begin) + 1];
-        for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-        w_.sorted.resize(w_.arrivals.size());
-        for (const Arrival& a : w_.arrivals) w_.sorted[next[std::size_t(a.ring - begin)]++] = a;
-        w_.arrivals.swap(w_.sorted);
     }
 
     void arrive(int ring, int x, int y, Rgba colour, float covered, float beyond) {
         has_beyond_ = has_beyond_ || beyond > 0;
-        w_.arrivals.push_back({ring, x - window_.x0, y - window_.y0, colour, covered, beyond});
+        w_.arrivals[std::size_t(ring)].push_back({x - window_.x0, y - window_.y0, colour, covered, beyond});
     }
 
     // Whether what lies outside at (x, y) goes on as the nearest cell inside; else there is emptiness.
@@ -180,12 +168,13 @@ private:
     }
 
     // The light of one ring, at every cell of its reach within the target.
-    void gather_ring(std::span<const Arrival> arrivals) {
-        const RingKernel& kernel = s_.kernels.at(arrivals.front().ring, part_);
+    void gather_ring(int ring) {
+        const std::vector<Arrival>& arrivals = w_.arrivals[std::size_t(ring)];
+        const RingKernel& kernel = s_.kernels.at(ring, part_);
         Rect lit{arrivals.front().x, arrivals.front().y, arrivals.front().x, arrivals.front().y};
-        w_.window.shape(kPlanes, window_.width(), window_.height());
+        w_.window.shape(kPlanes, window_.width(), window_.height() + kGatherRows);
         // Alpha is coverage where all is opaque; what lies beyond the picture is seldom near.
-        const int planes = has_beyond_ ? kPlanes : s_.opaque ? kAlpha : kBeyond;
+        const int planes = has_beyond_ || !s_.opaque ? kPlanes : kAlpha;
         w_.window.clear(planes);
         for (const Arrival& a : arrivals) {
             const std::array<float, kPlanes> values{a.colour.r, a.colour.g, a.colour.b,
@@ -201,27 +190,25 @@ private:
                         lit.x1 + shift_x + kernel.extent.x1, lit.y1 + shift_y + kernel.extent.y1}
                        .intersected({0, 0, target_.width(), target_.height()});
         if (reached_.empty()) return;
-        w_.gathered.shape(kPlanes, target_.width() + kGatherGroup, target_.height());
+        w_.gathered.shape(kPlanes, target_.width() + kGatherGroup, target_.height() + kGatherRows);
         w_.offsets.clear();
-        for (const RingKernel::Tap& tap : kernel.taps)
-            w_.offsets.push_back(-(std::ptrdiff_t(tap.dy) * w_.window.width() + tap.dx));
+        for (const RingKernel::Step& step : kernel.steps)
+            w_.offsets.push_back(std::ptrdiff_t(step.dy) * w_.window.width() + step.dx);
         sum_taps(kernel);
     }
 
     void sum_taps(const RingKernel& kernel) {
         const int in_x = reached_.x0 + target_.x0 - window_.x0, in_y = reached_.y0 + target_.y0 - window_.y0;
         const int groups = (reached_.width() + kGatherGroup - 1) / kGatherGroup;
-        TapJob job{
-            w_.offsets.data(),     &kernel.weights.front().r, int(kernel.taps.size()), 4,
-            groups * kGatherGroup, reached_.height(),         w_.window.width(),       w_.gathered.width()};
+        const StepJob job{w_.offsets.data(), kernel.weights.data(), int(kernel.steps.size()),
+                          kernel.neutral,    groups * kGatherGroup, reached_.height(),
+                          w_.window.width(), w_.gathered.width()};
         const auto plane = [&](int k) {
             return TapPlane{w_.window.row(k, in_y) + in_x, w_.gathered.row(k, reached_.y0) + reached_.x0};
         };
-        const TapPlane four[4] = {plane(kRed), plane(kGreen), plane(kBlue), plane(kCovered)};
-        gather_four(job, four, kernel.neutral);
-        job.weights = &kernel.weights.front().a;
-        if (!s_.opaque) gather_one(job, plane(kAlpha));
-        if (has_beyond_) gather_one(job, plane(kBeyond));
+        gather_two(job, plane(kRed), 0, plane(kGreen), 1);
+        gather_two(job, plane(kBlue), 2, plane(kCovered), 3);
+        if (has_beyond_ || !s_.opaque) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
     }
 
     // Of each cell's lens, the area that the ring arrives with, or what is left.
