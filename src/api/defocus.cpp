@@ -7,6 +7,7 @@
 #include "engine/engine.h"
 #include "kernel/kernel_store.h"
 #include "kernel/lens_model.h"
+#include "kernel/remembered_lens.h"
 
 #include <algorithm>
 #include <atomic>
@@ -173,12 +174,16 @@ kernel::Mount mount_of(const DefocusJob& job) {
 
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
 Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store) {
+    constexpr std::size_t kRememberedBytes = std::size_t(48) << 20;
     constexpr int kLevels =
         13;  // the largest radius in cells of the last one is 4, fewer than any engine needs
     auto levels = kernel::make_lens_levels(job.lens, mount_of(job), kLevels);
-    if (!levels || !store) return levels;
-    for (std::size_t i = 0; i < levels->size(); ++i)
-        (*levels)[i] = kernel::kept(std::move((*levels)[i]), store, int(i));
+    if (!levels) return levels;
+    for (std::size_t i = 0; i < levels->size(); ++i) {
+        auto& lens = (*levels)[i];
+        if (store) lens = kernel::kept(std::move(lens), store, int(i));
+        lens = kernel::remembered(std::move(lens), kRememberedBytes);
+    }
     return levels;
 }
 

@@ -20,7 +20,8 @@ using kernel::PointSpread;
 constexpr float kOwnSurfacePx = 0.02f;
 // A bright light finds every crack between the squares of a sloping surface.
 constexpr float kOverlapPx = 0.02f;
-constexpr float kBrightDisc = 0.002f;  // share of white
+constexpr float kBrightDisc = 0.002f;     // share of white
+constexpr float kSlowBrightDisc = 0.03f;  // of lenses whose kernels take long to make
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
 // A lens that sees squares of pixels instead of points: each kernel averaged over `size` x `size` places of
@@ -66,7 +67,7 @@ public:
         : input_(input),
           casters_(samples, input.threads),
           stretch_(float(std::max(1.0, input.pixel_aspect))),
-          white_(white) {
+          bright_disc_(white * (input.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)) {
         const kernel::BankOptions options{.columns = 32,
                                           .rows = 18,
                                           .largest_rim_step_px = 0.5,
@@ -91,7 +92,7 @@ public:
         // The rim of a disc that is bright by itself shows a radius that is off by little.
         const float on_disc =
             luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
-        const auto& chosen = on_disc > kBrightDisc * white_ ? fine_banks_[bank] : banks_[bank];
+        const auto& chosen = on_disc > bright_disc_ ? fine_banks_[bank] : banks_[bank];
         auto open = chosen->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
         if (casters_.nearest_coc_px() >= h.coc_px - kOwnSurfacePx) return open;
         PupilShadow shadow(h.coc_px, h.size % 2 == 0);
@@ -158,7 +159,7 @@ private:
     float stretch_;  // of the pupil, vertically, by pixels that are not square
     std::vector<std::unique_ptr<const SquareLens>> lenses_;
     std::vector<std::unique_ptr<const kernel::KernelBank>> banks_, fine_banks_;
-    float white_;
+    float bright_disc_;
 };
 
 // out: rows of the picture from first_row on; only those of `rows` are written.

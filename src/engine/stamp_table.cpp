@@ -1,5 +1,7 @@
 #include "engine/stamp_table.h"
 
+#include "kernel/spread.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,7 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kStepsPerCell = 16;
+constexpr float kMadePerCell = 4;  // of lenses that take long; rims a quarter cell apart blend
 constexpr int kPartsX = 9, kPartsY = 6;
 constexpr float kCoreEnd = 1.5f;       // times the radius a level is made for
 constexpr float kTrace = 0.004f;       // share of light outside that is not worth a skirt
@@ -133,7 +136,17 @@ kernel::PointSpread StampTable::whole(int level, int part, float radius) const {
     const int column = part % parts_x_, row = part / parts_x_;
     const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
     const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
-    return input_.lens(level).point_spread(double(stepped(radius)), input_.field_at(x, y));
+    const kernel::LensModel& lens = input_.lens(level);
+    const auto made = [&](float r) { return lens.point_spread(double(r), input_.field_at(x, y)); };
+    const float asked = stepped(radius), side = radius < 0 ? -1 : 1;
+    const float place = std::abs(asked) * kMadePerCell, first = std::floor(place);
+    if (lens.is_quick() || place == first) return made(asked);
+    // What takes long is made at some radii and mixed between them.
+    const auto at = [&](float step) {
+        return std::make_shared<const kernel::PointSpread>(made(side * step / kMadePerCell));
+    };
+    const kernel::Share shares[] = {{at(first), 1 - (place - first)}, {at(first + 1), place - first}};
+    return kernel::mixed(shares);
 }
 
 kernel::PointSpread StampTable::piece(int level, int part, float radius, int skirt_of) const {

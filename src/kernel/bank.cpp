@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "kernel/spread.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,26 +16,10 @@ std::uint64_t key_of(int step, int cell) {
     return (std::uint64_t(std::uint32_t(step)) << 32) | std::uint32_t(cell);
 }
 
-// Mirrors never leave gaps: pixel 0 stays where it is.
-PointSpread mirrored(const PointSpread& from, bool left_right, bool up_down) {
-    const Rect e = from.extent;
-    PointSpread to{{left_right ? 1 - e.x1 : e.x0, up_down ? 1 - e.y1 : e.y0, left_right ? 1 - e.x0 : e.x1,
-                    up_down ? 1 - e.y0 : e.y1},
-                   Image<Rgba>::uninitialised(e.width(), e.height()),
-                   from.neutral};
-    for (int y = 0; y < e.height(); ++y) {
-        const Rgba* row = from.weights.row(up_down ? e.height() - 1 - y : y);
-        if (left_right)
-            std::reverse_copy(row, row + e.width(), to.weights.row(y));
-        else
-            std::copy_n(row, e.width(), to.weights.row(y));
-    }
-    return to;
-}
-
 }  // namespace
 
-KernelBank::KernelBank(const LensModel& lens, const BankOptions& options) : lens_(lens), options_(options) {
+KernelBank::KernelBank(const LensModel& lens, const BankOptions& options)
+    : lens_(lens), options_(options), cache_(options.max_bytes) {
     PETZVAL_CHECK(options.columns > 0 && options.rows > 0 && options.aspect > 0);
     PETZVAL_CHECK(options.relative_step > 0 && options.least_step_px > 0);
     if (!lens.varies_over_field()) options_.columns = options_.rows = 1;
@@ -93,24 +78,7 @@ std::shared_ptr<const PointSpread> KernelBank::kernel(double coc_radius_px, Fiel
 }
 
 std::shared_ptr<const PointSpread> KernelBank::kernel_of(int step, int cell) const {
-    const std::uint64_t key = key_of(step, cell);
-    std::shared_ptr<Slot> slot;
-    {
-        const std::lock_guard lock(mutex_);
-        std::shared_ptr<Slot>& found = slots_[key];
-        if (!found) {
-            found = std::make_shared<Slot>();
-            found->place = recent_.insert(recent_.begin(), key);
-        }
-        slot = found;
-        recent_.splice(recent_.begin(), recent_, slot->place);
-    }
-    const std::lock_guard making(slot->making);
-    if (!slot->kernel) {
-        slot->kernel = std::make_shared<const PointSpread>(made(step, cell));
-        keep(slot);
-    }
-    return slot->kernel;
+    return cache_.get(key_of(step, cell), [&] { return made(step, cell); });
 }
 
 // Cells right of and above the middle mirror those on the other side, where the lens allows it.
@@ -126,22 +94,6 @@ PointSpread KernelBank::made(int step, int cell) const {
     return mirrored(*kernel_of(step, twin), left_right, up_down);
 }
 
-// Counts a new kernel and drops the ones that were not asked for longest. A slot that is being made is not
-// counted yet and stays.
-void KernelBank::keep(const std::shared_ptr<Slot>& slot) const {
-    const std::lock_guard lock(mutex_);
-    slot->bytes = slot->kernel->weights.bytes() + sizeof(Slot) + sizeof(PointSpread);
-    bytes_ += slot->bytes;
-    for (auto last = recent_.end(); bytes_ > options_.max_bytes && last != recent_.begin();) {
-        --last;
-        const auto old = slots_.find(*last);
-        if (old->second == slot || old->second->bytes == 0) continue;
-        bytes_ -= old->second->bytes;
-        slots_.erase(old);
-        last = recent_.erase(last);
-    }
-}
-
 void KernelBank::prepare(double least_coc_px, double largest_coc_px, int threads) const {
     const int first = step_of(least_coc_px), last = step_of(largest_coc_px);
     std::vector<std::pair<int, int>> keys;  // large kernels first: they take longest
@@ -151,22 +103,9 @@ void KernelBank::prepare(double least_coc_px, double largest_coc_px, int threads
         for (int cell = 0; cell < cells.columns * cells.rows; ++cell) keys.emplace_back(step, cell);
     }
     parallel_for(int(keys.size()), threads, [&](int i) {
-        {
-            const std::lock_guard lock(mutex_);
-            if (bytes_ > options_.max_bytes * 9 / 10) return;
-        }
+        if (cache_.bytes() > options_.max_bytes * 9 / 10) return;
         kernel_of(keys[std::size_t(i)].first, keys[std::size_t(i)].second);
     });
-}
-
-std::size_t KernelBank::kernels_held() const {
-    const std::lock_guard lock(mutex_);
-    return slots_.size();
-}
-
-std::size_t KernelBank::bytes_held() const {
-    const std::lock_guard lock(mutex_);
-    return bytes_;
 }
 
 }  // namespace petzval::kernel

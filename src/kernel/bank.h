@@ -5,13 +5,12 @@
 // thread count and order of asking, also when a kernel was dropped for memory and is made again.
 #pragma once
 
+#include "kernel/kernel_cache.h"
 #include "kernel/lens_model.h"
 
 #include <cstddef>
-#include <list>
+#include <cstdint>
 #include <memory>
-#include <mutex>
-#include <unordered_map>
 
 namespace petzval::kernel {
 
@@ -44,17 +43,10 @@ public:
         const Cells cells = cells_of(step_of(coc_radius_px));
         return middle_of(cells, cell_of(cells, field));
     }
-    std::size_t kernels_held() const;
-    std::size_t bytes_held() const;
+    std::size_t kernels_held() const { return cache_.kernels(); }
+    std::size_t bytes_held() const { return cache_.bytes(); }
 
 private:
-    struct Slot {
-        std::mutex making;
-        std::shared_ptr<const PointSpread> kernel;
-        std::list<std::uint64_t>::iterator place;
-        std::size_t bytes = 0;  // 0: being made
-    };
-
     int step_of(double coc_radius_px) const;
     double radius_of(int step) const;
     struct Cells {
@@ -65,18 +57,13 @@ private:
     FieldPosition middle_of(const Cells& cells, int cell) const;
     std::shared_ptr<const PointSpread> kernel_of(int step, int cell) const;
     PointSpread made(int step, int cell) const;
-    void keep(const std::shared_ptr<Slot>& slot) const;
 
     const LensModel& lens_;
     BankOptions options_;
     int linear_steps_;  // steps of even width on either side of focus; beyond, each is `relative_step` wider
     double linear_end_px_;
     double half_width_, half_height_;  // of the picture, in half diagonals
-
-    mutable std::mutex mutex_;  // of all below
-    mutable std::unordered_map<std::uint64_t, std::shared_ptr<Slot>> slots_;
-    mutable std::list<std::uint64_t> recent_;  // keys, most recently used first
-    mutable std::size_t bytes_ = 0;
+    mutable KernelCache<std::uint64_t> cache_;
 };
 
 }  // namespace petzval::kernel

@@ -19,6 +19,8 @@ constexpr int kLadder[] = {1, 7, 15, 31, 62, 124, 248};
 constexpr double kBandStepPx = 0.7;
 // Bands that all land within this are one.
 constexpr double kNoColourPx = 0.02;
+// How far chords of the outline may be off their arcs.
+constexpr double kChordPx = 0.04;
 // Light outside carries under 1 % of the luminance; it does not decide how many bands are needed.
 // Rays see the pupil's texture through a window of this half width, pupil radii.
 constexpr double kRayWidth = 1.0 / 256;
@@ -161,7 +163,7 @@ PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition fiel
         return ring_kernel(rings.bands, rings.reach_px);
     }
     const std::shared_ptr<const RingSweep> sweep = sweep_of(coc_radius_px);
-    const std::vector<Point> outline = pupil_.outline(field, mesh_tolerance(sweep->reach_px()));
+    const std::vector<Point> outline = pupil_.outline(field, kChordPx / std::max(sweep->reach_px(), 4.0));
     if (!is_star_about_axis(outline)) return mesh_spread(coc_radius_px, field);
     return sector_kernel(outline, *sweep, pixel_aspect_);
 }

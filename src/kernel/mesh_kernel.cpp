@@ -22,9 +22,11 @@ class Mesh {
 public:
     explicit Mesh(const MeshPupil& pupil) : rings_(pupil.rings), spokes_(int(pupil.outline.size())) {
         const Point centre = centroid(pupil.outline);
-        for (int j = 0; j <= rings_; ++j)
-            for (const Point& rim : pupil.outline)
-                points_.push_back(centre + (double(j) / rings_) * (rim - centre));
+        for (int j = 0; j <= rings_; ++j) {
+            // Towards the rim, where aberrations bend most, rings are half as wide as on average.
+            const double t = double(j) / rings_, radius = t * (1.5 - 0.5 * t);
+            for (const Point& rim : pupil.outline) points_.push_back(centre + radius * (rim - centre));
+        }
         std::vector<double> density(points_.size(), 1.0);
         if (pupil.density) pupil.density(points_, density.data());
         const auto light_of = [&](std::size_t p, std::size_t q, std::size_t r) {
@@ -160,9 +162,9 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
     return spread;
 }
 
-int mesh_rings(double size_px) { return std::clamp(int(std::ceil(8 + size_px / 1.8)), 10, 192); }
+int mesh_rings(double size_px) { return std::clamp(int(std::ceil(5 + std::pow(size_px, 0.8))), 6, 192); }
 
-double mesh_tolerance(double size_px) { return 0.04 / std::max(size_px, 4.0); }
+double mesh_tolerance(double size_px) { return 0.05 / std::max(size_px, 4.0); }
 
 double mesh_step(double size_px) { return std::sqrt(8 * mesh_tolerance(size_px)); }
 

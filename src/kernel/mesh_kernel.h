@@ -33,9 +33,9 @@ struct MeshBand {
 // Channels sum to 1; colours are not mapped.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands);
 
-// How fine a mesh must be for a kernel that reaches size_px: cells two pixels thick, chords 0.04 px off their
-// arcs. Rings; the longest distance of a chord of the outline from its arc, and its longest edge, pupil
-// radii.
+// How fine a mesh must be for a kernel that reaches size_px: cells two pixels thick (three at 200 px), chords
+// 0.05 px off their arcs. Rings; the longest distance of a chord of the outline from its arc, and its longest
+// edge, pupil radii.
 int mesh_rings(double size_px);
 double mesh_tolerance(double size_px);
 double mesh_step(double size_px);

@@ -6,6 +6,40 @@ namespace petzval::kernel {
 
 PointSpread single_pixel() { return {{0, 0, 1, 1}, {1, 1, Rgba{1, 1, 1, 1}}, true}; }
 
+PointSpread mirrored(const PointSpread& from, bool left_right, bool up_down) {
+    const Rect e = from.extent;
+    PointSpread to{{left_right ? 1 - e.x1 : e.x0, up_down ? 1 - e.y1 : e.y0, left_right ? 1 - e.x0 : e.x1,
+                    up_down ? 1 - e.y0 : e.y1},
+                   Image<Rgba>::uninitialised(e.width(), e.height()),
+                   from.neutral};
+    for (int y = 0; y < e.height(); ++y) {
+        const Rgba* row = from.weights.row(up_down ? e.height() - 1 - y : y);
+        if (left_right)
+            std::reverse_copy(row, row + e.width(), to.weights.row(y));
+        else
+            std::copy_n(row, e.width(), to.weights.row(y));
+    }
+    return to;
+}
+
+PointSpread mixed(std::span<const Share> shares) {
+    Rect e = shares[0].kernel->extent;
+    bool neutral = true;
+    for (const Share& s : shares) {
+        const Rect& o = s.kernel->extent;
+        e = {std::min(e.x0, o.x0), std::min(e.y0, o.y0), std::max(e.x1, o.x1), std::max(e.y1, o.y1)};
+        neutral = neutral && s.kernel->neutral;
+    }
+    PointSpread sum{e, Picture(e.width(), e.height()), neutral};
+    for (const Share& s : shares)
+        for (int y = 0; y < s.kernel->weights.height(); ++y) {
+            const Rgba* from = s.kernel->weights.row(y);
+            Rgba* to = sum.weights.row(y + s.kernel->extent.y0 - e.y0) + (s.kernel->extent.x0 - e.x0);
+            for (int x = 0; x < s.kernel->weights.width(); ++x) to[x] += from[x] * s.share;
+        }
+    return sum;
+}
+
 void trim(PointSpread& spread) {
     Rect lit{spread.extent.x1, spread.extent.y1, spread.extent.x0, spread.extent.y0};
     for (int y = 0; y < spread.weights.height(); ++y)

@@ -3,10 +3,23 @@
 
 #include "kernel/lens_model.h"
 
+#include <memory>
+#include <span>
+
 namespace petzval::kernel {
 
 // All light on the pixel of the source.
 PointSpread single_pixel();
+
+// What the kernel is at a place that mirrors its own. Mirrors never leave gaps: pixel 0 stays where it is.
+PointSpread mirrored(const PointSpread& from, bool left_right, bool up_down);
+
+// The sum of kernels, each times its share.
+struct Share {
+    std::shared_ptr<const PointSpread> kernel;
+    float share = 1;
+};
+PointSpread mixed(std::span<const Share> shares);
 
 // Drops border rows and columns that hold no light.
 void trim(PointSpread& spread);

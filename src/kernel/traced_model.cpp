@@ -25,9 +25,9 @@ constexpr double kProbed_nm[] = {430, 490, 550, 610, 670};  // wavelengths that 
 constexpr int kRayBands = 62;
 constexpr double kRayWidth =
     1.0 / 256;  // of the window through which rays see the pupil's texture, pupil radii
-// As in curve lenses: rims of neighbouring bands this far apart are not seen singly.
-constexpr double kBandStepPx = 0.7, kNoColourPx = 0.02;
-constexpr int kLadder[] = {7, 15, 31, 62};  // more would be steps of less than 2 % each
+// Rims of neighbouring bands this far apart are not seen singly: pixels are as wide.
+constexpr double kBandStepPx = 1, kNoColourPx = 0.02;
+constexpr int kFewestBands = 7, kMostBands = 48;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
@@ -104,7 +104,7 @@ Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Pre
 
 // Rays are kept in millimetres.
 std::unique_ptr<const LensModel> TracedModel::on_pixels(const Mount& mount) const {
-    auto same = std::unique_ptr<TracedModel>(new TracedModel(*this));
+    auto same = std::make_unique<TracedModel>(*this);
     const double factor = mount.display_width_px / mount.camera.sensor_width_mm / px_per_mm_;
     same->mount_.display_width_px = mount.display_width_px;
     same->mount_.display_height_px = mount.display_height_px;
@@ -292,9 +292,8 @@ TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<
     if (choice_.wavelengths > 0) {
         fine.bands = choice_.wavelengths;
     } else if (wavelength_nm_.size() >= 3 && path_px >= kNoColourPx) {
-        fine.bands = kLadder[std::size(kLadder) - 1];
-        for (const int count : kLadder)
-            if (count * kBandStepPx >= path_px) fine.bands = std::min(fine.bands, count);
+        fine.bands =
+            int(std::clamp(std::ceil(path_px / kBandStepPx), double(kFewestBands), double(kMostBands)));
     }
     return fine;
 }

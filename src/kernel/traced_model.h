@@ -49,7 +49,7 @@ private:
         std::vector<Point> open;   // of the stop, (along, across)
     };
     TracedModel(const LensChoice& choice, const Mount& mount);
-    Status trace(const optics::Prescription& scaled);
+    Status trace(const optics::Prescription& lens);
     void trace_fields(const optics::TracedLens& lens);
     void measure();
     Node at(double field_size) const;
