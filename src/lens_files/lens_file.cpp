@@ -24,14 +24,14 @@ bool starts_with_keyword(const std::vector<Line>& lines, const std::set<std::str
     return false;
 }
 
-// The first line that is not blank or a '#' comment: four numbers in a pbrt lens.
+// The first line that is not blank or a '#' comment: numbers in a pbrt lens.
 bool begins_with_numbers(const std::vector<Line>& lines) {
     for (const Line& line : lines) {
         const auto words = split_words(line.text.substr(0, line.text.find('#')));
         if (words.empty()) continue;
         for (const auto word : words)
             if (!parse_number(word)) return false;
-        return words.size() == 4;
+        return words.size() > 1;
     }
     return false;
 }

@@ -137,7 +137,10 @@ Status Reader::aspheric(const Cells& cells, const Line& line) {
     const double radius = numbers[0];
     const double curvature = radius == 0 || std::isinf(radius) ? 0 : 1 / radius;
     if (std::abs(curvature - to.curvature_per_mm) > 1e-3 * std::abs(curvature) + 1e-9)
-        return at_line(line.number, "the radius differs from that in [lens data]");
+        return at_line(line.number, "surface " + quoted(cells[0]) + " has the radius " +
+                                        std::string(cells[1]) +
+                                        " here and another in [lens data]; a row is " +
+                                        "surface, radius, conic, coefficients");
     to.conic = numbers[1];
     to.asphere.clear();
     int even = first_even_power_, odd = 3;
@@ -156,10 +159,11 @@ Status Reader::row(const Line& line) {
     if (text.empty() || text.front() == '#') return Done{};
     if (text.front() == '[') {
         section_ = upper_case(text);
-        const bool known =
-            section_ == "[DESCRIPTIVE DATA]" || section_ == "[CONSTANTS]" || section_ == "[LENS DATA]" ||
-            section_ == "[VARIABLE DISTANCES]" || section_ == "[ASPHERICAL DATA]" || section_ == "[FIGURE]" ||
-            section_ == "[NOTES]" || section_ == "[PATENT INFO]" || section_ == "[REPORT DATA]";
+        const bool known = section_ == "[DESCRIPTIVE DATA]" || section_ == "[CONSTANTS]" ||
+                           section_ == "[LENS DATA]" || section_ == "[VARIABLE DISTANCES]" ||
+                           section_ == "[ASPHERICAL DATA]" || section_ == "[FIGURE]" ||
+                           section_ == "[NOTES]" || section_ == "[PATENT INFO]" ||
+                           section_ == "[REPORT DATA]" || section_ == "[GROUP DATA]";
         if (!known) return at_line(line.number, "section " + quoted(text) + " is not understood");
         return Done{};
     }

@@ -77,7 +77,7 @@ private:
     double mm_ = 1;
     bool radius_mode_ = false, in_private_ = false, has_stop_ = false, seen_image_ = false;
     int stop_line_ = 0;
-    bool vignetting_factors_ = false;
+    bool vignetting_factors_ = false, zoom_ = false;
     bool edge_only_ = false;                // the current surface's radius is that of its edge
     std::optional<ApertureKind> aperture_;  // none: the stop's clear radius rules
     std::vector<double> private_wavelengths_um_;
@@ -414,6 +414,12 @@ Status Reader::command(const Command& c) {
             if (word != "ASP" && word != "SPH" && word != "SLB" && word != "CON") ignored_.add(word);
             return Done{};
         }
+    }
+    if (word == "ZOO") {  // how many positions, then what changes between them
+        if (!zoom_)
+            file_.warnings.push_back("line " + std::to_string(c.line) + ": a zoom, in its first position");
+        zoom_ = true;
+        return Done{};
     }
     // What follows the image are solves, weights and commands.
     if (!kHarmless.contains(word) && !seen_image_)

@@ -21,7 +21,7 @@ struct ZmxSurface {
     std::optional<double> semi_diameter, clear_aperture;
     std::map<int, double> parameters, extra;  // PARM, XDAT
     std::optional<GlassRequest> glass;
-    bool stop = false, tilted = false;
+    bool stop = false, tilted = false, has_thickness = false;
 };
 
 const std::set<std::string> kHarmlessInSurface = {"FIMP", "HIDE", "MIRR", "SLAB", "POPS",
@@ -30,9 +30,9 @@ const std::set<std::string> kHarmlessInSurface = {"FIMP", "HIDE", "MIRR", "SLAB"
 const std::set<std::string> kBendsBeams = {"OBSC", "SQAP", "RCAP", "ELAP", "EAPP", "SPID", "UDAD", "UDOB",
                                            "SQOB", "ELOB", "OBDC", "IGNR", "TILT", "DCNT", "HOLO", "GRIN"};
 const std::set<std::string> kHarmlessHeader = {
-    "VERS", "PFIL", "LANG", "ENVD",    "GFAC", "GCAT", "RAIM", "PUSH", "SDMA", "OMMA", "ROPD", "HYPR", "PICB",
-    "FWGN", "VANN", "POLS", "GLRS",    "GSTD", "NSCD", "COFN", "BLNK", "TOL",  "MNUM", "MOFF", "NOTE", "WWGN",
-    "WWGT", "DMFS", "EFFL", "COATING", "FCOM", "AUTH", "PUPD", "RFLN", "XTRA", "ZVAM", "SURF"};
+    "VERS", "PFIL", "LANG", "ENVD", "GFAC",    "GCAT", "RAIM", "PUSH", "SDMA", "OMMA", "ROPD", "HYPR",
+    "PICB", "FWGN", "VANN", "POLS", "GLRS",    "GSTD", "NSCD", "COFN", "BLNK", "TOL",  "MOFF", "NOTE",
+    "WWGN", "WWGT", "DMFS", "EFFL", "COATING", "FCOM", "AUTH", "PUPD", "RFLN", "XTRA", "ZVAM", "SURF"};
 
 class Reader {
 public:
@@ -67,6 +67,7 @@ private:
     Status field_type(const Words& words, const Line& line);
     Status vignetting(const Words& words, const Line& line);
     Status primary(const Words& words, const Line& line);
+    Status configurations(const Words& words, const Line& line);
 
     Status glass(const Words& words, const Line& line);
     Status clear_aperture(const Words& words, const Line& line);
@@ -92,7 +93,7 @@ private:
     Ignored ignored_;
     double mm_ = 1;
     std::optional<ApertureKind> aperture_;  // none: the stop's diameter rules
-    bool vignetting_factors_ = false, assumed_type_ = false;
+    bool vignetting_factors_ = false, assumed_type_ = false, several_configurations_ = false;
     int field_type_ = 0, field_count_ = 0, wavelength_count_ = 0, primary_ = 1;
     std::vector<double> x_fields_, y_fields_, wavelengths_um_;
 };
@@ -186,6 +187,17 @@ Status Reader::primary(const Words& words, const Line& line) {
     return Done{};
 }
 
+// What follows are the values of each configuration; those of the current one are in the surfaces.
+Status Reader::configurations(const Words& words, const Line& line) {
+    const auto count = number(words, 1, line);
+    if (!count) return count.error();
+    if (*count <= 1) return Done{};
+    several_configurations_ = true;
+    file_.warnings.push_back("line " + std::to_string(line.number) +
+                             ": a zoom or one of several configurations, as its surfaces were saved");
+    return Done{};
+}
+
 const std::map<std::string, Reader::Handler>& Reader::header_words() {
     static const auto mode = [](Reader&, const Words& w, const Line& l) -> Status {
         if (w.size() > 1 && upper_case(w[1]) == "SEQ") return Done{};
@@ -229,7 +241,8 @@ const std::map<std::string, Reader::Handler>& Reader::header_words() {
                                                          {"WAVM", one},
                                                          {"WAVL", list},
                                                          {"WAVN", list},
-                                                         {"PWAV", call<&Reader::primary>}};
+                                                         {"PWAV", call<&Reader::primary>},
+                                                         {"MNUM", call<&Reader::configurations>}};
     return words;
 }
 
@@ -237,7 +250,7 @@ Status Reader::header(const std::string& keyword, const Words& words, const Line
     if (const auto found = header_words().find(keyword); found != header_words().end())
         return found->second(*this, words, line);
     // Merit functions and options follow the surfaces in endless variety; none of them shapes the lens.
-    if (!kHarmlessHeader.contains(keyword))
+    if (!kHarmlessHeader.contains(keyword) && !several_configurations_)
         ignored_.add(keyword.substr(0, 20) + " (line " + std::to_string(line.number) + ")");
     return Done{};
 }
@@ -285,11 +298,15 @@ const std::map<std::string, Reader::Handler>& Reader::surface_words() {
     static const auto semi_diameter = [](Reader& r, const Words& w, const Line& l) -> Status {
         return set(r.surfaces_.back().semi_diameter.emplace(), w, 1, l);
     };
+    static const auto thickness = [](Reader& r, const Words& w, const Line& l) -> Status {
+        r.surfaces_.back().has_thickness = true;
+        return set(r.surfaces_.back().thickness, w, 1, l);
+    };
     static const std::map<std::string, Handler> words = {{"STOP", stop},
                                                          {"TYPE", type},
                                                          {"DIAM", semi_diameter},
                                                          {"CURV", put<&ZmxSurface::curvature>},
-                                                         {"DISZ", put<&ZmxSurface::thickness>},
+                                                         {"DISZ", thickness},
                                                          {"CONI", put<&ZmxSurface::conic>},
                                                          {"PARM", put_indexed<&ZmxSurface::parameters>},
                                                          {"XDAT", put_indexed<&ZmxSurface::extra>},
@@ -374,6 +391,9 @@ Status Reader::surfaces() {
     if (std::isfinite(object.thickness) && object.thickness < 1e9)
         lens.object_distance_mm = object.thickness * mm_;
     if (object.glass) return at_line(object.glass->line, "an object inside glass is not supported");
+    if (image.glass || (image.curvature != 0 && !image.has_thickness))
+        return at_line(image.line,
+                       "the file ends with a surface of a lens; the image, or the rest of it, is missing");
     if (image.curvature != 0)
         file_.warnings.emplace_back("the image surface is curved; the sensor is taken as flat");
     bool has_stop = false;

@@ -4,6 +4,7 @@
 #include "lens_files/lens_file.h"
 #include "optics/paraxial.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -123,6 +124,29 @@ TEST(SavedZemax, MirrorsAndTiltsAreErrorsThatNameTheLine) {
     EXPECT_NE(tilt.find("COORDBRK"), std::string::npos);
 }
 
+TEST(SavedZemax, OfSeveralConfigurationsTheSavedOneIsReadAndSaid) {
+    std::string text = zemax_triplet();
+    text.replace(text.find("MNUM 1 1"), 8, "MNUM 2 1\nTHIC   4   1 4.75 0\nTHIC   4   2 5.5 0");
+    const LensFile file = read(text);
+    EXPECT_EQ(efl(file), efl(read(zemax_triplet())));
+    ASSERT_EQ(file.warnings.size(), 2u);
+    EXPECT_NE(file.warnings[0].find("configurations"), std::string::npos);
+    EXPECT_EQ(file.warnings[1].find("THIC"), std::string::npos) << "it has an effect elsewhere";
+}
+
+TEST(SavedZemax, AFileThatEndsTooSoonIsRefused) {
+    const std::string whole = zemax_triplet();
+    int refused = 0;
+    for (const char* surface : {"SURF 2", "SURF 3", "SURF 4", "SURF 5", "SURF 6"})
+        for (const char* last : {"  HIDE", "  DIAM"}) {  // after the curvature, and after thickness and glass
+            const std::string text = whole.substr(0, whole.find(last, whole.find(surface)));
+            const std::string answer = refusal(text);
+            if (answer.find("line ") != std::string::npos) ++refused;
+        }
+    // Cut after a thickness behind which there is air, what is left looks like a lens and its image.
+    EXPECT_EQ(refused, 7);
+}
+
 // The same triplet with everything that CODE V writes around it.
 std::string code_v_triplet(const std::string& aperture = "EPD 10.0", const std::string& unit = "M",
                            const std::string& flint = "F2_SCHOTT") {
@@ -150,6 +174,15 @@ TEST(SavedCodeV, ATripletAsSavedIsTheTriplet) {
     EXPECT_NEAR(efl(read(code_v_triplet("EPD 10", "M", "620.364"))), efl(file), 7e-3) << "a glass code";
 }
 
+TEST(SavedCodeV, OfAZoomTheFirstPositionIsReadAndSaid) {
+    std::string text = code_v_triplet();
+    text.replace(text.find("GO\n"), 3, "ZOO 2\nZOO THI S4 4.75 5.5\nGO\n");
+    const LensFile file = read(text);
+    EXPECT_EQ(efl(file), efl(read(code_v_triplet())));
+    EXPECT_TRUE(std::any_of(file.warnings.begin(), file.warnings.end(),
+                            [](const std::string& w) { return w.find("zoom") != std::string::npos; }));
+}
+
 TEST(SavedCodeV, TheStopMayBeNamedByNumber) {
     std::string text = code_v_triplet();
     text.replace(text.find("  STO\n"), 6, "");
@@ -168,6 +201,13 @@ TEST(SavedCodeV, MirrorsUnknownGlassAndUnknownWordsAreErrorsThatNameTheLine) {
     EXPECT_NE(refusal(code_v_triplet("EPD 10", "M", "REFL")).find("line 25"), std::string::npos);
     EXPECT_NE(refusal(code_v_triplet("EPD 10", "M", "FROBNIUM")).find("line 25"), std::string::npos);
     EXPECT_NE(refusal(code_v_triplet("FROB 10")).find("line 4"), std::string::npos);
+}
+
+TEST(SavedPbrt, AnotherCountOfNumbersIsSaidWithItsLine) {
+    EXPECT_NE(refusal("29.475 3.76 1.67 25.2 60\n").find("line 1: a pbrt lens has four numbers"),
+              std::string::npos);
+    EXPECT_NE(refusal("# a lens\n29.475 3.76 1.67\n").find("line 2: a pbrt lens has four numbers"),
+              std::string::npos);
 }
 
 TEST(SavedPbrt, CommentsTabsAndCarriageReturnsDoNotMatter) {
