@@ -42,7 +42,7 @@ template <bool kNeutral>
 HWY_INLINE void FourRows(const StepJob& job, const float* in_a, int channel_a, const float* in_b,
                          int channel_b, float* out_a, float* out_b) {
     static_assert(kGatherRows == 4);
-    constexpr int kPerRow = kNeutral ? 1 : 4;
+    constexpr std::ptrdiff_t kPerRow = kNeutral ? 1 : 4;
     const Floats d;
     const int a = kNeutral ? 0 : channel_a, b = kNeutral ? 0 : channel_b;
     for (int x = 0; x < job.width; x += int(hn::Lanes(d))) {
