@@ -72,7 +72,7 @@ Result<Output> run_sprites(const Input& input) {
     };
     const bool finds = input.sprites.find && input.deep.empty();
     // The picture without its lights, and for every light: itself, its copy in a tile, its place in lists.
-    constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba), kBytesPerPoint = 160;
+    constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba), kBytesPerPoint = 200;
     if (const Status fits =
             fits_memory(input, kBytesPerPixel, "sprites", kBytesPerPoint * input.points.size());
         !fits)

@@ -1,12 +1,15 @@
 #include "engine/sprites_draw.h"
 
 #include "base/parallel.h"
+#include "engine/sprites_dimmer.h"
 #include "engine/sprites_kernels.h"
 #include "engine/sprites_shadow.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace petzval::engine {
 namespace {
@@ -14,11 +17,14 @@ namespace {
 constexpr int kTile = 256;
 constexpr int kBorder = 1;  // cells around a tile that enlarging reads
 
+// A light as it is drawn.
 struct Drawing {
-    std::uint64_t order;  // level, kernel
-    int x, y;             // cell
+    std::uint64_t order = 0;  // level, kernel
+    int x = 0, y = 0;         // cell
     Rgba light;
-    std::uint32_t sprite;
+    PupilMask mask;
+    int level() const { return int(order >> 32); }
+    int kernel() const { return int(order & 0xffffffff); }
 };
 
 Rect cells_of(const Rect& tile, int level) {
@@ -28,135 +34,173 @@ Rect cells_of(const Rect& tile, int level) {
         .grown(kBorder);
 }
 
-// Which sprites may reach which tile.
+// Runs work(begin, end) for pieces of 0…count.
+template <typename Work>
+void in_batches(std::size_t count, std::size_t batch, int threads, const Work& work) {
+    parallel_for(int((count + batch - 1) / batch), threads, [&](int i) {
+        const std::size_t begin = std::size_t(i) * batch;
+        work(begin, std::min(count, begin + batch));
+    });
+}
+
+// Lights that anything is seen of, as drawings, by the tiles they may reach.
 class Buckets {
 public:
     Buckets(const Input& input, std::span<const Sprite> sprites, const SpriteKernels& kernels)
-        : tiles_x_((input.width() + kTile - 1) / kTile), tiles_y_((input.height() + kTile - 1) / kTile) {
-        first_.assign(std::size_t(tiles_x_ * tiles_y_) + 1, 0);
-        each(input, sprites, kernels, [&](int tile, std::uint32_t) { ++first_[std::size_t(tile) + 1]; });
-        for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-        members_.resize(first_.back());
-        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-        each(input, sprites, kernels,
-             [&](int tile, std::uint32_t sprite) { members_[next[std::size_t(tile)]++] = sprite; });
+        : in_(input),
+          kernels_(kernels),
+          tiles_x_((input.width() + kTile - 1) / kTile),
+          tiles_y_((input.height() + kTile - 1) / kTile) {
+        std::vector<Placed> placed(sprites.size());
+        const SpriteShadows shadows(input);
+        in_batches(sprites.size(), 4096, input.threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end && !input.progress->cancelled(); ++i)
+                placed[i] = place(sprites[i], shadows);
+        });
+        sort_into_tiles(placed);
     }
     int count() const { return tiles_x_ * tiles_y_; }
     Rect area(int tile, const Rect& picture) const {
         const int x = tile % tiles_x_ * kTile, y = tile / tiles_x_ * kTile;
         return Rect{x, y, x + kTile, y + kTile}.intersected(picture);
     }
-    std::span<const std::uint32_t> at(int tile) const {
+    std::span<Drawing> at(int tile) {
         const std::size_t i = std::size_t(tile);
         return std::span(members_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
 
 private:
-    template <typename Visit>
-    void each(const Input& input, std::span<const Sprite> sprites, const SpriteKernels& kernels,
-              const Visit& visit) const {
-        const float per_px = float(input.lens(0).reach_px(1000) / 1000);  // of a radius, roughly
-        for (std::size_t i = 0; i < sprites.size(); ++i) {
-            const Sprite& s = sprites[i];
-            const Stamping where = kernels.stamping(s.x, s.y, s.coc_px);
-            const float reach = where.level > 0
-                                    ? float(kernels.reach(where.level) + 2) * float(1 << where.level)
-                                    : std::max(1.0f, per_px) * std::abs(s.coc_px) * 1.02f + 4;
-            const auto tile = [](float at, int tiles) {
-                return std::clamp(int(std::floor(std::clamp(at, -1e6f, 1e6f) / kTile)), -1, tiles);
-            };
-            const int x0 = std::max(0, tile(s.x - reach, tiles_x_)), x1 = tile(s.x + reach, tiles_x_);
-            const int y0 = std::max(0, tile(s.y - reach, tiles_y_)), y1 = tile(s.y + reach, tiles_y_);
-            for (int y = y0; y <= std::min(y1, tiles_y_ - 1); ++y)
-                for (int x = x0; x <= std::min(x1, tiles_x_ - 1); ++x)
-                    visit(y * tiles_x_ + x, std::uint32_t(i));
-        }
+    struct Placed {
+        Drawing drawing;
+        short x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // tiles
+    };
+
+    Placed place(const Sprite& s, const SpriteShadows& shadows) const {
+        Placed placed;
+        placed.drawing.mask = shadows.mask(s.x, s.y, s.coc_px);
+        if (placed.drawing.mask.is_closed()) return placed;
+        const Stamping where = kernels_.stamping(s.x, s.y, s.coc_px);
+        placed.drawing.order = std::uint64_t(where.level) << 32 | std::uint64_t(where.kernel);
+        placed.drawing.x = where.x, placed.drawing.y = where.y;
+        placed.drawing.light = {s.r, s.g, s.b, 0};
+        const float reach = where.level > 0 ? float(kernels_.reach(where.level) + 2) * float(1 << where.level)
+                                            : std::max(1.0f, per_px_) * std::abs(s.coc_px) * 1.02f + 4;
+        const auto tile = [](float at, int tiles) {
+            return short(std::clamp(std::floor(at / kTile), 0.0f, float(tiles)));
+        };
+        placed.x0 = tile(s.x - reach, tiles_x_), placed.x1 = tile(s.x + reach + kTile, tiles_x_);
+        placed.y0 = tile(s.y - reach, tiles_y_), placed.y1 = tile(s.y + reach + kTile, tiles_y_);
+        return placed;
     }
 
+    // Counted first, piece by piece, so that pieces can be written in parallel and in order.
+    void sort_into_tiles(const std::vector<Placed>& placed) {
+        constexpr std::size_t kPiece = 1 << 16;
+        const std::size_t tiles = std::size_t(count()), pieces = (placed.size() + kPiece - 1) / kPiece;
+        std::vector<std::size_t> next(tiles * pieces);
+        const auto each = [&](std::size_t begin, std::size_t end, const auto& visit) {
+            for (std::size_t i = begin; i < end; ++i)
+                for (int y = placed[i].y0; y < placed[i].y1; ++y)
+                    for (int x = placed[i].x0; x < placed[i].x1; ++x)
+                        visit(next[std::size_t(y * tiles_x_ + x) * pieces + begin / kPiece],
+                              placed[i].drawing);
+        };
+        in_batches(placed.size(), kPiece, in_.threads, [&](std::size_t begin, std::size_t end) {
+            each(begin, end, [](std::size_t& n, const Drawing&) { ++n; });
+        });
+        std::size_t sum = 0;
+        for (std::size_t tile = 0; tile < tiles; ++tile) {
+            first_.push_back(sum);
+            for (std::size_t piece = 0; piece < pieces; ++piece)
+                sum += std::exchange(next[tile * pieces + piece], sum);
+        }
+        first_.push_back(sum);
+        members_.resize(sum);
+        in_batches(placed.size(), kPiece, in_.threads, [&](std::size_t begin, std::size_t end) {
+            each(begin, end, [&](std::size_t& n, const Drawing& drawing) { members_[n++] = drawing; });
+        });
+    }
+
+    const Input& in_;
+    const SpriteKernels& kernels_;
     int tiles_x_, tiles_y_;
+    float per_px_ = float(in_.lens(0).reach_px(1000) / 1000);  // of a radius, roughly
     std::vector<std::size_t> first_;
-    std::vector<std::uint32_t> members_;
+    std::vector<Drawing> members_;
 };
 
 class Drawer {
 public:
-    Drawer(const Input& input, std::span<const Sprite> sprites, const SpriteKernels& kernels)
-        : in_(input), sprites_(sprites), kernels_(kernels), shadows_(input), masks_(sprites.size()) {
-        constexpr std::size_t kBatch = 4096;
-        parallel_for(int((sprites.size() + kBatch - 1) / kBatch), input.threads, [&](int batch) {
-            const std::size_t begin = std::size_t(batch) * kBatch,
-                              end = std::min(sprites.size(), begin + kBatch);
-            for (std::size_t i = begin; i < end && !input.progress->cancelled(); ++i)
-                masks_[i] = shadows_.mask(sprites[i].x, sprites[i].y, sprites[i].coc_px);
-        });
-    }
+    Drawer(const Input& input, const SpriteKernels& kernels) : in_(input), kernels_(kernels) {}
 
-    void draw(std::span<const std::uint32_t> members, const Rect& tile, View<Rgba> out) const {
+    void draw(std::span<Drawing> members, const Rect& tile, View<Rgba> out) const {
         if (members.empty()) return;
-        std::vector<Drawing> drawings = sorted(members);
+        const std::vector<const Drawing*> drawings = sorted(members);
         Accumulator cells;
+        Dimmer dimmer;
         for (std::size_t i = 0; i < drawings.size();) {
-            const int level = int(drawings[i].order >> 48);
+            const int level = drawings[i]->level();
             cells.reset(cells_of(tile, level));
-            for (; i < drawings.size() && int(drawings[i].order >> 48) == level; ++i)
-                if (drawings[i].light != Rgba{}) draw_one(drawings[i], cells);
+            while (i < drawings.size() && drawings[i]->level() == level)
+                i = draw_kernel(drawings, i, dimmer, cells);
             add(cells, level, tile, out);
         }
     }
 
 private:
-    bool is_open(std::uint32_t sprite) const { return masks_[sprite].is_open(); }
-
-    // By level and kernel, so that each kernel is at hand while it is used; lights on one spot as one.
-    std::vector<Drawing> sorted(std::span<const std::uint32_t> members) const {
-        std::vector<Drawing> drawings;
-        drawings.reserve(members.size());
-        for (const std::uint32_t i : members) {
-            const Sprite& s = sprites_[i];
-            const Stamping w = kernels_.stamping(s.x, s.y, s.coc_px);
-            const std::uint64_t order = std::uint64_t(w.level) << 48 | std::uint64_t(w.kernel);
-            drawings.push_back({order, w.x, w.y, {s.r, s.g, s.b, 0}, i});
+    // All drawings from `begin` on that share its kernel; returns the next.
+    std::size_t draw_kernel(const std::vector<const Drawing*>& drawings, std::size_t begin, Dimmer& dimmer,
+                            Accumulator& cells) const {
+        const std::uint64_t order = drawings[begin]->order;
+        const int number = drawings[begin]->kernel(), level = drawings[begin]->level();
+        const StampKernel& kernel = kernels_.at(number);
+        bool ready = false;
+        std::size_t i = begin;
+        for (; i < drawings.size() && drawings[i]->order == order; ++i) {
+            const Drawing& d = *drawings[i];
+            if (d.light == Rgba{}) continue;
+            if (d.mask.is_open()) {
+                stamp(kernel, d.x, d.y, d.light, 0, 0, cells);
+                continue;
+            }
+            if (!ready)
+                dimmer.use(kernel, kernels_.radius_px(number) / float(1 << level), float(in_.pixel_aspect));
+            ready = true;
+            stamp_dimmed(kernel, d.x, d.y, d.light, dimmer.rows(d.mask), cells);
         }
-        const auto key = [](const Drawing& d) { return std::tuple(d.order, d.y, d.x, d.sprite); };
-        std::sort(drawings.begin(), drawings.end(),
-                  [&](const Drawing& a, const Drawing& b) { return key(a) < key(b); });
-        for (std::size_t i = 0; i + 1 < drawings.size(); ++i) {
-            Drawing &a = drawings[i], &b = drawings[i + 1];
-            if (a.order != b.order || a.x != b.x || a.y != b.y || !is_open(a.sprite) || !is_open(b.sprite))
+        return i;
+    }
+
+    // By level and kernel, so that each kernel is at hand while it is used, then row by row; lights on one
+    // spot as one.
+    static std::vector<const Drawing*> sorted(std::span<Drawing> members) {
+        struct Key {
+            std::uint64_t order, place;
+            Drawing* drawing;
+            bool operator<(const Key& b) const {
+                return std::tie(order, place, drawing) < std::tie(b.order, b.place, b.drawing);
+            }
+        };
+        std::vector<Key> keys;
+        keys.reserve(members.size());
+        constexpr std::uint32_t kSign = 0x80000000;  // numbers below 0 come first
+        for (Drawing& d : members)
+            keys.push_back({d.order,
+                            std::uint64_t(std::uint32_t(d.y) ^ kSign) << 32 | (std::uint32_t(d.x) ^ kSign),
+                            &d});
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+            Drawing &a = *keys[i].drawing, &b = *keys[i + 1].drawing;
+            if (keys[i].order != keys[i + 1].order || keys[i].place != keys[i + 1].place ||
+                !a.mask.is_open() || !b.mask.is_open())
                 continue;
             b.light += a.light;
             a.light = {};
         }
+        std::vector<const Drawing*> drawings;
+        drawings.reserve(keys.size());
+        for (const Key& key : keys) drawings.push_back(key.drawing);
         return drawings;
-    }
-
-    void draw_one(const Drawing& d, Accumulator& cells) const {
-        const int kernel = int(d.order & 0xffffffff);
-        if (is_open(d.sprite)) {
-            stamp(kernels_.at(kernel), d.x, d.y, d.light, 0, 0, cells);
-            return;
-        }
-        draw_masked(kernels_.at(kernel), d, cells);
-    }
-
-    // Each weight dimmed by the share of its place in the pupil.
-    void draw_masked(const StampKernel& kernel, const Drawing& d, Accumulator& cells) const {
-        const PupilMask& mask = masks_[d.sprite];
-        if (mask.is_closed()) return;
-        const float radius = sprites_[d.sprite].coc_px / float(1 << int(d.order >> 48));
-        const float per_cell = 1 / std::copysign(std::max(std::abs(radius), 0.5f), radius);
-        const Rect e = kernel.extent(), area = cells.area();
-        const int x0 = std::max(e.x0, area.x0 - d.x), x1 = std::min(e.x1, area.x1 - d.x);
-        for (int y = std::max(e.y0, area.y0 - d.y); y < std::min(e.y1, area.y1 - d.y); ++y) {
-            const auto shares = mask.row(float(y) * per_cell / float(in_.pixel_aspect));
-            const float* weights = kernel.row(y - e.y0);
-            Rgba* to = cells.row(d.y + y) - area.x0;
-            for (int x = x0; x < x1; ++x) {
-                const float* w = weights + std::ptrdiff_t(4) * (x - e.x0);
-                const float share = PupilMask::at(shares, float(x) * per_cell);
-                to[d.x + x] += share * (Rgba{w[0], w[1], w[2], w[3]} * d.light);
-            }
-        }
     }
 
     // Between the cells of coarser levels bilinear, which keeps their light.
@@ -185,10 +229,7 @@ private:
     }
 
     const Input& in_;
-    std::span<const Sprite> sprites_;
     const SpriteKernels& kernels_;
-    SpriteShadows shadows_;
-    std::vector<PupilMask> masks_;
 };
 
 }  // namespace
@@ -198,8 +239,8 @@ void draw_sprites(const Input& input, std::span<const Sprite> sprites, View<Rgba
     float largest = 0;
     for (const Sprite& s : sprites) largest = std::max(largest, std::abs(s.coc_px));
     const SpriteKernels kernels(input, largest);
-    const Buckets buckets(input, sprites, kernels);
-    const Drawer drawer(input, sprites, kernels);
+    Buckets buckets(input, sprites, kernels);
+    const Drawer drawer(input, kernels);
     parallel_for(buckets.count(), input.threads, [&](int tile) {
         if (input.progress->cancelled()) return;
         drawer.draw(buckets.at(tile), buckets.area(tile, out.rect()), out);

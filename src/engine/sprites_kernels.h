@@ -31,6 +31,11 @@ public:
     int reach(int level) const { return reach_[std::size_t(level)]; }
     // (x, y) in pixels, centres at +0.5.
     Stamping stamping(float x, float y, float coc_px) const;
+    // Of a kernel, signed.
+    float radius_px(int kernel) const {
+        const int radius = kernel / (phases_ * phases_);
+        return (radius / steps_ % 2 ? 1.0f : -1.0f) * radius_of(radius % steps_);
+    }
     // The lens's kernel; lights of one number share it. Thread-safe.
     const StampKernel& at(int kernel) const;
 

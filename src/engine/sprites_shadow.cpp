@@ -8,107 +8,128 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kBlock = 16;
-constexpr float kOwnSurfacePx = 1;     // what is nearer by less is the light's own surface
-constexpr float kWidestPupil = 1.25f;  // from the middle to a corner of the grid, pupil radii
-constexpr float kStepPx = 1.5f;        // along a ray's way over the picture
+constexpr float kOwnSurfacePx = 1;  // what is nearer by less is the light's own surface
+constexpr float kJumpPx = 1;        // from pixel to pixel: another surface
+constexpr float kWidestPupil = 1.0f - 1.0f / PupilMask::kSide;  // where the outermost points of the grid lie
+// A square whose radii differ by less than this share of the way to it hides as if they were one.
+constexpr float kNarrow = 0.06f;
 
-// The two grid points around a place of the pupil's square.
-struct Between {
-    int cell;
-    float share;  // of the second
-    explicit Between(float t) {
-        const float p = std::clamp((t + 1) / 2 * PupilMask::kSide - 0.5f, 0.0f, float(PupilMask::kSide - 1));
-        cell = std::min(int(p), PupilMask::kSide - 2);
-        share = p - float(cell);
-    }
-};
+// Grid points between two places on an axis of the pupil, as bits.
+unsigned points(float from, float to) {
+    constexpr float kHalf = 0.5f * PupilMask::kSide, kEnd = PupilMask::kSide;
+    const float first = std::clamp((from + 1) * kHalf - 0.5f, 0.0f, kEnd);
+    const float last = std::clamp((to + 1) * kHalf - 0.5f, -1.0f, kEnd - 1);
+    const int begin = PupilMask::kSide - int(kEnd - first),
+              end = int(last + 1);  // rounded up, down and past it
+    return begin < end ? (1u << end) - (1u << begin) : 0;
+}
+
+// Every row of the grid that `rows` names, with the columns that `columns` names.
+std::uint64_t grid(unsigned columns, unsigned rows) {
+    // The bits of `rows`, each the lowest of its byte: bit i goes up by 7 i. (The last one apart, since it
+    // would meet the first on its way.)
+    const std::uint64_t spread = ((rows & 127) * std::uint64_t(0x0002040810204081) & 0x0101010101010101u) |
+                                 std::uint64_t(rows >> 7) << 56;
+    return spread * columns;
+}
 
 }  // namespace
 
-std::array<float, PupilMask::kSide> PupilMask::row(float y) const {
-    const Between b(y);
-    std::array<float, kSide> values;
-    for (int i = 0; i < kSide; ++i) {
-        const auto share = [&](int line) { return float(seen >> (line * kSide + i) & 1); };
-        values[std::size_t(i)] = share(b.cell) + b.share * (share(b.cell + 1) - share(b.cell));
+PupilMask::Between::Between(float place) {
+    const float p = std::clamp((place + 1) / 2 * kSide - 0.5f, 0.0f, float(kSide - 1));
+    cell = std::min(int(p), kSide - 2);
+    share = p - float(cell);
+}
+
+void SpriteShadows::Node::include(const Node& other) {
+    nearest = std::min(nearest, other.nearest), farthest = std::max(farthest, other.farthest);
+    is_whole = is_whole && other.is_whole;
+}
+
+// Up to the middle between it and each of its neighbours on one surface, so that a surface has no cracks.
+SpriteShadows::Node SpriteShadows::pixel(int x, int y) const {
+    const View<const float> coc = in_.coc_px;
+    const float own = coc(x, y);
+    Node node{own, own, true};
+    const auto meet = [&](int u, int v) {
+        if (u < 0 || v < 0 || u >= coc.width() || v >= coc.height()) return;
+        const float there = coc(u, v), middle = 0.5f * (own + there);
+        if (std::abs(there - own) >= kJumpPx)
+            node.is_whole = false;
+        else
+            node.nearest = std::min(node.nearest, middle), node.farthest = std::max(node.farthest, middle);
+    };
+    meet(x - 1, y), meet(x + 1, y), meet(x, y - 1), meet(x, y + 1);
+    return node;
+}
+
+SpriteShadows::SpriteShadows(const Input& input) : in_(input) {
+    for (int width = input.width(), height = input.height(); width > 1 || height > 1;) {
+        const int level = top(), below_width = width, below_height = height;
+        width = (width + 1) / 2, height = (height + 1) / 2;
+        Image<Node> nodes(width, height);
+        parallel_for(height, input.threads, [&](int y) {
+            for (int x = 0; x < width; ++x)
+                for (int v = 2 * y; v < std::min(2 * y + 2, below_height); ++v)
+                    for (int u = 2 * x; u < std::min(2 * x + 2, below_width); ++u)
+                        nodes(x, y).include(node(level, u, v));
+        });
+        levels_.push_back(std::move(nodes));
     }
-    return values;
 }
 
-float PupilMask::at(const std::array<float, kSide>& row, float x) {
-    const Between b(x);
-    const float left = row[std::size_t(b.cell)];
-    return left + b.share * (row[std::size_t(b.cell + 1)] - left);
-}
-
-SpriteShadows::SpriteShadows(const Input& input)
-    : in_(input), blocks_((input.width() + kBlock - 1) / kBlock, (input.height() + kBlock - 1) / kBlock) {
-    parallel_for(blocks_.height(), input.threads, [&](int by) {
-        for (int y = by * kBlock; y < std::min(input.height(), (by + 1) * kBlock); ++y)
-            for (int x = 0; x < input.width(); ++x) {
-                Block& block = blocks_(x / kBlock, by);
-                block.nearest = std::min(block.nearest, input.coc_px(x, y));
-                block.farthest = std::max(block.farthest, input.coc_px(x, y));
-            }
-    });
-}
-
-// A block is in the way if it holds something nearer than the light and rays can have come as far as it lies
-// by the radius it has.
-SpriteShadows::Blockers SpriteShadows::blockers(float x, float y, float coc_px) const {
-    const float limit = coc_px - kOwnSurfacePx;
-    Blockers found;
-    if (in_.nearest_coc_px >= limit) return found;
-    const float widest = kWidestPupil * std::max(1.0f, float(in_.pixel_aspect));
-    const float reach = (coc_px - in_.nearest_coc_px) * widest;
-    const auto block = [](float at, int count) {
-        return std::clamp(int(std::floor(at / kBlock)), 0, count - 1);
-    };
-    const auto gap = [](float at, int cell) {
-        const float begin = float(cell * kBlock);
-        return std::max({0.0f, begin - at, at - (begin + kBlock)});
-    };
-    const int x0 = block(x - reach, blocks_.width()), x1 = block(x + reach, blocks_.width());
-    const int y0 = block(y - reach, blocks_.height()), y1 = block(y + reach, blocks_.height());
-    for (int by = y0; by <= y1; ++by)
-        for (int bx = x0; bx <= x1; ++bx) {
-            const Block& b = blocks_(bx, by);
-            if (b.nearest >= limit) continue;
-            const float dx = gap(x, bx), dy = gap(y, by), far = (coc_px - b.nearest) * widest;
-            if (dx * dx + dy * dy > far * far) continue;
-            found.nearest = std::min(found.nearest, b.nearest);
-            found.farthest = std::max(found.farthest, std::min(b.farthest, limit));
-        }
+SpriteShadows::Behind SpriteShadows::behind(const Light& light, int level, int x, int y,
+                                            const Node& node) const {
+    const Rect pixels =
+        Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(in_.coc_px.rect());
+    const float per_row = 1 / float(in_.pixel_aspect);
+    const float left = float(pixels.x0) - light.x, right = float(pixels.x1) - light.x;
+    const float top = (float(pixels.y0) - light.y) * per_row, bottom = (float(pixels.y1) - light.y) * per_row;
+    // Of a whole surface every ray is stopped that lies within the square all the way from its farthest to
+    // its nearest radius.
+    const float close = 1 / (light.coc_px - std::min(node.farthest, light.coc_px - kOwnSurfacePx));
+    const float far = 1 / (light.coc_px - node.nearest);
+    const auto low = [&](float edge, float a, float b) { return edge * (edge < 0 ? a : b); };
+    Behind found;
+    const unsigned columns = points(low(left, close, far), low(right, far, close));
+    if (columns == 0) return found;
+    found.all = grid(columns, points(low(top, close, far), low(bottom, far, close)));
+    if (node.farthest >= light.coc_px - kOwnSurfacePx) return found;
+    const float spread = node.farthest - node.nearest;
+    if (level == 0 || spread * close <= kNarrow)
+        found.surely = found.all;
+    else if (node.is_whole && found.all)
+        found.surely = grid(points(low(left, far, close), low(right, close, far)),
+                            points(low(top, far, close), low(bottom, close, far)));
     return found;
 }
 
-bool SpriteShadows::is_stopped(float x, float y, float coc_px, float u, float v,
-                               const Blockers& blockers) const {
-    // How far the ray has come, in radius, where it can first and last meet something.
-    const float first = coc_px - blockers.farthest, way = blockers.farthest - blockers.nearest;
-    const int steps = 1 + int(std::min(way * std::sqrt(u * u + v * v) / kStepPx, 4096.0f));
-    const float step = way / float(steps), tolerance = 0.5f * step + 0.25f;
-    for (int k = 0; k <= steps; ++k) {
-        const float passed = first + step * float(k);
-        const int qx = int(std::floor(x + passed * u)), qy = int(std::floor(y + passed * v));
-        if (!in_.coc_px.rect().contains(qx, qy)) return false;
-        const float there = in_.coc_px(qx, qy);
-        if (there < coc_px - kOwnSurfacePx && std::abs(there - (coc_px - passed)) <= tolerance) return true;
-    }
-    return false;
+void SpriteShadows::hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const {
+    const Node here = node(level, x, y);
+    if (here.nearest >= light.coc_px - kOwnSurfacePx) return;
+    const Behind found = behind(light, level, x, y, here);
+    seen &= ~found.surely;
+    if (level == 0 || !(found.all & seen)) return;
+    const int below_width = (in_.width() + (1 << (level - 1)) - 1) >> (level - 1),
+              below_height = (in_.height() + (1 << (level - 1)) - 1) >> (level - 1);
+    for (int v = 2 * y; v < std::min(2 * y + 2, below_height); ++v)
+        for (int u = 2 * x; u < std::min(2 * x + 2, below_width); ++u) hide(light, level - 1, u, v, seen);
 }
 
 PupilMask SpriteShadows::mask(float x, float y, float coc_px) const {
     PupilMask mask;
-    const Blockers in_the_way = blockers(x, y, coc_px);
-    if (in_the_way.none()) return mask;
-    const float aspect = float(in_.pixel_aspect);
-    const auto middle = [](int k) { return (2 * float(k) + 1) / PupilMask::kSide - 1; };
-    for (int j = 0; j < PupilMask::kSide; ++j)
-        for (int i = 0; i < PupilMask::kSide; ++i)
-            if (is_stopped(x, y, coc_px, middle(i), middle(j) * aspect, in_the_way))
-                mask.seen &= ~(std::uint64_t(1) << (j * PupilMask::kSide + i));
+    if (in_.nearest_coc_px >= coc_px - kOwnSurfacePx) return mask;
+    const float reach =
+        (coc_px - in_.nearest_coc_px) * kWidestPupil * std::max(1.0f, float(in_.pixel_aspect));
+    // Squares so large that few of them are in reach.
+    const int level = std::clamp(int(std::log2(std::max(1.0f, reach))), 0, top());
+    const auto square = [&](float at, int pixels) {
+        return std::clamp(int(std::floor(at)), 0, pixels - 1) >> level;
+    };
+    const int x0 = square(x - reach, in_.width()), x1 = square(x + reach, in_.width());
+    const int y0 = square(y - reach, in_.height()), y1 = square(y + reach, in_.height());
+    for (int v = y0; v <= y1; ++v)
+        for (int u = x0; u <= x1; ++u) hide({x, y, coc_px}, level, u, v, mask.seen);
     return mask;
 }
 

@@ -1,8 +1,9 @@
 // Which part of the lens a light is seen through: the part whose rays meet nothing nearer on their way.
 //
 // A light at s with radius c lands through the pupil point u at s + c u; on the way, where something has the
-// radius c' < c, its ray passes s + (c - c') u (docs/conventions.md). Rays of a grid of pupil points are
-// followed; between them the share is interpolated.
+// radius c' < c, its ray passes s + (c - c') u (docs/conventions.md). So what stands at q with radius c'
+// hides the pupil point u = (q - s) / (c - c'), and a square of pixels at much the same radius hides a square
+// of the pupil. A quad-tree of the picture's radii finds these squares, large ones first.
 #pragma once
 
 #include "engine/engine.h"
@@ -20,9 +21,14 @@ struct PupilMask {
     std::uint64_t seen = ~std::uint64_t(0);
     bool is_open() const { return seen == ~std::uint64_t(0); }
     bool is_closed() const { return seen == 0; }
-    // The shares along the row of the pupil at y (down, clamped to the grid), for at().
-    std::array<float, kSide> row(float y) const;
-    static float at(const std::array<float, kSide>& row, float x);
+    std::uint8_t row(int y) const { return std::uint8_t(seen >> (y * kSide)); }
+
+    // The two grid points around a place of the pupil's square, clamped to the grid.
+    struct Between {
+        int cell;
+        float share;  // of the second
+        explicit Between(float place);
+    };
 };
 
 class SpriteShadows {
@@ -33,19 +39,30 @@ public:
     PupilMask mask(float x, float y, float coc_px) const;
 
 private:
-    // Radii of what may stand in the way of a light, from `nearest` to `farthest`; none if it is clear.
-    struct Blockers {
+    // Radii in a square of 2^level pixels.
+    struct Node {
         float nearest = 1e30f, farthest = -1e30f;
-        bool none() const { return nearest > farthest; }
+        bool is_whole = true;  // one surface without a jump
+        void include(const Node& other);
     };
-    Blockers blockers(float x, float y, float coc_px) const;
-    bool is_stopped(float x, float y, float coc_px, float u, float v, const Blockers& blockers) const;
+    Node pixel(int x, int y) const;
+    Node node(int level, int x, int y) const {
+        return level == 0 ? pixel(x, y) : levels_[std::size_t(level - 1)](x, y);
+    }
+    int top() const { return int(levels_.size()); }
+
+    struct Light {
+        float x, y, coc_px;
+    };
+    // Pupil points behind a square, of which `all` may be hidden by it and `surely` are.
+    struct Behind {
+        std::uint64_t all = 0, surely = 0;
+    };
+    Behind behind(const Light& light, int level, int x, int y, const Node& node) const;
+    void hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const;
 
     const Input& in_;
-    struct Block {
-        float nearest = 1e30f, farthest = -1e30f;
-    };
-    Image<Block> blocks_;
+    std::vector<Image<Node>> levels_;  // [0]: squares of 2 pixels
 };
 
 }  // namespace petzval::engine

@@ -69,6 +69,16 @@ private:
 void stamp(const StampKernel& kernel, int x, int y, Rgba light, float tilt_x, float tilt_y,
            Accumulator& into);
 
+// What dims a row of a kernel: shares of 0…1, each four times (once for every channel), for whole groups from
+// the kernel's left on; `between` of the way from `first` to `second`. Null: nothing of the row is seen.
+struct DimmedRow {
+    const float *first = nullptr, *second = nullptr;
+    float between = 0;
+};
+// light x kernel x shares; `rows` are those of the kernel. Shares are 16-float aligned.
+void stamp_dimmed(const StampKernel& kernel, int x, int y, Rgba light, const DimmedRow* rows,
+                  Accumulator& into);
+
 // Adds `coarse`, whose cells are 2^level pixels wide, to `fine`: Catmull-Rom.
 // Requires: coarse covers the cells of fine's area and two more on every side.
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine);

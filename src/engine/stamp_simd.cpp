@@ -116,6 +116,30 @@ void Stamp(const StampKernel& kernel, int x, int y, const Rgba& light, float til
         StampTilted<true>(kernel, x, y, light, tilt_x, tilt_y, into);
 }
 
+void StampDimmed(const StampKernel& kernel, int x, int y, const Rgba& light, const DimmedRow* rows,
+                 Accumulator& into) {
+    const Floats d;
+    const int lanes = int(hn::Lanes(d));
+    const Light repeated(light);
+    const int top = y + kernel.extent().y0;
+    Overlap(kernel, x, y, into)
+        .for_rows([&](int row, int group, const float* HWY_RESTRICT weights, float* HWY_RESTRICT sums,
+                      int n) HWY_ATTR {
+            const DimmedRow& dimmed = rows[row - top];
+            if (!dimmed.first) return;
+            const auto between = hn::Set(d, dimmed.between);
+            const float *first = dimmed.first + std::ptrdiff_t(group) * kGroupFloats,
+                        *second = dimmed.second + std::ptrdiff_t(group) * kGroupFloats;
+            for (int i = 0; i < n; i += lanes) {
+                const auto a = hn::Load(d, first + i);
+                const auto share = hn::MulAdd(between, hn::Sub(hn::Load(d, second + i), a), a);
+                const auto sent =
+                    hn::Mul(hn::Load(d, weights + i), hn::Load(d, repeated.values + i % kGroupFloats));
+                hn::StoreU(hn::MulAdd(share, sent, hn::LoadU(d, sums + i)), d, sums + i);
+            }
+        });
+}
+
 // One pixel, or as much of it as one register holds.
 using OnePixel = hn::CappedTag<float, 4>;
 
@@ -206,6 +230,7 @@ HWY_AFTER_NAMESPACE();
 namespace petzval::engine {
 
 HWY_EXPORT(Stamp);
+HWY_EXPORT(StampDimmed);
 HWY_EXPORT(AddEnlarged);
 HWY_EXPORT(TakeBudget);
 HWY_EXPORT(Name);
@@ -213,6 +238,10 @@ HWY_EXPORT(Name);
 void stamp(const StampKernel& kernel, int x, int y, Rgba light, float tilt_x, float tilt_y,
            Accumulator& into) {
     HWY_DYNAMIC_DISPATCH(Stamp)(kernel, x, y, light, tilt_x, tilt_y, into);
+}
+void stamp_dimmed(const StampKernel& kernel, int x, int y, Rgba light, const DimmedRow* rows,
+                  Accumulator& into) {
+    HWY_DYNAMIC_DISPATCH(StampDimmed)(kernel, x, y, light, rows, into);
 }
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine) {
     HWY_DYNAMIC_DISPATCH(AddEnlarged)(coarse, level, fine);

@@ -150,6 +150,31 @@ TEST(Sprites, AScreenNearTheLensDimsALightByItsShareOfTheLens) {
     EXPECT_GT(image(84, 70).g, 0.8 * inside);
 }
 
+TEST(Sprites, AWallHidesUpToEveryEdgeOfThePicture) {
+    // Sides that are no powers of two.
+    const int width = 123, height = 75;
+    std::vector<double> sums;
+    for (const auto& [x, y] : {std::pair{4.5f, 37.5f}, {118.5f, 37.5f}, {61.5f, 4.5f}, {61.5f, 70.5f}}) {
+        Lights lights(width, height, 0);
+        lights.add(x, y, 20, 1000);
+        sums.push_back(spot(rendered(lights.job())).sum);
+    }
+    // What lands outside came past the edge and is lost, so little is left; and as much at every side.
+    for (const double sum : sums) EXPECT_NEAR(sum, sums[0], 1e-3 * 1000);
+    Lights middle(width, height, 0);
+    middle.add(61.5f, 37.5f, 20, 1000);
+    EXPECT_EQ(spot(rendered(middle.job())).sum, 0);
+}
+
+TEST(Sprites, ASurfaceThatIsNowhereAtOneRadiusHidesAsOneThatIs) {
+    Lights lights(160, 120, 0);
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x)
+            lights.shot.coc_px(x, y) = 6 * std::sin(0.08f * float(x)) - 5 * std::cos(0.06f * float(y)) - 4;
+    for (int i = 0; i < 12; ++i) lights.add(50.5f + 5.3f * float(i), 45.3f + 2.7f * float(i), 18, 1000);
+    EXPECT_EQ(spot(rendered(lights.job())).sum, 0);
+}
+
 TEST(Sprites, PointsThatCannotBeDrawnAreCountedAndReported) {
     Lights lights(40, 30, 5);
     lights.add(20.5f, 15.5f, 5, 10);
