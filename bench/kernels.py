@@ -13,7 +13,7 @@ BENCH = pathlib.Path(__file__).resolve().parents[1] / "build/release/bench/petzv
 # Lens, f-number, cat's eye, CPU seconds asked for (twice the wall seconds on two cores).
 LENSES = [("ideal", 2, 0.5, 3), ("uncorrected", 2, 0, 3), ("uncorrected", 2, 0.5, 3), ("doublet", 1.4, 0.5, 3),
           ("petzval-portrait", 4, 0, 8), ("triplet-cooke", 4, 0, 8), ("tessar", 4.5, 0, 8),
-          ("double-gauss", 2.1, 0, 8), ("takumar", 1.4, 0, 8), ("phone", 3.5, 0, 8)]
+          ("double-gauss", 2.1, 0, 8), ("takumar", 1.4, 0, 8), ("phone", 3.5, 0, 8), ("petzval-laikin", 1.4, 0, 8)]
 
 
 def main():

@@ -27,7 +27,8 @@ constexpr double kRayWidth =
     1.0 / 256;  // of the window through which rays see the pupil's texture, pupil radii
 // Rims of neighbouring bands this far apart are not seen singly: pixels are as wide.
 constexpr double kBandStepPx = 1, kNoColourPx = 0.02;
-constexpr int kFewestBands = 7, kMostBands = 48;
+constexpr double kSharpPathPx = 6;  // of rims over the spectrum; above, meshes may be coarser
+constexpr int kFewestBands = 7, kMostBands = 36;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
@@ -274,7 +275,6 @@ TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<
     std::vector<Displacement> maps;
     for (const double nm : kProbed_nm) maps.push_back(landing(map_at(node, nm), coc_radius_px));
     Fineness fine;
-    double path_px = 0;  // that rims travel over wavelengths that count
     for (std::size_t i = 0; i < outline.size(); i += 1 + outline.size() / 24) {
         const PupilPowers powers(outline[i]);
         Point before;
@@ -285,15 +285,15 @@ TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<
             if (w > 0) path += std::hypot(step.x, step.y);
             before = p;
         }
-        path_px = std::max(path_px, path);
+        fine.path_px = std::max(fine.path_px, path);
     }
     // Rays inside the rim may land farther out than the rim.
     fine.size_px = std::max(fine.size_px, std::abs(coc_radius_px));
     if (choice_.wavelengths > 0) {
         fine.bands = choice_.wavelengths;
-    } else if (wavelength_nm_.size() >= 3 && path_px >= kNoColourPx) {
+    } else if (wavelength_nm_.size() >= 3 && fine.path_px >= kNoColourPx) {
         fine.bands =
-            int(std::clamp(std::ceil(path_px / kBandStepPx), double(kFewestBands), double(kMostBands)));
+            int(std::clamp(std::ceil(fine.path_px / kBandStepPx), double(kFewestBands), double(kMostBands)));
     }
     return fine;
 }
@@ -303,8 +303,11 @@ PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition fi
     const Node node = at(axis.size);
     const Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
     const RayMap middle = map_at(node, kMiddle_nm);
-    MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(fine.size_px)),
-                                 fine.size_px, 2 * fine.size_px - std::abs(coc_radius_px));
+    // Colours side by side smear what a coarser mesh would show.
+    const double smear = std::clamp(fine.path_px / kSharpPathPx, 1.0, 8.0);
+    const double size_px = fine.size_px / std::cbrt(smear), along_rim = std::cbrt(smear * smear);
+    MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(fine.size_px / along_rim)),
+                                 size_px, (2 * fine.size_px - std::abs(coc_radius_px)) / along_rim);
     pupil.density = [&](std::span<const Point> points, double* light) {
         values_at(middle.light, points, light);
         for (std::size_t i = 0; i < points.size(); ++i) light[i] = std::max(0.0, light[i]);

@@ -60,6 +60,7 @@ private:
     struct Fineness {
         int bands = 1;
         double size_px = 0;  // how far light lands
+        double path_px = 0;  // that rims travel over wavelengths that count
     };
     Fineness fineness(const Node& node, const std::vector<Point>& outline, double coc_radius_px) const;
     std::optional<Node> traced_node(const optics::TracedLens& lens, double field_rad) const;
