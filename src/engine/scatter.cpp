@@ -67,9 +67,8 @@ constexpr std::size_t kFixedWorkingBytes = std::size_t(100) << 20;  // kernels, 
 
 Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const StampTable& table) {
     const double largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
-    const int coarsest =
-        std::max(0, int(std::ceil(std::log2(std::max(1.0, largest / double(rule.largest_cells)))))) +
-        (table.has_skirts() ? StampTable::kMostSkirtLevels : 0);
+    const int coarsest = int(std::ceil(rule.position(float(largest)))) +
+                         (table.has_skirts() ? StampTable::kMostSkirtLevels : 0);
     const int unit = std::max(kTile, 1 << coarsest);
     const auto whole_units = [unit](double rows) {
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;

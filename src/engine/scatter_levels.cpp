@@ -33,7 +33,7 @@ constexpr Rgba kHighlightColour{1, 1, 1, 1};
 Rgba colour_of(int level) { return kColours[std::size_t(level) % kColours.size()]; }
 
 std::string name_of_level(int level, const LevelRule& rule) {
-    const auto largest = int(std::lround(std::ldexp(double(rule.largest_cells), level)));
+    const auto largest = int(std::lround(rule.end_of_level(level)));
     if (level == 0) return "LEVEL 0  PIXELS, RADII TO " + std::to_string(largest) + " PX";
     return "LEVEL " + std::to_string(level) + "  CELLS " + std::to_string(1 << level) + " PX, RADII TO " +
            std::to_string(largest) + " PX";
@@ -72,7 +72,7 @@ void accumulate(const Input& input, const SourceLevel& sources, int level, const
             for (const Source& s : sources.row(y)) {
                 if (is_emptiness(s.layer)) continue;
                 stamp(table.at(level, table.part_for(level, s.x, y, s.radius), s.radius, s.skirt_of), s.x, y,
-                      s.light, s.tilt_x, s.tilt_y, cells);
+                      s.light, s.tilt_x, s.tilt_y, {&cells, 1});
             }
         for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells.row(y), out.width(), out.row(y));
     });

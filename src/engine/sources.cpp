@@ -10,12 +10,6 @@
 namespace petzval::engine {
 namespace {
 
-// Position on the scale of levels: 0 up to largest_cells, 1 at twice that.
-float level_position(float coc_px, const LevelRule& rule) {
-    const float r = std::abs(coc_px);
-    return r <= rule.largest_cells ? 0.0f : std::log2(r / rule.largest_cells);
-}
-
 // The change of weight per pixel away from a source: a facet of a slanted surface is seen larger from one
 // side of the pupil than from the other, by 1 + slope . u with u = offset / radius.
 depth::Slope tilt_of(depth::Slope slope, float coc_px) {
@@ -119,7 +113,7 @@ public:
             const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
             const depth::Slope slope = visible ? depth::slope_at(coc_px_, connected_, u, v) : depth::Slope{};
             const depth::Slope tilt = tilt_of(slope, s.coc_px);
-            const float at = level_position(s.coc_px, rule_);
+            const float at = rule_.position(s.coc_px);
             const int level = int(std::ceil(at));
             const float share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule_.fade);
             const auto put_both = [&](int in_layer, Rgba light) {
@@ -262,7 +256,16 @@ float radius_in_pixels(float radius, int level) {
     return level == 0 ? radius : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);
 }
 
-float LevelRule::largest_radius() const { return largest_cells * std::exp2(fade); }
+float LevelRule::position(float coc_px) const {
+    const float r = std::abs(coc_px);
+    return r <= largest_cells ? 0.0f : std::log2(r / largest_cells) / octaves_per_level;
+}
+
+float LevelRule::end_of_level(int level) const {
+    return largest_cells * std::exp2(octaves_per_level * float(level));
+}
+
+float LevelRule::largest_radius() const { return largest_cells * std::exp2(octaves_per_level * fade); }
 
 std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
@@ -270,8 +273,8 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
     float largest = 0;
     for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
     const Maker maker(samples, coc_px, connected, rule);
-    const int coarsest = int(std::ceil(level_position(largest, rule))) +
-                         (table.has_skirts() ? StampTable::kMostSkirtLevels : 0);
+    const int coarsest =
+        int(std::ceil(rule.position(largest))) + (table.has_skirts() ? StampTable::kMostSkirtLevels : 0);
     const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
     std::vector<SourceLevel> levels(std::size_t(coarsest) + 1);
     std::vector<int> margins;

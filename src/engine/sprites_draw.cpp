@@ -160,7 +160,7 @@ private:
             const Drawing& d = *drawings[i];
             if (d.light == Rgba{}) continue;
             if (d.mask.is_open()) {
-                stamp(kernel, d.x, d.y, d.light, 0, 0, cells);
+                stamp({&kernel, 1}, d.x, d.y, d.light, 0, 0, {&cells, 1});
                 continue;
             }
             if (!ready)

@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <span>
 
 namespace petzval::engine {
 
 // A kernel laid out for stamping: rows of RGBA weights, padded with zeros to whole groups of kGroup pixels.
+// Rows and columns without light at its edges are left out.
 class StampKernel {
 public:
     static constexpr int kGroup = 4;
@@ -64,10 +66,10 @@ private:
     Picture pixels_;
 };
 
-// light x kernel, its centre at (x, y), each weight times max(0, 1 + tilt . offset); clipped to the
-// accumulator.
-void stamp(const StampKernel& kernel, int x, int y, Rgba light, float tilt_x, float tilt_y,
-           Accumulator& into);
+// light x kernels[i] into[i], their centre at (x, y), each weight times max(0, 1 + tilt . offset); clipped to
+// the accumulators. Requires: as many accumulators as kernels.
+void stamp(std::span<const StampKernel> kernels, int x, int y, Rgba light, float tilt_x, float tilt_y,
+           std::span<Accumulator> into);
 
 // What dims a row of a kernel: shares of 0…1, each four times (once for every channel), for whole groups from
 // the kernel's left on; `between` of the way from `first` to `second`. Null: nothing of the row is seen.

@@ -19,14 +19,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 16>;
 constexpr int kGroupFloats = 4 * StampKernel::kGroup;
 
-// The light of one pixel, repeated over a register.
-struct Light {
-    alignas(64) float values[kGroupFloats];
-    explicit Light(Rgba c) {
-        for (int i = 0; i < kGroupFloats; i += 4)
-            values[i] = c.r, values[i + 1] = c.g, values[i + 2] = c.b, values[i + 3] = c.a;
-    }
-};
+// The light of one pixel, repeated over a register; of a register of one float, float number `part` of it.
+template <class D>
+HWY_INLINE hn::Vec<D> Repeated(D d, const Rgba& light, int part) {
+    alignas(16) const float channels[4] = {light.r, light.g, light.b, light.a};
+    if (hn::Lanes(d) < 4) return hn::Set(d, channels[part % 4]);
+    return hn::LoadDup128(d, channels);
+}
 
 // The rows and groups of a kernel that fall on an accumulator.
 struct Overlap {
@@ -60,15 +59,17 @@ struct Overlap {
 void StampPlain(const StampKernel& kernel, int x, int y, const Rgba& light, Accumulator& into) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
-    const Light repeated(light);
-    Overlap(kernel, x, y, into)
-        .for_rows([&](int, int, const float* HWY_RESTRICT weights, float* HWY_RESTRICT sums, int n) HWY_ATTR {
-            for (int i = 0; i < n; i += lanes)
-                hn::StoreU(
-                    hn::MulAdd(hn::Load(d, weights + i), hn::Load(d, repeated.values + i % kGroupFloats),
-                               hn::LoadU(d, sums + i)),
-                    d, sums + i);
-        });
+    for (int part = 0; part < std::max(1, 4 / lanes); ++part) {
+        const auto own = Repeated(d, light, part);
+        const int step = std::max(4, lanes);
+        Overlap(kernel, x, y, into)
+            .for_rows(
+                [&](int, int, const float* HWY_RESTRICT weights, float* HWY_RESTRICT sums, int n) HWY_ATTR {
+                    for (int i = part; i < n; i += step)
+                        hn::StoreU(hn::MulAdd(hn::Load(d, weights + i), own, hn::LoadU(d, sums + i)), d,
+                                   sums + i);
+                });
+    }
 }
 
 // Weights times 1 + tilt . offset, which falls below 0 within the kernel only if kClamped.
@@ -77,13 +78,10 @@ void StampTilted(const StampKernel& kernel, int x, int y, const Rgba& light, flo
                  Accumulator& into) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
-    const Light repeated(light);
     // What the weight changes by from pixel to pixel of a group; and from group to group.
-    alignas(64) float ramp[kGroupFloats];
-    for (int i = 0; i < kGroupFloats; ++i) {
-        const int pixel = i / 4;
-        ramp[i] = tilt_x * float(pixel);
-    }
+    alignas(64) static constexpr float kPixels[kGroupFloats] = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                                2, 2, 2, 2, 3, 3, 3, 3};
+    const auto slope = hn::Set(d, tilt_x);
     const auto step = hn::Set(d, tilt_x * float(StampKernel::kGroup));
     const int from_source = kernel.extent().x0;
     Overlap(kernel, x, y, into)
@@ -92,8 +90,8 @@ void StampTilted(const StampKernel& kernel, int x, int y, const Rgba& light, flo
             const float start =
                 1 + tilt_y * float(row - y) + tilt_x * float(from_source + group * StampKernel::kGroup);
             for (int part = 0; part < kGroupFloats; part += lanes) {
-                const auto own = hn::Load(d, repeated.values + part);
-                auto tilt = hn::Add(hn::Set(d, start), hn::Load(d, ramp + part));
+                const auto own = Repeated(d, light, part);
+                auto tilt = hn::MulAdd(slope, hn::Load(d, kPixels + part), hn::Set(d, start));
                 for (int i = part; i < n; i += kGroupFloats) {
                     const auto factor = hn::Mul(own, kClamped ? hn::Max(hn::Zero(d), tilt) : tilt);
                     hn::StoreU(hn::MulAdd(hn::Load(d, weights + i), factor, hn::LoadU(d, sums + i)), d,
@@ -104,8 +102,8 @@ void StampTilted(const StampKernel& kernel, int x, int y, const Rgba& light, flo
         });
 }
 
-void Stamp(const StampKernel& kernel, int x, int y, const Rgba& light, float tilt_x, float tilt_y,
-           Accumulator& into) {
+void StampOne(const StampKernel& kernel, int x, int y, const Rgba& light, float tilt_x, float tilt_y,
+              Accumulator& into) {
     if (tilt_x == 0 && tilt_y == 0) return StampPlain(kernel, x, y, light, into);
     const Rect e = kernel.extent();
     const float steepest =
@@ -120,7 +118,6 @@ void StampDimmed(const StampKernel& kernel, int x, int y, const Rgba& light, con
                  Accumulator& into) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
-    const Light repeated(light);
     const int top = y + kernel.extent().y0;
     Overlap(kernel, x, y, into)
         .for_rows([&](int row, int group, const float* HWY_RESTRICT weights, float* HWY_RESTRICT sums,
@@ -130,14 +127,22 @@ void StampDimmed(const StampKernel& kernel, int x, int y, const Rgba& light, con
             const auto between = hn::Set(d, dimmed.between);
             const float *first = dimmed.first + std::ptrdiff_t(group) * kGroupFloats,
                         *second = dimmed.second + std::ptrdiff_t(group) * kGroupFloats;
-            for (int i = 0; i < n; i += lanes) {
-                const auto a = hn::Load(d, first + i);
-                const auto share = hn::MulAdd(between, hn::Sub(hn::Load(d, second + i), a), a);
-                const auto sent =
-                    hn::Mul(hn::Load(d, weights + i), hn::Load(d, repeated.values + i % kGroupFloats));
-                hn::StoreU(hn::MulAdd(share, sent, hn::LoadU(d, sums + i)), d, sums + i);
+            for (int part = 0; part < kGroupFloats; part += lanes) {
+                const auto own = Repeated(d, light, part);
+                for (int i = part; i < n; i += kGroupFloats) {
+                    const auto a = hn::Load(d, first + i);
+                    const auto share = hn::MulAdd(between, hn::Sub(hn::Load(d, second + i), a), a);
+                    const auto sent = hn::Mul(hn::Load(d, weights + i), own);
+                    hn::StoreU(hn::MulAdd(share, sent, hn::LoadU(d, sums + i)), d, sums + i);
+                }
             }
         });
+}
+
+void Stamp(std::span<const StampKernel> kernels, int x, int y, const Rgba& light, float tilt_x, float tilt_y,
+           std::span<Accumulator> into) {
+    for (std::size_t i = 0; i < kernels.size(); ++i)
+        StampOne(kernels[i], x, y, light, tilt_x, tilt_y, into[i]);
 }
 
 // One pixel, or as much of it as one register holds.
@@ -235,9 +240,9 @@ HWY_EXPORT(AddEnlarged);
 HWY_EXPORT(TakeBudget);
 HWY_EXPORT(Name);
 
-void stamp(const StampKernel& kernel, int x, int y, Rgba light, float tilt_x, float tilt_y,
-           Accumulator& into) {
-    HWY_DYNAMIC_DISPATCH(Stamp)(kernel, x, y, light, tilt_x, tilt_y, into);
+void stamp(std::span<const StampKernel> kernels, int x, int y, Rgba light, float tilt_x, float tilt_y,
+           std::span<Accumulator> into) {
+    HWY_DYNAMIC_DISPATCH(Stamp)(kernels, x, y, light, tilt_x, tilt_y, into);
 }
 void stamp_dimmed(const StampKernel& kernel, int x, int y, Rgba light, const DimmedRow* rows,
                   Accumulator& into) {

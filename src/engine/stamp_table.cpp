@@ -90,6 +90,11 @@ StampTable::StampTable(const Input& input, const LevelRule& rule)
         const int reach = int(std::ceil(input.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
         has_skirts_ = has_skirts_ || reach > longest;
         reach_.push_back(std::min(reach, longest));
+        for (int step = 0; step < steps_; ++step) {
+            const double radius = (step + 0.5) / double(kStepsPerCell);
+            const int own = int(std::ceil(input.lens(l).reach_px(radius) + 0.5));
+            reach_of_radius_.push_back(short(std::min(own, reach_.back())));
+        }
     }
     const std::size_t radii = std::size_t(levels_ * 2 * steps_);
     kernels_ = std::vector<std::atomic<const Kernel*>>(
@@ -121,15 +126,22 @@ int StampTable::part_for(int level, int x, int y, float radius) const {
            index(px, even(0.7548776662, 0.5698402910), parts_x_);
 }
 
+int StampTable::step_of(float radius) const {
+    return std::min(int(std::abs(radius) * kStepsPerCell + 0.5f), steps_ - 1);
+}
+
+int StampTable::reach(int level, float radius) const {
+    return reach_of_radius_[std::size_t(std::min(level, levels_ - 1) * steps_ + step_of(radius))];
+}
+
 std::size_t StampTable::slot_of(int level, int part, float radius, int skirt_of) const {
-    const int step = std::min(int(std::abs(radius) * kStepsPerCell + 0.5f), steps_ - 1);
+    const int step = step_of(radius);
     const int side = radius < 0 ? 0 : 1, piece = skirt_of * parts_x_ * parts_y_ + part;
     return std::size_t(((piece * levels_ + level) * 2 + side) * steps_ + step);
 }
 
 float StampTable::stepped(float radius) const {
-    const float step = std::min(std::floor(std::abs(radius) * kStepsPerCell + 0.5f), float(steps_ - 1));
-    return (radius < 0 ? -1 : 1) * step / kStepsPerCell;
+    return (radius < 0 ? -1 : 1) * float(step_of(radius)) / kStepsPerCell;
 }
 
 kernel::PointSpread StampTable::whole(int level, int part, float radius) const {
@@ -179,20 +191,24 @@ kernel::PointSpread StampTable::skirt(kernel::PointSpread cut_out, int level, in
     return cut_out;
 }
 
-const StampTable::Kernel& StampTable::kernel_at(std::size_t slot, int level, int part, float radius,
-                                                int skirt_of) const {
+const StampTable::Kernel& StampTable::kernel_at(int level, int part, float radius, int skirt_of) const {
+    const std::size_t slot = slot_of(level, part, radius, skirt_of);
     if (const Kernel* kernel = kernels_[slot].load(std::memory_order_acquire)) return *kernel;
     return keep_first(kernels_[slot],
                       std::make_unique<const Kernel>(StampKernel(piece(level, part, radius, skirt_of))));
 }
 
-const StampKernel& StampTable::at(int level, int part, float radius, int skirt_of, int cell) const {
+std::span<const StampKernel, 1> StampTable::at(int level, int part, float radius, int skirt_of) const {
+    const Kernel& kernel = kernel_at(std::min(level, levels_ - 1), part, radius, skirt_of);
+    return std::span<const StampKernel, 1>(&kernel.whole, 1);
+}
+
+std::span<const StampKernel, StampTable::kCells> StampTable::by_pupil_cell(int level, int part, float radius,
+                                                                           int skirt_of) const {
     level = std::min(level, levels_ - 1);
-    const Kernel& kernel = kernel_at(slot_of(level, part, radius, skirt_of), level, part, radius, skirt_of);
-    if (cell == kWholePupil) return kernel.whole;
-    const Cells* cells = kernel.cells.load(std::memory_order_acquire);
-    if (!cells) cells = &keep_first(kernel.cells, cells_of(piece(level, part, radius, skirt_of), radius < 0));
-    return (*cells)[std::size_t(cell)];
+    const Kernel& kernel = kernel_at(level, part, radius, skirt_of);
+    if (const Cells* cells = kernel.cells.load(std::memory_order_acquire)) return *cells;
+    return keep_first(kernel.cells, cells_of(piece(level, part, radius, skirt_of), radius < 0));
 }
 
 // Cells of equal light: rings around the middle, cut across by angle. Taps that lie in several give to each.

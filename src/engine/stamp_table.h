@@ -13,6 +13,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,16 +34,19 @@ public:
     // parts meet. Nearly sharp sources take the nearest, lest the choice be seen.
     int part_for(int level, int x, int y, float radius) const;
     // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
-    // a skirt; n: the skirt of the kernel n levels finer. cell: what comes through one part of the pupil
-    // (0…kCells-1, times kCells); kWholePupil: everything.
-    const StampKernel& at(int level, int part, float radius, int skirt_of, int cell = kWholePupil) const;
-    static constexpr int kCellsOfRings[] = {1, 5}, kCells = 6, kWholePupil = -1;
+    // a skirt; n: the skirt of the kernel n levels finer.
+    std::span<const StampKernel, 1> at(int level, int part, float radius, int skirt_of) const;
+    // What comes through each part of the pupil, times kCells.
+    static constexpr int kCellsOfRings[] = {1, 5}, kCells = 6;
+    std::span<const StampKernel, kCells> by_pupil_cell(int level, int part, float radius, int skirt_of) const;
     // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
     int skirt_levels(int level, float radius) const;
     static constexpr int kMostSkirtLevels = 3;
     bool has_skirts() const { return has_skirts_; }
     // Largest offset of any weight of a kernel of this level, in cells.
     int reach(int level) const { return reach_[std::min(std::size_t(level), reach_.size() - 1)]; }
+    // The same, of kernels for this radius.
+    int reach(int level, float radius) const;
 
 private:
     using Cells = std::array<StampKernel, kCells>;
@@ -52,8 +56,9 @@ private:
         explicit Kernel(StampKernel kernel) : whole(std::move(kernel)) {}
         ~Kernel() { delete cells.load(); }
     };
-    const Kernel& kernel_at(std::size_t slot, int level, int part, float radius, int skirt_of) const;
+    const Kernel& kernel_at(int level, int part, float radius, int skirt_of) const;
     static std::unique_ptr<const Cells> cells_of(const kernel::PointSpread& all, bool turned);
+    int step_of(float radius) const;
     std::size_t slot_of(int level, int part, float radius, int skirt_of) const;
     kernel::PointSpread whole(int level, int part, float radius) const;
     kernel::PointSpread piece(int level, int part, float radius, int skirt_of) const;
@@ -67,6 +72,7 @@ private:
     float core_begin_, core_end_;                         // cells from the middle where cores fade out
     bool has_skirts_ = false;
     std::vector<int> reach_;
+    std::vector<short> reach_of_radius_;  // per level and step
     mutable std::vector<std::atomic<const Kernel*>> kernels_;
     mutable std::vector<std::atomic<short>> skirt_levels_;  // per level and radius; -1: not known yet
 };

@@ -15,8 +15,7 @@ constexpr int kBorder = 2;  // cells around a tile that enlarging reads
 // A source that reaches the tile.
 struct Arrival {
     const Source* source;
-    int y;
-    int level;
+    int y, level, layer;
 };
 
 // What one cell of the pupil, or all of it, has given to each pixel of a tile so far.
@@ -36,7 +35,9 @@ struct Budget {
 // Memory one thread keeps from tile to tile.
 struct Workspace {
     std::vector<Arrival> arrivals;
-    Accumulator light, emptiness, coarse;
+    using Accumulators = std::array<Accumulator, StampTable::kCells>;
+    Accumulators light, emptiness;
+    std::vector<Accumulators> coarse;  // per level
     std::array<Budget, StampTable::kCells> budgets;
     std::vector<Rgba> added;
 };
@@ -52,27 +53,34 @@ void find_arrivals(const std::vector<SourceLevel>& levels, const StampTable& tab
                    std::vector<Arrival>& arrivals) {
     arrivals.clear();
     for (int l = 0; l < int(levels.size()); ++l) {
-        const Rect reached = cells_of(tile, l).grown(table.reach(l) + 1);
+        constexpr int kOffMiddle = 1;  // a source may send from the cell beside its own
+        const Rect cells = cells_of(tile, l), reached = cells.grown(table.reach(l) + kOffMiddle);
         for (int y = reached.y0; y < reached.y1; ++y) {
             const std::span<const Source> row = levels[std::size_t(l)].row(y);
             const auto before = [](const Source& s, int x) { return s.x < x; };
             auto source = std::lower_bound(row.begin(), row.end(), reached.x0, before);
-            for (; source != row.end() && source->x < reached.x1; ++source)
-                arrivals.push_back({&*source, y, l});
+            const int dy = std::max(cells.y0 - y, y - cells.y1 + 1);
+            for (; source != row.end() && source->x < reached.x1; ++source) {
+                const int away = std::max({cells.x0 - source->x, source->x - cells.x1 + 1, dy});
+                if (away <= table.reach(l, source->radius) + kOffMiddle)
+                    arrivals.push_back({&*source, y, l, source->layer});
+            }
         }
     }
     // By layer, then level; within both in the order found, so that sums are always taken in the same order.
     std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
-        return a.source->layer != b.source->layer ? a.source->layer < b.source->layer : a.level < b.level;
+        return a.layer != b.layer ? a.layer < b.layer : a.level < b.level;
     });
 }
 
 // A source that lies off the middle of its cell is shared with its neighbours.
-void stamp_off_middle(const StampKernel& kernel, const Source& s, int y, Accumulator& into) {
+void stamp_off_middle(std::span<const StampKernel> kernels, const Source& s, int y,
+                      std::span<Accumulator> into) {
+    if (s.off_x == 0 && s.off_y == 0) return stamp(kernels, s.x, y, s.light, s.tilt_x, s.tilt_y, into);
     const int to_x = s.off_x < 0 ? -1 : 1, to_y = s.off_y < 0 ? -1 : 1;
     const float share_x = std::abs(s.off_x), share_y = std::abs(s.off_y);
     const auto add = [&](int dx, int dy, float share) {
-        if (share > 0) stamp(kernel, s.x + dx, y + dy, share * s.light, s.tilt_x, s.tilt_y, into);
+        if (share > 0) stamp(kernels, s.x + dx, y + dy, share * s.light, s.tilt_x, s.tilt_y, into);
     };
     add(0, 0, (1 - share_x) * (1 - share_y));
     add(to_x, 0, share_x * (1 - share_y));
@@ -80,23 +88,30 @@ void stamp_off_middle(const StampKernel& kernel, const Source& s, int y, Accumul
     add(to_x, to_y, share_x * share_y);
 }
 
-// Stamps arrivals [begin, end), all of one layer, into `fine`. first_row: the row of the picture that is row
-// 0.
-void accumulate_layer(const std::vector<Arrival>& arrivals, std::size_t begin, std::size_t end,
-                      const StampTable& table, int first_row, int pupil_cell, const Rect& tile,
-                      Accumulator& fine, Accumulator& coarse) {
-    fine.reset(tile);
-    while (begin < end) {
-        const int level = arrivals[begin].level;
-        Accumulator& target = level == 0 ? fine : coarse;
-        if (level > 0) target.reset(cells_of(tile, level));
-        for (; begin < end && arrivals[begin].level == level; ++begin) {
-            const Source& s = *arrivals[begin].source;
-            const int part = table.part_for(level, s.x, arrivals[begin].y + (first_row >> level), s.radius);
-            stamp_off_middle(table.at(level, part, s.radius, s.skirt_of, pupil_cell), s, arrivals[begin].y,
-                             target);
+// Stamps arrivals, all of one layer, into `fine`: one accumulator, or one for each cell of the pupil.
+// `coarse` is scratch. first_row: the row of the picture that is row 0.
+void accumulate_layer(std::span<const Arrival> arrivals, const StampTable& table, int first_row,
+                      const Rect& tile, std::span<Accumulator> fine,
+                      std::vector<Workspace::Accumulators>& coarse) {
+    for (Accumulator& a : fine) a.reset(tile);
+    const bool whole_pupil = fine.size() == 1;
+    for (std::size_t i = 0; i < arrivals.size();) {
+        const int level = arrivals[i].level;
+        const std::span<Accumulator> target =
+            level == 0 ? fine : std::span(coarse[std::size_t(level)]).first(fine.size());
+        if (level > 0)
+            for (Accumulator& a : target) a.reset(cells_of(tile, level));
+        for (; i < arrivals.size() && arrivals[i].level == level; ++i) {
+            const Source& s = *arrivals[i].source;
+            const int part = table.part_for(level, s.x, arrivals[i].y + (first_row >> level), s.radius);
+            if (whole_pupil)
+                stamp_off_middle(table.at(level, part, s.radius, s.skirt_of), s, arrivals[i].y, target);
+            else
+                stamp_off_middle(table.by_pupil_cell(level, part, s.radius, s.skirt_of), s, arrivals[i].y,
+                                 target);
         }
-        if (level > 0) add_enlarged(coarse, level, fine);
+        if (level > 0)
+            for (std::size_t c = 0; c < fine.size(); ++c) add_enlarged(target[c], level, fine[c]);
     }
 }
 
@@ -144,8 +159,8 @@ int count_surfaces(const std::vector<Arrival>& arrivals) {
     constexpr int kApart = 3 * kNextLayer;  // layers; surfaces nearer to each other are one that slopes
     int surfaces = 0, last = 0;
     for (const Arrival& a : arrivals) {
-        if (surfaces == 0 || a.source->layer - last >= kApart) ++surfaces;
-        last = a.source->layer;
+        if (surfaces == 0 || a.layer - last >= kApart) ++surfaces;
+        last = a.layer;
     }
     return surfaces;
 }
@@ -166,48 +181,55 @@ public:
     }
     // The layer of arrival `begin`, with the emptiness at its depth; returns the first arrival of the next.
     std::size_t add_layer(std::size_t begin) {
-        const int layer = w_.arrivals[begin].source->layer;
+        const int layer = w_.arrivals[begin].layer;
         const std::size_t middle = is_emptiness(layer) ? begin : end_of_layer(begin);
         std::size_t end = middle;
         if (is_emptiness(layer) ||
-            (middle < w_.arrivals.size() && w_.arrivals[middle].source->layer == layer + kEmptinessAfter))
+            (middle < w_.arrivals.size() && w_.arrivals[middle].layer == layer + kEmptinessAfter))
             end = end_of_layer(middle);
         const Interval radii = held() ? radii_of(w_.arrivals, begin, middle) : Interval{};
         // What is as narrow as a pixel comes alike through all cells.
-        const bool once = std::abs(layer) <= kNextLayer;
-        for (int c = 0; c < pupil_cells_; ++c) {
-            if (c == 0 || !once) {
-                const int pupil_cell = once || pupil_cells_ == 1 ? StampTable::kWholePupil : c;
-                accumulate_layer(w_.arrivals, begin, middle, table_, first_row_, pupil_cell, tile_, w_.light,
-                                 w_.coarse);
-                if (end > middle)
-                    accumulate_layer(w_.arrivals, middle, end, table_, first_row_, pupil_cell, tile_,
-                                     w_.emptiness, w_.coarse);
-            }
-            take(w_.budgets[std::size_t(c)], end > middle, radii);
-        }
+        const int apart = std::abs(layer) <= kNextLayer ? 1 : pupil_cells_;
+        accumulate(begin, middle, apart, w_.light);
+        if (end > middle) accumulate(middle, end, apart, w_.emptiness);
+        for (int c = 0; c < pupil_cells_; ++c)
+            take(w_.budgets[std::size_t(c)], std::size_t(std::min(c, apart - 1)), end > middle, radii);
         return end;
+    }
+
+    // Whether no pixel has any lens area left for what is yet to come.
+    bool is_spent() const {
+        constexpr float kSpent = 0.002f;  // what an opaque surface's discrete sources leave
+        return std::all_of(w_.budgets.begin(), w_.budgets.begin() + pupil_cells_, [](const Budget& b) {
+            return std::all_of(b.free.pixels(), b.free.pixels() + b.free.size(),
+                               [](float free) { return free < kSpent; });
+        });
     }
 
 private:
     bool held() const { return !holdout_.empty(); }
     std::size_t end_of_layer(std::size_t begin) const {
         std::size_t end = begin;
-        while (end < w_.arrivals.size() && w_.arrivals[end].source->layer == w_.arrivals[begin].source->layer)
-            ++end;
+        while (end < w_.arrivals.size() && w_.arrivals[end].layer == w_.arrivals[begin].layer) ++end;
         return end;
     }
-    void take(Budget& budget, bool partly_empty, const Interval& radii) {
-        Rows rows = w_.light.touched();
-        if (partly_empty) rows = rows.with(w_.emptiness.touched());
+    void accumulate(std::size_t begin, std::size_t end, int pupil_cells, Workspace::Accumulators& into) {
+        accumulate_layer(std::span(w_.arrivals).subspan(begin, end - begin), table_, first_row_, tile_,
+                         std::span(into).first(std::size_t(pupil_cells)), w_.coarse);
+    }
+    // From what arrived through one cell of the pupil.
+    void take(Budget& budget, std::size_t pupil_cell, bool partly_empty, const Interval& radii) {
+        const Accumulator &light = w_.light[pupil_cell], &emptiness = w_.emptiness[pupil_cell];
+        Rows rows = light.touched();
+        if (partly_empty) rows = rows.with(emptiness.touched());
         for (int y = rows.begin - tile_.y0; y < rows.end - tile_.y0; ++y) {
             Rgba* const sum = held() ? w_.added.data() : budget.sum.row(y);
             if (held()) std::fill(w_.added.begin(), w_.added.end(), Rgba{});
             if (partly_empty)
-                take_budget_with_emptiness(w_.light.row(tile_.y0 + y), w_.emptiness.row(tile_.y0 + y), sum,
+                take_budget_with_emptiness(light.row(tile_.y0 + y), emptiness.row(tile_.y0 + y), sum,
                                            budget.free.row(y), budget.empty.row(y), tile_.width());
             else
-                take_budget(w_.light.row(tile_.y0 + y), sum, budget.free.row(y), tile_.width());
+                take_budget(light.row(tile_.y0 + y), sum, budget.free.row(y), tile_.width());
             if (held()) add_held(holdout_, radii, tile_, y, w_.added, budget);
         }
     }
@@ -225,9 +247,11 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
                  const Rect& tile, int first_row, int surfaces_for_cells, View<Rgba> out) {
     thread_local Workspace w;
     find_arrivals(levels, table, tile, w.arrivals);
+    w.coarse.resize(levels.size());
     const int pupil_cells = count_surfaces(w.arrivals) >= surfaces_for_cells ? StampTable::kCells : 1;
     Compositor compositor(table, holdout, tile, first_row, pupil_cells, w);
-    for (std::size_t begin = 0; begin < w.arrivals.size();) begin = compositor.add_layer(begin);
+    for (std::size_t begin = 0; begin < w.arrivals.size() && !compositor.is_spent();)
+        begin = compositor.add_layer(begin);
     // Discrete sources leave a little of the lens free; it goes to those that did arrive.
     for (int y = 0; y < tile.height(); ++y)
         for (int x = 0; x < tile.width(); ++x) {
