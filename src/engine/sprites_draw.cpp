@@ -236,9 +236,7 @@ private:
 
 void draw_sprites(const Input& input, std::span<const Sprite> sprites, View<Rgba> out) {
     if (sprites.empty()) return;
-    float largest = 0;
-    for (const Sprite& s : sprites) largest = std::max(largest, std::abs(s.coc_px));
-    const SpriteKernels kernels(input, largest);
+    const SpriteKernels kernels(input, sprites);
     Buckets buckets(input, sprites, kernels);
     const Drawer drawer(input, kernels);
     parallel_for(buckets.count(), input.threads, [&](int tile) {

@@ -10,7 +10,11 @@ namespace {
 constexpr float kLeastStepPx = 0.125f, kRelativeStep = 0.01f;
 constexpr float kLinearEndPx = kLeastStepPx / kRelativeStep;
 constexpr int kLinearSteps = int(kLinearEndPx / kLeastStepPx);
-constexpr int kPartsX = 9, kPartsY = 6;
+// Parts of the picture, where the lens varies: so many that the rim of the largest disc moves by no more than
+// this from one to the next, as long as their kernels fit.
+constexpr double kRimStepPx = 0.5;
+constexpr int kFewestColumns = 9, kMostColumns = 144;
+constexpr std::size_t kMostBytes = std::size_t(256) << 20;
 
 float largest_cells(Quality quality) {
     return quality == Quality::Draft ? 16.0f : quality == Quality::Standard ? 32.0f : 64.0f;
@@ -47,10 +51,10 @@ double radius_in_cells(double radius_px, int level, double extra = 0) {
 
 }  // namespace
 
-SpriteKernels::SpriteKernels(const Input& input, float largest_px)
+SpriteKernels::SpriteKernels(const Input& input, std::span<const Sprite> sprites)
     : input_(input), largest_cells_(largest_cells(input.quality)) {
-    // Kernels of lenses that change over the picture are many: those lights are put at whole pixels.
-    if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY, phases_ = 1;
+    float largest_px = 0;
+    for (const Sprite& s : sprites) largest_px = std::max(largest_px, std::abs(s.coc_px));
     steps_ = step_of(largest_px) + 1;
     levels_ = level_of(radius_of(steps_ - 1)) + 1;
     for (int level = 0; level < levels_; ++level) {
@@ -59,8 +63,43 @@ SpriteKernels::SpriteKernels(const Input& input, float largest_px)
         reach_.push_back(int(std::ceil(input.lens(level).reach_px(radius_in_cells(widest, level)) + 0.5)) +
                          1);
     }
-    kernels_ = std::vector<std::atomic<const StampKernel*>>(
-        std::size_t(parts_x_ * parts_y_) * std::size_t(2 * steps_) * std::size_t(phases_ * phases_));
+    // Kernels of lenses that change over the picture are many: those lights are put at whole pixels.
+    if (input.lens(0).varies_over_field()) {
+        phases_ = 1;
+        choose_parts(sprites, largest_px);
+    }
+    kernels_ = std::vector<std::atomic<const StampKernel*>>(count());
+}
+
+void SpriteKernels::choose_parts(std::span<const Sprite> sprites, float largest_px) {
+    const double across = std::abs(input_.field_at(input_.width(), 0).x - input_.field_at(0, 0).x);
+    const double rim_px = input_.lens(0).reach_px(double(largest_px)) * across;
+    int columns =
+        int(std::clamp(std::ceil(rim_px / kRimStepPx), double(kFewestColumns), double(kMostColumns)));
+    for (;; columns = std::max(kFewestColumns, columns * 2 / 3)) {
+        parts_x_ = columns;
+        parts_y_ = std::max(6, columns * input_.height() / input_.width());
+        if (columns == kFewestColumns || bytes_for(sprites) <= kMostBytes) return;
+    }
+}
+
+std::size_t SpriteKernels::count() const {
+    return std::size_t(parts_x_ * parts_y_) * std::size_t(2 * steps_) * std::size_t(phases_ * phases_);
+}
+
+// Of the kernels that the lights take, with the table that holds them.
+std::size_t SpriteKernels::bytes_for(std::span<const Sprite> sprites) const {
+    std::vector<bool> seen(count());
+    std::size_t bytes = count() * sizeof(kernels_[0]);
+    for (const Sprite& s : sprites) {
+        const Stamping stamping = this->stamping(s.x, s.y, s.coc_px);
+        if (seen[std::size_t(stamping.kernel)]) continue;
+        seen[std::size_t(stamping.kernel)] = true;
+        const double cells = radius_in_cells(double(s.coc_px), stamping.level);
+        const double side = 2 * input_.lens(stamping.level).reach_px(cells) + 3;
+        bytes += std::size_t(side * side) * sizeof(Rgba);
+    }
+    return bytes;
 }
 
 SpriteKernels::~SpriteKernels() {
@@ -107,8 +146,8 @@ kernel::PointSpread SpriteKernels::spread(int kernel) const {
     const int level = level_of(radius_of(step));
     const double x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
     const double y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
-    const float right = float(phase % phases_) / float(phases_),
-                down = float(phase / phases_) / float(phases_);
+    const int quarters_right = phase % phases_, quarters_down = phase / phases_;
+    const float right = float(quarters_right) / float(phases_), down = float(quarters_down) / float(phases_);
     const double radius_cells = radius_in_cells(signed_radius, level, moving_blur(right, down));
     return moved(input_.lens(level).point_spread(radius_cells, input_.field_at(x, y)), right, down);
 }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "engine/engine.h"
+#include "engine/sprites_draw.h"
 #include "engine/stamp.h"
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace petzval::engine {
@@ -20,8 +22,8 @@ struct Stamping {
 
 class SpriteKernels {
 public:
-    // largest_px: of any light. input outlives this.
-    SpriteKernels(const Input& input, float largest_px);
+    // For these lights. input outlives this.
+    SpriteKernels(const Input& input, std::span<const Sprite> sprites);
     ~SpriteKernels();
     SpriteKernels(const SpriteKernels&) = delete;
     SpriteKernels& operator=(const SpriteKernels&) = delete;
@@ -40,6 +42,9 @@ public:
     const StampKernel& at(int kernel) const;
 
 private:
+    void choose_parts(std::span<const Sprite> sprites, float largest_px);
+    std::size_t bytes_for(std::span<const Sprite> sprites) const;
+    std::size_t count() const;
     kernel::PointSpread spread(int kernel) const;
     int step_of(float radius_px) const;
     float radius_of(int step) const;

@@ -77,6 +77,29 @@ TEST(Sprites, ALightInTheMiddleOfAPixelIsThatPixelThroughTheReference) {
     }
 }
 
+TEST(Sprites, DiscsChangeSteadilyOverTheFieldOfALens) {
+    // A cat's eye, one light after the other along the picture: how far it is narrowed never jumps.
+    LensChoice lens;
+    lens.cats_eye = 1;
+    double before = 0, widest_step = 0, least = 100, most = 0;
+    for (int x = 100; x <= 420; x += 4) {
+        Lights lights(440, 80, 30);
+        lights.add(float(x) + 0.5f, 40.5f, 30, 1000);
+        DefocusJob job = lights.job();
+        job.lens = lens;
+        const Picture image = rendered(job);
+        int wide = 0;
+        for (int u = 0; u < image.width(); ++u) wide += image(u, 40).g > 0.2;
+        // Only those that the picture's edge does not cut.
+        if (x > 385) break;
+        if (before > 0) widest_step = std::max(widest_step, std::abs(wide - before));
+        before = wide;
+        least = std::min(least, before), most = std::max(most, before);
+    }
+    EXPECT_GT(most - least, 10) << "the cat's eye narrows discs";
+    EXPECT_LE(widest_step, 1.0);
+}
+
 TEST(Sprites, SizeMakesTheDiscWider) {
     Lights lights(161, 161, 12);
     lights.add(80.5f, 80.5f, 12, 50, 10);
