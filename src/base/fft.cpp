@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -62,6 +63,9 @@ void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool in
                     re[i * kLanes + l] = first[i * along + l * across].real();
                     im[i * kLanes + l] = first[i * along + l * across].imag();
                 }
+            const auto is_zero = [](float v) { return v == 0; };
+            if (std::all_of(re.begin(), re.end(), is_zero) && std::all_of(im.begin(), im.end(), is_zero))
+                return;
             fft.transform(re.data(), im.data(), inverse);
             for (std::size_t i = 0; i < std::size_t(n); ++i)
                 for (std::size_t l = 0; l < kLanes; ++l)

@@ -106,12 +106,12 @@ SpriteKernels::~SpriteKernels() {
     for (auto& kernel : kernels_) delete kernel.load();
 }
 
-int SpriteKernels::step_of(float radius_px) const {
+int SpriteKernels::step_of(float radius_px) {
     if (radius_px <= kLinearEndPx) return int(radius_px / kLeastStepPx + 0.5f);
     return kLinearSteps + int(std::log(radius_px / kLinearEndPx) / std::log1p(kRelativeStep) + 0.5f);
 }
 
-float SpriteKernels::radius_of(int step) const {
+float SpriteKernels::radius_of(int step) {
     if (step <= kLinearSteps) return kLeastStepPx * float(step);
     return kLinearEndPx * std::pow(1 + kRelativeStep, float(step - kLinearSteps));
 }
@@ -144,12 +144,13 @@ kernel::PointSpread SpriteKernels::spread(int kernel) const {
     const int step = radius % steps_, side = radius / steps_ % 2, part = radius / steps_ / 2;
     const double signed_radius = (side ? 1 : -1) * double(radius_of(step));
     const int level = level_of(radius_of(step));
-    const double x = (part % parts_x_ + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double y = (part / parts_x_ + 0.5) * input_.height() / parts_y_ - 0.5;
-    const int quarters_right = phase % phases_, quarters_down = phase / phases_;
-    const float right = float(quarters_right) / float(phases_), down = float(quarters_down) / float(phases_);
-    const double radius_cells = radius_in_cells(signed_radius, level, moving_blur(right, down));
-    return moved(input_.lens(level).point_spread(radius_cells, input_.field_at(x, y)), right, down);
+    const int column = part % parts_x_, row = part / parts_x_;
+    const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
+    const int right = phase % phases_, down = phase / phases_;
+    const float by_x = float(right) / float(phases_), by_y = float(down) / float(phases_);
+    const double radius_cells = radius_in_cells(signed_radius, level, moving_blur(by_x, by_y));
+    return moved(input_.lens(level).point_spread(radius_cells, input_.field_at(x, y)), by_x, by_y);
 }
 
 const StampKernel& SpriteKernels::at(int kernel) const {

@@ -46,8 +46,8 @@ private:
     std::size_t bytes_for(std::span<const Sprite> sprites) const;
     std::size_t count() const;
     kernel::PointSpread spread(int kernel) const;
-    int step_of(float radius_px) const;
-    float radius_of(int step) const;
+    static int step_of(float radius_px);
+    static float radius_of(int step);
     int level_of(float radius_px) const;
 
     const Input& input_;
