@@ -71,8 +71,9 @@ Result<Output> run_sprites(const Input& input) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     const bool finds = input.sprites.find && input.deep.empty();
-    // The picture without its lights, and for every light: itself, its copy in a tile, its place in lists.
-    constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba), kBytesPerPoint = 200;
+    // The picture without its lights, the quad-tree; for every light: itself, its copy in a tile, its place
+    // in lists.
+    constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba) + 8, kBytesPerPoint = 200;
     if (const Status fits =
             fits_memory(input, kBytesPerPixel, "sprites", kBytesPerPoint * input.points.size());
         !fits)

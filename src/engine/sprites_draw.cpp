@@ -43,6 +43,21 @@ void in_batches(std::size_t count, std::size_t batch, int threads, const Work& w
     });
 }
 
+// Numbers of the sprites, neighbours after each other: they ask for the same part of the picture.
+std::vector<std::uint32_t> by_place(const Input& input, std::span<const Sprite> sprites) {
+    constexpr float kCell = 32;
+    const int columns = 1 + int(float(input.width()) / kCell), rows = 1 + int(float(input.height()) / kCell);
+    const auto cell = [&](const Sprite& s) {
+        return std::size_t(int(std::clamp(s.y / kCell, 0.0f, float(rows - 1))) * columns +
+                           int(std::clamp(s.x / kCell, 0.0f, float(columns - 1))));
+    };
+    std::vector<std::uint32_t> next(std::size_t(columns * rows) + 1, 0), order(sprites.size());
+    for (const Sprite& s : sprites) ++next[cell(s) + 1];
+    for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+    for (std::size_t i = 0; i < sprites.size(); ++i) order[next[cell(sprites[i])]++] = std::uint32_t(i);
+    return order;
+}
+
 // Lights that anything is seen of, as drawings, by the tiles they may reach.
 class Buckets {
 public:
@@ -53,9 +68,10 @@ public:
           tiles_y_((input.height() + kTile - 1) / kTile) {
         std::vector<Placed> placed(sprites.size());
         const SpriteShadows shadows(input);
+        const std::vector<std::uint32_t> order = by_place(input, sprites);
         in_batches(sprites.size(), 4096, input.threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end && !input.progress->cancelled(); ++i)
-                placed[i] = place(sprites[i], shadows);
+                placed[i] = place(sprites[order[i]], shadows);
         });
         sort_into_tiles(placed);
     }

@@ -43,8 +43,11 @@ private:
     struct Node {
         float nearest = 1e30f, farthest = -1e30f;
         bool is_whole = true;  // one surface without a jump
+        std::uint64_t bins =
+            0;  // which of 64 equal steps from the picture's nearest to its farthest there are
         void include(const Node& other);
     };
+    int bin(float coc_px) const;
     Node pixel(int x, int y) const;
     Node node(int level, int x, int y) const {
         return level == 0 ? pixel(x, y) : levels_[std::size_t(level - 1)](x, y);
@@ -54,14 +57,18 @@ private:
     struct Light {
         float x, y, coc_px;
     };
+    struct Square;
     // Pupil points behind a square, of which `all` may be hidden by it and `surely` are.
     struct Behind {
         std::uint64_t all = 0, surely = 0;
     };
     Behind behind(const Light& light, int level, int x, int y, const Node& node) const;
+    // Takes what a square, or those of a level in a range (ends included, 2 x 2 at most), hides from `seen`.
     void hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const;
+    void hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const;
 
     const Input& in_;
+    float bins_per_px_ = 0;
     std::vector<Image<Node>> levels_;  // [0]: squares of 2 pixels
 };
 
