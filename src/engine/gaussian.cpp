@@ -66,34 +66,34 @@ public:
 private:
     MixWeights weights(float coc_px) const { return coc_px < 0 ? near_(-coc_px) : far_(coc_px); }
 
-    // All layers at once on the finest grid that any of them needs; coarser ones from there.
+    // Every layer on the grid that its own blur needs. Rows are shared out by cells of the coarsest.
     void make_layers() {
-        int finest = 14;
-        for (std::size_t k = 0; k < kLayers; ++k)
-            if (used_[k]) finest = std::min(finest, blur_level(sigma_[k]));
-        for (std::size_t k = 0; k < kLayers; ++k)
-            if (used_[k]) layers_[k] = BlurLayer::on_grid(finest, in_.width(), in_.height());
-        const int size = 1 << finest;
-        parallel_for((in_.height() + size - 1) / size, in_.threads, [&](int row) {
-            for (int y = row * size; y < std::min(in_.height(), (row + 1) * size); ++y)
-                for (int x = 0; x < in_.width(); ++x) deposit(x, y, x / size, row, 1 / float(size * size));
-        });
+        int coarsest = 0;
         for (std::size_t k = 0; k < kLayers; ++k) {
             if (!used_[k]) continue;
-            while (layers_[k].level < blur_level(sigma_[k]))
-                layers_[k] = layers_[k].halved(in_.width(), in_.height());
-            blur(layers_[k], sigma_[k], in_.width(), in_.height(), in_.threads);
+            layers_[k] = BlurLayer::on_grid(blur_level(sigma_[k]), in_.width(), in_.height());
+            per_cell_[k] = std::ldexp(1.0f, -2 * layers_[k].level);
+            coarsest = std::max(coarsest, layers_[k].level);
         }
+        const int size = 1 << coarsest;
+        parallel_for((in_.height() + size - 1) / size, in_.threads, [&](int row) {
+            for (int y = row * size; y < std::min(in_.height(), (row + 1) * size); ++y)
+                for (int x = 0; x < in_.width(); ++x) deposit(x, y);
+        });
+        for (std::size_t k = 0; k < kLayers; ++k)
+            if (used_[k]) blur(layers_[k], sigma_[k], in_.width(), in_.height(), in_.threads);
     }
 
-    void deposit(int x, int y, int cell_x, int cell_y, float per_pixel) {
+    void deposit(int x, int y) {
         const float coc = in_.coc_px(x, y);
         const Rgba colour = in_.colour(x, y);
         const MixWeights w = weights(coc);
-        const auto add = [&](LayerName layer, float share) {
-            if (share <= 0 || !used_[layer]) return;
-            layers_[layer].light(cell_x, cell_y) += (share * per_pixel) * colour;
-            layers_[layer].covered(cell_x, cell_y) += share * per_pixel;
+        const auto add = [&](LayerName name, float share) {
+            if (share <= 0 || !used_[name]) return;
+            BlurLayer& layer = layers_[name];
+            const float part = share * per_cell_[name];
+            layer.light(x >> layer.level, y >> layer.level) += part * colour;
+            layer.covered(x >> layer.level, y >> layer.level) += part;
         };
         add(coc < 0 ? kNearSmall : kFarSmall, w.small);
         add(coc < 0 ? kNearLarge : kFarLarge, w.large);
@@ -133,6 +133,7 @@ private:
     std::array<BlurLayer, kLayers> layers_;
     std::array<bool, kLayers> used_{};
     std::array<Sigma, kLayers> sigma_{};
+    std::array<float, kLayers> per_cell_{};  // of a pixel
 };
 
 // The whole picture, blurred as a disc of that radius would.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace petzval::engine {
 namespace {
@@ -62,37 +63,54 @@ private:
     std::vector<float> floats_;
 };
 
-// One pass over rows of `width` floats: taps `step` floats apart.
-void pass(Rows& from, Rows& to, int width, int height, std::ptrdiff_t step, const std::vector<float>& weights,
-          int threads) {
+// Taps `step` floats apart, on `rows` rows of `width` floats.
+void pass(Rows& from, int from_y, Rows& to, int to_y, int width, int rows, std::ptrdiff_t step,
+          const std::vector<float>& weights) {
     const int radius = int(weights.size() / 2);
     std::vector<std::ptrdiff_t> offsets;
     for (int k = -radius; k <= radius; ++k) offsets.push_back(k * step);
-    constexpr int kBand = 16;
-    parallel_for((height + kBand - 1) / kBand, threads, [&](int band) {
-        const int y0 = band * kBand, rows = std::min(kBand, height - y0);
-        const TapJob job{offsets.data(),
-                         weights.data(),
-                         int(weights.size()),
-                         1,
-                         (width + kGatherGroup - 1) / kGatherGroup * kGatherGroup,
-                         rows,
-                         from.stride(),
-                         to.stride()};
-        gather_one(job, {from.row(y0), to.row(y0)});
-    });
+    const TapJob job{offsets.data(),
+                     weights.data(),
+                     int(weights.size()),
+                     1,
+                     (width + kGatherGroup - 1) / kGatherGroup * kGatherGroup,
+                     rows,
+                     from.stride(),
+                     to.stride()};
+    gather_one(job, {from.row(from_y), to.row(to_y)});
 }
 
-// Blurs `channels` interleaved floats per cell.
-void blur_cells(float* cells, int width, int height, int channels, const std::vector<float>& along_x,
-                const std::vector<float>& along_y, int threads) {
-    const int margin_x = int(along_x.size() / 2) * channels, margin_y = int(along_y.size() / 2);
-    const int row = width * channels;
-    Rows in(row, height, margin_x, 0), between(row, height, 0, margin_y), out(row, height, 0, 0);
-    for (int y = 0; y < height; ++y) std::copy_n(cells + std::ptrdiff_t(y) * row, row, in.row(y));
-    pass(in, between, row, height, channels, along_x, threads);
-    pass(between, out, row, height, between.stride(), along_y, threads);
-    for (int y = 0; y < height; ++y) std::copy_n(out.row(y), row, cells + std::ptrdiff_t(y) * row);
+// A kernel along one axis, and how much of it lies inside the picture at each cell.
+struct Axis {
+    std::vector<float> weights, inside;
+    int radius() const { return int(weights.size() / 2); }
+};
+
+// Blurs `channels` interleaved floats per cell, band by band of rows.
+void blur_cells(float* cells, int width, int height, int channels, const Axis& x, const Axis& y,
+                int threads) {
+    constexpr int kBand = 16;
+    const int row = width * channels, bands = (height + kBand - 1) / kBand;
+    Rows between(row, height, 0, y.radius());
+    parallel_for(bands, threads, [&](int band) {
+        const int first = band * kBand, rows = std::min(kBand, height - first);
+        Rows in(row, kBand, x.radius() * channels, 0);
+        for (int k = 0; k < rows; ++k) std::copy_n(cells + std::ptrdiff_t(first + k) * row, row, in.row(k));
+        pass(in, 0, between, first, row, rows, channels, x.weights);
+    });
+    parallel_for(bands, threads, [&](int band) {
+        const int first = band * kBand, rows = std::min(kBand, height - first);
+        Rows out(row, kBand, 0, 0);
+        pass(between, first, out, 0, row, rows, between.stride(), y.weights);
+        for (int k = 0; k < rows; ++k) {
+            const float* from = out.row(k);
+            float* to = cells + std::ptrdiff_t(first + k) * row;
+            for (int i = 0; i < width; ++i) {
+                const float scale = 1 / (x.inside[std::size_t(i)] * y.inside[std::size_t(first + k)]);
+                for (int c = 0; c < channels; ++c) to[i * channels + c] = scale * from[i * channels + c];
+            }
+        }
+    });
 }
 
 }  // namespace
@@ -110,30 +128,16 @@ BlurLayer BlurLayer::on_grid(int level, int width, int height) {
     return {level, Picture(w, h), Plane(w, h)};
 }
 
-BlurLayer BlurLayer::halved(int width, int height) const {
-    BlurLayer half = on_grid(level + 1, width, height);
-    for (int y = 0; y < light.height(); ++y)
-        for (int x = 0; x < light.width(); ++x) {
-            half.light(x / 2, y / 2) += 0.25f * light(x, y);
-            half.covered(x / 2, y / 2) += 0.25f * covered(x, y);
-        }
-    return half;
-}
-
 void blur(BlurLayer& layer, Sigma sigma, int width, int height, int threads) {
-    const std::vector<float> along_x = gaussian_weights(sigma_in_cells(sigma.x_px, layer.level));
-    const std::vector<float> along_y = gaussian_weights(sigma_in_cells(sigma.y_px, layer.level));
     const int w = layer.light.width(), h = layer.light.height();
-    blur_cells(&layer.light.pixels()->r, w, h, 4, along_x, along_y, threads);
-    blur_cells(layer.covered.pixels(), w, h, 1, along_x, along_y, threads);
-    const std::vector<float> inside_x = share_inside(along_x, w, layer.level, width);
-    const std::vector<float> inside_y = share_inside(along_y, h, layer.level, height);
-    for (int y = 0; y < h; ++y)
-        for (int x = 0; x < w; ++x) {
-            const float scale = 1 / (inside_x[std::size_t(x)] * inside_y[std::size_t(y)]);
-            layer.light(x, y) *= scale;
-            layer.covered(x, y) *= scale;
-        }
+    const auto axis = [&](double sigma_px, int cells, int pixels) {
+        std::vector<float> weights = gaussian_weights(sigma_in_cells(sigma_px, layer.level));
+        std::vector<float> inside = share_inside(weights, cells, layer.level, pixels);
+        return Axis{std::move(weights), std::move(inside)};
+    };
+    const Axis x = axis(sigma.x_px, w, width), y = axis(sigma.y_px, h, height);
+    blur_cells(&layer.light.pixels()->r, w, h, 4, x, y, threads);
+    blur_cells(layer.covered.pixels(), w, h, 1, x, y, threads);
 }
 
 BlurReader::BlurReader(const BlurLayer& layer, int width)

@@ -25,8 +25,6 @@ struct BlurLayer {
 
     // Zero everywhere, for a picture of that size.
     static BlurLayer on_grid(int level, int width, int height);
-    // The mean of each 2 x 2 cells. (width, height): the picture's.
-    BlurLayer halved(int width, int height) const;
 };
 
 // Blurs in place. Beyond the picture nothing is known: kernels are renormalised to what lies inside.

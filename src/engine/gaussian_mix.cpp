@@ -11,19 +11,21 @@ RadiusMix::RadiusMix(float largest_px, float band_px)
       small_px_(std::max(largest_px / 2, kWithinPixelPx)),
       large_px_(largest_px > band_px_ ? largest_px : 0) {
     if (large_px_ > 0) stretch_ = large_px_ / (large_px_ - band_px_);
+    const auto per_square = [](float low, float high) {
+        return high > low ? 1 / (high * high - low * low) : 0.0f;
+    };
+    per_small_ = per_square(kWithinPixelPx, small_px_), per_large_ = per_square(small_px_, large_px_);
 }
 
 MixWeights RadiusMix::operator()(float radius_px) const {
     const float r = std::max(0.0f, radius_px - band_px_) * stretch_;
     if (!blurs() || r <= kWithinPixelPx) return {};
-    const auto share = [&](float low, float high) {
-        return high > low ? std::clamp((r * r - low * low) / (high * high - low * low), 0.0f, 1.0f) : 1.0f;
-    };
     if (r < small_px_) {
-        const float small = share(kWithinPixelPx, small_px_);
+        const float small = std::min(1.0f, (r * r - kWithinPixelPx * kWithinPixelPx) * per_small_);
         return {1 - small, small, 0};
     }
-    const float large = share(small_px_, large_px_);
+    const float large =
+        large_px_ > small_px_ ? std::min(1.0f, (r * r - small_px_ * small_px_) * per_large_) : 1;
     return {0, 1 - large, large};
 }
 

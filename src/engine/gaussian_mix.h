@@ -25,6 +25,7 @@ public:
 
 private:
     float band_px_, stretch_ = 1, small_px_, large_px_;
+    float per_small_, per_large_;  // 1 / what squared radii grow by, up to each
 };
 
 // By depth, as published (wgld.org): x = clamp(depth + offset, 0, 1); the index d is 1 in the band around
