@@ -160,17 +160,24 @@ Status finish(const PictureFlags& flags, Json report, const LensMount& mount, co
     return write_report(report, flags.run.json);
 }
 
-// True if there is nothing to do.
-Result<bool> prepared(PictureFlags& flags) {
+struct Mounted {
+    LensMount mount;
+    LensChoice lens;
+};
+
+// What a picture is made of, or nothing where there is nothing to do.
+Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
     if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
         note(*reason);
-        return true;
+        return std::optional<Mounted>();
     }
     for (const std::string& path : {flags.output, flags.run.json})
         if (!path.empty() && path != "-")
             if (Status fine = check_output(path, flags.lens.input_files()); !fine) return fine.error();
     if (Status done = flags.lens.load(); !done) return done.error();
-    return false;
+    const auto mount = mount_of(flags);
+    if (!mount) return mount.error();
+    return std::optional<Mounted>({*mount, flags.lens.choice()});
 }
 
 struct PsfFlags : PictureFlags {
@@ -181,16 +188,14 @@ struct PsfFlags : PictureFlags {
 
 Status make_psf(PsfFlags& flags) {
     const Stopwatch watch;
-    const auto idle = prepared(flags);
-    if (!idle) return idle.error();
-    if (*idle) return Done{};
-    const auto mount = mount_of(flags);
-    if (!mount) return mount.error();
-    const LensChoice lens = flags.lens.choice();
-    auto disc = lens_point_spread(lens, *mount, flags.coc_radius_px, flags.field.low, flags.field.high,
+    const auto mounted = prepared(flags);
+    if (!mounted) return mounted.error();
+    if (!*mounted) return Done{};
+    const auto& [mount, lens] = **mounted;
+    auto disc = lens_point_spread(lens, mount, flags.coc_radius_px, flags.field.low, flags.field.high,
                                   flags.size_px, flags.raw);
     if (!disc) return disc.error();
-    note(disc->lens + " (" + camera_text(mount->camera) + ")");
+    note(disc->lens + " (" + camera_text(mount.camera) + ")");
     if (disc->lost_share > 1e-3)
         warning(plain(100 * disc->lost_share, 3) + " % of the light falls outside of --size " +
                 plain(flags.size_px));
@@ -213,7 +218,7 @@ Status make_psf(PsfFlags& flags) {
                          !flags.overwrite.no_clobber);
         if (!done) return done;
     }
-    return finish(flags, std::move(report), *mount, lens, disc->lens, watch);
+    return finish(flags, std::move(report), mount, lens, disc->lens, watch);
 }
 
 struct TableFlags : PictureFlags {
@@ -223,17 +228,15 @@ struct TableFlags : PictureFlags {
 
 Status make_table(TableFlags& flags) {
     const Stopwatch watch;
-    const auto idle = prepared(flags);
-    if (!idle) return idle.error();
-    if (*idle) return Done{};
-    const auto mount = mount_of(flags);
-    if (!mount) return mount.error();
-    const LensChoice lens = flags.lens.choice();
+    const auto mounted = prepared(flags);
+    if (!mounted) return mounted.error();
+    if (!*mounted) return Done{};
+    const auto& [mount, lens] = **mounted;
     flags.table.raw = flags.raw;
     flags.table.dense_near_focus = !flags.even;
-    auto texture = bokeh_texture(lens, *mount, flags.table);
+    auto texture = bokeh_texture(lens, mount, flags.table);
     if (!texture) return texture.error();
-    note(texture->lens + " (" + camera_text(mount->camera) + ")");
+    note(texture->lens + " (" + camera_text(mount.camera) + ")");
     Json report = new_report("lens table");
     report["columns"] = flags.table.columns;
     report["rows"] = texture->energy.height();
@@ -254,7 +257,7 @@ Status make_table(TableFlags& flags) {
             !flags.overwrite.no_clobber);
         if (!done) return done;
     }
-    return finish(flags, std::move(report), *mount, lens, texture->lens, watch);
+    return finish(flags, std::move(report), mount, lens, texture->lens, watch);
 }
 
 void add_psf(Verb& lens, Action& chosen) {

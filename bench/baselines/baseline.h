@@ -63,4 +63,19 @@ private:
 // `below` seen past `above`, both premultiplied.
 inline Rgba over(Rgba above, Rgba below) { return above + (1 - std::min(above.a, 1.0f)) * below; }
 
+// The picture in so many layers, each blurred(input, rule, layer), one over the other.
+template <typename Blurred>
+Picture layer_by_layer(const Input& input, int count, const Blurred& blurred) {
+    const LayerRule rule(input.coc_px, count);
+    std::vector<Picture> layers(static_cast<std::size_t>(count));
+    in_parallel(count, input.threads, [&](int i) { layers[std::size_t(i)] = blurred(input, rule, i); });
+    Picture out(input.colour.width(), input.colour.height());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        Rgba below{};
+        for (std::size_t layer = layers.size(); layer-- > 0;) below = over(layers[layer].pixels()[i], below);
+        out.pixels()[i] = below.a > 1e-6f ? below * (1 / below.a) : below;
+    }
+    return out;
+}
+
 }  // namespace petzval::baselines

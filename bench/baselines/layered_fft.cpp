@@ -95,18 +95,6 @@ Picture blurred_layer(const Input& input, const LayerRule& rule, int layer) {
 
 }  // namespace
 
-Picture layered_fft(const Input& input) {
-    const LayerRule rule(input.coc_px, kLayers);
-    std::vector<Picture> layers(kLayers);
-    in_parallel(kLayers, input.threads,
-                [&](int i) { layers[std::size_t(i)] = blurred_layer(input, rule, i); });
-    Picture out(input.colour.width(), input.colour.height());
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        Rgba below{};
-        for (int layer = kLayers; layer-- > 0;) below = over(layers[std::size_t(layer)].pixels()[i], below);
-        out.pixels()[i] = below.a > 1e-6f ? below * (1 / below.a) : below;
-    }
-    return out;
-}
+Picture layered_fft(const Input& input) { return layer_by_layer(input, kLayers, blurred_layer); }
 
 }  // namespace petzval::baselines

@@ -78,17 +78,6 @@ Picture spread(const Input& input, const LayerRule& rule, int layer) {
 
 }  // namespace
 
-Picture rectangle_spreading(const Input& input) {
-    const LayerRule rule(input.coc_px, kLayers);
-    std::vector<Picture> layers(kLayers);
-    in_parallel(kLayers, input.threads, [&](int i) { layers[std::size_t(i)] = spread(input, rule, i); });
-    Picture out(input.colour.width(), input.colour.height());
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        Rgba below{};
-        for (int layer = kLayers; layer-- > 0;) below = over(layers[std::size_t(layer)].pixels()[i], below);
-        out.pixels()[i] = below.a > 1e-6f ? below * (1 / below.a) : below;
-    }
-    return out;
-}
+Picture rectangle_spreading(const Input& input) { return layer_by_layer(input, kLayers, spread); }
 
 }  // namespace petzval::baselines

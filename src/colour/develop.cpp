@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace petzval {
 
@@ -19,34 +20,36 @@ double srgb_decode(double encoded) {
     return std::copysign(linear, encoded);
 }
 
-double encode(Transfer transfer, double linear) {
-    const auto power = [&](double gamma) {
-        return std::copysign(std::pow(std::abs(linear), 1 / gamma), linear);
-    };
+namespace {
+
+// The exponent of a curve that is a power of the code, and nothing for one that is not.
+std::optional<double> power_of(Transfer transfer) {
     switch (transfer) {
         case Transfer::Gamma22:
-            return power(2.2);
+            return 2.2;
         case Transfer::Gamma20:
-            return power(2);
+            return 2;
         case Transfer::Linear:
-            return linear;
+            return 1;
         default:
-            return srgb_encode(linear);
+            return std::nullopt;
     }
 }
 
+double signed_power(double value, double exponent) {
+    return exponent == 1 ? value : std::copysign(std::pow(std::abs(value), exponent), value);
+}
+
+}  // namespace
+
+double encode(Transfer transfer, double linear) {
+    const auto power = power_of(transfer);
+    return power ? signed_power(linear, 1 / *power) : srgb_encode(linear);
+}
+
 double decode(Transfer transfer, double code) {
-    const auto power = [&](double gamma) { return std::copysign(std::pow(std::abs(code), gamma), code); };
-    switch (transfer) {
-        case Transfer::Gamma22:
-            return power(2.2);
-        case Transfer::Gamma20:
-            return power(2);
-        case Transfer::Linear:
-            return code;
-        default:
-            return srgb_decode(code);
-    }
+    const auto power = power_of(transfer);
+    return power ? signed_power(code, *power) : srgb_decode(code);
 }
 
 std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopSettings& settings) {

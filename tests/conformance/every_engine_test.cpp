@@ -4,21 +4,6 @@
 namespace petzval::conformance {
 namespace {
 
-struct Spot {
-    double sum = 0, radius_px = 0;
-};
-
-// Light of one pixel, and the radius of the disc with its second moment (a pixel's own is 1/6 px^2).
-Spot spot(const Picture& image, int at) {
-    double sum = 0, moment = 0;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const double light = double(image(x, y).g);
-            sum += light, moment += light * (std::pow(x - at, 2) + std::pow(y - at, 2));
-        }
-    return {sum, std::sqrt(std::max(0.0, 2 * (moment / sum - 1.0 / 6)))};
-}
-
 // How much light docs/conventions.md lets an engine gain or lose on an isolated pixel.
 double light_tolerance(const std::string& engine) {
     if (engine == "gather") return 0.02;

@@ -4,21 +4,6 @@
 namespace petzval::conformance {
 namespace {
 
-// Sum and root mean square distance (times sqrt 2: a disc's radius) of the light of one point.
-struct Spot {
-    double sum = 0, radius_px = 0;
-};
-
-Spot spot(const Picture& image, int at) {
-    double sum = 0, moment = 0;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            sum += double(image(x, y).g);
-            moment += double(image(x, y).g) * (std::pow(x - at, 2) + std::pow(y - at, 2));
-        }
-    return {sum, std::sqrt(std::max(0.0, 2 * (moment / sum - 1.0 / 6)))};
-}
-
 // A point on each of 4 x 4 neighbouring pixels, which lie differently in the cells of coarser grids: the
 // mean.
 Spot mean_spot(float coc, Quality quality, const LensChoice& lens = {}) {
@@ -35,17 +20,6 @@ Spot mean_spot(float coc, Quality quality, const LensChoice& lens = {}) {
         mean.sum += one.sum / 4, mean.radius_px += one.radius_px / 4;
     }
     return mean;
-}
-
-Shot two_depths() {
-    Shot shot = flat(150, 130, {}, 5);
-    paint_noise(shot.colour, 2);
-    for (int y = 0; y < 130; ++y)
-        for (int x = 71; x < 90; ++x) shot.coc_px(x, y) = -17;
-    for (int y = 40; y < 60; ++y)
-        for (int x = 0; x < 40; ++x) shot.coc_px(x, y) = 0;
-    shot.colour(95, 100) = {9000, 60, 20, 1};
-    return shot;
 }
 
 TEST(Gather, InFocusIsUntouched) {
@@ -173,14 +147,14 @@ TEST(Gather, HiddenLayersThatAreKnownAreUsed) {
 }
 
 TEST(Gather, TheSameBitsForAnyThreadCount) {
-    const Shot shot = two_depths();
+    const Shot shot = noise_at_several_depths();
     DefocusJob one = shot.job("gather"), two = shot.job("gather");
     one.threads = 1, two.threads = 2;
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 
 TEST(Gather, EveryOptionChangesThePicture) {
-    const Shot shot = two_depths();
+    const Shot shot = noise_at_several_depths();
     const Picture plain = rendered(shot.job("gather"));
     const auto changed = [&](const auto& set) {
         DefocusJob job = shot.job("gather");

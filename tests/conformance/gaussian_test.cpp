@@ -12,19 +12,6 @@ DefocusJob job_of(const Shot& shot, GaussianStyle style) {
     return job;
 }
 
-Shot two_depths() {
-    Shot shot = flat(150, 130, {}, 5);
-    paint_noise(shot.colour, 2);
-    for (int y = 0; y < 130; ++y)
-        for (int x = 71; x < 90; ++x) shot.coc_px(x, y) = -17;
-    for (int y = 40; y < 60; ++y)
-        for (int x = 0; x < 40; ++x) shot.coc_px(x, y) = 0;
-    for (int y = 80; y < 100; ++y)
-        for (int x = 0; x < 40; ++x) shot.coc_px(x, y) = 3;
-    shot.colour(95, 100) = {9000, 60, 20, 1};
-    return shot;
-}
-
 // Depth 1…3 m from left to right, focus at 2 m.
 struct DepthShot {
     Picture colour{100, 40};
@@ -144,7 +131,7 @@ TEST(Gaussian, TheFocusDistanceLiesInThePublishedBandUnlessAnOffsetIsGiven) {
 }
 
 TEST(Gaussian, EveryOptionChangesThePicture) {
-    const Shot shot = two_depths();
+    const Shot shot = noise_at_several_depths();
     for (const GaussianStyle style : kStyles) {
         const Picture plain = rendered(job_of(shot, style));
         const auto changed = [&](const auto& set) {
@@ -171,7 +158,7 @@ TEST(Gaussian, EveryOptionChangesThePicture) {
 }
 
 TEST(Gaussian, TheSameBitsForAnyThreadCount) {
-    const Shot shot = two_depths();
+    const Shot shot = noise_at_several_depths();
     for (const GaussianStyle style : kStyles) {
         DefocusJob one = job_of(shot, style), two = job_of(shot, style);
         one.threads = 1, two.threads = 2;

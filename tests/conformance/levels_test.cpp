@@ -69,19 +69,6 @@ TEST(Levels, AreThoseOfScatter) {
     EXPECT_NE(refused.error().message.find("--engine scatter"), std::string::npos);
 }
 
-Shot tall_with_screens() {
-    Shot shot = flat(96, 1000, {}, 4);
-    paint_rectangles(shot.colour, 8);
-    std::mt19937 random(3);
-    for (int i = 0; i < 40; ++i) {
-        const int x = int(random() % 90), y = int(random() % 990);
-        shot.colour(x, y) = {80, 60, 20, 1};
-        for (int v = y; v < y + 9; ++v)
-            for (int u = x; u < x + 5; ++u) shot.coc_px(u, v) = -13;
-    }
-    return shot;
-}
-
 TEST(Memory, GatherInStripsGivesTheSameBits) {
     const Shot shot = tall_with_screens();
     for (const bool varies : {false, true}) {

@@ -165,15 +165,7 @@ TEST(Scatter, ALightIsNotInTheShadowOfTheSurfaceItStandsOn) {
 }
 
 TEST(Scatter, TheSameBitsForAnyMemoryLimitAndAClearAnswerWhenItIsTooSmall) {
-    Shot shot = flat(96, 1000, {}, 4);
-    paint_rectangles(shot.colour, 8);
-    std::mt19937 random(3);
-    for (int i = 0; i < 40; ++i) {
-        const int x = int(random() % 90), y = int(random() % 990);
-        shot.colour(x, y) = {80, 60, 20, 1};
-        for (int v = y; v < y + 9; ++v)
-            for (int u = x; u < x + 5; ++u) shot.coc_px(u, v) = -13;
-    }
+    const Shot shot = tall_with_screens();
     DefocusJob whole = shot.job("scatter"), strips = shot.job("scatter");
     strips.max_memory_bytes = std::size_t(112) << 20;
     EXPECT_EQ(largest_difference(rendered(whole), rendered(strips)), 0);

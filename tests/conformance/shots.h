@@ -61,6 +61,33 @@ inline void paint_rectangles(Picture& picture, unsigned seed) {
     }
 }
 
+// Noise behind focus, a bar across it in front, a patch in focus and one nearly, and a bright point.
+inline Shot noise_at_several_depths() {
+    Shot shot = flat(150, 130, {}, 5);
+    paint_noise(shot.colour, 2);
+    const auto put = [&](const Rect& r, float coc_px) {
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x) shot.coc_px(x, y) = coc_px;
+    };
+    put({71, 0, 90, 130}, -17), put({0, 40, 40, 60}, 0), put({0, 80, 40, 100}, 3);
+    shot.colour(95, 100) = {9000, 60, 20, 1};
+    return shot;
+}
+
+// Higher than any strip, with small screens in front that hide lights.
+inline Shot tall_with_screens() {
+    Shot shot = flat(96, 1000, {}, 4);
+    paint_rectangles(shot.colour, 8);
+    std::mt19937 random(3);
+    for (int i = 0; i < 40; ++i) {
+        const int x = int(random() % 90), y = int(random() % 990);
+        shot.colour(x, y) = {80, 60, 20, 1};
+        for (int v = y; v < y + 9; ++v)
+            for (int u = x; u < x + 5; ++u) shot.coc_px(u, v) = -13;
+    }
+    return shot;
+}
+
 // One sample behind every pixel: colour(x, y) at coc(x, y).
 template <typename Colour, typename Coc>
 void put_behind(Shot& shot, const Colour& colour, const Coc& coc) {
@@ -82,6 +109,21 @@ inline Picture rendered(const DefocusJob& job) {
     if (!report) return {};
     EXPECT_EQ(report->engine, job.engine) << "another engine ran instead";
     return std::move(report->image);
+}
+
+// Light of one pixel, and the radius of the disc with its second moment (a pixel's own is 1/6 px^2).
+struct Spot {
+    double sum = 0, radius_px = 0;
+};
+
+inline Spot spot(const Picture& image, int at) {
+    double sum = 0, moment = 0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const double light = double(image(x, y).g);
+            sum += light, moment += light * (std::pow(x - at, 2) + std::pow(y - at, 2));
+        }
+    return {sum, std::sqrt(std::max(0.0, 2 * (moment / sum - 1.0 / 6)))};
 }
 
 inline double largest_difference(const Picture& a, const Picture& b) {

@@ -25,12 +25,12 @@ struct Lights {
     }
 };
 
-struct Spot {
+struct Landed {
     double sum = 0, x = 0, y = 0, radius_px = 0;
 };
 
-Spot spot(const Picture& image) {
-    Spot s;
+Landed landed(const Picture& image) {
+    Landed s;
     double square = 0;
     for (int v = 0; v < image.height(); ++v)
         for (int u = 0; u < image.width(); ++u) {
@@ -50,7 +50,7 @@ TEST(Sprites, ALightKeepsItsLightItsPlaceAndItsRadius) {
             lights.add(130.3f, 129.6f, coc, 50);
             DefocusJob job = lights.job();
             job.quality = quality;
-            const Spot s = spot(rendered(job));
+            const Landed s = landed(rendered(job));
             EXPECT_NEAR(s.sum, 50, 0.05) << coc;
             const double cell = std::max(1.0, std::abs(double(coc)) / 8);
             EXPECT_NEAR(s.x, 130.3, 0.15 * cell) << coc;
@@ -103,7 +103,7 @@ TEST(Sprites, DiscsChangeSteadilyOverTheFieldOfALens) {
 TEST(Sprites, SizeMakesTheDiscWider) {
     Lights lights(161, 161, 12);
     lights.add(80.5f, 80.5f, 12, 50, 10);
-    EXPECT_NEAR(spot(rendered(lights.job())).radius_px, std::hypot(12, 5), 0.2);
+    EXPECT_NEAR(landed(rendered(lights.job())).radius_px, std::hypot(12, 5), 0.2);
 }
 
 TEST(Sprites, DepthIsTurnedIntoTheRadiusOfTheCamera) {
@@ -118,7 +118,7 @@ TEST(Sprites, DepthIsTurnedIntoTheRadiusOfTheCamera) {
     job.engine = "sprites", job.points = &points;
     const double radius = double((*circle_of_confusion(job))(80, 60));
     ASSERT_GT(radius, 1);
-    EXPECT_NEAR(spot(rendered(job)).radius_px, radius, 0.03 * radius + 0.05);
+    EXPECT_NEAR(landed(rendered(job)).radius_px, radius, 0.03 * radius + 0.05);
 }
 
 TEST(Sprites, BrightPointsOfThePictureAreFoundAndKeepTheirLight) {
@@ -150,11 +150,11 @@ TEST(Sprites, WhatIsInFocusInFrontHidesALight) {
     for (int y = 0; y < 80; ++y)
         for (int x = 60; x < 120; ++x) lights.shot.coc_px(x, y) = 0;
     lights.add(90.5f, 40.5f, 20, 1000);  // behind the wall
-    EXPECT_EQ(spot(rendered(lights.job())).sum, 0);
+    EXPECT_EQ(landed(rendered(lights.job())).sum, 0);
     lights.points.clear();
     lights.add(60.5f, 40.5f, 20, 1000);  // beside its edge: half of the lens sees it, left of the edge
     const Picture image = rendered(lights.job());
-    EXPECT_NEAR(spot(image).sum, 500, 80);
+    EXPECT_NEAR(landed(image).sum, 500, 80);
     EXPECT_NEAR(image(70, 40).g, 0, 0.1);
     EXPECT_NEAR(image(50, 40).g, 1000 / (M_PI * 400), 0.2);
 }
@@ -180,13 +180,13 @@ TEST(Sprites, AWallHidesUpToEveryEdgeOfThePicture) {
     for (const auto& [x, y] : {std::pair{4.5f, 37.5f}, {118.5f, 37.5f}, {61.5f, 4.5f}, {61.5f, 70.5f}}) {
         Lights lights(width, height, 0);
         lights.add(x, y, 20, 1000);
-        sums.push_back(spot(rendered(lights.job())).sum);
+        sums.push_back(landed(rendered(lights.job())).sum);
     }
     // What lands outside came past the edge and is lost, so little is left; and as much at every side.
     for (const double sum : sums) EXPECT_NEAR(sum, sums[0], 1e-3 * 1000);
     Lights middle(width, height, 0);
     middle.add(61.5f, 37.5f, 20, 1000);
-    EXPECT_EQ(spot(rendered(middle.job())).sum, 0);
+    EXPECT_EQ(landed(rendered(middle.job())).sum, 0);
 }
 
 TEST(Sprites, ASurfaceThatIsNowhereAtOneRadiusHidesAsOneThatIs) {
@@ -195,7 +195,7 @@ TEST(Sprites, ASurfaceThatIsNowhereAtOneRadiusHidesAsOneThatIs) {
         for (int x = 0; x < 160; ++x)
             lights.shot.coc_px(x, y) = 6 * std::sin(0.08f * float(x)) - 5 * std::cos(0.06f * float(y)) - 4;
     for (int i = 0; i < 12; ++i) lights.add(50.5f + 5.3f * float(i), 45.3f + 2.7f * float(i), 18, 1000);
-    EXPECT_EQ(spot(rendered(lights.job())).sum, 0);
+    EXPECT_EQ(landed(rendered(lights.job())).sum, 0);
 }
 
 TEST(Sprites, PointsThatCannotBeDrawnAreCountedAndReported) {
@@ -215,7 +215,7 @@ TEST(Sprites, PointsThatCannotBeDrawnAreCountedAndReported) {
     EXPECT_EQ(report->warnings[1],
               "1 of 7 given points have negative light, depth or size and were left out");
     EXPECT_NE(report->warnings[2].find("2 of 7 given points lie outside"), std::string::npos);
-    EXPECT_GT(spot(report->image).sum, 10.5);
+    EXPECT_GT(landed(report->image).sum, 10.5);
 }
 
 TEST(Sprites, GivenPointsNeedThisEngine) {
@@ -238,7 +238,7 @@ TEST(Sprites, ManyLightsAddUp) {
                    20 * (float(random() % 200) / 100 - 1), light);
         total += double(light);
     }
-    EXPECT_NEAR(spot(rendered(lights.job())).sum, total, 1e-3 * total);
+    EXPECT_NEAR(landed(rendered(lights.job())).sum, total, 1e-3 * total);
 }
 
 TEST(Sprites, WithoutLightsItIsTheBackground) {
