@@ -4,6 +4,7 @@
 #include "engine/holdout.h"
 #include "engine/pupil_shadow.h"
 #include "engine/shadow_casters.h"
+#include "engine/stamp.h"
 #include "kernel/bank.h"
 
 #include <algorithm>
@@ -86,7 +87,12 @@ public:
         }
     }
 
-    std::shared_ptr<const PointSpread> kernel(const Highlight& h) const {
+    // What a highlight sends: a kernel, and the shadow in it.
+    struct Sent {
+        std::shared_ptr<const PointSpread> kernel;
+        std::unique_ptr<const PupilShadow> shadow;  // null: there is none
+    };
+    Sent sent(const Highlight& h) const {
         std::size_t bank = 0;
         while (kSizes[bank] < h.size) ++bank;
         // The rim of a disc that is bright by itself shows a radius that is off by little.
@@ -94,16 +100,18 @@ public:
             luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
         const auto& chosen = on_disc > bright_disc_ ? fine_banks_[bank] : banks_[bank];
         auto open = chosen->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
-        if (casters_.nearest_coc_px() >= h.coc_px - kOwnSurfacePx) return open;
-        PupilShadow shadow(h.coc_px, h.size % 2 == 0);
-        if (!collect(h, shadow)) return open;
-        return std::make_shared<const PointSpread>(dimmed(*open, h, shadow));
+        if (casters_.nearest_coc_px() >= h.coc_px - kOwnSurfacePx) return {std::move(open), nullptr};
+        auto shadow = std::make_unique<PupilShadow>(h.coc_px, h.size % 2 == 0);
+        if (!collect(h, *shadow)) shadow.reset();
+        return {std::move(open), std::move(shadow)};
     }
 
 private:
     bool collect(const Highlight& h, PupilShadow& shadow) const {
         constexpr int kBlock = ShadowCasters::kBlock;
         bool any = false;
+        // Taps at the rim of the disc reach beyond it by half their width.
+        const float pupil_end = stretch_ + (0.5f + 0.5f * float(h.size)) / std::max(0.5f, std::abs(h.coc_px));
         const auto reach_of = [&](float c) { return (h.coc_px - c) * stretch_ + 1 + float(h.size); };
         const int farthest = int(reach_of(casters_.nearest_coc_px())) + kBlock;
         const Plane& blocks = casters_.nearest_of_blocks();
@@ -119,15 +127,13 @@ private:
                 if (float(dx * dx + dy * dy) > reach_of(c) * reach_of(c)) continue;
                 for (const Caster& caster : casters_.of_block(bx, by)) {
                     if (h.coc_px - caster.coc_px < kOwnSurfacePx) break;  // nearest first
-                    any = cover(h, caster, shadow) || any;
+                    any = cover(h, pupil_end, caster, shadow) || any;
                 }
             }
         return any;
     }
 
-    bool cover(const Highlight& h, const Caster& caster, PupilShadow& shadow) const {
-        // Taps at the rim of the disc reach beyond it by half their width.
-        const float pupil_end = stretch_ + (0.5f + 0.5f * float(h.size)) / std::max(0.5f, std::abs(h.coc_px));
+    static bool cover(const Highlight& h, float pupil_end, const Caster& caster, PupilShadow& shadow) {
         const float apart = h.coc_px - caster.coc_px;
         if (caster.size > 1 && apart < ShadowCasters::kSameRadiusPx) return false;
         const float per_px = 1 / apart;
@@ -143,17 +149,6 @@ private:
         return true;
     }
 
-    static PointSpread dimmed(const PointSpread& open, const Highlight& h, const PupilShadow& shadow) {
-        const Rect e = open.extent;
-        // Offset of the first tap of the disc's square from the highlight's first pixel.
-        const int first = h.size / 2 - (h.size % 2 == 0 ? 1 : 0) - int(std::floor(std::abs(h.coc_px) + 0.5f));
-        PointSpread result{e, open.weights.clone(), open.neutral};
-        for (int y = 0; y < e.height(); ++y)
-            for (int x = 0; x < e.width(); ++x)
-                result.weights(x, y) *= shadow.visible(x + e.x0 - first, y + e.y0 - first);
-        return result;
-    }
-
     const Input& input_;
     ShadowCasters casters_;
     float stretch_;  // of the pupil, vertically, by pixels that are not square
@@ -162,17 +157,28 @@ private:
     float bright_disc_;
 };
 
+// Offset of the first tap of a highlight's disc from its first pixel.
+int first_tap(const Highlight& h) {
+    return h.size / 2 - (h.size % 2 == 0 ? 1 : 0) - int(std::floor(std::abs(h.coc_px) + 0.5f));
+}
+
 // out: rows of the picture from first_row on; only those of `rows` are written.
-void add(const PointSpread& spread, const Highlight& h, CocSamplesView holdout, const Rect& rows,
+void add(const Spreader::Sent& sent, const Highlight& h, CocSamplesView holdout, const Rect& rows,
          int first_row, View<Rgba> out) {
-    const Rect e = spread.extent;
+    const Rect e = sent.kernel->extent;
     const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
+    if (place.empty()) return;
     const Rgba light = h.colour * float(h.size * h.size);
+    std::vector<float> shares(std::size_t(place.width()), 1.0f);
     for (int y = place.y0; y < place.y1; ++y) {
-        const Rgba* weights = spread.weights.row(y - h.y - e.y0) - h.x - e.x0;
-        Rgba* sums = out.row(y - first_row);
-        for (int x = place.x0; x < place.x1; ++x)
-            sums[x] += weights[x] * light * let_through(holdout, x, y, h.coc_px);
+        const int first = first_tap(h);
+        if (sent.shadow) sent.shadow->visible(place.x0 - h.x - first, y - h.y - first, shares);
+        if (!holdout.empty())
+            for (int x = place.x0; x < place.x1; ++x)
+                shares[std::size_t(x - place.x0)] = (sent.shadow ? shares[std::size_t(x - place.x0)] : 1) *
+                                                    let_through(holdout, x, y, h.coc_px);
+        const Rgba* const weights = sent.kernel->weights.row(y - h.y - e.y0) + (place.x0 - h.x - e.x0);
+        add_shares({weights, shares.size()}, light, shares, out.row(y - first_row) + place.x0);
     }
 }
 
@@ -185,25 +191,25 @@ void spread_highlights(const Input& input, const CocSamples& samples,
     const Spreader spreader(input, samples, white);
     const float largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
     const Rect sending = rows.grown(int(std::ceil(input.lens(0).reach_px(double(largest)))) + 1 + kSizes[3]);
-    // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
-    // threads.
+    // Shadows are found in parallel, batch by batch, and light is added in the order of the list: the same
+    // bits for any threads.
     for (std::size_t begin = 0; begin < highlights.size() && !input.progress->cancelled();) {
         std::size_t end = begin;
         for (std::size_t bytes = 0; end < highlights.size() && bytes < kBatchBytes; ++end)
-            bytes += std::size_t(4 * highlights[end].coc_px * highlights[end].coc_px + 9) * sizeof(Rgba);
-        std::vector<std::shared_ptr<const PointSpread>> kernels(end - begin);
-        parallel_for(int(kernels.size()), input.threads, [&](int i) {
+            bytes += std::size_t(4 * highlights[end].coc_px * highlights[end].coc_px + 9) * sizeof(float);
+        std::vector<Spreader::Sent> sent(end - begin);
+        parallel_for(int(sent.size()), input.threads, [&](int i) {
             const Highlight& h = highlights[begin + std::size_t(i)];
             if (input.progress->cancelled()) return;
-            if (h.y >= sending.y0 && h.y < sending.y1) kernels[std::size_t(i)] = spreader.kernel(h);
+            if (h.y >= sending.y0 && h.y < sending.y1) sent[std::size_t(i)] = spreader.sent(h);
         });
         constexpr int kBand = 32;
         parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
             const int y = rows.y0 + band * kBand;
             const Rect here = Rect{0, y, out.width(), y + kBand}.intersected(rows);
             for (std::size_t i = begin; i < end; ++i)
-                if (kernels[i - begin])
-                    add(*kernels[i - begin], highlights[i], input.holdout, here, rows.y0, out);
+                if (sent[i - begin].kernel)
+                    add(sent[i - begin], highlights[i], input.holdout, here, rows.y0, out);
         });
         begin = end;
     }

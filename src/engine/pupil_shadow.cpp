@@ -6,29 +6,36 @@
 namespace petzval::engine {
 namespace {
 
-// How much of each cell from `first` on a box around `middle` covers, its edges blurred by another box; into
-// `shares`.
+// How much of each cell a box around `middle` covers, its edges blurred by another box: a trapezoid.
 class Profile {
 public:
     Profile(float middle, float side, float blur)
         : middle_(middle), outer_(0.5f * (side + blur)), inner_(0.5f * std::abs(side - blur)) {
-        peak_ = std::min(1.0f, side / std::max(blur, 1e-6f));
+        peak_ = blur > side ? side / blur : 1.0f;
+        const float ramp = outer_ - inner_;
+        per_ramp_ = ramp > 1e-6f ? 0.5f / ramp : 0.0f;
     }
     float begin() const { return middle_ - outer_; }
     float end() const { return middle_ + outer_; }
-    float share(int cell) const { return integral(float(cell + 1)) - integral(float(cell)); }
+    // The shares of cells from `first` on.
+    void shares(int first, std::span<float> out) const {
+        float before = integral(float(first));
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const float after = integral(float(first + int(i) + 1));
+            out[i] = after - before, before = after;
+        }
+    }
 
 private:
     // Of the trapezoid from -outer to outer with its top from -inner to inner, up to x.
     float integral(float x) const {
-        const float t = std::clamp(x - middle_, -outer_, outer_), ramp = outer_ - inner_;
-        if (ramp <= 1e-6f) return peak_ * (t + outer_);
-        const float up = std::min(t, -inner_) + outer_;
-        const float flat = std::clamp(t, -inner_, inner_) + inner_;
-        const float down = std::max(t, inner_) - inner_;
-        return peak_ * (0.5f * up * up / ramp + flat + down - 0.5f * down * down / ramp);
+        const float t = x - middle_, ramp = outer_ - inner_;
+        const float up = std::clamp(t + outer_, 0.0f, ramp);
+        const float flat = std::clamp(t + inner_, 0.0f, 2 * inner_);
+        const float down = std::clamp(t - inner_, 0.0f, ramp);
+        return peak_ * ((up * up - down * down) * per_ramp_ + flat + down);
     }
-    float middle_, outer_, inner_, peak_ = 1;
+    float middle_, outer_, inner_, peak_, per_ramp_;
 };
 
 }  // namespace
@@ -48,22 +55,31 @@ void PupilShadow::cover(float u, float v, float side, float blur, float coverage
     const int left = limited(std::floor(across.begin())), right = limited(std::ceil(across.end()));
     const int top = limited(std::floor(down.begin())), bottom = limited(std::ceil(down.end()));
     constexpr int kChunk = 64;
-    float wide[kChunk];
-    for (int x0 = left; x0 < right; x0 += kChunk) {
-        const int n = std::min(kChunk, right - x0);
-        for (int i = 0; i < n; ++i) wide[i] = coverage * across.share(x0 + i);
-        for (int y = top; y < bottom; ++y) {
-            const float tall = down.share(y);
-            float* row = covered_.row(y) + x0;
-            for (int i = 0; i < n; ++i) row[i] += tall * wide[i];
+    float wide[kChunk], tall[kChunk];
+    for (int y0 = top; y0 < bottom; y0 += kChunk) {
+        const auto rows = std::span(tall).first(std::size_t(std::min(kChunk, bottom - y0)));
+        down.shares(y0, rows);
+        for (int x0 = left; x0 < right; x0 += kChunk) {
+            const auto columns = std::span(wide).first(std::size_t(std::min(kChunk, right - x0)));
+            across.shares(x0, columns);
+            for (std::size_t k = 0; k < rows.size(); ++k) {
+                float* const row = covered_.row(y0 + int(k)) + x0;
+                const float share = coverage * rows[k];
+                for (std::size_t i = 0; i < columns.size(); ++i) row[i] += share * columns[i];
+            }
         }
     }
 }
 
-float PupilShadow::visible(int dx, int dy) const {
-    const int x0 = std::clamp(dx, 0, taps_ - 1) * parts_;
+void PupilShadow::visible(int dx, int dy, std::span<float> shares) const {
     const int y0 = std::clamp(dy, 0, taps_ - 1) * parts_;
-    if (parts_ == 1) return 1 - std::min(1.0f, covered_(x0, y0));
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const int x0 = std::clamp(dx + int(i), 0, taps_ - 1) * parts_;
+        shares[i] = parts_ == 1 ? 1 - std::min(1.0f, covered_(x0, y0)) : visible(x0, y0);
+    }
+}
+
+float PupilShadow::visible(int x0, int y0) const {
     float inside = 0, inside_count = 0, all = 0;
     for (int y = y0; y < y0 + parts_; ++y)
         for (int x = x0; x < x0 + parts_; ++x) {

@@ -3,6 +3,8 @@
 
 #include "petzval/image.h"
 
+#include <span>
+
 namespace petzval::engine {
 
 // On a grid whose cells are the taps of the highlight's disc, or equal parts of them where the disc has few.
@@ -15,12 +17,14 @@ public:
     // A square of the given side around (u, v), in pupil radii, whose edges are blurred by a box that wide.
     void cover(float u, float v, float side, float blur, float coverage);
 
-    // The share of the rays to a tap that nothing stops; (dx, dy) counts from the first tap of the disc's
-    // square.
-    float visible(int dx, int dy) const;
+    // The share of the rays to each tap of a row that nothing stops, from tap (dx, dy) on; taps are counted
+    // from the first one of the disc's square.
+    void visible(int dx, int dy, std::span<float> shares) const;
 
 private:
     static constexpr int kLeastCells = 16;
+    float visible(int x0, int y0) const;  // of the tap whose first cell this is
+
     float scale_;       // signed radius, as taps count it
     int taps_, parts_;  // along a side of the disc's square; cells along a tap
     Plane covered_;

@@ -81,6 +81,9 @@ struct DimmedRow {
 void stamp_dimmed(const StampKernel& kernel, int x, int y, Rgba light, const DimmedRow* rows,
                   Accumulator& into);
 
+// sums[i] += weights[i] x light x shares[i]. Requires: as many shares and sums as weights.
+void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float> shares, Rgba* sums);
+
 // Adds `coarse`, whose cells are 2^level pixels wide, to `fine`: Catmull-Rom.
 // Requires: coarse covers the cells of fine's area and two more on every side.
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine);

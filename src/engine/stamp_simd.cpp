@@ -167,6 +167,19 @@ HWY_INLINE hn::Vec<D> Interpolated(D d, const float* in, std::size_t stride, con
     return hn::Max(sum, least);
 }
 
+void AddShares(const Rgba* HWY_RESTRICT weights, const Rgba& light, const float* HWY_RESTRICT shares,
+               Rgba* HWY_RESTRICT sums, std::size_t n) {
+    const OnePixel one;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(one)) {
+        const auto own = hn::LoadU(one, &light.r + k);
+        for (std::size_t i = 0; i < n; ++i) {
+            float* const out = &sums[i].r + k;
+            const auto sent = hn::Mul(hn::LoadU(one, &weights[i].r + k), own);
+            hn::StoreU(hn::MulAdd(sent, hn::Set(one, shares[i]), hn::LoadU(one, out)), one, out);
+        }
+    }
+}
+
 void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
     const Floats d;
     const OnePixel one;
@@ -236,6 +249,7 @@ namespace petzval::engine {
 
 HWY_EXPORT(Stamp);
 HWY_EXPORT(StampDimmed);
+HWY_EXPORT(AddShares);
 HWY_EXPORT(AddEnlarged);
 HWY_EXPORT(TakeBudget);
 HWY_EXPORT(Name);
@@ -247,6 +261,9 @@ void stamp(std::span<const StampKernel> kernels, int x, int y, Rgba light, float
 void stamp_dimmed(const StampKernel& kernel, int x, int y, Rgba light, const DimmedRow* rows,
                   Accumulator& into) {
     HWY_DYNAMIC_DISPATCH(StampDimmed)(kernel, x, y, light, rows, into);
+}
+void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float> shares, Rgba* sums) {
+    HWY_DYNAMIC_DISPATCH(AddShares)(weights.data(), light, shares.data(), sums, weights.size());
 }
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine) {
     HWY_DYNAMIC_DISPATCH(AddEnlarged)(coarse, level, fine);
