@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,23 @@ namespace petzval {
 
 // Accuracy only: radius and energy are the same at every level.
 enum class Quality { Draft, Standard, Final };
+
+// The lens and its kernels as one job left them, for the next job with the same lens, camera, frame, engine
+// and quality: they are then not made again. Of another job it is emptied first. The result never depends on
+// it. Used by one job at a time.
+class PETZVAL_API KernelMemory {
+public:
+    KernelMemory();
+    ~KernelMemory();
+    KernelMemory(const KernelMemory&) = delete;
+    KernelMemory& operator=(const KernelMemory&) = delete;
+
+    struct Contents;
+    Contents& contents() { return *contents_; }
+
+private:
+    std::unique_ptr<Contents> contents_;
+};
 
 struct DefocusJob {
     View<const Rgba> colour;  // scene-linear, premultiplied
@@ -57,7 +75,8 @@ struct DefocusJob {
     // not used longest go first; empty: none. The result never depends on it.
     std::string kernel_cache_folder;
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
-    std::function<bool(double)> progress;  // share done 0…1, one call at a time; false cancels
+    KernelMemory* kernel_memory = nullptr;  // outlives the job; null: nothing is kept
+    std::function<bool(double)> progress;   // share done 0…1, one call at a time; false cancels
 };
 
 struct StageTime {

@@ -194,6 +194,17 @@ std::shared_ptr<kernel::KernelStore> store_for(const DefocusJob& job) {
         job.kernel_cache_folder, kernel::lens_key(job.lens, mount_of(job)), job.kernel_cache_bytes);
 }
 
+// Everything that decides what an engine's kernels are; empty if it cannot be told.
+std::string memory_key(const DefocusJob& job) {
+    std::string key = kernel::lens_key(job.lens, mount_of(job));
+    if (key.empty()) return key;
+    const Rect &display = job.display_window, &data = job.data_window;
+    for (const int n : {display.x0, display.y0, display.x1, display.y1, data.x0, data.y0, data.x1, data.y1,
+                        int(job.quality)})
+        key += " " + std::to_string(n);
+    return key + " " + job.engine + " " + job.kernel_cache_folder;
+}
+
 const engine::Engine* find_engine(const std::string& name) {
     for (const engine::Engine& e : engine::engines())
         if (name == e.name) return &e;
@@ -209,6 +220,28 @@ engine::OpenEdges open_edges(const DefocusJob& job) {
 }
 
 }  // namespace
+
+struct KernelMemory::Contents {
+    std::string key;
+    std::shared_ptr<kernel::KernelStore> store;
+    LensLevels lenses;
+    std::unique_ptr<engine::KeptKernels> kernels;  // of `lenses`
+
+    // Errors: those of the lens.
+    Status ready_for(const DefocusJob& job) {
+        const std::string wanted = memory_key(job);
+        if (!wanted.empty() && wanted == key) return Done{};
+        kernels.reset(), lenses.clear(), key.clear();
+        store = store_for(job);
+        auto made = lens_levels(job, store);
+        if (!made) return made.error();
+        lenses = std::move(*made), key = wanted;
+        return Done{};
+    }
+};
+
+KernelMemory::KernelMemory() : contents_(std::make_unique<Contents>()) {}
+KernelMemory::~KernelMemory() = default;
 
 std::vector<std::string> engine_names() {
     std::vector<std::string> names;
@@ -240,9 +273,9 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
         return invalid("--engine " + job.engine + " takes no holdout; scatter and reference do");
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
-    const std::shared_ptr<kernel::KernelStore> store = store_for(job);
-    const auto lenses = lens_levels(job, store);
-    if (!lenses) return lenses.error();
+    KernelMemory of_this_job;
+    KernelMemory::Contents& memory = (job.kernel_memory ? *job.kernel_memory : of_this_job).contents();
+    if (const Status ready = memory.ready_for(job); !ready) return ready.error();
     const double lens_ready = seconds();
 
     Picture repaired;  // stays empty for a picture that needs no repair
@@ -271,7 +304,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.field_per_px =
         2 / std::hypot(job.display_window.width(), job.display_window.height() / job.pixel_aspect);
     input.pixel_aspect = job.pixel_aspect;
-    input.lens_levels = *lenses;
+    input.lens_levels = memory.lenses;
+    input.kept_kernels = &memory.kernels;
     input.frame_height = colour.height();
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
@@ -298,8 +332,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     report.panels = std::move(output->panels);
     report.engine = chosen->name;
     report.device = "cpu";
-    report.lens = lenses->front()->description();
-    report.kernels_from_cache = store ? store->kernels_found() : 0;
+    report.lens = memory.lenses.front()->description();
+    report.kernels_from_cache = memory.store ? memory.store->kernels_found() : 0;
     report.stages = {{"kernels", lens_ready}, {"prepare", prepared - lens_ready}};
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
     report.warnings = std::move(point_warnings);

@@ -76,7 +76,31 @@ struct OpenEdges {
     bool left = true, top = true, right = true, bottom = true;
 };
 
-struct Input {
+// A lens, and where the pixels of a picture lie in its field.
+struct LensOnPicture {
+    // Field position of pixel (x, y): ((x + 0.5 - centre_x) * per_px, -(y + 0.5 - centre_y) * per_px /
+    // pixel_aspect).
+    double field_centre_x = 0, field_centre_y = 0, field_per_px = 0;
+    double pixel_aspect = 1;
+    // The lens on pixels 1, 2, 4, … times as wide: lens_levels[n]. At least one; the last stands for all
+    // beyond.
+    std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
+
+    const kernel::LensModel& lens(int level) const {
+        return *lens_levels[std::min(std::size_t(level), lens_levels.size() - 1)];
+    }
+    kernel::FieldPosition field_at(double x, double y) const {
+        return {(x + 0.5 - field_centre_x) * field_per_px,
+                -(y + 0.5 - field_centre_y) * field_per_px / pixel_aspect};
+    }
+};
+
+// What an engine keeps from one picture for the next of the same lens, size and quality.
+struct KeptKernels {
+    virtual ~KeptKernels() = default;
+};
+
+struct Input : LensOnPicture {
     View<const Rgba> colour;   // premultiplied; the front view of `deep` where that is given
     View<const float> coc_px;  // signed radius, + behind focus
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
@@ -90,16 +114,11 @@ struct Input {
     // from (engine/holdout.h). Coverages as in deep files: each sample dims what is behind it. Empty: none.
     CocSamplesView holdout;
     OpenEdges open_edges;
-    // Field position of pixel (x, y): ((x + 0.5 - centre_x) * per_px, -(y + 0.5 - centre_y) * per_px /
-    // pixel_aspect).
-    double field_centre_x = 0, field_centre_y = 0, field_per_px = 0;
-    double pixel_aspect = 1;
     float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
     // The whole frame's height and the row of it that is row 0 here, when an engine works on part of a frame.
     int frame_height = 0, first_row = 0;
-    // The lens on pixels 1, 2, 4, … times as wide: lens_levels[n]. At least one; the last stands for all
-    // beyond.
-    std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
+    // Where kernels of this lens, size and quality are kept between pictures; null: nowhere.
+    std::unique_ptr<KeptKernels>* kept_kernels = nullptr;
     Quality quality = Quality::Standard;
     int pupil_points = 4096;
     ScatterOptions scatter;
@@ -128,13 +147,6 @@ struct Input {
         if (y0 > 0) part.open_edges.top = true;
         if (y1 < height()) part.open_edges.bottom = true;
         return part;
-    }
-    const kernel::LensModel& lens(int level) const {
-        return *lens_levels[std::min(std::size_t(level), lens_levels.size() - 1)];
-    }
-    kernel::FieldPosition field_at(double x, double y) const {
-        return {(x + 0.5 - field_centre_x) * field_per_px,
-                -(y + 0.5 - field_centre_y) * field_per_px / pixel_aspect};
     }
 };
 

@@ -5,25 +5,14 @@
 #include "engine/pupil_shadow.h"
 #include "engine/shadow_casters.h"
 #include "engine/stamp.h"
-#include "kernel/bank.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 namespace petzval::engine {
-namespace {
 
 using kernel::PointSpread;
-
-// What is nearer by less than this is the highlight's own surface. (The next pixels of a surface that slopes
-// by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
-constexpr float kOwnSurfacePx = 0.02f;
-// A bright light finds every crack between the squares of a sloping surface.
-constexpr float kOverlapPx = 0.02f;
-constexpr float kBrightDisc = 0.002f;     // share of white
-constexpr float kSlowBrightDisc = 0.03f;  // of lenses whose kernels take long to make
-constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
 // A lens that sees squares of pixels instead of points: each kernel averaged over `size` x `size` places of
 // its source, of which the first is the top-left pixel.
@@ -60,32 +49,59 @@ private:
     int size_;
 };
 
+namespace {
+
+// What is nearer by less than this is the highlight's own surface. (The next pixels of a surface that slopes
+// by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
+constexpr float kOwnSurfacePx = 0.02f;
+// A bright light finds every crack between the squares of a sloping surface.
+constexpr float kOverlapPx = 0.02f;
+constexpr float kBrightDisc = 0.002f;     // share of white
+constexpr float kSlowBrightDisc = 0.03f;  // of lenses whose kernels take long to make
+constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
+
 constexpr int kSizes[] = {1, 2, 4, 8};
+
+}  // namespace
+
+HighlightKernels::HighlightKernels(const Input& input) {
+    const kernel::BankOptions options{.columns = 32,
+                                      .rows = 18,
+                                      .largest_rim_step_px = 0.5,
+                                      .aspect = double(input.width()) / input.frame_height,
+                                      .relative_step = 0.005,
+                                      .least_step_px = 0.0625,
+                                      .max_bytes = std::size_t(64) << 20};
+    kernel::BankOptions fine = options;
+    fine.relative_step = 0.001, fine.least_step_px = 0.02;
+    // Of bright discs; final quality gives each the kernel of its own place.
+    fine.largest_rim_step_px = input.quality == Quality::Final ? 0.01 : 0.1;
+    for (const int size : kSizes) {
+        lenses_.push_back(std::make_unique<const SquareLens>(input.lens(0), size));
+        banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), options));
+        fine_banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), fine));
+    }
+}
+
+HighlightKernels::~HighlightKernels() = default;
+
+std::shared_ptr<const PointSpread> HighlightKernels::of(const Highlight& h, kernel::FieldPosition field,
+                                                        bool fine) const {
+    std::size_t bank = 0;
+    while (kSizes[bank] < h.size) ++bank;
+    return (fine ? fine_banks_ : banks_)[bank]->kernel(double(h.coc_px), field);
+}
+
+namespace {
 
 class Spreader {
 public:
-    Spreader(const Input& input, const CocSamples& samples, float white)
+    Spreader(const Input& input, const HighlightKernels& kernels, const CocSamples& samples, float white)
         : input_(input),
+          kernels_(kernels),
           casters_(samples, input.threads),
           stretch_(float(std::max(1.0, input.pixel_aspect))),
-          bright_disc_(white * (input.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)) {
-        const kernel::BankOptions options{.columns = 32,
-                                          .rows = 18,
-                                          .largest_rim_step_px = 0.5,
-                                          .aspect = double(input.width()) / input.frame_height,
-                                          .relative_step = 0.005,
-                                          .least_step_px = 0.0625,
-                                          .max_bytes = std::size_t(64) << 20};
-        kernel::BankOptions fine = options;
-        fine.relative_step = 0.001, fine.least_step_px = 0.02;
-        // Of bright discs; final quality gives each the kernel of its own place.
-        fine.largest_rim_step_px = input.quality == Quality::Final ? 0.01 : 0.1;
-        for (const int size : kSizes) {
-            lenses_.push_back(std::make_unique<const SquareLens>(input.lens(0), size));
-            banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), options));
-            fine_banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), fine));
-        }
-    }
+          bright_disc_(white * (input.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)) {}
 
     // What a highlight sends: a kernel, and the shadow in it.
     struct Sent {
@@ -93,13 +109,10 @@ public:
         std::unique_ptr<const PupilShadow> shadow;  // null: there is none
     };
     Sent sent(const Highlight& h) const {
-        std::size_t bank = 0;
-        while (kSizes[bank] < h.size) ++bank;
         // The rim of a disc that is bright by itself shows a radius that is off by little.
         const float on_disc =
             luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
-        const auto& chosen = on_disc > bright_disc_ ? fine_banks_[bank] : banks_[bank];
-        auto open = chosen->kernel(double(h.coc_px), input_.field_at(h.x, h.y));
+        auto open = kernels_.of(h, input_.field_at(h.x, h.y), on_disc > bright_disc_);
         if (casters_.nearest_coc_px() >= h.coc_px - kOwnSurfacePx) return {std::move(open), nullptr};
         auto shadow = std::make_unique<PupilShadow>(h.coc_px, h.size % 2 == 0);
         if (!collect(h, *shadow)) shadow.reset();
@@ -150,10 +163,9 @@ private:
     }
 
     const Input& input_;
+    const HighlightKernels& kernels_;
     ShadowCasters casters_;
     float stretch_;  // of the pupil, vertically, by pixels that are not square
-    std::vector<std::unique_ptr<const SquareLens>> lenses_;
-    std::vector<std::unique_ptr<const kernel::KernelBank>> banks_, fine_banks_;
     float bright_disc_;
 };
 
@@ -184,11 +196,11 @@ void add(const Spreader::Sent& sent, const Highlight& h, CocSamplesView holdout,
 
 }  // namespace
 
-void spread_highlights(const Input& input, const CocSamples& samples,
+void spread_highlights(const Input& input, const HighlightKernels& kernels, const CocSamples& samples,
                        const std::vector<Highlight>& highlights, float white, const Rect& rows,
                        View<Rgba> out) {
     if (highlights.empty()) return;
-    const Spreader spreader(input, samples, white);
+    const Spreader spreader(input, kernels, samples, white);
     const float largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
     const Rect sending = rows.grown(int(std::ceil(input.lens(0).reach_px(double(largest)))) + 1 + kSizes[3]);
     // Shadows are found in parallel, batch by batch, and light is added in the order of the list: the same

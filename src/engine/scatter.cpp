@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace petzval::engine {
@@ -101,9 +102,17 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     return plan;
 }
 
+// Made when first asked for; the same for every picture of this lens, size and quality.
+struct ScatterKernels final : KeptKernels {
+    ScatterKernels(const Input& input, const LevelRule& rule)
+        : table(input, input.width(), input.height(), rule), highlights(input) {}
+    StampTable table;
+    HighlightKernels highlights;
+};
+
 // Rows y0…y1-1 of the result. `share` of the progress.
 void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRule& rule,
-                  const StampTable& table, const Rect& rows, int halo, double share, Stopwatch& watch,
+                  const ScatterKernels& kernels, const Rect& rows, int halo, double share, Stopwatch& watch,
                   View<Rgba> out) {
     const int first = std::max(0, rows.y0 - halo), last = std::min(frame.height(), rows.y1 + halo);
     const Input input = frame.rows(first, last);
@@ -115,7 +124,7 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
     if (input.deep_dims_itself) share_lens_area(samples, input.threads);
     watch.lap("split");
     const std::vector<SourceLevel> levels =
-        make_sources(samples, input.coc_px, connected, input.open_edges, rule, table, input.threads);
+        make_sources(samples, input.coc_px, connected, input.open_edges, rule, kernels.table, input.threads);
     watch.lap("sources");
 
     const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;
@@ -123,12 +132,12 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
     parallel_for(tiles_x * tiles_y, input.threads, [&](int i) {
         if (input.progress->cancelled()) return;
         const int x = i % tiles_x * kTile, y = here.y0 + i / tiles_x * kTile;
-        spread_tile(levels, table, input.holdout, Rect{x, y, x + kTile, y + kTile}.intersected(here), first,
-                    rule.surfaces_for_cells, out);
+        spread_tile(levels, kernels.table, input.holdout, Rect{x, y, x + kTile, y + kTile}.intersected(here),
+                    first, rule.surfaces_for_cells, out);
         input.progress->advance(0.9 * share / (tiles_x * tiles_y));
     });
     watch.lap("spread");
-    spread_highlights(input, samples, highlights, split.white(), here, out.part(rows));
+    spread_highlights(input, kernels.highlights, samples, highlights, split.white(), here, out.part(rows));
     watch.lap("highlights");
     input.progress->advance(0.1 * share);
 }
@@ -149,15 +158,18 @@ Result<Output> run_scatter(const Input& input) {
         case ScatterView::Highlights:
             return run_scatter_highlights(input);
     }
-    const StampTable table(input, rule);
-    const Result<StripPlan> plan = plan_strips(input, rule, table);
+    std::unique_ptr<KeptKernels> own;
+    std::unique_ptr<KeptKernels>& kept = input.kept_kernels ? *input.kept_kernels : own;
+    if (!kept) kept = std::make_unique<ScatterKernels>(input, rule);
+    const auto& kernels = dynamic_cast<const ScatterKernels&>(*kept);
+    const Result<StripPlan> plan = plan_strips(input, rule, kernels.table);
     if (!plan) return plan.error();
     const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
     watch.lap("split");
     output.image = Picture::uninitialised(input.width(), input.height());
     for (int y = 0; y < input.height() && !input.progress->cancelled(); y += plan->rows) {
         const Rect rows = Rect{0, y, input.width(), y + plan->rows}.intersected(output.image.rect());
-        scatter_rows(input, split, rule, table, rows, plan->halo, double(rows.height()) / input.height(),
+        scatter_rows(input, split, rule, kernels, rows, plan->halo, double(rows.height()) / input.height(),
                      watch, output.image);
     }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};

@@ -112,7 +112,7 @@ Result<Output> run_scatter_levels(const Input& input, const LevelRule& rule) {
     const std::vector<Highlight> highlights =
         take_highlights(samples, split, 0, kLargestSquare, input.threads);
     if (input.deep_dims_itself) share_lens_area(samples, input.threads);
-    const StampTable table(input, rule);
+    const StampTable table(input, input.width(), input.height(), rule);
     const std::vector<SourceLevel> levels =
         make_sources(samples, input.coc_px, connected, input.open_edges, rule, table, input.threads);
 
@@ -125,7 +125,8 @@ Result<Output> run_scatter_levels(const Input& input, const LevelRule& rule) {
             return Error{ErrorCode::Cancelled, "cancelled"};
     }
     const View<Rgba> bright = output.image.view().part(layout.highlights);
-    spread_highlights(input, samples, highlights, split.white(), input.colour.rect(), bright);
+    spread_highlights(input, HighlightKernels(input), samples, highlights, split.white(), input.colour.rect(),
+                      bright);
     output.panels.push_back({"HIGHLIGHTS  EACH WITH ITS WHOLE KERNEL", layout.highlights, kHighlightColour});
     draw_map(input, output.image, layout, output.image.view().part(layout.map));
     output.panels.push_back({"WHICH LEVEL DREW WHAT", layout.map, {}});

@@ -105,7 +105,7 @@ Result<Output> run_scatter_highlights(const Input& input) {
                 Rgba& pixel = output.image(width + x, y);
                 pixel += h.colour, pixel.a = 1;
             }
-    spread_highlights(input, samples, highlights, split.white(), input.colour.rect(),
+    spread_highlights(input, HighlightKernels(input), samples, highlights, split.white(), input.colour.rect(),
                       output.image.view().part(drawn));
     if (!input.progress->advance(0.7)) return Error{ErrorCode::Cancelled, "cancelled"};
     return output;

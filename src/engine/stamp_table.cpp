@@ -78,21 +78,23 @@ const T& keep_first(std::atomic<const T*>& slot, std::unique_ptr<const T> made) 
 
 }  // namespace
 
-StampTable::StampTable(const Input& input, const LevelRule& rule)
-    : input_(input),
-      levels_(int(input.lens_levels.size())),
+StampTable::StampTable(const LensOnPicture& lens, int width, int height, const LevelRule& rule)
+    : lens_(lens),
+      width_(width),
+      height_(height),
+      levels_(int(lens.lens_levels.size())),
       steps_(int(std::ceil(rule.largest_radius() * kStepsPerCell)) + 2),
       core_begin_(rule.largest_cells),
       core_end_(kCoreEnd * rule.largest_cells) {
-    if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
+    if (lens.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
     const int longest = int(std::ceil(core_end_));
     for (int l = 0; l < levels_; ++l) {
-        const int reach = int(std::ceil(input.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
+        const int reach = int(std::ceil(lens.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
         has_skirts_ = has_skirts_ || reach > longest;
         reach_.push_back(std::min(reach, longest));
         for (int step = 0; step < steps_; ++step) {
             const double radius = (step + 0.5) / double(kStepsPerCell);
-            const int own = int(std::ceil(input.lens(l).reach_px(radius) + 0.5));
+            const int own = int(std::ceil(lens.lens(l).reach_px(radius) + 0.5));
             reach_of_radius_.push_back(short(std::min(own, reach_.back())));
         }
     }
@@ -120,8 +122,8 @@ int StampTable::part_for(int level, int x, int y, float radius) const {
     const auto index = [](double place, double chance, int count) {
         return std::clamp(int(std::floor(place - 0.5 + chance)), 0, count - 1);
     };
-    const double px = std::ldexp(x + 0.5, level) / input_.width() * parts_x_;
-    const double py = std::ldexp(y + 0.5, level) / input_.height() * parts_y_;
+    const double px = std::ldexp(x + 0.5, level) / width_ * parts_x_;
+    const double py = std::ldexp(y + 0.5, level) / height_ * parts_y_;
     return index(py, even(0.8191725134, 0.6710436067), parts_y_) * parts_x_ +
            index(px, even(0.7548776662, 0.5698402910), parts_x_);
 }
@@ -146,10 +148,10 @@ float StampTable::stepped(float radius) const {
 
 kernel::PointSpread StampTable::whole(int level, int part, float radius) const {
     const int column = part % parts_x_, row = part / parts_x_;
-    const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
-    const kernel::LensModel& lens = input_.lens(level);
-    const auto made = [&](float r) { return lens.point_spread(double(r), input_.field_at(x, y)); };
+    const double x = (column + 0.5) * width_ / parts_x_ - 0.5;
+    const double y = (row + 0.5) * height_ / parts_y_ - 0.5;
+    const kernel::LensModel& lens = lens_.lens(level);
+    const auto made = [&](float r) { return lens.point_spread(double(r), lens_.field_at(x, y)); };
     const float asked = stepped(radius), side = radius < 0 ? -1 : 1;
     const float place = std::abs(asked) * kMadePerCell, first = std::floor(place);
     if (lens.is_quick() || place == first) return made(asked);

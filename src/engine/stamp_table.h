@@ -23,8 +23,8 @@ namespace petzval::engine {
 // parts of the picture. Safe to use from many threads: which thread makes a kernel does not change it.
 class StampTable {
 public:
-    // `input`: the whole picture; places are in its pixels.
-    StampTable(const Input& input, const LevelRule& rule);
+    // Of a picture of this size; places are in its pixels.
+    StampTable(const LensOnPicture& lens, int width, int height, const LevelRule& rule);
     ~StampTable();
     StampTable(const StampTable&) = delete;
     StampTable& operator=(const StampTable&) = delete;
@@ -67,7 +67,8 @@ private:
     int find_skirt_levels(int level, float radius) const;
     float stepped(float radius) const;  // the radius that stands for it
 
-    const Input& input_;
+    LensOnPicture lens_;
+    int width_, height_;
     int levels_, parts_x_ = 1, parts_y_ = 1, steps_ = 0;  // steps_: kernels on either side of focus
     float core_begin_, core_end_;                         // cells from the middle where cores fade out
     bool has_skirts_ = false;

@@ -16,11 +16,9 @@ TEST(StampTable, PartsBlendIntoEachOtherByBilinearShares) {
     choice.cats_eye = 0.5;
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
     lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 2, 2}, kWidth, kHeight})).value());
-    const Picture colour(kWidth, kHeight);
-    Input input;
-    input.colour = colour;
-    input.lens_levels = lenses;
-    const StampTable table(input, LevelRule{});
+    LensOnPicture lens;
+    lens.lens_levels = lenses;
+    const StampTable table(lens, kWidth, kHeight, LevelRule{});
     // The mean column of a small box grows evenly from the middle of the first part to that of the last.
     for (int x = 30; x + kBox < kWidth - 30; x += 7)
         for (const int y : {60, 177}) {
