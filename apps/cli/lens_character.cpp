@@ -118,6 +118,9 @@ void LensCharacterFlags::add_to(Verb& verb) {
         .value("--spherical", "FACTOR", "times its spherical aberration: 1 as built, 0 none, -1 reversed",
                parse_number, spherical)
         .value("--axial-colour", "FACTOR", "times its axial colour", parse_number, axial_colour)
+        .value("--lateral-colour", "FACTOR",
+               "times a prescription's lateral colour, that colours land apart off the axis; 0 none",
+               parse_number, lateral_colour)
         .value("--coma", "AMOUNT", "added off the axis, 1 is strong; positive tails point outward",
                parse_number, coma)
         .value("--astigmatism", "AMOUNT", "added off the axis, 1 is strong: swirl", parse_number, astigmatism)
@@ -159,7 +162,8 @@ void LensCharacterFlags::check(const std::string& lens, bool has_blades) const {
         for (const auto& [name, given] : {NamedFlag{"--focus-mode", focus_mode.has_value()},
                                           {"--focus-shift", focus_shift_mm.has_value()},
                                           {"--spherical", spherical.has_value()},
-                                          {"--axial-colour", axial_colour.has_value()}})
+                                          {"--axial-colour", axial_colour.has_value()},
+                                          {"--lateral-colour", lateral_colour.has_value()}})
             if (given)
                 throw UsageError(std::string(name) +
                                  " has no effect on the ideal lens; give another with --lens");
@@ -195,6 +199,7 @@ void LensCharacterFlags::apply_to(LensChoice& lens) const {
     lens.focus_shift_mm = focus_shift_mm.value_or(0);
     lens.spherical = spherical.value_or(1);
     lens.axial_colour = axial_colour.value_or(1);
+    lens.lateral_colour = lateral_colour.value_or(1);
     lens.coma = coma.value_or(0);
     lens.astigmatism = astigmatism.value_or(0);
     lens.distortion = distortion.value_or(0);
@@ -218,6 +223,7 @@ Json character_json(const LensChoice& lens) {
             {"focus_shift_mm", lens.focus_shift_mm},
             {"spherical", lens.spherical},
             {"axial_colour", lens.axial_colour},
+            {"lateral_colour", lens.lateral_colour},
             {"coma", lens.coma},
             {"astigmatism", lens.astigmatism},
             {"distortion", lens.distortion},

@@ -16,7 +16,8 @@ namespace petzval::cli {
 
 struct LensCharacterFlags {
     std::optional<FocusMode> focus_mode;
-    std::optional<double> focus_shift_mm, spherical, axial_colour, coma, astigmatism, distortion;
+    std::optional<double> focus_shift_mm, spherical, axial_colour, lateral_colour, coma, astigmatism,
+        distortion;
     std::optional<double> iris_open, dust, scratches, onion_rings;
     std::optional<std::uint64_t> texture_seed;
     std::optional<int> wavelengths;

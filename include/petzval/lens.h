@@ -71,6 +71,7 @@ struct LensChoice {
     double focus_shift_mm = 0;  // FocusMode::Shift: + away from the lens
     // The defocus-control ring: factors on the lens's own residuals, 1 as built, 0 none, -1 reversed.
     double spherical = 1, axial_colour = 1;
+    double lateral_colour = 1;  // the same, of a prescription: how far apart colours land off the axis
     // Third-order aberrations off the axis, added to a curve lens (0: none). At full field, with the pupil's
     // rim at height h = 1/(2 f-number) focal lengths:
     double coma = 0;         // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward

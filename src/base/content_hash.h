@@ -20,7 +20,7 @@ inline std::uint64_t hash_of(const void* bytes, std::size_t size, std::uint64_t 
     std::uint64_t hash = mixed(seed ^ (size * 0x9e3779b97f4a7c15u));
     const char* at = static_cast<const char*>(bytes);
     for (; size >= 8; at += 8, size -= 8) {
-        std::uint64_t word;
+        std::uint64_t word = 0;
         std::memcpy(&word, at, 8);
         hash = mixed((hash ^ word) * 0x100000001b3u);
     }

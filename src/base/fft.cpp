@@ -38,8 +38,9 @@ void Fft::transform(float* re, float* im, bool inverse) const {
         for (int start = 0; start < n_; start += 2 * half)
             for (int k = 0; k < half; ++k) {
                 const float c = cos_[std::size_t(k * step)], s = sign * sin_[std::size_t(k * step)];
-                float *ar = re + (start + k) * kLanes, *ai = im + (start + k) * kLanes;
-                float *br = ar + half * kLanes, *bi = ai + half * kLanes;
+                const std::ptrdiff_t a = std::ptrdiff_t(start + k) * kLanes,
+                                     b = a + std::ptrdiff_t(half) * kLanes;
+                float *ar = re + a, *ai = im + a, *br = re + b, *bi = im + b;
                 for (int l = 0; l < kLanes; ++l) {
                     const float tr = br[l] * c - bi[l] * s, ti = br[l] * s + bi[l] * c;
                     br[l] = ar[l] - tr, bi[l] = ai[l] - ti;

@@ -316,7 +316,12 @@ std::string lens_key(const LensChoice& c, const Mount& m) {
     const PupilTexture& t = c.texture;
     hash.add(t.dust).add(t.scratches).add(t.onion_rings).add(t.seed);
     add_picture(hash, t.image.get());
-    hash.add(c.focus_mode).add(c.focus_shift_mm).add(c.spherical).add(c.axial_colour).add(c.coma);
+    hash.add(c.focus_mode)
+        .add(c.focus_shift_mm)
+        .add(c.spherical)
+        .add(c.axial_colour)
+        .add(c.lateral_colour)
+        .add(c.coma);
     hash.add(c.astigmatism).add(c.distortion).add(c.wavelengths).add(c.wave);
     const Camera& camera = m.camera;
     hash.add(camera.focal_length_mm).add(camera.sensor_width_mm).add(camera.f_number);

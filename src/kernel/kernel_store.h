@@ -33,7 +33,7 @@ public:
     struct Key {
         int level = 0;  // pixels 2^level times as wide
         double coc_radius_px = 0, field_x = 0, field_y = 0;
-        friend auto operator<=>(const Key&, const Key&) = default;
+        friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): not one
     };
     std::optional<PointSpread> find(const Key& key) const;
     // Kernels above an eighth of what may be kept, all together, are not kept.

@@ -22,8 +22,8 @@ constexpr std::size_t kRoomy = std::size_t(64) << 20;
 
 class KernelStoreTest : public testing::Test {
 protected:
-    KernelStoreTest() { fs::remove_all(folder_); }
-    ~KernelStoreTest() override { fs::remove_all(folder_); }
+    void SetUp() override { fs::remove_all(folder_); }
+    void TearDown() override { fs::remove_all(folder_); }
 
     std::vector<fs::path> segments() const {
         std::vector<fs::path> found;
@@ -189,6 +189,7 @@ TEST(LensKey, EverythingThatChangesKernelsChangesTheKey) {
         [](LensChoice& c, Mount&) { c.focus_shift_mm = 0.1; },
         [](LensChoice& c, Mount&) { c.spherical = 0; },
         [](LensChoice& c, Mount&) { c.axial_colour = 0; },
+        [](LensChoice& c, Mount&) { c.lateral_colour = 0; },
         [](LensChoice& c, Mount&) { c.coma = 0.1; },
         [](LensChoice& c, Mount&) { c.astigmatism = 0.1; },
         [](LensChoice& c, Mount&) { c.distortion = 0.1; },

@@ -33,6 +33,7 @@ Status check_residuals(const LensChoice& choice) {
     const auto in = [](double value, double limit) { return std::abs(value) <= limit; };  // false for NaN
     if (!in(choice.spherical, 10)) return refuse("--spherical must lie between -10 and 10");
     if (!in(choice.axial_colour, 10)) return refuse("--axial-colour must lie between -10 and 10");
+    if (!in(choice.lateral_colour, 10)) return refuse("--lateral-colour must lie between -10 and 10");
     if (!in(choice.coma, 10)) return refuse("--coma must lie between -10 and 10");
     if (!in(choice.astigmatism, 10)) return refuse("--astigmatism must lie between -10 and 10");
     if (!in(choice.distortion, 0.3)) return refuse("--distortion must lie between -0.3 and 0.3");
@@ -62,13 +63,22 @@ Result<RayLens> ray_lens(const LensChoice& choice, const Mount& mount) {
     const bool perfect = choice.coma == 0 && choice.astigmatism == 0 && choice.distortion == 0;
     if (choice.name == "ideal" && perfect) return RayLens(std::make_unique<IdealLens>(choice, mount));
     const AberrationCurves* curves = choice.name == "ideal" ? &straight_curves() : curve_preset(choice.name);
+    const auto no_lateral_colour = [&] {
+        return choice.lateral_colour == 1
+                   ? Status(Done{})
+                   : refuse("--lateral-colour shapes lenses that are traced from their surfaces; \"" +
+                            choice.name + "\" is drawn as curves, without any");
+    };
     if (curves) {
+        if (const Status status = no_lateral_colour(); !status) return status.error();
         if (const Status status = check_camera(mount); !status) return status.error();
         return RayLens(std::make_unique<CurveLens>(*curves, choice, mount));
     }
     const auto file = lens_files::find_lens(choice.name);
     if (!file) return unknown(choice.name, file.error());
     if (const Status status = check_camera(mount); !status) return status.error();
+    if (file->curves)
+        if (const Status status = no_lateral_colour(); !status) return status.error();
     if (file->curves) return RayLens(std::make_unique<CurveLens>(*file->curves, choice, mount));
     return TracedModel::make(file->lens, choice, mount);
 }

@@ -12,7 +12,7 @@ namespace {
 
 struct Asked {
     double coc_radius_px, field_x, field_y;
-    friend auto operator<=>(const Asked&, const Asked&) = default;
+    friend auto operator<=>(const Asked&, const Asked&) = default;  // NOLINT(modernize-use-nullptr): not one
 };
 
 class RememberedLens final : public LensModel {

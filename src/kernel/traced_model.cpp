@@ -71,6 +71,31 @@ double light_at(const RayMap& map, const PupilPowers& powers) {
     return std::max(0.0, light);
 }
 
+// Where the middle of the light lands, along the field's direction.
+struct Middle {
+    double offset_mm = 0, slope = 0;
+};
+
+Middle middle_of(const RayMap& map, const OpenStop& open) {
+    constexpr int kRings = 8;
+    Middle sum;
+    double light = 0;
+    for (const Point& corner : open.corners)
+        for (int j = 0; j < kRings; ++j) {
+            const double share = (j + 0.5) / kRings;
+            const Point to_corner = corner - open.middle;
+            const double reach = std::min(1.0, 1 / std::max(1e-9, std::hypot(corner.x, corner.y)));
+            const PupilPowers powers(open.middle + (share * reach) * to_corner);
+            const double here = light_at(map, powers) * share * reach * reach *
+                                (to_corner.x * to_corner.x + to_corner.y * to_corner.y);
+            sum.offset_mm += here * map.offset_mm.at(powers).x;
+            sum.slope += here * map.slope.at(powers).x;
+            light += here;
+        }
+    if (light > 0) sum.offset_mm /= light, sum.slope /= light;
+    return sum;
+}
+
 // Of the visible spectrum, the luminance in the 10 nm around a wavelength.
 double luminance_at(double wavelength_nm) {
     double sum = 0;
@@ -190,10 +215,15 @@ std::optional<TracedModel::Node> TracedModel::traced_node(const optics::TracedLe
     const RayMapFitter fitter(*primary, open);
     if (!fitter.usable()) return std::nullopt;
     Node node{{}, open.corners};
+    const Middle of_primary = middle_of(fitter.fit(*primary), open);
     for (const double nm : wavelength_nm_) {
         const auto beam = lens.beam(nm / 1000, field_rad);
         if (!beam) return std::nullopt;
-        node.maps.push_back(fitter.fit(*beam));
+        RayMap& map = node.maps.emplace_back(fitter.fit(*beam));
+        if (choice_.lateral_colour == 1) continue;
+        const Middle here = middle_of(map, open);
+        map.offset_mm.along[0] += (choice_.lateral_colour - 1) * (here.offset_mm - of_primary.offset_mm);
+        map.slope.along[0] += (choice_.lateral_colour - 1) * (here.slope - of_primary.slope);
     }
     return node;
 }

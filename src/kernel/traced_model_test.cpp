@@ -227,6 +227,26 @@ TEST(TracedModel, BladesAndWavelengthsAndFocusChangeTheKernel) {
     EXPECT_EQ(largest_difference(kernel([](LensChoice&) {}), plain), 0);
 }
 
+TEST(TracedModel, LateralColourScalesThroughNoneToReversed) {
+    // Where the middle of each channel lands, along the field's direction.
+    const auto red_against_blue = [](double factor, FieldPosition field) {
+        LensChoice choice;
+        choice.name = "retrofocus", choice.lateral_colour = factor;
+        const PointSpread s = lens_of(choice, mount_of("retrofocus"))->raw_point_spread(2, field);
+        double red = 0, blue = 0;
+        for (int y = s.extent.y0; y < s.extent.y1; ++y)
+            for (int x = s.extent.x0; x < s.extent.x1; ++x)
+                red += x * double(weight_at(s, x, y).r), blue += x * double(weight_at(s, x, y).b);
+        return red - blue;
+    };
+    const FieldPosition off{0.6, 0};
+    const double as_built = red_against_blue(1, off), none = red_against_blue(0, off);
+    EXPECT_GT(std::abs(as_built), 4 * std::abs(none) + 0.2);
+    EXPECT_NEAR(red_against_blue(0.5, off), 0.5 * (as_built + none), 0.05 * std::abs(as_built));
+    EXPECT_LT(as_built * red_against_blue(-1, off), 0);
+    EXPECT_NEAR(red_against_blue(1, {0, 0}), 0, 1e-3);
+}
+
 TEST(TracedModel, AnApertureThatTheLensDoesNotHaveIsRefused) {
     LensChoice choice;
     choice.name = "tessar";
@@ -242,6 +262,11 @@ TEST(TracedModel, OptionsOfCurveLensesAreRefused) {
     const auto lens = make_lens(choice, mount_of("tessar"));
     ASSERT_FALSE(lens);
     EXPECT_NE(lens.error().message.find("--coma"), std::string::npos);
+    LensChoice drawn;
+    drawn.name = "doublet", drawn.lateral_colour = 0;
+    const auto without = make_lens(drawn, full_frame(2));
+    ASSERT_FALSE(without);
+    EXPECT_NE(without.error().message.find("--lateral-colour"), std::string::npos);
 }
 
 TEST(TracedModel, WithoutKnownDispersionItIsNeutral) {

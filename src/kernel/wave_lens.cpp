@@ -70,9 +70,10 @@ private:
         return sum;
     }
 
-    static void refine(const double* from, int from_step, double* to, int to_step) {
-        for (int i = 0; i < kSide; ++i) {
-            const int node = std::min(i / kFiner, kNodes - 4);  // between node + 1 and node + 2
+    static void refine(const double* from, std::ptrdiff_t from_step, double* to, std::ptrdiff_t to_step) {
+        for (std::ptrdiff_t i = 0; i < kSide; ++i) {
+            const std::ptrdiff_t node =
+                std::min<std::ptrdiff_t>(i / kFiner, kNodes - 4);  // between node + 1 and node + 2
             const double t = double(i - node * kFiner) / kFiner;
             const double* p = from + node * from_step;
             const double a = p[0], b = p[from_step], c = p[2 * from_step], d = p[3 * from_step];

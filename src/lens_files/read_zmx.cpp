@@ -191,8 +191,7 @@ Status Reader::primary(const Words& words, const Line& line) {
 Status Reader::configurations(const Words& words, const Line& line) {
     const auto count = number(words, 1, line);
     if (!count) return count.error();
-    if (*count <= 1) return Done{};
-    several_configurations_ = true;
+    if (several_configurations_ = *count > 1; !several_configurations_) return Done{};
     file_.warnings.push_back("line " + std::to_string(line.number) +
                              ": a zoom or one of several configurations, as its surfaces were saved");
     return Done{};
@@ -298,7 +297,7 @@ const std::map<std::string, Reader::Handler>& Reader::surface_words() {
     static const auto semi_diameter = [](Reader& r, const Words& w, const Line& l) -> Status {
         return set(r.surfaces_.back().semi_diameter.emplace(), w, 1, l);
     };
-    static const auto thickness = [](Reader& r, const Words& w, const Line& l) -> Status {
+    static const auto thickness = [](Reader& r, const Words& w, const Line& l) {
         r.surfaces_.back().has_thickness = true;
         return set(r.surfaces_.back().thickness, w, 1, l);
     };
@@ -392,8 +391,7 @@ Status Reader::surfaces() {
         lens.object_distance_mm = object.thickness * mm_;
     if (object.glass) return at_line(object.glass->line, "an object inside glass is not supported");
     if (image.glass || (image.curvature != 0 && !image.has_thickness))
-        return at_line(image.line,
-                       "the file ends with a surface of a lens; the image, or the rest of it, is missing");
+        return at_line(image.line, "the file ends with a surface of a lens, not with an image");
     if (image.curvature != 0)
         file_.warnings.emplace_back("the image surface is curved; the sensor is taken as flat");
     bool has_stop = false;

@@ -48,6 +48,9 @@ class LensPsf(CommandLineTest):
                       ["--onion-rings", "1"], ["--fstop", "2.8"], ["--width", "2400"], ["--sensor-width", "24mm"],
                       ["--focal-length", "85mm"]):
             self.assertFalse(plain == self.psf("doublet", "--field", "0.6,0.3", *flags), flags)
+        traced = self.psf("retrofocus", "--field", "0.6,0.3")
+        self.assertFalse(traced == self.psf("retrofocus", "--field", "0.6,0.3", "--lateral-colour", "0"))
+        self.assertTrue(traced == self.psf("retrofocus", "--field", "0.6,0.3", "--lateral-colour", "1"))
 
     def test_a_lens_scaled_with_its_sensor_makes_the_same_kernel(self):
         plain = self.psf("doublet")

@@ -19,7 +19,7 @@ DEFOCUS_VALUES = {
     "--gather-stage": "cure", "--gather-taps": "16", "--gather-coc": "mean", "--gather-fill": "off", "--points": "p.csv",
     "--gaussian-style": "wgld", "--focus-band": "0.3", "--depth-offset": "-0.1", "--depth-band-range": "0.1m,30m",
     "--background": "gather", "--find-points": "off", "--bright-factor": "2",
-    "--spherical": "0.5", "--axial-colour": "-1", "--coma": "0.3", "--astigmatism": "0.2", "--distortion": "0.01",
+    "--spherical": "0.5", "--axial-colour": "-1", "--lateral-colour": "0.5", "--coma": "0.3", "--astigmatism": "0.2", "--distortion": "0.01",
     "--focus-shift": "-0.1", "--wavelengths": "31", "--barrel": "14,20;14,-20", "--barn-doors": "0.2,0,0,0",
     "--iris-open": "2", "--aperture-image": "half.png", "--kernel-image": "far.exr,near.exr", "--dust": "0.5",
     "--scratches": "0.5", "--onion-rings": "0.5", "--texture-seed": "3",
