@@ -219,6 +219,12 @@ FlagGroup& FlagGroup::argument(const std::string& name, const std::string& help,
     return *this;
 }
 
+FlagGroup& FlagGroup::arguments(const std::string& name, const std::string& help,
+                                std::vector<std::string>& target) {
+    verb_.add_option(name, target, help)->option_text(" ")->group(heading_);
+    return *this;
+}
+
 std::string FlagGroup::long_name(const std::string& names) { return names.substr(0, names.find(',')); }
 
 void require_argument(const Verb& verb, const std::string& given, const std::string& name) {

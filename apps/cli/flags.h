@@ -63,6 +63,8 @@ public:
     FlagGroup& on(const std::string& name, const std::string& help, bool& target);
     // A plain argument, without a name.
     FlagGroup& argument(const std::string& name, const std::string& help, std::string& target);
+    // All plain arguments.
+    FlagGroup& arguments(const std::string& name, const std::string& help, std::vector<std::string>& target);
 
 private:
     void add(const std::string& name, const std::string& placeholder, const std::string& help,

@@ -11,6 +11,7 @@
 #include "values.h"
 #include "verbs.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct LensReportFlags {
-    std::string lens, output;
+    std::vector<std::string> lenses;
+    std::string output;
     bool all = false;
     OverwriteFlags overwrite;
     RunFlags run;
@@ -54,7 +56,8 @@ Status make_folder(const std::string& folder) {
 Status finish(const LensReportFlags& flags, const std::vector<std::string>& written, const Stopwatch& watch) {
     if (flags.run.json.empty()) return Done{};
     Json report = new_report("lens report");
-    report["input"] = flags.all ? Json(nullptr) : Json(flags.lens);
+    report["input"] = flags.all ? Json(nullptr) : Json(flags.lenses.front());
+    if (flags.lenses.size() > 1) report["inputs"] = flags.lenses;
     report["output"] = written.front();
     report["outputs"] = written;
     report["seconds"]["total"] = watch.seconds();
@@ -64,35 +67,52 @@ Status finish(const LensReportFlags& flags, const std::vector<std::string>& writ
 
 Status report_one(const LensReportFlags& flags) {
     const Stopwatch watch;
+    const std::string& lens = flags.lenses.front();
     std::string path = flags.output;
     if (!is_page(path)) {
         // The lens first: a misspelt name makes no folder.
-        if (const auto facts = lens_facts(flags.lens); !facts) return facts.error();
+        if (const auto facts = lens_facts(lens); !facts) return facts.error();
         if (const Status made = make_folder(path.empty() ? "." : path); !made) return made;
-        path = (fs::path(path) / page_name(flags.lens)).string();
+        path = (fs::path(path) / page_name(lens)).string();
     }
     if (const auto reason = flags.overwrite.reason_to_skip({path}, {})) {
         note(*reason);
         return Done{};
     }
     std::error_code ignored;
-    const bool is_file = fs::is_regular_file(flags.lens, ignored);
-    if (const Status fine =
-            check_output(path, is_file ? std::vector{flags.lens} : std::vector<std::string>{});
+    const bool is_file = fs::is_regular_file(lens, ignored);
+    if (const Status fine = check_output(path, is_file ? std::vector{lens} : std::vector<std::string>{});
         !fine)
         return fine;
-    const auto page = lens_report(flags.lens);
+    const auto page = lens_report(lens);
     if (!page) return page.error();
     if (const Status written = write_text(path, *page); !written) return written;
     note("wrote " + path);
     return finish(flags, {path}, watch);
 }
 
-Status report_all(const LensReportFlags& flags) {
+// The pages by which lenses are known on sheets of many, in the order of the lenses.
+Result<std::vector<std::string>> page_names(const std::vector<std::string>& lenses) {
+    std::vector<std::string> names;
+    for (const std::string& lens : lenses) {
+        if (const auto facts = lens_facts(lens); !facts) return facts.error();
+        names.push_back(page_name(lens));
+        if (std::count(names.begin(), names.end(), names.back()) > 1)
+            return Error{ErrorCode::InvalidArgument, "two lenses would have the page " + names.back()};
+    }
+    return names;
+}
+
+Status report_many(const LensReportFlags& flags) {
     const Stopwatch watch;
+    std::vector<std::string> lenses = flags.lenses;
+    if (flags.all)
+        for (const LensSummary& lens : lens_list()) lenses.push_back(lens.name);
+    const auto pages = page_names(lenses);
+    if (!pages) return pages.error();
     if (const Status made = make_folder(flags.output); !made) return made;
     const fs::path folder = flags.output;
-    if (const Status fine = check_output((folder / "index.html").string(), {}); !fine) return fine;
+    if (const Status fine = check_output((folder / "index.html").string(), flags.lenses); !fine) return fine;
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens report");
     std::vector<LensCard> cards;
     std::vector<std::string> written;
@@ -100,16 +120,17 @@ Status report_all(const LensReportFlags& flags) {
         written.push_back((folder / name).string());
         return write_text(written.back(), text);
     };
-    const std::vector<LensSummary> lenses = lens_list();
-    for (const LensSummary& lens : lenses) {
+    for (const std::string& lens : lenses) {
         if (!progress(double(cards.size()) / double(lenses.size())))
             return Error{ErrorCode::Cancelled, "stopped"};
-        const auto page = lens_report(lens.name);
+        const auto page = lens_report(lens);
         if (!page) return page.error();
-        auto card = lens_card(lens.name);
+        auto card = lens_card(lens);
         if (!card) return card.error();
+        const std::string& name = (*pages)[cards.size()];
+        card->name = fs::path(name).stem().string();
         cards.push_back(std::move(*card));
-        if (const Status done = write(lens.name + ".html", *page); !done) return done;
+        if (const Status done = write(name, *page); !done) return done;
     }
     if (const Status done = write("comparison.html", lens_comparison(cards)); !done) return done;
     if (const Status done = write("contact-sheet.svg", lens_contact_sheet(cards)); !done) return done;
@@ -121,13 +142,16 @@ Status report_all(const LensReportFlags& flags) {
 }
 
 void check(const LensReportFlags& flags, const Verb& verb) {
-    refuse_both(flags.all, "--all", !flags.lens.empty(), "a lens");
-    if (!flags.all) require_argument(verb, flags.lens, "a lens, as doublet, a lens file, or --all");
-    if (flags.all) require_argument(verb, flags.output, "-o DIR");
-    if (flags.all && is_page(flags.output)) throw UsageError("--all writes many pages: -o must be a folder");
+    refuse_both(flags.all, "--all", !flags.lenses.empty(), "a lens");
+    if (!flags.all && flags.lenses.empty())
+        require_argument(verb, "", "a lens, as doublet, a lens file, or --all");
+    const bool many = flags.all || flags.lenses.size() > 1;
+    if (many) require_argument(verb, flags.output, "-o DIR");
+    const std::string who = flags.all ? "--all" : "a report of several lenses";
+    if (many && is_page(flags.output)) throw UsageError(who + " writes many pages: -o must be a folder");
     flags.overwrite.check();
-    if (flags.all && flags.overwrite.no_clobber)
-        throw UsageError("--no-clobber has no effect with --all, which writes many pages");
+    if (many && flags.overwrite.no_clobber)
+        throw UsageError("--no-clobber has no effect with " + who + ", which writes many pages");
 }
 
 }  // namespace
@@ -137,10 +161,14 @@ void add_lens_report(Verb& lens, Action& chosen) {
         add_verb(lens, "report", "the sheet of a lens: one HTML page with all its pictures and numbers",
                  "petzval lens report double-gauss\n"
                  "petzval lens report my_lens.zmx -o sheet.html\n"
+                 "petzval lens report tessar takumar my_lens.zmx -o sheets\n"
                  "petzval lens report --all -o lenses");
     auto flags = std::make_shared<LensReportFlags>();
     FlagGroup(verb, "Lens")
-        .argument("LENS", "a name of petzval lens list, or a lens file", flags->lens)
+        .arguments("LENS",
+                   "names of petzval lens list, or lens files; of several, also a contact sheet and a "
+                   "comparison",
+                   flags->lenses)
         .on("--all", "a page for every lens that ships, a contact sheet and a comparison", flags->all);
     FlagGroup(verb, "Output")
         .value("-o,--output", "PATH", "a page, as sheet.html, or a folder, made if missing (default: here)",
@@ -151,7 +179,7 @@ void add_lens_report(Verb& lens, Action& chosen) {
     when_typed(verb, [flags, &verb, &chosen] {
         check(*flags, verb);
         flags->run.apply();
-        chosen = [flags] { return flags->all ? report_all(*flags) : report_one(*flags); };
+        chosen = [flags] { return flags->lenses.size() == 1 ? report_one(*flags) : report_many(*flags); };
     });
 }
 

@@ -59,6 +59,29 @@ class LensReport(CommandLineTest):
         self.succeed("lens", "report", "drawn.json", "-o", "sheet.html")
         self.assertIn("85 mm", self.check_page("sheet.html", 20))
 
+    def test_several_lenses_have_their_pages_and_stand_side_by_side(self):
+        # --all is the same with every lens that ships; report_test.cpp draws the figures of all of them.
+        file = self.path("my lens.json")
+        pathlib.Path(file).write_text((LENSES / "singlet.json").read_text())
+        report = self.report("lens", "report", "ideal", "doublet", "tessar", file, "-o", "sheets")
+        pages = ["ideal.html", "doublet.html", "tessar.html", "my-lens.html"]
+        self.assertEqual([pathlib.Path(p).name for p in report["outputs"]],
+                         [*pages, "comparison.html", "contact-sheet.svg", "index.html"])
+        for page in pages:
+            self.check_page("sheets/" + page, 20)
+        for sheet in ("index.html", "comparison.html"):
+            text, root = self.page("sheets/" + sheet)
+            self.assertEqual([a.get("href") for a in root.iter("a") if a.get("href") in pages], pages)
+            self.assertIsNone(BAD_NUMBER.search(text))
+        self.assertIn("tessar", self.page("sheets/contact-sheet.svg")[0])
+
+    def test_lenses_that_would_share_a_page_are_refused(self):
+        self.refuse(2, "lens", "report", "tessar", "tessar", "-o", "x", says=["two lenses", "tessar.html"])
+        self.refuse(2, "lens", "report", "tessar", "nonesuch", "-o", "x", says=["nonesuch"])
+        self.refuse(2, "lens", "report", "tessar", "ideal", says=["-o DIR"])
+        self.refuse(2, "lens", "report", "tessar", "ideal", "-o", "x.html", says=["folder"])
+        self.assertFalse(pathlib.Path(self.path("x")).exists())
+
     def test_the_same_lens_makes_the_same_bytes(self):
         for name in ("a.html", "b.html"):
             self.succeed("lens", "report", "ideal", "-o", name)
