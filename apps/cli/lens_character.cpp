@@ -124,8 +124,9 @@ void LensCharacterFlags::add_to(Verb& verb) {
         .value("--coma", "AMOUNT", "added off the axis, 1 is strong; positive tails point outward",
                parse_number, coma)
         .value("--astigmatism", "AMOUNT", "added off the axis, 1 is strong: swirl", parse_number, astigmatism)
-        .value("--distortion", "SHARE", "discs stretch towards the corners by this share", parse_number,
-               distortion)
+        .value("--distortion", "SHARE",
+               "discs, and the picture of defocus with them, stretch towards the corners by this share",
+               parse_number, distortion)
         .value("--wavelengths", "N", "bands of the spectrum; as many as needed by default", parse_count,
                wavelengths)
         .on("--wave", "diffraction: rings in discs of small sensors, spikes of blades; slow", wave);

@@ -76,9 +76,12 @@ struct LensChoice {
     // rim at height h = 1/(2 f-number) focal lengths:
     double coma = 0;         // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward
     double astigmatism = 0;  // tangential and sagittal focus 2 * 0.01 * astigmatism focal lengths apart
-    double distortion = 0;   // discs stretch by (1 + 3 d) along and (1 + d) across the field's direction
-    int wavelengths = 0;     // bands of the spectrum; 0: as many as the kernel needs to be smooth
-    bool wave = false;       // diffraction: rings in discs of small sensors, spikes of blades; slow
+    // Discs stretch by (1 + 3 d) along and (1 + d) across the field's direction, and defocus() moves the
+    // picture with them: from r half diagonals to r (1 + d r^2). Channels besides colour and alpha stay where
+    // they are.
+    double distortion = 0;
+    int wavelengths = 0;  // bands of the spectrum; 0: as many as the kernel needs to be smooth
+    bool wave = false;    // diffraction: rings in discs of small sensors, spikes of blades; slow
 };
 
 }  // namespace petzval

@@ -2,6 +2,7 @@
 #include "petzval/defocus.h"
 
 #include "api/deep_samples.h"
+#include "api/distort.h"
 #include "api/light_points.h"
 #include "base/parallel.h"
 #include "engine/engine.h"
@@ -172,12 +173,19 @@ kernel::Mount mount_of(const DefocusJob& job) {
     return {job.camera, job.display_window.width(), job.display_window.height(), job.pixel_aspect};
 }
 
+// The lens as engines see it: distortion comes last, of discs and picture at once.
+LensChoice lens_before_distortion(const DefocusJob& job) {
+    LensChoice lens = job.lens;
+    lens.distortion = 0;
+    return lens;
+}
+
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
 Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store) {
     constexpr std::size_t kRememberedBytes = std::size_t(48) << 20;
     constexpr int kLevels =
         13;  // the largest radius in cells of the last one is 4, fewer than any engine needs
-    auto levels = kernel::make_lens_levels(job.lens, mount_of(job), kLevels);
+    auto levels = kernel::make_lens_levels(lens_before_distortion(job), mount_of(job), kLevels);
     if (!levels) return levels;
     for (std::size_t i = 0; i < levels->size(); ++i) {
         auto& lens = (*levels)[i];
@@ -190,13 +198,14 @@ Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kern
 // Null where nothing is to be kept. The reference engine asks for a new radius with every point of light.
 std::shared_ptr<kernel::KernelStore> store_for(const DefocusJob& job) {
     if (job.kernel_cache_folder.empty() || job.engine == "reference") return nullptr;
-    return std::make_shared<kernel::KernelStore>(
-        job.kernel_cache_folder, kernel::lens_key(job.lens, mount_of(job)), job.kernel_cache_bytes);
+    return std::make_shared<kernel::KernelStore>(job.kernel_cache_folder,
+                                                 kernel::lens_key(lens_before_distortion(job), mount_of(job)),
+                                                 job.kernel_cache_bytes);
 }
 
 // Everything that decides what an engine's kernels are; empty if it cannot be told.
 std::string memory_key(const DefocusJob& job) {
-    std::string key = kernel::lens_key(job.lens, mount_of(job));
+    std::string key = kernel::lens_key(lens_before_distortion(job), mount_of(job));
     if (key.empty()) return key;
     const Rect &display = job.display_window, &data = job.data_window;
     for (const int n : {display.x0, display.y0, display.x1, display.y1, data.x0, data.y0, data.x1, data.y1,
@@ -273,6 +282,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
         return invalid("--engine " + job.engine + " takes no holdout; scatter and reference do");
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
+    if (job.lens.distortion != 0)  // whether this lens can have it
+        if (const auto lens = kernel::make_lens(job.lens, mount_of(job)); !lens) return lens.error();
     KernelMemory of_this_job;
     KernelMemory::Contents& memory = (job.kernel_memory ? *job.kernel_memory : of_this_job).contents();
     if (const Status ready = memory.ready_for(job); !ready) return ready.error();
@@ -330,6 +341,10 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     DefocusReport report;
     report.image = std::move(output->image);
     report.panels = std::move(output->panels);
+    if (job.lens.distortion != 0 && report.panels.empty())
+        report.image = distorted(
+            report.image, {input.field_centre_x, input.field_centre_y, input.field_per_px, job.pixel_aspect},
+            job.lens.distortion, job.threads);
     report.engine = chosen->name;
     report.device = "cpu";
     report.lens = memory.lenses.front()->description();

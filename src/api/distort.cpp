@@ -1,0 +1,71 @@
+#include "api/distort.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace petzval {
+namespace {
+
+// The radius that lands at `target`: r (1 + amount r^2) = target, by Newton's method from the target itself.
+// Barrel distortion leaves the largest radii nowhere to come from; then the farthest that lands.
+double undistorted(double target, double amount) {
+    const double farthest = amount < 0 ? std::sqrt(-1 / (3 * amount)) : 2 * target;
+    double r = std::min(target, farthest);
+    for (int i = 0; i < 12; ++i) {
+        const double slope = std::max(1e-3, 1 + 3 * amount * r * r);
+        r = std::clamp(r - (r * (1 + amount * r * r) - target) / slope, 0.0, farthest);
+    }
+    return r;
+}
+
+// Between pixels by cubic lines (E. Catmull, R. Rom, 1974), kept within the four nearest pixels: what is
+// bright throws no dark rings.
+Rgba sampled(const Picture& picture, double x, double y) {
+    const int left = int(std::floor(x)), top = int(std::floor(y));
+    const auto weights = [](double at) {
+        const float t = float(at), u = 1 - t;
+        return std::array{-0.5f * t * u * u, 1 - 2.5f * t * t + 1.5f * t * t * t,
+                          1 - 2.5f * u * u + 1.5f * u * u * u, -0.5f * u * t * t};
+    };
+    const auto across = weights(x - left), down = weights(y - top);
+    Rgba sum, least, most;
+    bool first = true;
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i) {
+            const Rgba p = picture(std::clamp(left - 1 + i, 0, picture.width() - 1),
+                                   std::clamp(top - 1 + j, 0, picture.height() - 1));
+            sum += p * (across[std::size_t(i)] * down[std::size_t(j)]);
+            if (i == 0 || i == 3 || j == 0 || j == 3) continue;
+            least = first ? p
+                          : Rgba{std::min(least.r, p.r), std::min(least.g, p.g), std::min(least.b, p.b),
+                                 std::min(least.a, p.a)};
+            most = first ? p
+                         : Rgba{std::max(most.r, p.r), std::max(most.g, p.g), std::max(most.b, p.b),
+                                std::max(most.a, p.a)};
+            first = false;
+        }
+    return {std::clamp(sum.r, least.r, most.r), std::clamp(sum.g, least.g, most.g),
+            std::clamp(sum.b, least.b, most.b), std::clamp(sum.a, least.a, most.a)};
+}
+
+}  // namespace
+
+Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, int threads) {
+    Picture result = Picture::uninitialised(picture.width(), picture.height());
+    parallel_for(picture.height(), threads, [&](int y) {
+        const double down = (y + 0.5 - field.centre_y_px) / field.pixel_aspect;
+        for (int x = 0; x < picture.width(); ++x) {
+            const double right = x + 0.5 - field.centre_x_px;
+            const double target = field.per_px * std::hypot(right, down);
+            const double scale = target > 0 ? undistorted(target, amount) / target : 1;
+            result(x, y) = sampled(picture, field.centre_x_px + scale * right - 0.5,
+                                   field.centre_y_px + scale * down * field.pixel_aspect - 0.5);
+        }
+    });
+    return result;
+}
+
+}  // namespace petzval

@@ -1,0 +1,21 @@
+// A picture as a lens with distortion records it: what stands at r half diagonals from the middle of the
+// display window moves to r (1 + amount r^2), so that discs stretch by (1 + 3 amount r^2) along that
+// direction and by (1 + amount r^2) across it, as petzval/lens.h says.
+#pragma once
+
+#include "petzval/image.h"
+
+namespace petzval {
+
+// What maps pixels of a picture to the field: as engine::Input has it.
+struct FieldOfPixels {
+    double centre_x_px = 0, centre_y_px = 0;  // of the display window, in the picture's pixels
+    double per_px = 0;                        // half diagonals
+    double pixel_aspect = 1;
+};
+
+// Of the same size. Where something from outside of the picture would be seen, its border is repeated.
+// Requires: -0.3 <= amount <= 0.3.
+Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, int threads);
+
+}  // namespace petzval

@@ -1,0 +1,110 @@
+#include "api/distort.h"
+
+#include "petzval/defocus.h"
+#include "petzval/lens_kernel.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+// Centre and variances of a picture's green light.
+struct Blob {
+    double light = 0, x = 0, y = 0, xx = 0, yy = 0;
+};
+
+Blob blob_of(const Picture& picture) {
+    Blob b;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            const double g = double(picture(x, y).g);
+            b.light += g, b.x += g * (x + 0.5), b.y += g * (y + 0.5);
+            b.xx += g * (x + 0.5) * (x + 0.5), b.yy += g * (y + 0.5) * (y + 0.5);
+        }
+    b.x /= b.light, b.y /= b.light;
+    b.xx = b.xx / b.light - b.x * b.x, b.yy = b.yy / b.light - b.y * b.y;
+    return b;
+}
+
+FieldOfPixels field_of(int width, int height) {
+    return {0.5 * width, 0.5 * height, 2 / std::hypot(width, height), 1};
+}
+
+TEST(Distorted, WithoutDistortionItIsThePicture) {
+    Picture picture(40, 30);
+    for (std::size_t i = 0; i < picture.size(); ++i)
+        picture.pixels()[i] = {float(i % 7), float(i % 11), float(i % 5), 1};
+    const Picture same = distorted(picture, field_of(40, 30), 0, 1);
+    for (std::size_t i = 0; i < picture.size(); ++i)
+        EXPECT_LT(std::abs(same.pixels()[i].g - picture.pixels()[i].g), 1e-5f);
+}
+
+TEST(Distorted, APointMovesByTheCubeOfItsRadius) {
+    for (const double amount : {0.08, -0.08}) {
+        Picture picture(400, 300, Rgba{0, 0, 0, 1});
+        for (int y = 198; y < 203; ++y)
+            for (int x = 298; x < 303; ++x) picture(x, y).g = 1;
+        const FieldOfPixels field = field_of(400, 300);
+        const double right = 300.5 - 200, down = 200.5 - 150, r = field.per_px * std::hypot(right, down);
+        const Blob blob = blob_of(distorted(picture, field, amount, 2));
+        // The square is not a point: its far side moves more.
+        EXPECT_NEAR(blob.x, 200 + right * (1 + amount * r * r), 0.15);
+        EXPECT_NEAR(blob.y, 150 + down * (1 + amount * r * r), 0.15);
+    }
+}
+
+TEST(Distorted, NothingGrowsBrighterOrDarkerThanWhatIsThere) {
+    Picture picture(64, 64, Rgba{0, 0, 0, 1});
+    picture(40, 20) = {1000, 1000, 1000, 1};
+    const Picture moved = distorted(picture, field_of(64, 64), 0.2, 1);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        EXPECT_GE(moved.pixels()[i].g, 0);
+        EXPECT_LE(moved.pixels()[i].g, 1000);
+        EXPECT_EQ(moved.pixels()[i].a, 1);
+    }
+}
+
+// A picture's disc is the kernel of the lens with that distortion, where the lens puts it.
+TEST(Distorted, DiscsOfAPictureHaveTheShapeOfTheKernel) {
+    constexpr int kWidth = 480, kHeight = 320;
+    Picture colour(kWidth, kHeight, Rgba{0, 0, 0, 1});
+    colour(400, 160) = {1000, 1000, 1000, 1};
+    Plane coc(kWidth, kHeight, 14.0f);
+    DefocusJob job;
+    job.colour = colour, job.depth_m = coc, job.depth_is_coc = true;
+    job.display_window = job.data_window = colour.rect();
+    job.camera = {50, 36, 2, 2};
+    job.lens.distortion = 0.15;
+    const auto report = defocus(job);
+    ASSERT_TRUE(report) << report.error().message;
+    const Blob disc = blob_of(report->image);
+
+    const double right = 400.5 - 240, r = right * 2 / std::hypot(kWidth, kHeight);
+    const double moved = right * (1 + 0.15 * r * r);
+    EXPECT_NEAR(disc.x, 240 + moved,
+                0.1 + 0.01 * right);  // a disc is pushed out a little more than its middle
+    const auto kernel = lens_point_spread(job.lens, {job.camera, kWidth, kHeight, 1}, 14, r, 0);
+    ASSERT_TRUE(kernel);
+    const Blob expected = blob_of(kernel->weights);
+    EXPECT_NEAR(disc.xx, expected.xx, 0.04 * expected.xx);
+    EXPECT_NEAR(disc.yy, expected.yy, 0.04 * expected.yy);
+    EXPECT_GT(disc.xx, 1.1 * disc.yy);
+}
+
+TEST(Distorted, APrescriptionRefusesIt) {
+    Picture colour(16, 16);
+    Plane coc(16, 16, 1.0f);
+    DefocusJob job;
+    job.colour = colour, job.depth_m = coc, job.depth_is_coc = true;
+    job.display_window = job.data_window = colour.rect();
+    job.camera = {50, 36, 4, 2};
+    job.lens.name = "tessar", job.lens.distortion = 0.1;
+    const auto report = defocus(job);
+    ASSERT_FALSE(report);
+    EXPECT_NE(report.error().message.find("--distortion"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace petzval
