@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string_view>
@@ -36,6 +37,8 @@ std::string size_text(int width, int height) {
 }
 
 bool is_png(const std::string& path) {
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) return false;  // a pipe could not be read again
     std::ifstream file(path, std::ios::binary);
     std::array<char, 4> start{};
     file.read(start.data(), start.size());

@@ -10,11 +10,14 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace petzval::cli {
 namespace {
 
 constexpr const char* kAccepted = "x, y, depth or coc, r, g, b, and size, vx, vy if wanted";
+
+constexpr std::size_t kLongestLine = 4096;
 
 enum Column { kX, kY, kDepth, kCoc, kR, kG, kB, kSize, kVx, kVy, kColumns };
 constexpr std::array<const char*, kColumns> kNames{"x", "y", "depth", "coc", "r",
@@ -52,11 +55,11 @@ public:
     Result<PointsFile> read() {
         std::ifstream in(path_, std::ios::binary);
         if (!in) return Error{ErrorCode::InvalidFile, path_ + ": cannot be read"};
-        std::string text;
+        std::vector<char> text(kLongestLine + 1);
         bool has_header = false;
-        while (std::getline(in, text)) {
+        while (in.getline(text.data(), std::streamsize(text.size()))) {
             ++line_;
-            std::string_view line = text;
+            std::string_view line(text.data(), std::size_t(in.gcount()) - (in.eof() ? 0 : 1));
             if (line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // byte order mark
             line = trimmed(line.substr(0, line.find('#')));
             if (line.empty()) continue;
@@ -65,6 +68,9 @@ public:
                 return Error{ErrorCode::InvalidFile, path_ + ":" + std::to_string(line_) + ": " + *wrong};
             has_header = true;
         }
+        if (!in.bad() && !in.eof())
+            return Error{ErrorCode::InvalidFile, path_ + ":" + std::to_string(line_ + 1) + ": more than " +
+                                                     std::to_string(kLongestLine) + " characters in a line"};
         if (in.bad()) return Error{ErrorCode::InvalidFile, path_ + ": cannot be read to its end"};
         if (!has_header)
             return Error{ErrorCode::InvalidFile,

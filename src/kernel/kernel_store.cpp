@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -295,10 +296,16 @@ void add_picture(ContentHash& hash, const Plane* plane) {
                                   std::size_t(plane->width()) * sizeof(float)));
 }
 
-// The bytes of a lens in a file; a name of ours stands for itself, because the program holds it.
-std::string lens_content(const std::string& name) {
+// The bytes of a lens in a file; none for a name of ours, which stands for itself, because the program holds
+// it. Nothing for what cannot be read twice (a pipe) or is no lens (a folder, a device, a huge file).
+std::optional<std::string> lens_content(const std::string& name) {
+    constexpr std::uintmax_t kLargestFile = 1 << 22;
+    std::error_code problem;
+    if (!std::filesystem::exists(name, problem)) return std::string();
+    if (!std::filesystem::is_regular_file(name, problem)) return std::nullopt;
+    if (std::filesystem::file_size(name, problem) > kLargestFile || problem) return std::nullopt;
     std::ifstream file(name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 }  // namespace
@@ -306,8 +313,10 @@ std::string lens_content(const std::string& name) {
 std::string lens_key(const LensChoice& c, const Mount& m) {
     const std::string program = build_id();
     if (program.empty() || c.kernel_images.far || c.kernel_images.near) return {};
+    const std::optional<std::string> content = lens_content(c.name);
+    if (!content) return {};
     ContentHash hash;
-    hash.add(program).add(c.name).add(lens_content(c.name));
+    hash.add(program).add(c.name).add(*content);
     const ApertureShape& a = c.aperture;
     hash.add(a.blades).add(a.rotation_deg).add(a.curvature).add(a.squeeze).add(a.round_at_f_number);
     hash.add(c.cats_eye).add(c.barrel.size());

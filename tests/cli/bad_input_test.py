@@ -43,6 +43,15 @@ class BadInput(CommandLineTest):
         os.mkdir(self.path("folder.exr"))
         self.refuse_input("folder.exr")
 
+    def test_a_folder_or_a_device_is_not_a_lens(self):
+        self.write("in.exr", exr_bytes(picture(8, 6)))
+        os.mkdir(self.path("doublet"))
+        # Kernels of a file are kept by what it holds: also with a store for them nothing is read without end.
+        stored = {"PETZVAL_KERNEL_CACHE": self.path("store")}
+        for lens in (".", "/dev/zero"):
+            self.refuse(3, "defocus", "in.exr", "-o", "out.exr", *CAMERA, "--lens", lens, says=[lens], env=stored)
+        self.succeed("defocus", "in.exr", "-o", "out.exr", *CAMERA, "--lens", "doublet", env=stored)
+
     def test_empty_file(self):
         self.write("empty.exr", b"")
         self.refuse_input("empty.exr")
