@@ -71,8 +71,10 @@ void accumulate(const Input& input, const SourceLevel& sources, int level, const
         for (int y = rows.y0 - reach; y < rows.y1 + reach; ++y)
             for (const Source& s : sources.row(y)) {
                 if (is_emptiness(s.layer)) continue;
-                stamp(table.at(level, table.part_for(level, s.x, y, s.radius), s.radius, s.skirt_of), s.x, y,
-                      s.light, s.tilt_x, s.tilt_y, {&cells, 1});
+                for (const auto& [part, share] : table.parts_for(level, s.x, y, s.radius))
+                    if (share > 0)
+                        stamp(table.at(level, part, s.radius, s.skirt_of), s.x, y, s.light * share, s.tilt_x,
+                              s.tilt_y, {&cells, 1});
             }
         for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells.row(y), out.width(), out.row(y));
     });

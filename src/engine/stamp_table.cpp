@@ -109,23 +109,32 @@ StampTable::~StampTable() {
     for (auto& kernel : kernels_) delete kernel.load();
 }
 
-int StampTable::part_for(int level, int x, int y, float radius) const {
-    if (parts_x_ * parts_y_ == 1) return 0;
+std::array<StampTable::PartShare, 4> StampTable::parts_for(int level, int x, int y, float radius) const {
+    if (parts_x_ * parts_y_ == 1) return {{{0, 1}}};
     constexpr float kHidesTheChoice = 3;  // cells of radius
+    constexpr int kNarrow = 2;            // cells beyond the radius
+    const bool nearly_sharp = std::abs(radius) < kHidesTheChoice;
+    const double px = std::ldexp(x + 0.5, level) / width_ * parts_x_ - 0.5;
+    const double py = std::ldexp(y + 0.5, level) / height_ * parts_y_ - 0.5;
+    const auto part = [&](double row, double column) {
+        return std::clamp(int(std::floor(row)), 0, parts_y_ - 1) * parts_x_ +
+               std::clamp(int(std::floor(column)), 0, parts_x_ - 1);
+    };
+    if (nearly_sharp && reach(level, radius) > int(std::abs(radius)) + kNarrow) {
+        const float right = float(px - std::floor(px)), down = float(py - std::floor(py));
+        return {{{part(py, px), (1 - down) * (1 - right)},
+                 {part(py, px + 1), (1 - down) * right},
+                 {part(py + 1, px), down * (1 - right)},
+                 {part(py + 1, px + 1), down * right}}};
+    }
     // Numbers 0…1 that fill every neighbourhood evenly: multiples of powers of the roots of x^3 = x + 1 and
     // x^4 = x + 1 (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
     const auto even = [&](double per_x, double per_y) {
-        if (std::abs(radius) < kHidesTheChoice) return 0.5;
+        if (nearly_sharp) return 0.5;
         const double sum = x * per_x + y * per_y;
         return sum - std::floor(sum);
     };
-    const auto index = [](double place, double chance, int count) {
-        return std::clamp(int(std::floor(place - 0.5 + chance)), 0, count - 1);
-    };
-    const double px = std::ldexp(x + 0.5, level) / width_ * parts_x_;
-    const double py = std::ldexp(y + 0.5, level) / height_ * parts_y_;
-    return index(py, even(0.8191725134, 0.6710436067), parts_y_) * parts_x_ +
-           index(px, even(0.7548776662, 0.5698402910), parts_x_);
+    return {{{part(py + even(0.8191725134, 0.6710436067), px + even(0.7548776662, 0.5698402910)), 1}}};
 }
 
 int StampTable::step_of(float radius) const {

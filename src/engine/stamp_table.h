@@ -29,10 +29,15 @@ public:
     StampTable(const StampTable&) = delete;
     StampTable& operator=(const StampTable&) = delete;
 
-    // The part of the picture whose kernels the source in cell (x, y) of a level takes: one of the four whose
-    // middles are nearest, each as often as bilinear interpolation weighs it, so that nothing steps where
-    // parts meet. Nearly sharp sources take the nearest, lest the choice be seen.
-    int part_for(int level, int x, int y, float radius) const;
+    // The parts of the picture whose kernels the source in cell (x, y) of a level takes, so that nothing
+    // steps where parts meet: one of the four whose middles are nearest, each as often as bilinear
+    // interpolation weighs it. Among nearly sharp sources that choice would be seen: where aberrations make
+    // the kernels of those wide, they take their share of each; where not, the nearest.
+    struct PartShare {
+        int part = 0;
+        float share = 0;  // 0: not taken
+    };
+    std::array<PartShare, 4> parts_for(int level, int x, int y, float radius) const;
     // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
     // a skirt; n: the skirt of the kernel n levels finer.
     std::span<const StampKernel, 1> at(int level, int part, float radius, int skirt_of) const;

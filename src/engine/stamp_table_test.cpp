@@ -2,6 +2,8 @@
 
 #include "kernel/lens_model.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -25,14 +27,39 @@ TEST(StampTable, PartsBlendIntoEachOtherByBilinearShares) {
             int column = 0, row = 0;
             for (int v = y; v < y + kBox; ++v)
                 for (int u = x; u < x + kBox; ++u) {
-                    const int part = table.part_for(0, u, v, 5);
+                    const int part = table.parts_for(0, u, v, 5)[0].part;
                     column += part % 9, row += part / 9;
                 }
             EXPECT_NEAR(double(column) / (kBox * kBox), (x + 0.5 * kBox) / 60 - 0.5, 0.06);
             EXPECT_NEAR(double(row) / (kBox * kBox), (y + 0.5 * kBox) / 60 - 0.5, 0.06);
         }
-    EXPECT_EQ(table.part_for(0, 0, 0, 5), 0);
-    EXPECT_EQ(table.part_for(0, kWidth - 1, kHeight - 1, 5), 53);
+    EXPECT_EQ(table.parts_for(0, 0, 0, 5)[0].part, 0);
+    EXPECT_EQ(table.parts_for(0, kWidth - 1, kHeight - 1, 5)[0].part, 53);
+}
+
+TEST(StampTable, NearlySharpSourcesOfAnAberratedLensTakeTheirShareOfEachPart) {
+    constexpr int kWidth = 540, kHeight = 360;
+    const auto mean_place = [](float coma, int x, int y) {
+        LensChoice choice;
+        choice.cats_eye = 0.5, choice.coma = double(coma);
+        std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
+        lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 1.4, 2}, kWidth, kHeight})).value());
+        LensOnPicture lens;
+        lens.lens_levels = lenses;
+        const StampTable table(lens, kWidth, kHeight, LevelRule{});
+        std::array<double, 3> sum{};
+        for (const auto& [part, share] : table.parts_for(0, x, y, 0.5f))
+            sum[0] += double(share), sum[1] += double(share) * (part % 9),
+                sum[2] += double(share) * (part / 9);
+        return sum;
+    };
+    for (const auto& [x, y] : {std::pair{200, 100}, {209, 100}, {211, 178}, {333, 271}, {0, 0}, {539, 359}}) {
+        const auto [whole, column, row] = mean_place(5, x, y);
+        EXPECT_NEAR(whole, 1, 1e-6);
+        EXPECT_NEAR(column, std::clamp((x + 0.5) / 60 - 0.5, 0.0, 8.0), 1e-5);
+        EXPECT_NEAR(row, std::clamp((y + 0.5) / 60 - 0.5, 0.0, 5.0), 1e-5);
+    }
+    EXPECT_EQ(mean_place(0, 205, 100)[1], 3) << "narrow kernels: the nearest part alone";
 }
 
 }  // namespace

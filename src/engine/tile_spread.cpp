@@ -102,13 +102,18 @@ void accumulate_layer(std::span<const Arrival> arrivals, const StampTable& table
         if (level > 0)
             for (Accumulator& a : target) a.reset(cells_of(tile, level));
         for (; i < arrivals.size() && arrivals[i].level == level; ++i) {
-            const Source& s = *arrivals[i].source;
-            const int part = table.part_for(level, s.x, arrivals[i].y + (first_row >> level), s.radius);
-            if (whole_pupil)
-                stamp_off_middle(table.at(level, part, s.radius, s.skirt_of), s, arrivals[i].y, target);
-            else
-                stamp_off_middle(table.by_pupil_cell(level, part, s.radius, s.skirt_of), s, arrivals[i].y,
-                                 target);
+            Source s = *arrivals[i].source;
+            const Rgba light = s.light;
+            for (const auto& [part, share] :
+                 table.parts_for(level, s.x, arrivals[i].y + (first_row >> level), s.radius)) {
+                if (share <= 0) continue;
+                s.light = light * share;
+                if (whole_pupil)
+                    stamp_off_middle(table.at(level, part, s.radius, s.skirt_of), s, arrivals[i].y, target);
+                else
+                    stamp_off_middle(table.by_pupil_cell(level, part, s.radius, s.skirt_of), s, arrivals[i].y,
+                                     target);
+            }
         }
         if (level > 0)
             for (std::size_t c = 0; c < fine.size(); ++c) add_enlarged(target[c], level, fine[c]);
