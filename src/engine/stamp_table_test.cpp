@@ -48,9 +48,10 @@ TEST(StampTable, NearlySharpSourcesOfAnAberratedLensTakeTheirShareOfEachPart) {
         lens.lens_levels = lenses;
         const StampTable table(lens, kWidth, kHeight, LevelRule{});
         std::array<double, 3> sum{};
-        for (const auto& [part, share] : table.parts_for(0, x, y, 0.5f))
-            sum[0] += double(share), sum[1] += double(share) * (part % 9),
-                sum[2] += double(share) * (part / 9);
+        for (const auto& [part, share] : table.parts_for(0, x, y, 0.5f)) {
+            const int column = part % 9, row = part / 9;
+            sum[0] += double(share), sum[1] += double(share) * column, sum[2] += double(share) * row;
+        }
         return sum;
     };
     for (const auto& [x, y] : {std::pair{200, 100}, {209, 100}, {211, 178}, {333, 271}, {0, 0}, {539, 359}}) {

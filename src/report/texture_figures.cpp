@@ -164,7 +164,7 @@ Figure squared_column(const Subject& subject) {
     for (const double blurs : {-kWholeBlurs, -1.5, 1.5, kWholeBlurs}) {
         const double coc = blurs * subject.blur_um();
         const Profiles p = profiles_of(subject, coc);
-        Plot plot(275, kHeight, (coc < 0 ? "In front, " : "Behind, ") + significant(std::abs(coc), 2) + " µm",
+        Plot plot(275, kHeight, (coc < 0 ? "−" : "+") + significant(std::abs(coc), 2) + " µm",
                   {0, p.exact.back().x, "from the middle, µm"}, {0, 1.08, "light, brightest = 1"});
         plot.curve(p.exact, "curve0").curve(p.squared, "curve1");
         plot.svg().text({261, 19}, number(100 * p.misplaced, 0) + " % misplaced", "note", Anchor::End);
