@@ -103,6 +103,7 @@ float HighlightSplit::floor_at(int x, int y, float coc_px) const {
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
+    if (std::abs(coc_px) > kWidestHighlightPx) return light;
     if (brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * light.a) return light;
     const float surroundings = surroundings_(x / kCell, y / kCell);
     const bool outermost = x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1;
@@ -210,11 +211,12 @@ std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit
                         const Rgba base = split.base(x, first_row + y, sample.coc_px, sample.colour);
                         if (base == sample.colour) continue;
                         const Rgba taken = sample.colour - base;
+                        const float coc = std::clamp(sample.coc_px, -kWidestHighlightPx, kWidestHighlightPx);
                         sample.colour = base;
                         if (in_block)
-                            out.push_back({x, y, 1, sample.coc_px, taken});
+                            out.push_back({x, y, 1, coc, taken});
                         else
-                            block.put(x, y, sample.coc_px, {taken, k}), in_block = true;
+                            block.put(x, y, coc, {taken, k}), in_block = true;
                     }
                 }
             if (block.empty()) continue;

@@ -37,7 +37,7 @@ Status check_residuals(const LensChoice& choice) {
     if (!in(choice.coma, 10)) return refuse("--coma must lie between -10 and 10");
     if (!in(choice.astigmatism, 10)) return refuse("--astigmatism must lie between -10 and 10");
     if (!in(choice.distortion, 0.3)) return refuse("--distortion must lie between -0.3 and 0.3");
-    if (!std::isfinite(choice.focus_shift_mm)) return refuse("--focus-shift must be a number of mm");
+    if (!in(choice.focus_shift_mm, 1000)) return refuse("--focus-shift must lie between -1000 and 1000 mm");
     if (choice.wavelengths < 0 || choice.wavelengths > 1000)
         return refuse("--wavelengths must be 0 (as many as needed) to 1000");
     return Done{};

@@ -41,6 +41,12 @@ Status check(const SceneSettings& s, int frames) {
         return invalid("pinhole samples per pixel", s.samples, samples);
     if (s.truth_samples < 1 || s.truth_samples > kMaxSamples)
         return invalid("lens samples per pixel (--samples)", s.truth_samples, samples);
+    // Rays that leave the pinhole almost along the sensor are too long for single precision.
+    const double width = s.camera ? s.camera->sensor_width_mm / s.camera->focal_length_mm : 1;
+    if (!(width > 1e-4 && width < 100))
+        return Error{ErrorCode::InvalidArgument,
+                     "the sensor width must be 0.0001 to 100 times the focal length (--sensor-width, "
+                     "--focal-length)"};
     if (s.frame < 0 || s.frame >= frames)
         return invalid("frame (--frame)", s.frame,
                        frames == 1 ? "0: this scene does not move" : "0 to " + std::to_string(frames - 1));

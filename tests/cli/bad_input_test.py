@@ -52,6 +52,11 @@ class BadInput(CommandLineTest):
             self.refuse(3, "defocus", "in.exr", "-o", "out.exr", *CAMERA, "--lens", lens, says=[lens], env=stored)
         self.succeed("defocus", "in.exr", "-o", "out.exr", *CAMERA, "--lens", "doublet", env=stored)
 
+    def test_a_focus_shift_beyond_all_measure(self):
+        self.write("in.exr", exr_bytes(picture(8, 6)))
+        self.refuse(2, "defocus", "in.exr", "-o", "out.exr", *CAMERA, "--lens", "doublet", "--focus-shift", "1e30",
+                    says=["--focus-shift", "1000"])
+
     def test_empty_file(self):
         self.write("empty.exr", b"")
         self.refuse_input("empty.exr")

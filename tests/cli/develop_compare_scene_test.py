@@ -153,6 +153,11 @@ class Scene(CommandLineTest):
         self.assertAlmostEqual(camera["f_number"], 5.6, places=5)
         self.assertAlmostEqual(camera["focus_distance_m"], 1.5, places=5)
 
+    def test_a_camera_that_sees_nothing_or_everything_is_refused(self):
+        for flags in (["--focal-length", "1e-30"], ["--sensor-width", "1e30"], ["--sensor-width", "1e-9"]):
+            self.refuse(2, "scene", "make", "slant", "-o", "no.exr", "--width", "8", "--height", "8", *flags,
+                        says=["--sensor-width", "--focal-length"])
+
     def test_same_bits_for_any_number_of_threads(self):
         for threads in ("1", "2"):
             self.succeed("scene", "make", "slant", "-o", threads + ".exr", "--threads", threads, *self.SMALL)

@@ -67,7 +67,7 @@ WRONG_VALUES = {
     "--barn-doors": ["1,1", "2,0,0,0", "a,0,0,0"], "--kernel-image": ["a,b,c", ","], "--engine": ["warp"], "--quality": ["best"], "--seed": ["-1", "x"],
     "--max-memory": ["0", "2Q", "G", "-1G"], "--threads": ["-1", "1e3", "1000000"], "--depth-kind": ["z"],
     "--unit-scale": ["0"], "--depth-range": ["1"], "--progress": ["loud"], "--pupil-points": ["0"],
-    "--view": ["lairs", ""], "--gather-stage": ["glow", ""], "--gather-taps": ["17", "x"],
+    "--view": ["lairs", ""], "--focus-shift": ["x", ""], "--gather-stage": ["glow", ""], "--gather-taps": ["17", "x"],
     "--gather-coc": ["max"], "--gather-fill": ["1"], "--gaussian-style": ["box"], "--focus-band": ["-1", "x"],
     "--depth-offset": ["nan"], "--depth-band-range": ["2", "3m,1m"], "--background": ["scatter"],
     "--find-points": ["maybe"], "--bright-factor": ["0"], "--overscan": ["0", "-3", "wide"],

@@ -186,6 +186,20 @@ TEST(Scatter, ALightIsNotInTheShadowOfTheSurfaceItStandsOn) {
     }
 }
 
+TEST(Scatter, LightWiderThanAnyPictureTakesNoKernelOfItsOwn) {
+    // A kernel of this radius would take 900 MB.
+    Shot shot = flat(48, 32, {0.2f, 0.2f, 0.2f, 1}, 3800);
+    shot.colour(20, 10) = {500, 500, 500, 1};
+    DefocusJob limited = shot.job("scatter");
+    limited.scatter.view = ScatterView::Highlights;
+    const auto highlights = defocus(limited);
+    ASSERT_TRUE(highlights);
+    for (std::size_t i = 0; i < highlights->image.size(); ++i)
+        ASSERT_EQ(highlights->image.pixels()[i], Rgba{}) << i;
+    const Picture image = rendered(shot.job("scatter"));
+    EXPECT_NEAR(image(40, 30).g, image(5, 5).g, 1e-3);  // all one grey
+}
+
 TEST(Scatter, TheSameBitsForAnyMemoryLimitAndAClearAnswerWhenItIsTooSmall) {
     const Shot shot = tall_with_screens();
     DefocusJob whole = shot.job("scatter"), strips = shot.job("scatter");
