@@ -163,7 +163,7 @@ def golden(*words):
 
 
 def validate_lenses(*words):
-    """every published number of every lens beside ours"""
+    """[FILE]: every published number of every lens beside ours; FILE: of a lens file, or a list {"lenses": […]}"""
     make("release", "petzval_validate_lenses")
     found = [p for p in folder_of("release").rglob("petzval_validate_lenses") if p.is_file()]
     run(found[0], *words)
