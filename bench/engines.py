@@ -96,7 +96,7 @@ def sheet(panels, columns=2, gap=4):
 def speed_rows(given):
     for engine, quality in SPEED:
         row = [engine, quality]
-        for name in ("table", "night"):
+        for name in ("table", "night", "fence"):
             run = measure(picture(name, 1920), given, engine=engine, quality=quality, radius=32)
             row.append(f"{seconds(run['wall_s'])} ({seconds(run['cpu_s'] / THREADS)})" if run else
                        f"> {given.limit / THREADS:g}")
@@ -127,7 +127,7 @@ def main():
         if panels:
             sheet(panels)
     if "speed" in given.tables:
-        print_table(["engine", "quality", "table s", "night s", "peak MiB"], list(speed_rows(given)))
+        print_table(["engine", "quality", "table s", "night s", "fence s", "peak MiB"], list(speed_rows(given)))
         print("\n1920 x 1080, radius 32 px; in brackets CPU seconds / threads.")
     print(machine())
 
