@@ -161,7 +161,7 @@ void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, i
 
 // How many surfaces, one behind the other, reach the tile.
 int count_surfaces(const std::vector<Arrival>& arrivals) {
-    constexpr int kApart = 3 * kNextLayer;  // layers; surfaces nearer to each other are one that slopes
+    constexpr int kApart = 4 * kNextLayer;  // layers; surfaces nearer to each other are one that slopes
     int surfaces = 0, last = 0;
     for (const Arrival& a : arrivals) {
         if (surfaces == 0 || a.layer - last >= kApart) ++surfaces;
