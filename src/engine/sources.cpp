@@ -257,15 +257,15 @@ float radius_in_pixels(float radius, int level) {
 }
 
 float LevelRule::position(float coc_px) const {
-    const float r = std::abs(coc_px);
-    return r <= largest_cells ? 0.0f : std::log2(r / largest_cells) / octaves_per_level;
+    const float octaves = std::log2(std::max(1.0f, std::abs(coc_px) / largest_cells));
+    return std::min(octaves / kOctavesPerLevel, octaves + 1);
 }
 
 float LevelRule::end_of_level(int level) const {
-    return largest_cells * std::exp2(octaves_per_level * float(level));
+    return largest_cells * std::exp2(std::max(kOctavesPerLevel * float(level), float(level) - 1));
 }
 
-float LevelRule::largest_radius() const { return largest_cells * std::exp2(octaves_per_level * fade); }
+float LevelRule::largest_radius() const { return largest_cells * std::exp2(kOctavesPerLevel * fade); }
 
 std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,

@@ -64,9 +64,10 @@ struct LevelRule {
     float largest_cells = 8;     // no source covers more than this radius, in cells of its level…
     int surfaces_for_cells = 3;  // see engine/tile_spread.h
     float fade = 0.15f;          // …but for the fade: across this share of a level it is spread on two
-    // Levels follow each other this closely: what levels cost falls with the radius, so that wider discs do
-    // with fewer cells.
-    float octaves_per_level = 0.8f;
+    // The first levels follow each other this closely: what levels cost falls with the radius, so that wider
+    // discs do with fewer cells. From kHalved levels on they do with half as many, and no fewer.
+    static constexpr int kHalved = 5;
+    static constexpr float kOctavesPerLevel = 1 - 1.0f / kHalved;
     // Place of a radius on the scale of levels: 0 up to largest_cells, n where level n ends.
     float position(float coc_px) const;
     float end_of_level(int level) const;  // the radius in pixels whose position is `level`

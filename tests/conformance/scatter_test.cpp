@@ -145,6 +145,13 @@ TEST(Scatter, TheSameBitsForAnyThreadCount) {
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 
+TEST(Scatter, AConstantPictureStaysConstantHoweverWideTheDiscs) {
+    for (const float coc : {30.0f, -300.0f, 1000.0f}) {
+        const Shot shot = flat(48, 32, {0.2f, 0.2f, 0.2f, 1}, coc);
+        EXPECT_LT(largest_difference(rendered(shot.job("scatter")), shot.colour), 1e-3) << coc;
+    }
+}
+
 TEST(Scatter, TheSameBitsWithKernelsKeptFromThePictureBefore) {
     Shot first = flat(90, 70, {}, 6), second = flat(90, 70, {}, -11);
     paint_noise(first.colour, 5), paint_noise(second.colour, 6);
