@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <numbers>
 #include <string>
 #include <sys/resource.h>
 #include <vector>
@@ -94,18 +93,6 @@ float largest(const Plane& radii) {
     return most;
 }
 
-// Colour values that the spread has to add, if levels keep radii at or below eight of their texels
-// (docs/design/scatter.md): what the arithmetic ceiling is held against.
-double spread_taps(const Plane& radii) {
-    double taps = 0;
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-        const double r = std::abs(double(radii.pixels()[i]));
-        const double shrink = std::exp2(std::max(0.0, std::ceil(std::log2(std::max(r, 1.0) / 8))));
-        taps += std::max(1.0, std::numbers::pi * (r / shrink + 0.5) * (r / shrink + 0.5)) / (shrink * shrink);
-    }
-    return taps;
-}
-
 double cpu_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -138,15 +125,17 @@ struct Measured {
         for (std::size_t i = 0; i < std::min(stages.size(), report.stages.size()); ++i)
             stages[i].seconds = std::min(stages[i].seconds, report.stages[i].seconds);
     }
-    void print(double f_number, double taps) const {
+    void print(double f_number) const {
         std::printf("{\"width\": %d, \"height\": %d, \"radius_px\": %.2f, \"f_number\": %.5f, ", width,
                     height, radius_px, f_number);
         std::printf("\"wall_s\": %.4f, \"cpu_s\": %.4f, \"kernels_s\": %.4f, ", wall_s, cpu_s,
                     std::max(0.0, first_wall_s - wall_s));
-        std::printf("\"peak_mib\": %.0f, \"taps\": %.0f, \"stages\": {", peak_memory_mib(), taps);
+        std::printf("\"peak_mib\": %.0f, \"stages\": {", peak_memory_mib());
         const char* separator = "";
         for (const StageTime& stage : stages) {
-            std::printf("%s\"%s\": %.4f", separator, stage.stage.c_str(), stage.seconds);
+            std::printf("%s\"%s\": {\"seconds\": %.4f, \"bytes\": %llu, \"multiply_adds\": %llu}", separator,
+                        stage.stage.c_str(), stage.seconds, static_cast<unsigned long long>(stage.bytes),
+                        static_cast<unsigned long long>(stage.multiply_adds));
             separator = ", ";
         }
         std::printf("}}\n");
@@ -176,8 +165,6 @@ int main(int count, char** words) {
     const Result<Plane> at_f1 = circle_of_confusion(job);
     if (!at_f1) fail(at_f1.error().message);
     job.camera.f_number = largest(*at_f1) / options.radius_px;  // radii go with 1/f-number
-    double taps = 0;
-    if (const Result<Plane> radii = circle_of_confusion(job)) taps = spread_taps(*radii);
 
     KernelMemory kernels;
     job.kernel_memory = &kernels;
@@ -196,5 +183,5 @@ int main(int count, char** words) {
         }
         measured.add(*report, wall_s, cpu_seconds() - cpu_start);
     }
-    measured.print(job.camera.f_number, taps);
+    measured.print(job.camera.f_number);
 }

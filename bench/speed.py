@@ -6,7 +6,7 @@ Tables, in Markdown, on stdout:
   pixels    the same content from 0.23 to 33 Mpx, largest radius 32 px
   threads   one thread against two
   command   a whole `petzval defocus` at 1080p, ZIP half EXR in and out
-  ceilings  memory bandwidth and multiply-adds of this machine, and how near the spread comes to them
+  ceilings  memory bandwidth and multiply-adds of this machine, and how near each stage comes to them
 
 Usage: ./dev bench speed [--tables A,B] [--scenes A,B] [--widths W,W] [--radii R,R] [--lenses A,B] [--limit S]
 On a machine that others use, wall seconds say how busy they are: CPU / threads is what an idle one would need at
@@ -14,6 +14,7 @@ least. A run that needs more than --limit CPU seconds is stopped and listed as s
 build/bench; they have few samples per pixel, since only time is measured.
 """
 import argparse
+import itertools
 import json
 import os
 import pathlib
@@ -53,7 +54,7 @@ def measure(path, given, **flags):
     found = json.loads(result.stdout)
     if "cancelled_after_cpu_s" in found:
         return None
-    kernels = found["stages"].pop("kernels")
+    kernels = found["stages"].pop("kernels")["seconds"]
     share = (found["wall_s"] - kernels) / found["wall_s"] if found["wall_s"] else 0
     return {**found, "kernels_s": found["kernels_s"] + kernels, "wall_s": found["wall_s"] - kernels, "cpu_s": found["cpu_s"] * share}
 
@@ -89,7 +90,7 @@ def main_table(given):
     names = list(dict.fromkeys(name for *_, run in stages for name in run["stages"]))
     print("\n### Wall seconds of each stage\n")
     print_table(["picture", "engine, lens", "radius px", *names],
-                [[*row, *[seconds(run["stages"].get(name, 0)) for name in names]] for *row, run in stages])
+                [[*row, *[seconds(run["stages"][name]["seconds"]) if name in run["stages"] else "" for name in names]] for *row, run in stages])
 
 
 def pixels_table(given):
@@ -144,22 +145,25 @@ def ceilings_table(given):
                                       check=True).stdout)
     simd = found.pop("simd")
     print(f"\n### What the machine can do ({simd}; by each thread's CPU time)\n")
-    print_table(["threads", "", "read GB/s", "copy GB/s", "10^9 multiply-adds / s"],
+    print_table(["threads", "", "read GB/s", "copy GB/s", "stamp GB/s, in cache", "10^9 multiply-adds / s"],
                 [[n, "", *[f"{v:.1f}" for v in of.values()]] for n, of in found.items()])
-    most = found[str(THREADS)] if str(THREADS) in found else found["1"]
     body = []
-    for scene in given.scenes:
-        run = measure(picture(scene, given.widths[0]), given, radius=32)
+    for scene, threads in itertools.product(given.scenes, found):
+        most = found[threads]
+        run = measure(picture(scene, given.widths[0]), given, radius=32, threads=threads, lens=DOUBLET)
         for stage, took in (run["stages"].items() if run else ()):
-            bytes_once = run["width"] * run["height"] * 36
-            adds = 4 * run["taps"] if stage == "spread" else 0
-            body.append([scene, stage, seconds(took), f"{100 * bytes_once / took / 1e9 / most['copy_gb_per_s']:.0f} %",
-                         f"{100 * adds / took / 1e9 / most['giga_fma_per_s']:.0f} %" if adds else ""])
-    print(f"\n### How far from that: {given.widths[0]} px wide, ideal lens, largest radius 32 px, wall seconds\n")
-    print_table(["picture", "stage", "seconds", "of copy bandwidth", "of multiply-adds"], body)
-    print("\n`of copy bandwidth`: as if the stage touched 36 bytes of each pixel once (colour and radius in, colour out)."
-          "\n`of multiply-adds`: four per pixel a kernel covers, radii held at 12 texels by levels; both are counted"
-          "\nfrom outside, not by the engine.")
+            per_s = lambda count: 1e-9 * took[count] / took["seconds"]
+            of_stamp = bool(took["multiply_adds"])
+            adds = [f"{per_s('multiply_adds'):.1f}", f"{100 * per_s('multiply_adds') / most['giga_fma_per_s']:.0f} %"]
+            body.append([scene, threads, stage, seconds(took["seconds"]), f"{1e-9 * took['bytes']:.2f}",
+                         f"{per_s('bytes'):.1f}",
+                         f"{100 * per_s('bytes') / most['stamp_gb_per_s' if of_stamp else 'copy_gb_per_s']:.0f} %",
+                         *(adds if of_stamp else ["", ""])])
+    print(f"\n### How far from that: {given.widths[0]} px wide, {DOUBLET}, largest radius 32 px, wall seconds\n")
+    print_table(["picture", "threads", "stage", "seconds", "GB", "GB/s", "of ceiling", "10^9 multiply-adds / s",
+                 "of ceiling"], body)
+    print("\nBytes and multiply-adds as the engine counts them (docs/command-line.md, the report). Bytes of stages that"
+          "\nstamp are held against stamping within the first cache, those of others against copying in memory.")
 
 
 TABLES = {"main": main_table, "pixels": pixels_table, "threads": threads_table, "command": command_table,

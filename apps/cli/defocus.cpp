@@ -198,7 +198,11 @@ Status Run::render(DefocusJob job) {
     double kernels = 0;
     for (const StageTime& stage : done->stages) {
         if (stage.stage == "kernels") kernels += stage.seconds;
-        report_["stages"].push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+        const auto counted = [](std::uint64_t n) { return n > 0 ? Json(n) : Json(nullptr); };
+        report_["stages"].push_back({{"stage", stage.stage},
+                                     {"seconds", stage.seconds},
+                                     {"bytes", counted(stage.bytes)},
+                                     {"multiply_adds", counted(stage.multiply_adds)}});
         detail(stage.stage + ": " + plain(stage.seconds, 3) + " s");
     }
     warn(done->warnings);

@@ -82,6 +82,8 @@ struct DefocusJob {
 struct StageTime {
     std::string stage;
     double seconds = 0;
+    // Bytes touched and multiply-adds, as the stage counted them (docs/command-line.md); 0: it did not.
+    std::uint64_t bytes = 0, multiply_adds = 0;
 };
 
 // One of several pictures in one.

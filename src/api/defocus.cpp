@@ -349,7 +349,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     report.device = "cpu";
     report.lens = memory.lenses.front()->description();
     report.kernels_from_cache = memory.store ? memory.store->kernels_found() : 0;
-    report.stages = {{"kernels", lens_ready}, {"prepare", prepared - lens_ready}};
+    report.stages = {{"kernels", lens_ready},
+                     {"prepare", prepared - lens_ready, coc_px.size() * (sizeof(Rgba) + 2 * sizeof(float))}};
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
     report.warnings = std::move(point_warnings);
     report.warnings.insert(report.warnings.end(), output->warnings.begin(), output->warnings.end());

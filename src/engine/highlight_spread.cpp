@@ -211,12 +211,12 @@ struct Sent {
     int first_tap = 0;
 };
 
-// out: rows of the picture from first_row on; only those of `rows` are written.
-void add(const Sent& sent, const Highlight& h, CocSamplesView holdout, const Rect& rows, int first_row,
+// out: rows of the picture from first_row on; only those of `rows` are written. Returns what it took.
+Work add(const Sent& sent, const Highlight& h, CocSamplesView holdout, const Rect& rows, int first_row,
          View<Rgba> out) {
     const Rect e = sent.kernel->extent;
     const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
-    if (place.empty()) return;
+    if (place.empty()) return {};
     const Rgba light = h.colour * float(h.size * h.size);
     std::vector<float> shares(std::size_t(place.width()), 1.0f);
     for (int y = place.y0; y < place.y1; ++y) {
@@ -229,6 +229,7 @@ void add(const Sent& sent, const Highlight& h, CocSamplesView holdout, const Rec
         const Rgba* const weights = sent.kernel->weights.row(y - h.y - e.y0) + (place.x0 - h.x - e.x0);
         add_shares({weights, shares.size()}, light, shares, out.row(y - first_row) + place.x0);
     }
+    return Work::of_taps(shares.size() * std::size_t(place.height()));
 }
 
 // The views of all highlights; those that nobody shares are the highlight's own.
@@ -268,10 +269,11 @@ private:
 
 }  // namespace
 
-void spread_highlights(const Input& input, const HighlightKernels& kernels, const CocSamples& samples,
+Work spread_highlights(const Input& input, const HighlightKernels& kernels, const CocSamples& samples,
                        const std::vector<Highlight>& highlights, float white, const Rect& rows,
                        View<Rgba> out) {
-    if (highlights.empty()) return;
+    if (highlights.empty()) return {};
+    WorkCount work;
     const Spreader spreader(input, kernels, samples, white);
     const Views views(highlights, input.quality);
     const float largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
@@ -303,12 +305,15 @@ void spread_highlights(const Input& input, const HighlightKernels& kernels, cons
         parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
             const int y = rows.y0 + band * kBand;
             const Rect here = Rect{0, y, out.width(), y + kBand}.intersected(rows);
+            Work of_band;
             for (std::size_t i = begin; i < end; ++i)
                 if (sent[i - begin].kernel)
-                    add(sent[i - begin], highlights[i], input.holdout, here, rows.y0, out);
+                    of_band += add(sent[i - begin], highlights[i], input.holdout, here, rows.y0, out);
+            work.add(of_band);
         });
         begin = end;
     }
+    return work.sum();
 }
 
 }  // namespace petzval::engine

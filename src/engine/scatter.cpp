@@ -9,6 +9,7 @@
 #include "engine/scatter_views.h"
 #include "engine/sources.h"
 #include "engine/tile_spread.h"
+#include "engine/work.h"
 
 #include <algorithm>
 #include <chrono>
@@ -38,22 +39,40 @@ LevelRule level_rule(Quality quality) {
 class Stopwatch {
 public:
     explicit Stopwatch(std::vector<StageTime>& stages) : stages_(stages) {}
-    void lap(const char* stage) {
+    void lap(const char* stage, Work work) {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();
         last_ = now;
         for (StageTime& known : stages_)
             if (known.stage == stage) {
-                known.seconds += seconds;
+                known.seconds += seconds, known.bytes += work.bytes;
+                known.multiply_adds += work.multiply_adds;
                 return;
             }
-        stages_.push_back({stage, seconds});
+        stages_.push_back({stage, seconds, work.bytes, work.multiply_adds});
     }
 
 private:
     std::vector<StageTime>& stages_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+// Sizes of what stages are given and leave behind.
+template <typename T>
+std::size_t bytes_of(View<T> pixels) {
+    return std::size_t(pixels.width()) * std::size_t(pixels.height()) * sizeof(T);
+}
+
+std::size_t bytes_of(const CocSamples& samples) {
+    return samples.first.size() * sizeof(std::size_t) + samples.samples.size() * sizeof(CocSample);
+}
+
+std::size_t bytes_of(const std::vector<SourceLevel>& levels) {
+    std::size_t sources = 0;
+    for (const SourceLevel& level : levels)
+        for (const std::vector<Source>& row : level.rows) sources += row.size();
+    return sources * sizeof(Source);
+}
 
 // Frames are done in strips of rows, each with as many rows around it as can influence it, so that memory is
 // bounded; strips begin on whole tiles and whole cells of every level, so that they change no bit.
@@ -118,27 +137,29 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
     const Input input = frame.rows(first, last);
     const Image<unsigned char> connected = depth::connections(input.coc_px, input.threads);
     CocSamples samples = completed(input, connected);
-    watch.lap("complete");
+    watch.lap("complete", {bytes_of(input.colour) + bytes_of(input.coc_px) + bytes_of(samples)});
     const std::vector<Highlight> highlights =
         take_highlights(samples, split, first, kLargestSquare, input.threads);
     if (input.deep_dims_itself) share_lens_area(samples, input.threads);
-    watch.lap("split");
+    watch.lap("split", {2 * bytes_of(samples) + highlights.size() * sizeof(Highlight)});
     const std::vector<SourceLevel> levels =
         make_sources(samples, input.coc_px, connected, input.open_edges, rule, kernels.table, input.threads);
-    watch.lap("sources");
+    watch.lap("sources", {bytes_of(samples) + bytes_of(input.coc_px) + connected.bytes() + bytes_of(levels)});
 
     const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;
     const Rect here{0, rows.y0 - first, rows.width(), rows.y1 - first};  // in the rows of `input`
+    WorkCount spread;
     parallel_for(tiles_x * tiles_y, input.threads, [&](int i) {
         if (input.progress->cancelled()) return;
         const int x = i % tiles_x * kTile, y = here.y0 + i / tiles_x * kTile;
-        spread_tile(levels, kernels.table, input.holdout, Rect{x, y, x + kTile, y + kTile}.intersected(here),
-                    first, rule.surfaces_for_cells, out);
+        spread.add(spread_tile(levels, kernels.table, input.holdout,
+                               Rect{x, y, x + kTile, y + kTile}.intersected(here), first,
+                               rule.surfaces_for_cells, out));
         input.progress->advance(0.9 * share / (tiles_x * tiles_y));
     });
-    watch.lap("spread");
-    spread_highlights(input, kernels.highlights, samples, highlights, split.white(), here, out.part(rows));
-    watch.lap("highlights");
+    watch.lap("spread", spread.sum());
+    watch.lap("highlights", spread_highlights(input, kernels.highlights, samples, highlights, split.white(),
+                                              here, out.part(rows)));
     input.progress->advance(0.1 * share);
 }
 
@@ -165,7 +186,7 @@ Result<Output> run_scatter(const Input& input) {
     const Result<StripPlan> plan = plan_strips(input, rule, kernels.table);
     if (!plan) return plan.error();
     const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
-    watch.lap("split");
+    watch.lap("split", {bytes_of(input.colour) + bytes_of(input.coc_px)});
     output.image = Picture::uninitialised(input.width(), input.height());
     for (int y = 0; y < input.height() && !input.progress->cancelled(); y += plan->rows) {
         const Rect rows = Rect{0, y, input.width(), y + plan->rows}.intersected(output.image.rect());

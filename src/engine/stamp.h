@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 
 namespace petzval::engine {
 
@@ -57,12 +58,16 @@ public:
     // Rows that may hold light.
     Rows touched() const { return touched_; }
     void touch(Rows rows) { touched_ = touched_.with(rows); }
+    // Pixels of kernels added since this was last asked for.
+    void count_taps(std::size_t taps) { taps_ += taps; }
+    std::size_t take_taps() { return std::exchange(taps_, 0); }
     Rgba* row(int y) { return pixels_.row(y - area_.y0) + kSpill; }
     const Rgba* row(int y) const { return pixels_.row(y - area_.y0) + kSpill; }
 
 private:
     Rect area_;
     Rows touched_;
+    std::size_t taps_ = 0;
     Picture pixels_;
 };
 

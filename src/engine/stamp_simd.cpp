@@ -41,14 +41,17 @@ struct Overlap {
     }
     // visit(row, first group, weights from there, sums, floats) for every row with weights.
     template <typename Visit>
-    HWY_INLINE void for_rows(const Visit& visit) const {
+    HWY_INLINE void for_rows(const Visit& visit, int passes = 1) const {
+        std::size_t groups = 0;
         for (int y = y0; y < y1; ++y) {
             const int k = y - top;
             const int g0 = std::max(kernel.first_group(k), least), g1 = std::min(kernel.last_group(k), most);
             if (g0 >= g1) continue;
             visit(y, g0, kernel.row(k) + std::ptrdiff_t(g0) * kGroupFloats,
                   &into.row(y)[left - into.area().x0 + g0 * StampKernel::kGroup].r, (g1 - g0) * kGroupFloats);
+            groups += std::size_t(g1 - g0);
         }
+        into.count_taps(groups * StampKernel::kGroup / std::size_t(passes));
     }
     const StampKernel& kernel;
     Accumulator& into;
@@ -59,7 +62,8 @@ struct Overlap {
 void StampPlain(const StampKernel& kernel, int x, int y, const Rgba& light, Accumulator& into) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
-    for (int part = 0; part < std::max(1, 4 / lanes); ++part) {
+    const int passes = std::max(1, 4 / lanes);
+    for (int part = 0; part < passes; ++part) {
         const auto own = Repeated(d, light, part);
         const int step = std::max(4, lanes);
         Overlap(kernel, x, y, into)
@@ -68,7 +72,8 @@ void StampPlain(const StampKernel& kernel, int x, int y, const Rgba& light, Accu
                     for (int i = part; i < n; i += step)
                         hn::StoreU(hn::MulAdd(hn::Load(d, weights + i), own, hn::LoadU(d, sums + i)), d,
                                    sums + i);
-                });
+                },
+                passes);
     }
 }
 

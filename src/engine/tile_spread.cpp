@@ -40,6 +40,7 @@ struct Workspace {
     std::vector<Accumulators> coarse;  // per level
     std::array<Budget, StampTable::kCells> budgets;
     std::vector<Rgba> added;
+    Work work;
 };
 
 Rect cells_of(const Rect& tile, int level) {
@@ -88,13 +89,26 @@ void stamp_off_middle(std::span<const StampKernel> kernels, const Source& s, int
     add(to_x, to_y, share_x * share_y);
 }
 
+// Of add_enlarged. Columns between cells first, of all rows of cells that give light, then rows: each value
+// from four, the last added to a sum.
+Work work_of_enlarging(const Accumulator& coarse, int level, const Rect& fine) {
+    const Rows touched = coarse.touched();
+    if (touched.empty()) return {};
+    const int cell_rows = std::min(coarse.area().height(), touched.end - touched.begin + 8);
+    const int rows = std::min(fine.height(), (touched.end - touched.begin + 4) << level);
+    const std::size_t columns = std::size_t(fine.width());
+    return {columns * (5 * std::size_t(cell_rows) + 6 * std::size_t(rows)) * sizeof(Rgba),
+            columns * std::size_t(cell_rows + rows) * 16};
+}
+
 // Stamps arrivals, all of one layer, into `fine`: one accumulator, or one for each cell of the pupil.
 // `coarse` is scratch. first_row: the row of the picture that is row 0.
-void accumulate_layer(std::span<const Arrival> arrivals, const StampTable& table, int first_row,
+Work accumulate_layer(std::span<const Arrival> arrivals, const StampTable& table, int first_row,
                       const Rect& tile, std::span<Accumulator> fine,
                       std::vector<Workspace::Accumulators>& coarse) {
     for (Accumulator& a : fine) a.reset(tile);
     const bool whole_pupil = fine.size() == 1;
+    Work work{arrivals.size() * sizeof(Source), 0};
     for (std::size_t i = 0; i < arrivals.size();) {
         const int level = arrivals[i].level;
         const std::span<Accumulator> target =
@@ -115,9 +129,14 @@ void accumulate_layer(std::span<const Arrival> arrivals, const StampTable& table
                                      target);
             }
         }
-        if (level > 0)
-            for (std::size_t c = 0; c < fine.size(); ++c) add_enlarged(target[c], level, fine[c]);
+        for (std::size_t c = 0; c < fine.size(); ++c) {
+            work += Work::of_taps(target[c].take_taps());
+            if (level == 0) continue;
+            add_enlarged(target[c], level, fine[c]);
+            work += work_of_enlarging(target[c], level, tile);
+        }
     }
+    return work;
 }
 
 // A layer that is partly empty takes its lens area as one: light and emptiness in proportion.
@@ -219,8 +238,8 @@ private:
         return end;
     }
     void accumulate(std::size_t begin, std::size_t end, int pupil_cells, Workspace::Accumulators& into) {
-        accumulate_layer(std::span(w_.arrivals).subspan(begin, end - begin), table_, first_row_, tile_,
-                         std::span(into).first(std::size_t(pupil_cells)), w_.coarse);
+        w_.work += accumulate_layer(std::span(w_.arrivals).subspan(begin, end - begin), table_, first_row_,
+                                    tile_, std::span(into).first(std::size_t(pupil_cells)), w_.coarse);
     }
     // From what arrived through one cell of the pupil.
     void take(Budget& budget, std::size_t pupil_cell, bool partly_empty, const Interval& radii) {
@@ -236,6 +255,9 @@ private:
             else
                 take_budget(light.row(tile_.y0 + y), sum, budget.free.row(y), tile_.width());
             if (held()) add_held(holdout_, radii, tile_, y, w_.added, budget);
+            // Light is read and, for the next layer, zeroed; the sum and what is free are updated.
+            w_.work += {std::size_t(tile_.width()) * (4 * sizeof(Rgba) + 2 * sizeof(float)),
+                        std::size_t(tile_.width()) * 4};
         }
     }
 
@@ -248,10 +270,12 @@ private:
 
 }  // namespace
 
-void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, CocSamplesView holdout,
+Work spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, CocSamplesView holdout,
                  const Rect& tile, int first_row, int surfaces_for_cells, View<Rgba> out) {
     thread_local Workspace w;
     find_arrivals(levels, table, tile, w.arrivals);
+    w.work = {w.arrivals.size() * (sizeof(Source) + 2 * sizeof(Arrival)),
+              0};  // found; written, read in order
     w.coarse.resize(levels.size());
     const int pupil_cells = count_surfaces(w.arrivals) >= surfaces_for_cells ? StampTable::kCells : 1;
     Compositor compositor(table, holdout, tile, first_row, pupil_cells, w);
@@ -269,6 +293,9 @@ void spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
             }
             out(tile.x0 + x, first_row + tile.y0 + y) = taken > 0 ? light * (1 / taken) : Rgba{};
         }
+    const std::size_t pixels = std::size_t(tile.width()) * std::size_t(tile.height());
+    w.work += {pixels * (sizeof(Rgba) + std::size_t(pupil_cells) * (sizeof(Rgba) + sizeof(float))), 0};
+    return w.work;
 }
 
 }  // namespace petzval::engine

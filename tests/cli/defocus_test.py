@@ -183,7 +183,13 @@ class Defocus(CommandLineTest):
     def test_report_goes_to_a_file_whole(self):
         self.assertEqual(self.succeed("defocus", "in.exr", "-o", "out.exr", "--json", "r.json").out, "")
         with open(self.path("r.json")) as file:
-            self.assertEqual(json.load(file)["output"], "out.exr")
+            report = json.load(file)
+        self.assertEqual(report["output"], "out.exr")
+        for stage in report["stages"]:
+            self.assertEqual(set(stage), {"stage", "seconds", "bytes", "multiply_adds"})
+        spread = next(stage for stage in report["stages"] if stage["stage"] == "spread")
+        self.assertGreater(spread["bytes"], spread["multiply_adds"])
+        self.assertIsNone(report["stages"][0]["bytes"], "kernels are not counted")
         self.assertEqual(sorted(os.listdir(self.folder)), ["in.exr", "out.exr", "r.json"])
 
     def test_what_was_detected_is_said_on_standard_error(self):

@@ -152,6 +152,38 @@ TEST(Scatter, AConstantPictureStaysConstantHoweverWideTheDiscs) {
     }
 }
 
+StageTime stage_of(const DefocusJob& job, const std::string& name) {
+    const Result<DefocusReport> report = defocus(job);
+    if (report)
+        for (const StageTime& stage : report->stages)
+            if (stage.stage == name) return stage;
+    ADD_FAILURE() << "no stage " << name;
+    return {};
+}
+
+TEST(Scatter, StagesCountWhatTheyTouch) {
+    const Shot shot = flat(256, 128, {0.2f, 0.2f, 0.2f, 1}, 4),
+               wide = flat(512, 128, {0.2f, 0.2f, 0.2f, 1}, 4);
+    const auto count = [](const Shot& of, const char* name) { return stage_of(of.job("scatter"), name); };
+    for (const char* name : {"prepare", "split", "complete", "sources"}) {
+        EXPECT_GE(count(shot, name).bytes, 256u * 128 * (sizeof(Rgba) + sizeof(float))) << name;
+        EXPECT_NEAR(double(count(wide, name).bytes) / double(count(shot, name).bytes), 2, 0.1) << name;
+    }
+    // A disc of radius 4 covers 50 pixels whole and in all at most 81, in rows padded to groups of 4.
+    const double taps = double(count(shot, "spread").multiply_adds) / 4 / (256 * 128);
+    EXPECT_GT(taps, 50);
+    EXPECT_LT(taps, 81 * 1.5 + 2);
+    EXPECT_GE(count(shot, "spread").bytes, 12 * count(shot, "spread").multiply_adds);
+    DefocusJob one = shot.job("scatter"), two = shot.job("scatter");
+    one.threads = 1, two.threads = 2;
+    EXPECT_EQ(stage_of(one, "spread").bytes, stage_of(two, "spread").bytes);
+    // One lamp: a disc of radius 9 in the highlights' own stage.
+    Shot lamp = flat(64, 64, {0, 0, 0, 1}, 9);
+    lamp.colour(32, 32) = {100, 100, 100, 1};
+    EXPECT_GE(count(lamp, "highlights").multiply_adds, 4u * 254);
+    EXPECT_LE(count(lamp, "highlights").multiply_adds, 4u * 21 * 21);
+}
+
 TEST(Scatter, TheSameBitsWithKernelsKeptFromThePictureBefore) {
     Shot first = flat(90, 70, {}, 6), second = flat(90, 70, {}, -11);
     paint_noise(first.colour, 5), paint_noise(second.colour, 6);
