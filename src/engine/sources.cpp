@@ -176,11 +176,14 @@ public:
           width_(width),
           margins_(margins),
           open_(open),
-          cells_(levels.size()) {
+          cells_(levels.size()),
+          of_row_(levels.size()) {
         // As many cells as the coarsest level spans: those beyond the picture give to larger ones.
         const int coarsest = int(levels.size()) - 1;
         for (int l = 1; l <= coarsest; ++l)
             cells_[std::size_t(l)].resize(std::size_t(cells_across(coarsest)) << (coarsest - l));
+        for (int l = kWideLevel; l <= coarsest; ++l)
+            of_row_[std::size_t(l)].resize(cells_[std::size_t(l)].size());
     }
     // What column x of the row under way gives to a level; columns beyond the picture only fill its last
     // cells.
@@ -193,7 +196,10 @@ public:
     // Ends row y of pixels, and the rows of cells that end there.
     void finish_row(int y) {
         store(0, y, fine_);
-        for (int l = 1; l < int(levels_.size()) && (y + 1) % (1 << l) == 0; ++l) {
+        for (int l = 1; l < int(levels_.size()); ++l) {
+            for (std::size_t x = 0; x < of_row_[std::size_t(l)].size(); ++x)
+                of_row_[std::size_t(l)][x].take([&](const Gathered& g) { cells_[std::size_t(l)][x].add(g); });
+            if ((y + 1) % (1 << l) != 0) continue;
             row_.clear();
             for (int x = 0; x < int(cells_[std::size_t(l)].size()); ++x) {
                 cells_[std::size_t(l)][std::size_t(x)].take([&](const Gathered& g) {
@@ -212,7 +218,8 @@ private:
     // What lies in (a cell that begins at) pixel (x, y).
     void add_to_cell(int level, int x, int y, const Gathered& g) {
         const int within = (1 << level) - 1;
-        cells_[std::size_t(level)][std::size_t(x >> level)].add(g.from(x & within, y & within));
+        auto& cells = level < kWideLevel ? cells_ : of_row_;
+        cells[std::size_t(level)][std::size_t(x >> level)].add(g.from(x & within, y & within));
     }
     void send_skirt(const Source& source, int level, int x, int y, Gathered g) {
         if (g.skirt_of > 0) return;
@@ -232,7 +239,11 @@ private:
     std::span<const int> margins_;
     const OpenEdges& open_;
     std::vector<Source> fine_, row_;        // of the row of pixels under way; of a row of cells
-    std::vector<std::vector<Cell>> cells_;  // per coarse level, of the row under way
+    std::vector<std::vector<Cell>> cells_;  // per coarse level, of the row of cells under way
+    // Of wide cells, what the row of pixels under way gives: one sum of millions in single precision would
+    // lose some of them.
+    static constexpr int kWideLevel = 6;
+    std::vector<std::vector<Cell>> of_row_;
 };
 
 }  // namespace
