@@ -1,15 +1,15 @@
 """Programs that people use today, on the same pictures: dB, SSIM and seconds beside ours.
 
-GEGL's lens blur (Debian: gegl) runs as a program of its own, where it is installed; what is missing is left out, and
-said so. It gets a map of the absolute radii. Scenes, truth and measures are those of `./dev bench quality`. Blender's
-Defocus node is not here yet; its radius is 27.8 times too large for a 36 mm sensor and metres, see
-../shared/research/peers.md.
+GEGL's lens blur (Debian: gegl) and the Defocus node of Blender's compositor (Debian: blender) run as programs of their
+own, where they are installed; what is missing is left out, and said so. GEGL gets a map of the absolute radii, Blender
+the depth and the camera. Scenes, truth and measures are those of `./dev bench quality`.
 
 Wall and CPU seconds are those of the whole process, start, reading and writing included, ours too.
 
 Usage: ./dev bench peers [--scenes A,B] [--width N]          scenes: built-in names, or shared/fence
 """
 import argparse
+import json
 import os
 import pathlib
 import shutil
@@ -17,7 +17,7 @@ import subprocess
 import sys
 import time
 
-from quality import CACHE, PROGRAM, SHARED, BUILT_IN, machine, print_table, score
+from quality import CACHE, PROGRAM, ROOT, SHARED, BUILT_IN, machine, petzval, print_table, score
 from baselines import radii_of, scenes_of
 
 OUT = CACHE / "peers_out.exr"
@@ -38,16 +38,38 @@ def ours(scene):
                                              "-q")
 
 
-def gegl(scene):
-    """The map of absolute radii as GEGL wants it, 0…1 times the largest, made by petzval_bench_radius_map."""
-    radius_map = CACHE / "peers_radius.exr"
+def radius_map(scene):
+    """A file of the absolute radii, 0…1 times the largest, and that one, px; made by petzval_bench_radius_map."""
+    file = CACHE / "peers_radius.exr"
     maker = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_radius_map"
-    largest = subprocess.check_output([maker, scene.sharp, radii_of(scene), radius_map], text=True).strip()
+    return file, float(subprocess.check_output([maker, scene.sharp, radii_of(scene), file], text=True))
+
+
+def gegl(scene):
+    file, largest = radius_map(scene)
     yield "GEGL lens-blur", timed("gegl", scene.sharp, "-o", OUT, "--", "gegl:lens-blur", f"radius={largest}",
-                                  "linear-mask=true", "aux=[", "gegl:load", f"path={radius_map}", "]")
+                                  "linear-mask=true", "aux=[", "gegl:load", f"path={file}", "]")
 
 
-PEERS = {"gegl": gegl}
+def blender(scene):
+    """The node's discs are 1000 / sensor_width_mm times too large for its f-stop; asked for that many times the
+    f-number, a point at 200 mm, f/4 (36 mm sensor) and f/2.8 (24 mm) got discs of 7.29 and 15.68 px radius where
+    7.41 and 15.87 were due (Blender 3.4.1). The f-stop ends at 128."""
+    report = json.loads(petzval("inspect", scene.sharp, *scene.camera, "--json", "-"))
+    camera = report["camera"]
+    f_stop = camera["f_number"] * 1000 / camera["sensor_width_mm"]
+    if f_stop > 128:
+        print(f"Blender: f/{camera['f_number']:g} is beyond what its Defocus node can express: left out", file=sys.stderr)
+        return
+    job = {"sharp": str(scene.sharp), "out": str(OUT), "f_stop": f_stop, "largest_px": radius_map(scene)[1],
+           "width": report["data_window"]["width"], "height": report["data_window"]["height"],
+           "threads": len(os.sched_getaffinity(0)),
+           **{name: camera[name] for name in ("focal_length_mm", "sensor_width_mm", "focus_distance_m")}}
+    yield "Blender Defocus node", timed("blender", "--background", "--factory-startup", "--python-exit-code", 1,
+                                        "--python", ROOT / "bench/_peers_blender.py", "--", json.dumps(job))
+
+
+PEERS = {"gegl": gegl, "blender": blender}
 
 
 def main():

@@ -166,7 +166,7 @@ TEST(Scatter, StagesCountWhatTheyTouch) {
                wide = flat(512, 128, {0.2f, 0.2f, 0.2f, 1}, 4);
     const auto count = [](const Shot& of, const char* name) { return stage_of(of.job("scatter"), name); };
     for (const char* name : {"prepare", "split", "complete", "sources"}) {
-        EXPECT_GE(count(shot, name).bytes, 256u * 128 * (sizeof(Rgba) + sizeof(float))) << name;
+        EXPECT_GE(count(shot, name).bytes, (sizeof(Rgba) + sizeof(float)) * 256 * 128) << name;
         EXPECT_NEAR(double(count(wide, name).bytes) / double(count(shot, name).bytes), 2, 0.1) << name;
     }
     // A disc of radius 4 covers 50 pixels whole and in all at most 81, in rows padded to groups of 4.
