@@ -5,9 +5,10 @@ Two tables, in Markdown, on stdout, from one run:
             through the lens; CPU seconds are those of the whole command, files and all, the least of --repeat runs;
             scenes as in `./dev bench quality`
   speed     1920 x 1080, largest radius 32 px: wall seconds and CPU seconds / threads, each the best of --repeat
-and build/bench/engines.png: the --frame scene through each, with the truth last.
+and build/bench/engines.png: the --frame scene through each, with the truth last. --docs: as docs/pictures/engines.png;
+that alone, anew: `./dev bench engines --tables quality --scenes night --repeat 1 --docs`.
 
-Usage: ./dev bench engines [--scenes A,B] [--width N] [--samples N] [--frame SCENE] [--repeat N] [--tables A,B]
+Usage: ./dev bench engines [--scenes A,B] [--width N] [--samples N] [--frame SCENE] [--repeat N] [--tables A,B] [--docs]
 Scenes and their truth (of --samples lens samples per pixel) are made once and kept in build/bench.
 """
 import argparse
@@ -18,8 +19,8 @@ import sys
 from quality import CACHE, ROOT, SHARED, Scene, machine, path_traced, petzval, print_table, scene_state, score
 from speed import THREADS, measure, picture, seconds
 
-sys.path.insert(0, str(ROOT / "tests/cli"))
-from pictures import read_png, write_png  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools"))
+from sample_set import read_png, side_by_side, write_png  # noqa: E402
 
 WAYS = [("scatter final", ["--quality", "final"]), ("scatter", []), ("scatter draft", ["--quality", "draft"]),
         ("gather", ["--engine", "gather"]), ("gather draft", ["--engine", "gather", "--quality", "draft"]),
@@ -54,7 +55,7 @@ def took(scene, flags, out, repeat):
 
 
 def shown(light, out):
-    petzval("develop", light, "-o", out, "-q")
+    petzval("develop", light, "-o", out, "--no-dither", "--overwrite", "-q")
     return out
 
 
@@ -77,20 +78,14 @@ def quality_column(scene, given, panels):
         panels.append(shown(scene.truth, CACHE / "engines_truth.png"))
 
 
-def sheet(panels, columns=2, gap=4):
-    """Pictures of one size side by side, row by row."""
-    rows, pictures = [], [read_png(p)[0] for p in panels]
-    width = len(pictures[0][0])
+def sheet(panels, out, columns=2, step=4):
+    """Pictures of one size side by side, row by row, with few codes."""
+    pictures, rows = [read_png(p) for p in panels], []
     for first in range(0, len(pictures), columns):
-        beside = pictures[first:first + columns] + [None] * (first + columns - len(pictures))
-        for y in range(len(pictures[0])):
-            row = []
-            for k, one in enumerate(beside[:columns]):
-                row += ([0] * (3 * gap) if k else []) + (list(one[y]) if one else [0] * width)
-            rows.append(row)
-        rows += [[0] * len(rows[0])] * gap
-    write_png(CACHE / "engines.png", rows[:-gap], channels=3)
-    print(f"{CACHE / 'engines.png'}: {', '.join(p.stem[8:] for p in panels)}", file=sys.stderr)
+        beside = side_by_side(pictures[first:first + columns], step)
+        rows += ([bytes(len(beside[0]))] * 2 if rows else []) + beside
+    write_png(out, rows)
+    print(f"{out}: {', '.join(p.stem[8:] for p in panels)}", file=sys.stderr)
 
 
 def speed_rows(given):
@@ -111,6 +106,7 @@ def main():
     parser.add_argument("--frame", default="night")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--tables", default="quality,speed")
+    parser.add_argument("--docs", action="store_true", help="put the sheet of pictures into docs/pictures")
     given = parser.parse_args()
     given.limit = 60
     CACHE.mkdir(parents=True, exist_ok=True)
@@ -125,7 +121,7 @@ def main():
         print_table(head, list(zip(["sharp picture", *[label for label, _ in WAYS]], *columns)))
         print(f"\nBuilt-in scenes {given.width} px wide, truth of {given.samples} lens samples.\n")
         if panels:
-            sheet(panels)
+            sheet(panels, ROOT / "docs/pictures/engines.png" if given.docs else CACHE / "engines.png")
     if "speed" in given.tables:
         print_table(["engine", "quality", "table s", "night s", "fence s", "peak MiB"], list(speed_rows(given)))
         print("\n1920 x 1080, radius 32 px; in brackets CPU seconds / threads.")
