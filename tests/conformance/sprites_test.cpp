@@ -241,6 +241,25 @@ TEST(Sprites, ManyLightsAddUp) {
     EXPECT_NEAR(landed(rendered(lights.job())).sum, total, 1e-3 * total);
 }
 
+// As many as a particle system throws: their light arrives whole, and evenly where they lie evenly.
+TEST(Sprites, TenMillionLightsAddUp) {
+    constexpr int kSize = 200, kRim = 20, kAcross = 1000, kRadii = 10;
+    constexpr float kApart = float(kSize - 2 * kRim) / kAcross;
+    Lights lights(kSize, kSize, 20);
+    lights.points.reserve(kRadii * kAcross * kAcross);
+    for (int i = 0; i < kRadii; ++i)
+        for (int y = 0; y < kAcross; ++y)
+            for (int x = 0; x < kAcross; ++x)
+                lights.add(kRim + (float(x) + 0.5f) * kApart, kRim + (float(y) + 0.5f) * kApart,
+                           float(2 * i) - 9, 1);
+    const Picture image = rendered(lights.job());
+    constexpr double kAll = double(kRadii) * kAcross * kAcross;
+    EXPECT_NEAR(landed(image).sum, kAll, 1e-3 * kAll);
+    constexpr double kPerPixel = kRadii / double(kApart) / double(kApart);
+    for (int y = 60; y < 140; ++y)
+        for (int x = 60; x < 140; ++x) ASSERT_NEAR(double(image(x, y).g), kPerPixel, 0.01 * kPerPixel);
+}
+
 TEST(Sprites, WithoutLightsItIsTheBackground) {
     Shot shot = flat(90, 70, {}, 8);
     paint_noise(shot.colour, 2);
