@@ -153,8 +153,7 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
         if (input.progress->cancelled()) return;
         const int x = i % tiles_x * kTile, y = here.y0 + i / tiles_x * kTile;
         spread.add(spread_tile(levels, kernels.table, input.holdout,
-                               Rect{x, y, x + kTile, y + kTile}.intersected(here), first,
-                               rule.surfaces_for_cells, out));
+                               Rect{x, y, x + kTile, y + kTile}.intersected(here), first, rule, out));
         input.progress->advance(0.9 * share / (tiles_x * tiles_y));
     });
     watch.lap("spread", spread.sum());
@@ -168,7 +167,8 @@ void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRu
 Result<Output> run_scatter(const Input& input) {
     Output output;
     Stopwatch watch(output.stages);
-    const LevelRule rule = level_rule(input.quality);
+    LevelRule rule = level_rule(input.quality);
+    if (!input.deep.empty()) rule.narrow_layer = 0;
     switch (input.scatter.view) {
         case ScatterView::Result:
             break;

@@ -63,7 +63,10 @@ struct SourceLevel {
 struct LevelRule {
     float largest_cells = 8;     // no source covers more than this radius, in cells of its level…
     int surfaces_for_cells = 3;  // see engine/tile_spread.h
-    float fade = 0.15f;          // …but for the fade: across this share of a level it is spread on two
+    // Layers up to this one, on either side of focus, count as so narrow that they come alike through all of
+    // the pupil. Where what lies behind them is known, it would show through where wider ones begin.
+    int narrow_layer = kNextLayer;
+    float fade = 0.15f;  // …but for the fade: across this share of a level it is spread on two
     // The first levels follow each other this closely: what levels cost falls with the radius, so that wider
     // discs do with fewer cells. From kHalved levels on they do with half as many, and no fewer.
     static constexpr int kHalved = 5;

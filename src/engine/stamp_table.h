@@ -19,8 +19,9 @@
 
 namespace petzval::engine {
 
-// Radii are stepped by 1/16 cell. Lenses that vary over the field have one set of kernels for each of 9 x 6
-// parts of the picture. Safe to use from many threads: which thread makes a kernel does not change it.
+// Radii are stepped by 1/16 cell, narrow ones more finely. Lenses that vary over the field have one set of
+// kernels for each of 9 x 6 parts of the picture. Safe to use from many threads: which thread makes a kernel
+// does not change it.
 class StampTable {
 public:
     // Of a picture of this size; places are in its pixels.

@@ -193,12 +193,13 @@ int count_surfaces(const std::vector<Arrival>& arrivals) {
 class Compositor {
 public:
     Compositor(const StampTable& table, CocSamplesView holdout, const Rect& tile, int first_row,
-               int pupil_cells, Workspace& w)
+               int pupil_cells, int narrow_layer, Workspace& w)
         : table_(table),
           holdout_(holdout),
           tile_(tile),
           first_row_(first_row),
           pupil_cells_(pupil_cells),
+          narrow_layer_(narrow_layer),
           w_(w) {
         for (int c = 0; c < pupil_cells; ++c) w.budgets[std::size_t(c)].start(tile, held());
         w.added.resize(std::size_t(tile.width()));
@@ -212,8 +213,7 @@ public:
             (middle < w_.arrivals.size() && w_.arrivals[middle].layer == layer + kEmptinessAfter))
             end = end_of_layer(middle);
         const Interval radii = held() ? radii_of(w_.arrivals, begin, middle) : Interval{};
-        // What is as narrow as a pixel comes alike through all cells.
-        const int apart = std::abs(layer) <= kNextLayer ? 1 : pupil_cells_;
+        const int apart = std::abs(layer) <= narrow_layer_ ? 1 : pupil_cells_;
         accumulate(begin, middle, apart, w_.light);
         if (end > middle) accumulate(middle, end, apart, w_.emptiness);
         for (int c = 0; c < pupil_cells_; ++c)
@@ -264,21 +264,21 @@ private:
     const StampTable& table_;
     CocSamplesView holdout_;
     Rect tile_;
-    int first_row_, pupil_cells_;
+    int first_row_, pupil_cells_, narrow_layer_;
     Workspace& w_;
 };
 
 }  // namespace
 
 Work spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, CocSamplesView holdout,
-                 const Rect& tile, int first_row, int surfaces_for_cells, View<Rgba> out) {
+                 const Rect& tile, int first_row, const LevelRule& rule, View<Rgba> out) {
     thread_local Workspace w;
     find_arrivals(levels, table, tile, w.arrivals);
-    w.work = {w.arrivals.size() * (sizeof(Source) + 2 * sizeof(Arrival)),
-              0};  // found; written, read in order
+    // Found; written, and read in order.
+    w.work = {w.arrivals.size() * (sizeof(Source) + 2 * sizeof(Arrival)), 0};
     w.coarse.resize(levels.size());
-    const int pupil_cells = count_surfaces(w.arrivals) >= surfaces_for_cells ? StampTable::kCells : 1;
-    Compositor compositor(table, holdout, tile, first_row, pupil_cells, w);
+    const int pupil_cells = count_surfaces(w.arrivals) >= rule.surfaces_for_cells ? StampTable::kCells : 1;
+    Compositor compositor(table, holdout, tile, first_row, pupil_cells, rule.narrow_layer, w);
     for (std::size_t begin = 0; begin < w.arrivals.size() && !compositor.is_spent();)
         begin = compositor.add_layer(begin);
     // Discrete sources leave a little of the lens free; it goes to those that did arrive.

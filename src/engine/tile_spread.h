@@ -12,8 +12,9 @@ namespace petzval::engine {
 // picture. Where there is a holdout, what a layer adds to a pixel is dimmed by what lies in front of it
 // there; the lens area that it takes from farther layers stays.
 // One budget for the whole lens does not know which part of it each of three surfaces takes: where at least
-// `surfaces_for_cells` reach a tile, parts of the pupil are composited each on its own. Returns what it took.
+// rule.surfaces_for_cells reach a tile, parts of the pupil are composited each on its own. Returns what it
+// took.
 Work spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table, CocSamplesView holdout,
-                 const Rect& tile, int first_row, int surfaces_for_cells, View<Rgba> out);
+                 const Rect& tile, int first_row, const LevelRule& rule, View<Rgba> out);
 
 }  // namespace petzval::engine

@@ -121,6 +121,24 @@ TEST(Scatter, ACornerOfThreeSurfacesMatchesTheReferenceWhenWhatIsHiddenIsKnown) 
     EXPECT_GE(psnr_against_reference(shot, 24, Quality::Final), 50);
 }
 
+// Every row of a slope has another radius; where the light of the rows does not add up, what is behind shows.
+TEST(Scatter, ASlopeThroughFocusHidesWhatIsKnownToBeBehindIt) {
+    for (const float per_row : {0.068f, -0.031f}) {
+        Shot shot = flat(48, 130, {0.5f, 0.5f, 0.5f, 1}, 0);
+        for (int y = 0; y < 130; ++y)
+            for (int x = 0; x < 48; ++x) shot.coc_px(x, y) = per_row * (float(y) - 64.3f);
+        put_behind(
+            shot,
+            [](int, int) {
+                return Rgba{0, 0, 0, 1};
+            },
+            [](int, int) { return 40.0f; });
+        const Picture image = rendered(shot.job("scatter"));
+        for (int y = 0; y < 130; ++y)
+            EXPECT_NEAR(image(24, y).g, 0.5, 0.02) << "row " << y << ", radius " << shot.coc_px(24, y);
+    }
+}
+
 TEST(Scatter, ALampBehindATwigShowsTheTwigsShadowInsideItsDisc) {
     Shot shot = flat(101, 101, {0, 0, 0, 1}, 30);
     shot.colour(50, 50) = {1000, 1000, 1000, 1};
