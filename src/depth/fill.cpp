@@ -12,8 +12,12 @@ constexpr int kDirections = 16;      // even: opposite directions are paired
 constexpr float kBehindPx = 1.0f;    // farther by less than this in radius is not worth filling
 constexpr float kPastEdgePx = 2.0f;  // how far beyond the reach of the blur to look
 constexpr float kLikeEnough =
-    0.1f;  // squared relative difference below which two patches are as good as the same
-constexpr float kOneSided = 10;  // what a surface met on one side counts, against two unlike patches
+    0.1f;                       // squared relative difference below which two patches are as good as the same
+constexpr float kPlain = 0.1f;  // squared relative contrast below which a patch shows no edge
+constexpr float kUsualContrast = 20;  // of votes; brighter ones are lamps
+constexpr float kOneSided = 10;       // what a surface met on one side counts, against two unlike patches
+
+float square(Rgba c) { return c.r * c.r + c.g * c.g + c.b * c.b; }
 
 // The end of a search: a pixel of the surface that was met.
 constexpr int kHits = 2;      // per direction
@@ -45,6 +49,37 @@ struct Path {
     std::vector<std::size_t> at_distance;  // the first step at least so many pixels away
 };
 
+// Weighted opinions on what is hidden.
+class Votes {
+public:
+    void add(Rgba colour, float coc_px, float weight) {
+        const float light = std::max(0.0f, luminance(colour));
+        votes_[std::size_t(count_++)] = {colour, coc_px, weight, light};
+        roots_ += weight * std::sqrt(light), weight_ += weight;
+    }
+    // Their mean; but a lamp that few see does not shine all over a surface.
+    Hidden result() const {
+        const float usual = kUsualContrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
+        Rgba sum;
+        float coc = 0, total = 0;
+        for (const Vote& vote : std::span(votes_).first(std::size_t(count_))) {
+            const float excess = vote.light / usual;
+            const float weight = vote.weight / (1 + excess * excess);
+            sum += weight * vote.colour, coc += weight * vote.coc_px, total += weight;
+        }
+        return {sum * (1 / total), coc / total, 1};
+    }
+
+private:
+    struct Vote {
+        Rgba colour;
+        float coc_px, weight, light;
+    };
+    std::array<Vote, kDirections> votes_;
+    int count_ = 0;
+    float roots_ = 0, weight_ = 0;
+};
+
 class Filler {
 public:
     Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
@@ -57,8 +92,7 @@ public:
           largest_(largest) {
         clean_ = Plane::uninitialised(coc.width(), coc.height());
         parallel_for(coc.height(), threads, [&](int y) {
-            for (int x = 0; x < coc.width(); ++x)
-                clean_(x, y) = mixtures.index(x, y) < 0 ? coc(x, y) : -1e30f;
+            for (int x = 0; x < coc.width(); ++x) clean_(x, y) = known_radius(x, y);
         });
         measure_distances(threads);
         lay_paths();
@@ -70,7 +104,8 @@ public:
     }
     // Appends what lies behind (x, y), if any surface nearby does.
     void fill(int x, int y, std::vector<Hidden>& hidden) const {
-        const float own = coc_(x, y);
+        const Mixture* m = mixtures_.at(x, y);
+        const float own = m ? m->near_coc_px : coc_(x, y);
         Hits hits;
         bool any = false;
         const Slope slope = slope_at(coc_, connected_, x, y);
@@ -82,6 +117,16 @@ public:
     }
 
 private:
+    // What is known of the surface that a pixel shows: nothing of the nearer one at a silhouette.
+    float known_radius(int x, int y) const {
+        const Mixture* m = mixtures_.at(x, y);
+        return !m ? coc_(x, y) : m->shows_far ? m->far_coc_px : -1e30f;
+    }
+    Rgba known_colour(int x, int y) const {
+        const Mixture* m = mixtures_.at(x, y);
+        return m ? m->far_colour : colour_(x, y);
+    }
+
     // Per block of pixels: distance to each silhouette of a surface in the block, less the blur of what lies
     // behind it, the smallest. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
     // digital images", 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own
@@ -120,14 +165,14 @@ private:
                 relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
     }
 
-    // Where the steps of each direction land: every pixel at first, every sixteenth of the way further out.
+    // Where the steps of each direction land: every pixel at first, every eighth of the way further out.
     void lay_paths() {
         const float longest = largest_ + std::abs(farthest_) + kPastEdgePx;
         for (int k = 0; k < kDirections; ++k) {
-            const double angle = 2 * M_PI * (k + 0.5) / kDirections;
+            const double angle = 2 * M_PI * k / kDirections;
             Path& path = paths_[std::size_t(k)];
             path.direction = {float(std::cos(angle)), float(std::sin(angle))};
-            for (float t = 1; t <= longest; t += t < 16 ? 1.0f : t / 16) {
+            for (float t = 1; t <= longest; t += std::max(1.0f, t / 8)) {
                 const int dx = int(std::lround(t * path.direction.x)),
                           dy = int(std::lround(t * path.direction.y));
                 path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * clean_.width() + dx});
@@ -146,7 +191,7 @@ private:
         std::array<Found, kHits> hits;
         int n = 0;
         float behind = own + kBehindPx;
-        for (std::size_t i = 0; i < path.steps.size() && n < kHits;) {
+        for (std::size_t i = 0; i < path.steps.size() && n < kHits && behind < farthest_;) {
             const Step& step = path.steps[i];
             if (step.t > longest) break;
             const int u = x + step.x, v = y + step.y;
@@ -183,26 +228,28 @@ private:
         for (int k = 0; k < kPatch; ++k) {
             const Direction o = offsets[std::size_t(k)];
             const int u = x + int(std::lround(o.x)), v = y + int(std::lround(o.y));
-            const bool usable = coc_.rect().contains(u, v) && mixtures_.index(u, v) < 0 &&
-                                std::abs(coc_(u, v) - hit.coc_px) < 1;
-            patch[std::size_t(k)] = usable ? colour_(u, v) : colour_(x, y);
+            const bool usable = coc_.rect().contains(u, v) && std::abs(clean_(u, v) - hit.coc_px) < 1;
+            patch[std::size_t(k)] = comparable(usable ? known_colour(u, v) : known_colour(x, y));
         }
         return patch;
     }
 
-    // High where two patches could be two pieces of one surface.
+    // High where two patches could be two pieces of one surface, and higher where an edge runs from one to
+    // the other: plain patches look alike everywhere.
     float likeness(const Found& a, Direction to_a, const Found& b, Direction to_b) const {
         const Patch at_a = patch_at(a, to_a), at_b = patch_at(b, to_b);
-        float difference = 0, level = 0;
+        float difference = 0, level = 0.003f;
         for (std::size_t k = 0; k < kPatch; ++k) {
-            const Rgba d = at_a[k] - at_b[k];
-            const Rgba m = 0.5f * (at_a[k] + at_b[k]);
-            difference += d.r * d.r + d.g * d.g + d.b * d.b;
-            level += m.r * m.r + m.g * m.g + m.b * m.b;
+            difference += square(at_a[k] - at_b[k]);
+            level += square(0.5f * (at_a[k] + at_b[k]));
         }
         const float depth = a.coc_px - b.coc_px;
-        const float unlike = difference / (level + 0.003f) + 0.02f * depth * depth;
-        return 1 / (kLikeEnough + unlike * unlike);
+        const float unlike = difference / level + 0.02f * depth * depth;
+        const auto across = [](const Patch& p) { return square(p[0] - p[1]) + square(p[0] - p[2]); };
+        const auto along = [](const Patch& p) { return square(p[0] - p[3]) + square(p[0] - p[4]); };
+        const float plain = kPlain * level;
+        const float edge = (plain + across(at_a) + across(at_b)) / (plain + along(at_a) + along(at_b));
+        return edge / (kLikeEnough + unlike * unlike);
     }
 
     static bool one_surface(float coc_a, float coc_b) {
@@ -239,17 +286,13 @@ private:
 
     // What the hits at `coc_px` agree on; they are used up. share: their weight, the sum of 1/distance.
     Hidden surface(Hits& hits, float coc_px, float& share) const {
-        Rgba sum;
-        float coc = 0, weight_sum = 0;
-        const auto vote = [&](Rgba colour, float c, float weight) {
-            sum += weight * colour, coc += weight * c, weight_sum += weight;
-        };
+        Votes votes;
         const auto take = [&](std::size_t k) -> Found* {
             for (Found& f : hits[k])
                 if (f.found && one_surface(f.coc_px, coc_px)) return &f;
             return nullptr;
         };
-        const auto colour_of = [&](const Found& f) { return colour_(f.x, f.y); };
+        const auto colour_of = [&](const Found& f) { return known_colour(f.x, f.y); };
         constexpr std::size_t kPairs = kDirections / 2;
         for (std::size_t k = 0; k < kPairs; ++k) {
             Found *a = take(k), *b = take(k + kPairs);
@@ -260,16 +303,16 @@ private:
                 const float total = a->distance_px + b->distance_px;
                 const float wa = b->distance_px / total, wb = a->distance_px / total;
                 const float alike = likeness(*a, paths_[k].direction, *b, paths_[k + kPairs].direction);
-                vote(wa * colour_of(*a) + wb * colour_of(*b), wa * a->coc_px + wb * b->coc_px,
-                     (1 / a->distance_px + 1 / b->distance_px) * alike);
+                votes.add(wa * colour_of(*a) + wb * colour_of(*b), wa * a->coc_px + wb * b->coc_px,
+                          (1 / a->distance_px + 1 / b->distance_px) * alike);
             } else if (a || b) {
                 const Found& one = a ? *a : *b;
-                vote(colour_of(one), one.coc_px, kOneSided / (one.distance_px * one.distance_px));
+                votes.add(colour_of(one), one.coc_px, kOneSided / (one.distance_px * one.distance_px));
             }
             if (a) a->found = false;
             if (b) b->found = false;
         }
-        return {sum * (1 / weight_sum), coc / weight_sum, 1};
+        return votes.result();
     }
 
     View<const Rgba> colour_;
@@ -344,7 +387,8 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
             answers.clear();
             for (int y = square.y0; y < square.y1; ++y)
                 for (int x = square.x0; x < square.x1; ++x) {
-                    if (mixtures.index(x, y) >= 0 || !filler.may_hide(x, y)) continue;
+                    const Mixture* m = mixtures.at(x, y);
+                    if (m ? m->shows_far : !filler.may_hide(x, y)) continue;
                     if (const Range* known = answers.find(x, y, coc(x, y))) {
                         ranges(x, y) = *known;
                         continue;

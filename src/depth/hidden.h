@@ -6,19 +6,32 @@
 
 #include "depth/connectivity.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace petzval::depth {
 
+// Light as it is compared: so that squares of it stay finite.
+inline Rgba comparable(Rgba c) {
+    constexpr float kMost = 1e8f;
+    return {std::clamp(c.r, -kMost, kMost), std::clamp(c.g, -kMost, kMost), std::clamp(c.b, -kMost, kMost),
+            c.a};
+}
+
 // A pixel of a silhouette taken apart. The renderer filtered its colour over the pixel and beyond, but its
 // depth is that of one point:  colour = near_colour + (1 - near_share) far_colour.
 struct Mixture {
-    float near_share = 0;  // 0…1: coverage of the nearer surface
-    Rgba near_colour;      // premultiplied by near_share
-    Rgba far_colour;       // of the farther surface, as if it filled the pixel
+    bool shows_far = false;  // that point lies on the farther surface
+    float near_share = 0;    // 0…1: coverage of the nearer surface
+    Rgba near_colour;        // premultiplied by near_share
+    Rgba far_colour;         // of the farther surface, as if it filled the pixel
     float near_coc_px = 0, far_coc_px = 0;
+    // What is known of the nearer surface beforehand: its colour where it fills pixels, the variance of that
+    // (mean of the channels), and the share that the shape of the silhouette tells.
+    Rgba near_clean;
+    float near_variance = 0, share_by_shape = 0;
 };
 
 // Sparse per-pixel values: `index` of each pixel into `values`, or -1.
@@ -32,9 +45,11 @@ struct Sparse {
     }
 };
 
-// Takes apart every pixel that touches a silhouette (also diagonally). The clean colours of both surfaces
-// come from their nearest pixels that touch no silhouette; of a thin thing that has none, from the pixel
-// least like the far side.
+// Finds every pixel that touches a silhouette (also diagonally), and takes apart those that show the farther
+// surface: the clean colours of both come from their nearest pixels that touch no silhouette (of a thin thing
+// that has none, from its pixels least like the far side); the share is the one expected of all that explain
+// the pixel, and what it leaves unexplained is the farther surface's detail. Of those that show the nearer
+// surface hardly anything of the farther one is to be seen: it is filled in first, then unmix_nearer().
 Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc_px,
                                   View<const unsigned char> connected, int threads);
 
@@ -58,6 +73,10 @@ struct HiddenLayers {
         return {samples.data() + ranges(x, y).begin, ranges(x, y).count};
     }
 };
+
+// Takes apart the pixels of silhouettes that show the nearer surface, before what is hidden behind them.
+void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
+                  int threads);
 
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
 // behind it. Only from surfaces farther than the one that hides. Along opposite directions that agree,

@@ -28,12 +28,34 @@ float distance2(Rgba a, Rgba b) {
 }
 float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b + a.a * b.a; }
 
+// A colour that is known to within a variance, the mean of its channels'.
+struct Guess {
+    Rgba colour;
+    float variance = 0;
+};
+
+// Weighted mean and variance of colours.
+class Pool {
+public:
+    void add(Rgba light, float weight) {
+        const Rgba c = comparable(light);
+        sum_ += weight * c, squares_ += weight * (c.r * c.r + c.g * c.g + c.b * c.b), weight_ += weight;
+    }
+    bool empty() const { return weight_ <= 0; }
+    Guess guess() const {
+        const Rgba m = sum_ * (1 / weight_);
+        const float spread = squares_ / weight_ - (m.r * m.r + m.g * m.g + m.b * m.b);
+        return {m, std::max(0.0f, spread) / 3};
+    }
+
+private:
+    Rgba sum_;
+    float squares_ = 0, weight_ = 0;
+};
+
 // What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
 struct Sides {
-    Rgba near_clean, far_clean;  // weighted sums over clean pixels
-    float near_weight = 0, far_weight = 0;
-    Rgba near_any, far_any;  // the same over all pixels of that side
-    float near_any_weight = 0, far_any_weight = 0;
+    Pool near_clean, far_clean, far_mixed;
     float near_coc = 0, far_coc = 0;  // of the closest pixel of that side
     float near_closest = 1e9f, far_closest = 1e9f;
     float near_share_by_shape = 0;  // share of the 3 x 3 tent that shows the nearer surface
@@ -58,12 +80,10 @@ Sides look_around(View<const Rgba> colour, View<const float> coc, View<const uns
                 if (near) s.near_share_by_shape += tent;
             }
             if (near) {
-                s.near_any += weight * colour(u, v), s.near_any_weight += weight;
-                if (!touching(u, v)) s.near_clean += weight * colour(u, v), s.near_weight += weight;
+                if (!touching(u, v)) s.near_clean.add(colour(u, v), weight);
                 if (d2 < s.near_closest) s.near_closest = d2, s.near_coc = coc(u, v);
             } else {
-                s.far_any += weight * colour(u, v), s.far_any_weight += weight;
-                if (!touching(u, v)) s.far_clean += weight * colour(u, v), s.far_weight += weight;
+                (touching(u, v) ? s.far_mixed : s.far_clean).add(colour(u, v), weight);
                 if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
             }
         }
@@ -71,16 +91,53 @@ Sides look_around(View<const Rgba> colour, View<const float> coc, View<const uns
     return s;
 }
 
-// The colour of a thin thing that has no clean pixel: of its pixels nearby, the one least like the far side.
-Rgba least_like(Rgba far_colour, View<const Rgba> colour, View<const float> coc, int x, int y,
-                float threshold) {
-    Rgba best = colour(x, y);
-    float largest = -1;
+// The colour of a thin thing that has no clean pixel: its pixels nearby count as they differ from the far
+// side.
+Guess least_like(Rgba far_colour, View<const Rgba> colour, View<const float> coc, int x, int y,
+                 float threshold) {
+    Pool pool;
     for (int v = std::max(0, y - 2); v <= std::min(coc.height() - 1, y + 2); ++v)
         for (int u = std::max(0, x - 2); u <= std::min(coc.width() - 1, x + 2); ++u)
-            if (coc(u, v) <= threshold && distance2(colour(u, v), far_colour) > largest)
-                largest = distance2(colour(u, v), far_colour), best = colour(u, v);
-    return best;
+            if (coc(u, v) <= threshold)
+                pool.add(colour(u, v), distance2(comparable(colour(u, v)), far_colour) + 1e-9f);
+    return pool.guess();
+}
+
+constexpr float kShapeError = 0.08f;    // of the share that the shape tells
+constexpr float kModelError2 = 0.001f;  // squared, relative: of taking a pixel for a mixture of two colours
+
+Rgba light_only(Rgba c) {
+    return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b), std::clamp(c.a, 0.0f, 1.0f)};
+}
+
+// How a pixel's colour came about.
+struct Explained {
+    float near_share = 0;
+    Rgba far_colour;
+};
+
+// What to expect of all shares that explain the pixel's colour c, each as likely as it makes c and as it
+// agrees with the shape. What the two colours leave unexplained belongs to the surface that is known less.
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) {
+    constexpr std::size_t kShares = 11;
+    const float least = 1e-6f + kModelError2 * dot(c, c);
+    std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
+    for (std::size_t i = 0; i < kShares; ++i) {
+        const float s = float(i) / (kShares - 1), off = (s - by_shape) / kShapeError;
+        variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
+        unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
+    }
+    const float best = *std::min_element(unlikely.begin(), unlikely.end());
+    float share = 0, total = 0;
+    Rgba step;
+    for (std::size_t i = 0; i < kShares; ++i) {
+        const float s = float(i) / (kShares - 1);
+        const float weight = std::exp(-0.5f * (unlikely[i] - best)) / (variance[i] * std::sqrt(variance[i]));
+        share += weight * s, total += weight;
+        const float gain = weight * (1 - s) * far.variance / variance[i];
+        step += gain * (c - s * near.colour - (1 - s) * far.colour);
+    }
+    return {share / total, light_only(far.colour + (1 / total) * step)};
 }
 
 Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
@@ -91,31 +148,48 @@ Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const u
             low = std::min(low, coc(u, v)), high = std::max(high, coc(u, v));
     const float threshold = 0.5f * (low + high);
     const Sides s = look_around(colour, coc, touching, x, y, threshold);
+    const Guess far = (s.far_clean.empty() ? s.far_mixed : s.far_clean).guess();
+    const Guess near =
+        s.near_clean.empty() ? least_like(far.colour, colour, coc, x, y, threshold) : s.near_clean.guess();
     Mixture m;
+    m.shows_far = coc(x, y) > threshold;
     m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
+    m.far_colour = far.colour;
+    m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
+    if (!m.shows_far) return m;
     const Rgba c = colour(x, y);
-    m.far_colour = s.far_weight > 0 ? s.far_clean * (1 / s.far_weight) : s.far_any * (1 / s.far_any_weight);
-    const Rgba near = s.near_weight > 0 ? s.near_clean * (1 / s.near_weight)
-                                        : least_like(m.far_colour, colour, coc, x, y, threshold);
-    // Where the two colours differ, the pixel's own colour tells its share; where they do not, its shape
-    // must.
-    const Rgba axis = near - m.far_colour;
-    const float length2 = dot(axis, axis);
-    const float by_colour = length2 > 0 ? std::clamp(dot(c - m.far_colour, axis) / length2, 0.0f, 1.0f) : 0;
-    const float trust = length2 / (length2 + 1e-3f * (1e-3f + dot(c, c)));
-    m.near_share = trust * by_colour + (1 - trust) * s.near_share_by_shape;
-    // The nearer part is what is left, so that near + far is the pixel again; what would be negative goes to
-    // the far side's account.
+    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape);
+    m.near_share = e.near_share, m.far_colour = e.far_colour;
     const float far_share = 1 - m.near_share;
-    Rgba rest = c - far_share * m.far_colour;
-    rest = {std::max(0.0f, rest.r), std::max(0.0f, rest.g), std::max(0.0f, rest.b),
-            std::clamp(rest.a, 0.0f, 1.0f)};
+    m.near_colour = light_only(c - far_share * m.far_colour);
+    // What is left of a dark pixel is all that either may have.
     if (far_share > 0.05f) {
-        const Rgba far = (c - rest) * (1 / far_share);
-        m.far_colour = {std::max(0.0f, far.r), std::max(0.0f, far.g), std::max(0.0f, far.b), m.far_colour.a};
+        const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
+        m.far_colour = {left.r, left.g, left.b, far.colour.a};
     }
-    m.near_colour = rest;
     return m;
+}
+
+// Takes the nearer surface's part of a pixel of colour c, given what lies behind it.
+void put_in_front(Mixture& m, Rgba c, Rgba behind) {
+    float share =
+        expected(comparable(c), {m.near_clean, m.near_variance}, {comparable(behind), 0}, m.share_by_shape)
+            .near_share;
+    // No more light can come from behind than there is.
+    const auto at_most = [&](float own, float from_behind) {
+        if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;
+    };
+    at_most(c.r, behind.r), at_most(c.g, behind.g), at_most(c.b, behind.b);
+    m.near_share = share;
+    m.near_colour = light_only(c - (1 - share) * behind);
+}
+
+// What shows of hidden samples where nothing is in front of them.
+Rgba composited(std::span<const Hidden> hidden) {
+    Rgba sum;
+    float open = 1;
+    for (const Hidden& h : hidden) sum += open * h.colour, open *= 1 - h.share;
+    return sum;
 }
 
 }  // namespace
@@ -144,6 +218,19 @@ Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc
                                rows[std::size_t(y)].end());
     }
     return mixtures;
+}
+
+void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
+                  int threads) {
+    parallel_for(colour.height(), threads, [&](int y) {
+        for (int x = 0; x < colour.width(); ++x) {
+            if (mixtures.index(x, y) < 0) continue;
+            Mixture& m = mixtures.values[std::size_t(mixtures.index(x, y))];
+            if (m.shows_far) continue;
+            if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
+            put_in_front(m, colour(x, y), m.far_colour);
+        }
+    });
 }
 
 }  // namespace petzval::depth

@@ -69,16 +69,20 @@ CocSamples deep_completed(const Input& input) {
 
 CocSamples completed(const Input& input, View<const unsigned char> connected) {
     if (!input.deep.empty()) return deep_completed(input);
-    const auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
+    auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
     const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures,
                                            input.nearest_coc_px, input.farthest_coc_px, input.threads);
+
+    depth::unmix_nearer(mixtures, input.colour, hidden, input.threads);
 
     // Counted first, then written, so that rows can be done in parallel.
     const int width = input.width(), height = input.height();
     const auto samples_at = [&](int x, int y, const auto& emit) {
         if (const depth::Mixture* m = mixtures.at(x, y)) {
             if (m->near_share > kLeastShare) emit(sample(m->near_colour, m->near_coc_px, m->near_share));
-            emit(sample(m->far_colour, m->far_coc_px, 1));
+            const auto behind = hidden.at(x, y);
+            for (const depth::Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
+            if (behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
         } else {
             emit(sample(input.colour(x, y), input.coc_px(x, y), 1));
             for (const depth::Hidden& h : hidden.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
