@@ -4,6 +4,7 @@
 #include "api/deep_samples.h"
 #include "api/distort.h"
 #include "api/light_points.h"
+#include "api/out_of_sight.h"
 #include "base/parallel.h"
 #include "engine/engine.h"
 #include "kernel/kernel_store.h"
@@ -297,7 +298,9 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     engine::Input input;
     input.colour = colour;
     input.coc_px = coc_px;
-    const engine::CocSamples samples = all_samples(job, colour, *radii);
+    engine::CocSamples samples = all_samples(job, colour, *radii);
+    if (job.scatter.view != ScatterView::Layers)  // shows them all
+        drop_out_of_sight(samples, memory.lenses.front()->reach_px(1), job.threads);
     if (!samples.first.empty()) input.deep = samples;
     input.deep_dims_itself = job.deep && !job.deep->empty();
     const auto note_radius = [&](float radius_px) {

@@ -78,6 +78,22 @@ TEST(Layers, BeyondTheFourthAreSaidNotToBeShown) {
     EXPECT_NE(report.warnings[0].find("up to 6"), std::string::npos);
 }
 
+TEST(Highlights, AreNotTakenWhereNoRayMeetsThem) {
+    // Lamps all over behind a wall that fills the frame, which would each be drawn with their shadow.
+    Shot shot = flat(64, 64, {0.1f, 0.1f, 0.1f, 1}, 2);
+    put_behind(
+        shot,
+        [](int, int) {
+            return Rgba{50, 50, 50, 1};
+        },
+        [](int, int) { return 7.0f; });
+    const Picture taken = panel(view_of(shot, ScatterView::Highlights), 1);
+    EXPECT_EQ(taken(32, 32), Rgba{});
+    const Picture image = rendered(shot.job("scatter"));
+    for (int y = 10; y < 54; ++y)
+        for (int x = 10; x < 54; ++x) EXPECT_NEAR(image(x, y).g, 0.1, 1e-3) << x << ", " << y;
+}
+
 TEST(Highlights, HoldTheLightTakenFromThePicture) {
     for (const float coc : {0.0f, -9.0f, 20.0f}) {
         Shot shot = flat(160, 120, {0.2f, 0.2f, 0.2f, 1}, coc);
