@@ -6,9 +6,10 @@
 // of pixel (x, y) is at (x + 0.5, y + 0.5).
 #pragma once
 
+#include "petzval/export.h"
+
 #include <cstddef>
 #include <memory>
-#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -83,6 +84,10 @@ private:
     std::ptrdiff_t row_stride_ = 0;
 };
 
+// Memory for pixels, aligned to 64 bytes, to be given back to free_pixels. Throws std::bad_alloc.
+PETZVAL_API void* allocate_pixels(std::size_t bytes);
+PETZVAL_API void free_pixels(void* pixels) noexcept;
+
 // An owned 2-D array of trivially copyable T. Rows are contiguous and follow each other without padding;
 // the first pixel is aligned to 64 bytes. Copies are explicit: clone().
 template <typename T>
@@ -132,12 +137,11 @@ public:
 
 private:
     struct Uninitialised {};
-    static constexpr std::align_val_t kAlignment{64};
     struct Free {
-        void operator()(T* p) const { ::operator delete[](p, kAlignment); }
+        void operator()(T* p) const { free_pixels(p); }
     };
     Image(int width, int height, Uninitialised) : width_(width), height_(height) {
-        if (size() > 0) pixels_.reset(static_cast<T*>(::operator new[](size() * sizeof(T), kAlignment)));
+        if (size() > 0) pixels_.reset(static_cast<T*>(allocate_pixels(size() * sizeof(T))));
     }
     void swap(Image& o) noexcept {
         std::swap(pixels_, o.pixels_);

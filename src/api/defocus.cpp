@@ -128,7 +128,7 @@ constexpr float kNoRoomPx = 0.2f;
 
 // Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each keeps the
 // room that those less than kNoRoomPx in front of it leave.
-void hide_what_is_covered(std::vector<engine::CocSample>& samples, std::size_t first) {
+void hide_what_is_covered(BigVector<engine::CocSample>& samples, std::size_t first) {
     for (std::size_t k = samples.size(); k-- > first + 1;) {
         engine::CocSample& s = samples[k];
         float room = 1;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace petzval::engine {
 namespace {
@@ -88,24 +90,25 @@ CocSamples completed(const Input& input, View<const unsigned char> connected) {
             for (const depth::Hidden& h : hidden.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
         }
     };
+    std::vector<std::size_t> first_of_row(std::size_t(height) + 1, 0);
+    parallel_for(height, input.threads, [&](int y) {
+        std::size_t n = 0;
+        for (int x = 0; x < width; ++x) samples_at(x, y, [&](const CocSample&) { ++n; });
+        first_of_row[std::size_t(y) + 1] = n;
+    });
+    std::partial_sum(first_of_row.begin(), first_of_row.end(), first_of_row.begin());
     CocSamples all;
     all.width = width;
-    all.first.assign(std::size_t(width) * std::size_t(height) + 1, 0);
+    all.first.resize(std::size_t(width) * std::size_t(height) + 1);
+    all.samples.resize(first_of_row.back());
     parallel_for(height, input.threads, [&](int y) {
+        std::size_t at = first_of_row[std::size_t(y)];
         for (int x = 0; x < width; ++x) {
-            std::size_t n = 0;
-            samples_at(x, y, [&](const CocSample&) { ++n; });
-            all.first[std::size_t(y) * std::size_t(width) + std::size_t(x) + 1] = n;
-        }
-    });
-    for (std::size_t i = 1; i < all.first.size(); ++i) all.first[i] += all.first[i - 1];
-    all.samples.resize(all.first.back());
-    parallel_for(height, input.threads, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            std::size_t at = all.first[std::size_t(y) * std::size_t(width) + std::size_t(x)];
+            all.first[std::size_t(y) * std::size_t(width) + std::size_t(x)] = at;
             samples_at(x, y, [&](const CocSample& s) { all.samples[at++] = s; });
         }
     });
+    all.first.back() = all.samples.size();
     return all;
 }
 

@@ -10,6 +10,7 @@
 #include "petzval/result.h"
 
 #include "base/progress.h"
+#include "image/big_vector.h"
 #include "kernel/lens_model.h"
 
 #include <algorithm>
@@ -64,8 +65,8 @@ private:
 
 struct CocSamples {
     int width = 0;
-    std::vector<std::size_t> first;
-    std::vector<CocSample> samples;
+    BigVector<std::size_t> first;
+    BigVector<CocSample> samples;
     int height() const { return width > 0 ? int((first.size() - 1) / std::size_t(width)) : 0; }
     operator CocSamplesView() const { return {first, samples, width}; }
 };
