@@ -149,7 +149,8 @@ public:
     std::unique_ptr<const PupilShadow> shadow(const Viewpoint& view) const {
         if (casters_.nearest_coc_px() >= view.coc_px - view.own_surface_px) return nullptr;
         auto shadow = std::make_unique<PupilShadow>(view.coc_px, view.size % 2 == 0);
-        if (!collect(view, *shadow)) shadow.reset();
+        if (!collect(view, *shadow)) return nullptr;
+        shadow->finish();
         return shadow;
     }
 
@@ -174,11 +175,24 @@ private:
                 const int dx = std::max({bx * kBlock - x, x - (bx + 1) * kBlock + 1, 0});
                 const int dy = std::max({by * kBlock - y, y - (by + 1) * kBlock + 1, 0});
                 if (float(dx * dx + dy * dy) > reach_of(c) * reach_of(c)) continue;
-                for (const Caster& caster : casters_.of_block(bx, by)) {
-                    if (view.coc_px - caster.coc_px < view.own_surface_px) break;  // nearest first
-                    any = cover(view, pupil_end, caster, shadow) || any;
-                }
+                any = cover_block(bx, by, view, pupil_end, shadow) || any;
             }
+        return any;
+    }
+
+    bool cover_block(int bx, int by, const Viewpoint& view, float pupil_end, PupilShadow& shadow) const {
+        bool any = false;
+        float done = -1e30f;  // all that is nearer has been seen
+        for (int coarse = ShadowCasters::kViews - 1; coarse >= 0; --coarse) {
+            const float end = std::min(ShadowCasters::end_of_view(coarse, view.coc_px),
+                                       view.coc_px - view.own_surface_px);
+            if (end <= done) continue;
+            for (const Caster& caster : casters_.of_block(coarse, bx, by)) {  // nearest first
+                if (caster.coc_px > end) break;
+                if (caster.coc_px > done) any = cover(view, pupil_end, caster, shadow) || any;
+            }
+            done = end;
+        }
         return any;
     }
 

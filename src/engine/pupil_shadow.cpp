@@ -71,12 +71,23 @@ void PupilShadow::cover(float u, float v, float side, float blur, float coverage
     }
 }
 
+void PupilShadow::finish() {
+    visible_ = Plane::uninitialised(taps_, taps_);
+    for (int y = 0; y < taps_; ++y)
+        for (int x = 0; x < taps_; ++x)
+            visible_(x, y) =
+                parts_ == 1 ? 1 - std::min(1.0f, covered_(x, y)) : visible(x * parts_, y * parts_);
+    covered_ = {};
+}
+
 void PupilShadow::visible(int dx, int dy, std::span<float> shares) const {
-    const int y0 = std::clamp(dy, 0, taps_ - 1) * parts_;
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        const int x0 = std::clamp(dx + int(i), 0, taps_ - 1) * parts_;
-        shares[i] = parts_ == 1 ? 1 - std::min(1.0f, covered_(x0, y0)) : visible(x0, y0);
-    }
+    const float* const row = visible_.row(std::clamp(dy, 0, taps_ - 1));
+    const auto n = std::ptrdiff_t(shares.size());
+    const std::ptrdiff_t before = std::clamp<std::ptrdiff_t>(-dx, 0, n),
+                         inside = std::clamp<std::ptrdiff_t>(taps_ - dx, before, n);
+    std::fill(shares.begin(), shares.begin() + before, row[0]);
+    if (inside > before) std::copy(row + dx + before, row + dx + inside, shares.begin() + before);
+    std::fill(shares.begin() + inside, shares.end(), row[taps_ - 1]);
 }
 
 float PupilShadow::visible(int x0, int y0) const {

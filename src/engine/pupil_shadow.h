@@ -17,8 +17,10 @@ public:
     // A square of the given side around (u, v), in pupil radii, whose edges are blurred by a box that wide.
     void cover(float u, float v, float side, float blur, float coverage);
 
+    // Ends covering.
+    void finish();
     // The share of the rays to each tap of a row that nothing stops, from tap (dx, dy) on; taps are counted
-    // from the first one of the disc's square.
+    // from the first one of the disc's square. Requires: finished.
     void visible(int dx, int dy, std::span<float> shares) const;
 
 private:
@@ -28,6 +30,7 @@ private:
     float scale_;       // signed radius, as taps count it
     int taps_, parts_;  // along a side of the disc's square; cells along a tap
     Plane covered_;
+    Plane visible_;  // by tap
 };
 
 }  // namespace petzval::engine

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace petzval::engine {
 namespace {
@@ -61,36 +62,91 @@ private:
 
 }  // namespace
 
+// Coarser views leave out what is not nearer than this. No square holds radii from both sides of a power of
+// two, so that a view may end at any of them.
+constexpr float kFarthestCoarse = -2;
+
+int octave(float coc_px) { return int(std::floor(std::log2(-coc_px))); }
+
+// Squares of less than `size` as squares of that size, each of one surface and as much coverage.
+void coarsen(std::span<const Caster> fine, int size, std::vector<Caster>& out) {
+    constexpr float kSameShare = 0.02f;  // of the radius: what it shadows moves by less of the pupil
+    const auto place = [size](float at) { return int(at + 0.5f) / size; };
+    const std::size_t begin = out.size();
+    for (const Caster& c : fine) {
+        if (c.coc_px > kFarthestCoarse) continue;
+        out.push_back(c);
+        if (c.size >= float(size)) continue;
+        const float middle = 0.5f * float(size - 1);
+        out.back().x = float(place(c.x) * size) + middle, out.back().y = float(place(c.y) * size) + middle;
+        out.back().coverage *= c.size * c.size / float(size * size);
+        out.back().size = float(size);
+    }
+    const auto own = [&] { return out.begin() + std::ptrdiff_t(begin); };
+    std::stable_sort(own(), out.end(), [](const Caster& a, const Caster& b) {
+        return std::tie(a.size, a.y, a.x, a.coc_px) < std::tie(b.size, b.y, b.x, b.coc_px);
+    });
+    std::size_t end = begin;  // of what is merged
+    float nearest = 0;        // of the square under way
+    for (std::size_t i = begin; i < out.size(); ++i) {
+        const Caster c = out[i];
+        Caster& last = out[std::max(begin + 1, end) - 1];
+        if (end > begin && c.size == float(size) && last.size == c.size && last.x == c.x && last.y == c.y &&
+            octave(nearest) == octave(c.coc_px) && c.coc_px - nearest <= -kSameShare * nearest) {
+            const float sum = last.coverage + c.coverage;
+            last.coc_px += (c.coc_px - last.coc_px) * c.coverage / sum;
+            last.coverage = std::min(1.0f, sum);
+        } else {
+            out[end++] = c, nearest = c.coc_px;
+        }
+    }
+    out.resize(end);
+    std::stable_sort(own(), out.end(), [](const Caster& a, const Caster& b) { return a.coc_px < b.coc_px; });
+}
+
 ShadowCasters::ShadowCasters(const CocSamples& samples, int threads)
     : nearest_of_blocks_((samples.width + kBlock - 1) / kBlock, (samples.height() + kBlock - 1) / kBlock,
-                         1e30f),
-      rows_(std::size_t(nearest_of_blocks_.height())),
-      first_(rows_.size()) {
+                         1e30f) {
     const CocSamplesView view = samples;
     const Rect picture{0, 0, samples.width, samples.height()};
+    for (auto& rows : views_) rows.resize(std::size_t(nearest_of_blocks_.height()));
     parallel_for(nearest_of_blocks_.height(), threads, [&](int by) {
-        std::vector<Caster>& row = rows_[std::size_t(by)];
-        std::vector<std::size_t>& first = first_[std::size_t(by)];
-        first.push_back(0);
+        RowOfBlocks& fine = views_[0][std::size_t(by)];
+        for (auto& rows : views_) rows[std::size_t(by)].first.push_back(0);
         for (int bx = 0; bx < nearest_of_blocks_.width(); ++bx) {
             const Rect block =
                 Rect{bx * kBlock, by * kBlock, (bx + 1) * kBlock, (by + 1) * kBlock}.intersected(picture);
-            BlockCasters casters(view, block, row);
+            BlockCasters casters(view, block, fine.casters);
             for (std::size_t rank = 0; casters.add(rank);) ++rank;
-            std::stable_sort(row.begin() + std::ptrdiff_t(first.back()), row.end(),
+            std::stable_sort(fine.casters.begin() + std::ptrdiff_t(fine.first.back()), fine.casters.end(),
                              [](const Caster& a, const Caster& b) { return a.coc_px < b.coc_px; });
-            if (row.size() > first.back()) nearest_of_blocks_(bx, by) = row[first.back()].coc_px;
-            first.push_back(row.size());
+            if (fine.casters.size() > fine.first.back())
+                nearest_of_blocks_(bx, by) = fine.casters[fine.first.back()].coc_px;
+            fine.first.push_back(fine.casters.size());
+            for (int v = 1; v < kViews; ++v) {
+                RowOfBlocks& row = views_[std::size_t(v)][std::size_t(by)];
+                coarsen(of_block(v - 1, bx, by), 1 << v, row.casters);
+                row.first.push_back(row.casters.size());
+            }
         }
     });
     for (std::size_t i = 0; i < nearest_of_blocks_.size(); ++i)
         nearest_ = std::min(nearest_, nearest_of_blocks_.pixels()[i]);
 }
 
-std::span<const Caster> ShadowCasters::of_block(int bx, int by) const {
-    const auto& first = first_[std::size_t(by)];
-    const std::size_t begin = first[std::size_t(bx)], end = first[std::size_t(bx) + 1];
-    return std::span(rows_[std::size_t(by)]).subspan(begin, end - begin);
+std::span<const Caster> ShadowCasters::of_block(int view, int bx, int by) const {
+    const RowOfBlocks& row = views_[std::size_t(view)][std::size_t(by)];
+    const std::size_t begin = row.first[std::size_t(bx)], end = row.first[std::size_t(bx) + 1];
+    return std::span(row.casters).subspan(begin, end - begin);
+}
+
+// A pixel of radius n is coc / (coc - n) taps wide in the disc of a highlight of radius coc.
+float ShadowCasters::end_of_view(int view, float highlight_coc_px) {
+    constexpr float kWidestTaps = 1;
+    if (view == 0) return 1e30f;
+    const float size = float(1 << view);
+    const float end = highlight_coc_px - size / kWidestTaps * std::max(1.0f, std::abs(highlight_coc_px));
+    return end > kFarthestCoarse ? kFarthestCoarse : -std::exp2(std::ceil(std::log2(-end)));
 }
 
 }  // namespace petzval::engine

@@ -3,6 +3,7 @@
 
 #include "engine/engine.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,10 +18,12 @@ struct Caster {
 };
 
 // The samples of a picture by blocks of pixels. Opaque samples of nearly one radius are merged into squares
-// of up to a block.
+// of up to a block. What is far nearer than a highlight is seen small in its disc: for that there are coarser
+// views of the same, whose squares are no smaller than 2 or 4 pixels and cover as much.
 class ShadowCasters {
 public:
     static constexpr int kBlock = 16;
+    static constexpr int kViews = 3;  // view n: squares of 2^n pixels and more
     // How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a
     // tap. To what is behind one by less it is no shadow: it may be its own surface.
     static constexpr float kSameRadiusPx = 0.2f;
@@ -29,13 +32,19 @@ public:
     float nearest_coc_px() const { return nearest_; }  // of all
     // Blocks are counted from the picture's corner.
     const Plane& nearest_of_blocks() const { return nearest_of_blocks_; }
-    std::span<const Caster> of_block(int bx, int by) const;  // nearest first
+    // All that is nearer than end_of_view(n) is the same in view n as in finer ones, but for its resolution.
+    std::span<const Caster> of_block(int view, int bx, int by) const;  // nearest first
+    // The largest radius up to which a highlight of this radius loses nothing by view n.
+    static float end_of_view(int view, float highlight_coc_px);
 
 private:
     Plane nearest_of_blocks_;
     float nearest_ = 1e30f;
-    std::vector<std::vector<Caster>> rows_;  // of blocks
-    std::vector<std::vector<std::size_t>> first_;
+    struct RowOfBlocks {
+        std::vector<Caster> casters;
+        std::vector<std::size_t> first;  // of each block, and the end
+    };
+    std::array<std::vector<RowOfBlocks>, kViews> views_;
 };
 
 }  // namespace petzval::engine
