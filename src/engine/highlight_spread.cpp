@@ -184,8 +184,8 @@ private:
         bool any = false;
         float done = -1e30f;  // all that is nearer has been seen
         for (int coarse = ShadowCasters::kViews - 1; coarse >= 0; --coarse) {
-            const float end = std::min(ShadowCasters::end_of_view(coarse, view.coc_px),
-                                       view.coc_px - view.own_surface_px);
+            const float end =
+                std::min(ShadowCasters::end_of_view(coarse, view.coc_px), view.coc_px - view.own_surface_px);
             if (end <= done) continue;
             for (const Caster& caster : casters_.of_block(coarse, bx, by)) {  // nearest first
                 if (caster.coc_px > end) break;

@@ -30,7 +30,7 @@ LevelRule level_rule(Quality quality) {
         case Quality::Standard:
             return {.largest_cells = 8, .surfaces_for_cells = 2};
         case Quality::Final:
-            return {.largest_cells = 24, .surfaces_for_cells = 2};
+            return {.largest_cells = 24, .surfaces_for_cells = 2, .inner_cells = 1, .outer_cells = 5};
     }
     return {};
 }

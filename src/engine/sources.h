@@ -66,6 +66,10 @@ struct LevelRule {
     // Layers up to this one, on either side of focus, count as so narrow that they come alike through all of
     // the pupil. Where what lies behind them is known, it would show through where wider ones begin.
     int narrow_layer = kNextLayer;
+    // Cells of equal light that the pupil is taken in: in the middle, and around that.
+    int inner_cells = 0, outer_cells = 4;
+    int pupil_cells() const { return inner_cells + outer_cells; }
+    static constexpr int kMostPupilCells = 6;
     float fade = 0.15f;  // …but for the fade: across this share of a level it is spread on two
     // The first levels follow each other this closely: what levels cost falls with the radius, so that wider
     // discs do with fewer cells. From kHalved levels on they do with half as many, and no fewer.

@@ -97,6 +97,8 @@ StampTable::StampTable(const LensOnPicture& lens, int width, int height, const L
       height_(height),
       levels_(int(lens.lens_levels.size())),
       steps_(int(std::ceil(place_of(rule.largest_radius()))) + 2),
+      inner_cells_(rule.inner_cells),
+      outer_cells_(rule.outer_cells),
       core_begin_(rule.largest_cells),
       core_end_(kCoreEnd * rule.largest_cells) {
     if (lens.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
@@ -227,8 +229,8 @@ std::span<const StampKernel, 1> StampTable::at(int level, int part, float radius
     return std::span<const StampKernel, 1>(&kernel.whole, 1);
 }
 
-std::span<const StampKernel, StampTable::kCells> StampTable::by_pupil_cell(int level, int part, float radius,
-                                                                           int skirt_of) const {
+std::span<const StampKernel> StampTable::by_pupil_cell(int level, int part, float radius,
+                                                       int skirt_of) const {
     level = std::min(level, levels_ - 1);
     const Kernel& kernel = kernel_at(level, part, radius, skirt_of);
     if (const Cells* cells = kernel.cells.load(std::memory_order_acquire)) return *cells;
@@ -237,7 +239,8 @@ std::span<const StampKernel, StampTable::kCells> StampTable::by_pupil_cell(int l
 
 // Cells of equal light: rings around the middle, cut across by angle. Taps that lie in several give to each.
 // In front of focus the pupil appears turned by 180 degrees.
-std::unique_ptr<const StampTable::Cells> StampTable::cells_of(const kernel::PointSpread& all, bool turned) {
+std::unique_ptr<const StampTable::Cells> StampTable::cells_of(const kernel::PointSpread& all,
+                                                              bool turned) const {
     struct Grain {
         Rgba light;
         int x, y;
@@ -277,20 +280,20 @@ std::unique_ptr<const StampTable::Cells> StampTable::cells_of(const kernel::Poin
     for (const Grain& g : grains) whole += g.light.a;
     by(0, grains.size(), &Grain::distance);
     auto cells = std::make_unique<Cells>();
-    std::size_t cell = 0, begin = 0;
-    for (const int in_ring : kCellsOfRings) {
-        const bool last_ring = cell + std::size_t(in_ring) == kCells;
-        std::size_t ring_end = last_ring ? grains.size() : cut_at(begin, whole * float(in_ring) / kCells);
+    std::size_t begin = 0;
+    const float count = float(pupil_cells());
+    for (const int in_ring : {inner_cells_, outer_cells_}) {
+        const bool last_ring = in_ring == outer_cells_;
+        std::size_t ring_end = last_ring ? grains.size() : cut_at(begin, whole * float(in_ring) / count);
         by(begin, ring_end, &Grain::turns);
-        for (int i = 0; i < in_ring; ++i, ++cell) {
+        for (int i = 0; i < in_ring; ++i) {
             const std::size_t before = grains.size();
-            const std::size_t end = i + 1 == in_ring ? ring_end : cut_at(begin, whole / kCells);
+            const std::size_t end = i + 1 == in_ring ? ring_end : cut_at(begin, whole / count);
             ring_end += grains.size() - before;
             kernel::PointSpread part{e, Picture(e.width(), e.height()), all.neutral};
             for (; begin < end; ++begin)
-                part.weights(grains[begin].x - e.x0, grains[begin].y - e.y0) +=
-                    float(kCells) * grains[begin].light;
-            (*cells)[cell] = StampKernel(part);
+                part.weights(grains[begin].x - e.x0, grains[begin].y - e.y0) += count * grains[begin].light;
+            cells->emplace_back(part);
         }
     }
     return cells;

@@ -42,9 +42,9 @@ public:
     // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
     // a skirt; n: the skirt of the kernel n levels finer.
     std::span<const StampKernel, 1> at(int level, int part, float radius, int skirt_of) const;
-    // What comes through each part of the pupil, times kCells.
-    static constexpr int kCellsOfRings[] = {1, 5}, kCells = 6;
-    std::span<const StampKernel, kCells> by_pupil_cell(int level, int part, float radius, int skirt_of) const;
+    // What comes through each of the rule's cells of the pupil, times their number.
+    std::span<const StampKernel> by_pupil_cell(int level, int part, float radius, int skirt_of) const;
+    int pupil_cells() const { return inner_cells_ + outer_cells_; }
     // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
     int skirt_levels(int level, float radius) const;
     static constexpr int kMostSkirtLevels = 3;
@@ -55,7 +55,7 @@ public:
     int reach(int level, float radius) const;
 
 private:
-    using Cells = std::array<StampKernel, kCells>;
+    using Cells = std::vector<StampKernel>;
     struct Kernel {
         StampKernel whole;
         mutable std::atomic<const Cells*> cells = nullptr;
@@ -63,7 +63,7 @@ private:
         ~Kernel() { delete cells.load(); }
     };
     const Kernel& kernel_at(int level, int part, float radius, int skirt_of) const;
-    static std::unique_ptr<const Cells> cells_of(const kernel::PointSpread& all, bool turned);
+    std::unique_ptr<const Cells> cells_of(const kernel::PointSpread& all, bool turned) const;
     int step_of(float radius) const;
     std::size_t slot_of(int level, int part, float radius, int skirt_of) const;
     kernel::PointSpread whole(int level, int part, float radius) const;
@@ -76,7 +76,8 @@ private:
     LensOnPicture lens_;
     int width_, height_;
     int levels_, parts_x_ = 1, parts_y_ = 1, steps_ = 0;  // steps_: kernels on either side of focus
-    float core_begin_, core_end_;                         // cells from the middle where cores fade out
+    int inner_cells_, outer_cells_;
+    float core_begin_, core_end_;  // cells from the middle where cores fade out
     bool has_skirts_ = false;
     std::vector<int> reach_;
     std::vector<short> reach_of_radius_;  // per level and step

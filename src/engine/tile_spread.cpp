@@ -35,10 +35,10 @@ struct Budget {
 // Memory one thread keeps from tile to tile.
 struct Workspace {
     std::vector<Arrival> arrivals;
-    using Accumulators = std::array<Accumulator, StampTable::kCells>;
+    using Accumulators = std::array<Accumulator, LevelRule::kMostPupilCells>;
     Accumulators light, emptiness;
     std::vector<Accumulators> coarse;  // per level
-    std::array<Budget, StampTable::kCells> budgets;
+    std::array<Budget, LevelRule::kMostPupilCells> budgets;
     std::vector<Rgba> added;
     Work work;
 };
@@ -277,7 +277,7 @@ Work spread_tile(const std::vector<SourceLevel>& levels, const StampTable& table
     // Found; written, and read in order.
     w.work = {w.arrivals.size() * (sizeof(Source) + 2 * sizeof(Arrival)), 0};
     w.coarse.resize(levels.size());
-    const int pupil_cells = count_surfaces(w.arrivals) >= rule.surfaces_for_cells ? StampTable::kCells : 1;
+    const int pupil_cells = count_surfaces(w.arrivals) >= rule.surfaces_for_cells ? table.pupil_cells() : 1;
     Compositor compositor(table, holdout, tile, first_row, pupil_cells, rule.narrow_layer, w);
     for (std::size_t begin = 0; begin < w.arrivals.size() && !compositor.is_spent();)
         begin = compositor.add_layer(begin);
