@@ -1,6 +1,9 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -21,7 +24,14 @@ void parallel_for(int count, int threads, const std::function<void(int)>& body) 
     }
     // An arena of our own, so that a host's global scheduler settings neither limit us nor are changed.
     oneapi::tbb::task_arena arena(wanted);
-    arena.execute([&] { oneapi::tbb::parallel_for(0, count, 1, body, oneapi::tbb::simple_partitioner()); });
+    try {
+        arena.execute(
+            [&] { oneapi::tbb::parallel_for(0, count, 1, body, oneapi::tbb::simple_partitioner()); });
+    } catch (const std::runtime_error& error) {
+        // What oneTBB throws when a thread's stack does not fit into memory has no type of its own.
+        if (std::string_view(error.what()).starts_with("pthread_create")) throw std::bad_alloc();
+        throw;
+    }
 }
 
 }  // namespace petzval
