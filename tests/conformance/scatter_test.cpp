@@ -139,6 +139,24 @@ TEST(Scatter, ASlopeThroughFocusHidesWhatIsKnownToBeBehindIt) {
     }
 }
 
+// A wall that leans across the border between two layers, and a floor that touches it from behind.
+TEST(Scatter, WhatTouchesASurfaceFromBehindDoesNotShowThroughIt) {
+    for (const float tilt : {0.01f, 0.04f}) {
+        Shot shot = flat(60, 90, {0.1f, 0.1f, 0.1f, 1}, 0);
+        const auto coc = [&](int, int y) { return 3.5f + tilt * (float(y) - 45); };
+        for (int y = 0; y < 90; ++y)
+            for (int x = 0; x < 60; ++x) shot.coc_px(x, y) = coc(x, y);
+        put_behind(
+            shot,
+            [](int, int) {
+                return Rgba{0.9f, 0.9f, 0.9f, 1};
+            },
+            [&](int x, int y) { return coc(x, y) + 0.4f; });
+        const Picture image = rendered(shot.job("scatter"));
+        for (int y = 0; y < 90; ++y) EXPECT_NEAR(image(30, y).g, 0.1, 0.02) << "row " << y;
+    }
+}
+
 TEST(Scatter, ALampBehindATwigShowsTheTwigsShadowInsideItsDisc) {
     Shot shot = flat(101, 101, {0, 0, 0, 1}, 30);
     shot.colour(50, 50) = {1000, 1000, 1000, 1};
