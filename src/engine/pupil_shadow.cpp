@@ -49,6 +49,8 @@ PupilShadow::PupilShadow(float coc_px, bool between)
 void PupilShadow::cover(float u, float v, float side, float blur, float coverage) {
     const float per_radius = scale_ * float(parts_), middle = 0.5f * float(covered_.width());
     const float cells = std::abs(per_radius);
+    if (blur <= 0 && side * cells <= 1)
+        return cover_few(middle + u * per_radius, middle + v * per_radius, side * cells, coverage);
     const Profile across(middle + u * per_radius, side * cells, blur * cells);
     const Profile down(middle + v * per_radius, side * cells, blur * cells);
     const auto limited = [&](float at) { return int(std::clamp(at, 0.0f, float(covered_.width()))); };
@@ -69,6 +71,18 @@ void PupilShadow::cover(float u, float v, float side, float blur, float coverage
             }
         }
     }
+}
+
+// Most squares are no wider than a cell, and reach into one more at most.
+void PupilShadow::cover_few(float x, float y, float side, float coverage) {
+    const float left = x - 0.5f * side, top = y - 0.5f * side;
+    const float column = std::floor(left), row = std::floor(top);
+    const float in_first = std::min(side, column + 1 - left), in_top = std::min(side, row + 1 - top);
+    const float wide[] = {in_first, side - in_first}, tall[] = {in_top, side - in_top};
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i)
+            if (const int cx = int(column) + i, cy = int(row) + j; covered_.rect().contains(cx, cy))
+                covered_(cx, cy) += coverage * wide[i] * tall[j];
 }
 
 void PupilShadow::finish() {

@@ -25,7 +25,8 @@ public:
 
 private:
     static constexpr int kLeastCells = 16;
-    float visible(int x0, int y0) const;  // of the tap whose first cell this is
+    void cover_few(float x, float y, float side, float coverage);  // in cells
+    float visible(int x0, int y0) const;                           // of the tap whose first cell this is
 
     float scale_;       // signed radius, as taps count it
     int taps_, parts_;  // along a side of the disc's square; cells along a tap
