@@ -184,32 +184,35 @@ private:
 
     // The first clean pixel of a farther surface, walking from (x, y), and of one farther still.
     std::array<Found, kHits> search(int x, int y, float own, Slope slope, const Path& path) const {
-        const Direction d = path.direction;
-        const float longest = std::abs(own) + std::abs(farthest_) + kPastEdgePx;
-        const float own_per_px = std::max(0.0f, slope.x * d.x + slope.y * d.y);
+        const float own_per_px = std::max(0.0f, slope.x * path.direction.x + slope.y * path.direction.y);
+        float longest = std::abs(own) + std::abs(farthest_) + kPastEdgePx;
         const float* const start = &clean_(x, y);
         std::array<Found, kHits> hits;
-        int n = 0;
+        std::size_t n = 0;
         float behind = own + kBehindPx;
-        for (std::size_t i = 0; i < path.steps.size() && n < kHits && behind < farthest_;) {
-            const Step& step = path.steps[i];
-            if (step.t > longest) break;
-            const int u = x + step.x, v = y + step.y;
-            if (u < 0 || v < 0 || u >= clean_.width() || v >= clean_.height()) break;
-            const float c = start[step.offset];
-            if (c > behind && c > own + step.t * own_per_px + kBehindPx) {
-                if (step.t <= std::abs(own) + std::abs(c) + kPastEdgePx)
-                    hits[std::size_t(n++)] = {true, u, v, c, step.t};
+        const unsigned width = unsigned(clean_.width()), height = unsigned(clean_.height());
+        const Step *step = path.steps.data(), *const end = step + path.steps.size();
+        while (step != end && step->t <= longest) {
+            const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
+            if (u >= width || v >= height) break;
+            const float c = start[step->offset];
+            if (c > behind && c > own + step->t * own_per_px + kBehindPx) {
+                if (step->t <= std::abs(own) + std::abs(c) + kPastEdgePx) {
+                    hits[n++] = {true, int(u), int(v), c, step->t};
+                    longest = std::min(longest, 2 * step->t + 8);
+                }
                 behind = c + 2 * kBehindPx;
+                if (n == kHits || behind >= farthest_) break;
             }
             // No other surface comes before the next silhouette.
-            if (const int free = free_(u / kBlock, v / kBlock); free <= 1) {
-                ++i;
-            } else {
-                const std::size_t distance = std::size_t(step.t) + std::size_t(free);
-                if (distance >= path.at_distance.size()) break;
-                i = std::max(i + 1, path.at_distance[distance]);
+            const int free = free_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
+            if (free <= 1) {
+                ++step;
+                continue;
             }
+            const std::size_t distance = std::size_t(step->t) + std::size_t(free);
+            if (distance >= path.at_distance.size()) break;
+            step = std::max(step + 1, path.steps.data() + path.at_distance[distance]);
         }
         return hits;
     }
@@ -330,15 +333,14 @@ constexpr int kLargestSquare = 8;
 
 // What is hidden is seen through its own blur: pixels of one surface share what was found for the first of
 // them in a square of so many on a side.
-int shared_square(std::span<const Hidden> hidden) {
+int shared_square(std::span<const Hidden> hidden, float shared_from_px) {
     float least_blur_px = 1e30f;
     for (const Hidden& h : hidden) least_blur_px = std::min(least_blur_px, std::abs(h.coc_px));
-    return least_blur_px < 6 ? 1 : least_blur_px < 16 ? 2 : least_blur_px < 48 ? 4 : kLargestSquare;
+    const float blur = least_blur_px / shared_from_px;
+    return blur < 1 ? 1 : blur < 2 ? 2 : blur < 6 ? 4 : kLargestSquare;
 }
 
-struct Range {
-    int begin = 0, end = 0;  // in the samples of its band
-};
+using Range = HiddenLayers::Range;  // at first in the samples of its band of rows
 
 // What was found in a square of kLargestSquare pixels so far.
 class Answers {
@@ -368,7 +370,7 @@ private:
 
 HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
                          const Sparse<Mixture>& mixtures, float nearest_coc_px, float farthest_coc_px,
-                         int threads) {
+                         float shared_from_px, int threads) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
     if (mixtures.values.empty()) return layers;
@@ -376,7 +378,8 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
     const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px, threads);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
-    Image<Range> ranges(width, height);  // of each pixel, in its band
+    layers.ranges = Image<Range>::uninitialised(width, height);
+    Image<Range>& ranges = layers.ranges;
     parallel_for(bands, threads, [&](int band) {
         std::vector<Hidden>& here = found[std::size_t(band)];
         Answers answers;
@@ -388,6 +391,7 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
             for (int y = square.y0; y < square.y1; ++y)
                 for (int x = square.x0; x < square.x1; ++x) {
                     const Mixture* m = mixtures.at(x, y);
+                    ranges(x, y) = {};
                     if (m ? m->shows_far : !filler.may_hide(x, y)) continue;
                     if (const Range* known = answers.find(x, y, coc(x, y))) {
                         ranges(x, y) = *known;
@@ -395,8 +399,9 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
                     }
                     const std::size_t begin = here.size();
                     filler.fill(x, y, here);
-                    ranges(x, y) = {int(begin), int(here.size())};
-                    answers.add(x, y, coc(x, y), shared_square(std::span(here).subspan(begin)), ranges(x, y));
+                    ranges(x, y) = {std::uint32_t(begin), std::uint32_t(here.size() - begin)};
+                    answers.add(x, y, coc(x, y),
+                                shared_square(std::span(here).subspan(begin), shared_from_px), ranges(x, y));
                 }
         }
     });
@@ -405,14 +410,9 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
         starts.push_back(layers.samples.size());
         layers.samples.insert(layers.samples.end(), band.begin(), band.end());
     }
-    layers.ranges = Image<HiddenLayers::Range>::uninitialised(width, height);
     parallel_for(height, threads, [&](int y) {
-        const std::size_t start = starts[std::size_t(y / kLargestSquare)];
-        for (int x = 0; x < width; ++x) {
-            const Range r = ranges(x, y);
-            layers.ranges(x, y) = {std::uint32_t(start + std::size_t(r.begin)),
-                                   std::uint32_t(r.end - r.begin)};
-        }
+        const auto start = std::uint32_t(starts[std::size_t(y / kLargestSquare)]);
+        for (int x = 0; x < width; ++x) ranges(x, y).begin += start;
     });
     return layers;
 }

@@ -48,7 +48,7 @@ Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float 
         }
     const Image<unsigned char> connected = connections(d.coc, 1);
     d.mixtures = unmix_silhouettes(d.colour, d.coc, connected, 1);
-    d.hidden = fill_hidden(d.colour, d.coc, connected, d.mixtures, kNearPx, kFarPx, 1);
+    d.hidden = fill_hidden(d.colour, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, 1);
     unmix_nearer(d.mixtures, d.colour, d.hidden, 1);
     return d;
 }

@@ -13,13 +13,31 @@ constexpr float kDark = 1e-3f;  // keeps reciprocals finite
 constexpr int kReach = 3;       // clean colours are looked for within so many pixels
 
 bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
-    if (connected(x, y) != kAll) return true;
-    // Diagonal: a side neighbour is cut from the diagonal pixel.
-    const auto cut = [&](int nx, int ny, unsigned char side) {
-        return connected.rect().contains(nx, ny) && !(connected(nx, ny) & side);
+    const auto at = [&](int u, int v) {
+        return connected.rect().contains(u, v) ? int(connected(u, v)) : int(kAll);
     };
-    return cut(x - 1, y, kUp) || cut(x - 1, y, kDown) || cut(x + 1, y, kUp) || cut(x + 1, y, kDown) ||
-           cut(x, y - 1, kLeft) || cut(x, y - 1, kRight) || cut(x, y + 1, kLeft) || cut(x, y + 1, kRight);
+    // Diagonal: a side neighbour is cut from the diagonal pixel.
+    constexpr int kVertical = kUp | kDown, kHorizontal = kLeft | kRight;
+    return connected(x, y) != kAll || (at(x - 1, y) & at(x + 1, y) & kVertical) != kVertical ||
+           (at(x, y - 1) & at(x, y + 1) & kHorizontal) != kHorizontal;
+}
+
+// The same for a whole row at once, where most pixels touch none.
+void find_touching(View<const unsigned char> connected, int y, View<unsigned char> touching) {
+    const int width = connected.width();
+    if (y == 0 || y + 1 == connected.height() || width < 3) {
+        for (int x = 0; x < width; ++x) touching(x, y) = touches_silhouette(connected, x, y);
+        return;
+    }
+    touching(0, y) = touches_silhouette(connected, 0, y);
+    touching(width - 1, y) = touches_silhouette(connected, width - 1, y);
+    const unsigned char *above = connected.row(y - 1), *own = connected.row(y), *below = connected.row(y + 1);
+    unsigned char* const out = touching.row(y);
+    for (int x = 1; x + 1 < width; ++x) {
+        const unsigned beside = own[x - 1] & own[x + 1] & (kUp | kDown);
+        const unsigned over = above[x] & below[x] & (kLeft | kRight);
+        out[x] = (own[x] & (beside | over)) != kAll;
+    }
 }
 
 float distance2(Rgba a, Rgba b) {
@@ -197,26 +215,27 @@ Rgba composited(std::span<const Hidden> hidden) {
 Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc,
                                   View<const unsigned char> connected, int threads) {
     const int width = coc.width(), height = coc.height();
-    Image<unsigned char> touching(width, height);
-    parallel_for(height, threads, [&](int y) {
-        for (int x = 0; x < width; ++x) touching(x, y) = touches_silhouette(connected, x, y);
-    });
+    auto touching = Image<unsigned char>::uninitialised(width, height);
+    parallel_for(height, threads, [&](int y) { find_touching(connected, y, touching); });
+    // Of each row, then one after the other.
     std::vector<std::vector<Mixture>> rows(static_cast<std::size_t>(height));
-    Sparse<Mixture> mixtures{Image<int>(width, height, -1), {}};
+    Sparse<Mixture> mixtures{Image<int>::uninitialised(width, height), {}};
     parallel_for(height, threads, [&](int y) {
         for (int x = 0; x < width; ++x) {
-            if (!touching(x, y)) continue;
-            mixtures.index(x, y) = int(rows[std::size_t(y)].size());
-            rows[std::size_t(y)].push_back(taken_apart(colour, coc, touching, x, y));
+            mixtures.index(x, y) = touching(x, y) ? int(rows[std::size_t(y)].size()) : -1;
+            if (touching(x, y)) rows[std::size_t(y)].push_back(taken_apart(colour, coc, touching, x, y));
         }
     });
-    for (int y = 0; y < height; ++y) {
-        const int before = int(mixtures.values.size());
-        for (int x = 0; x < width; ++x)
-            if (mixtures.index(x, y) >= 0) mixtures.index(x, y) += before;
-        mixtures.values.insert(mixtures.values.end(), rows[std::size_t(y)].begin(),
-                               rows[std::size_t(y)].end());
+    std::vector<int> before;
+    for (const auto& row : rows) {
+        before.push_back(int(mixtures.values.size()));
+        mixtures.values.insert(mixtures.values.end(), row.begin(), row.end());
     }
+    parallel_for(height, threads, [&](int y) {
+        if (rows[std::size_t(y)].empty()) return;
+        for (int x = 0; x < width; ++x)
+            if (mixtures.index(x, y) >= 0) mixtures.index(x, y) += before[std::size_t(y)];
+    });
     return mixtures;
 }
 

@@ -72,8 +72,10 @@ CocSamples deep_completed(const Input& input) {
 CocSamples completed(const Input& input, View<const unsigned char> connected) {
     if (!input.deep.empty()) return deep_completed(input);
     auto mixtures = depth::unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
-    const auto hidden = depth::fill_hidden(input.colour, input.coc_px, connected, mixtures,
-                                           input.nearest_coc_px, input.farthest_coc_px, input.threads);
+    const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
+    const auto hidden =
+        depth::fill_hidden(input.colour, input.coc_px, connected, mixtures, input.nearest_coc_px,
+                           input.farthest_coc_px, shared_from_px, input.threads);
 
     depth::unmix_nearer(mixtures, input.colour, hidden, input.threads);
 
