@@ -14,7 +14,7 @@
 namespace {
 
 // A vector of floats as wide as the widest registers there are; GCC and clang split it where they are not.
-typedef float Wide __attribute__((vector_size(64)));
+using Wide [[gnu::vector_size(64)]] = float;
 constexpr int kLanes = 16;
 // As many sums as hide an FMA's latency of four or five cycles on two units and still fit the registers.
 constexpr int kSums = 12;
@@ -27,10 +27,10 @@ PETZVAL_INLINE float multiply_adds(long steps, float seed) {
     for (int k = 0; k < kSums; ++k) sum[k] = Wide{} + float(k);
     const Wide factor = Wide{} + 0.999f, term = Wide{} + seed;
     for (long i = 0; i < steps; ++i)
-        for (int k = 0; k < kSums; ++k) sum[k] = sum[k] * factor + term;
+        for (Wide& s : sum) s = s * factor + term;
     float total = 0;
-    for (int k = 0; k < kSums; ++k)
-        for (int l = 0; l < kLanes; ++l) total += sum[k][l];
+    for (const Wide& s : sum)
+        for (int l = 0; l < kLanes; ++l) total += s[l];
     return total;
 }
 
@@ -139,7 +139,7 @@ struct Memory {
         return 1e-9 * kBytes * rate(int(blocks.size()), [&](int t) {
                    Wide sum[4] = {};
                    const float* const from = blocks[std::size_t(t)].get();
-                   for (std::size_t i = 0; i < kFloats; i += 4 * kLanes)
+                   for (std::size_t i = 0; i < kFloats; i += std::size_t(4 * kLanes))
                        for (std::size_t k = 0; k < 4; ++k) {
                            Wide value;
                            std::memcpy(&value, from + i + k * kLanes, sizeof value);

@@ -246,7 +246,7 @@ TEST(Sprites, TenMillionLightsAddUp) {
     constexpr int kSize = 200, kRim = 20, kAcross = 1000, kRadii = 10;
     constexpr float kApart = float(kSize - 2 * kRim) / kAcross;
     Lights lights(kSize, kSize, 20);
-    lights.points.reserve(kRadii * kAcross * kAcross);
+    lights.points.reserve(std::size_t(kRadii) * kAcross * kAcross);
     for (int i = 0; i < kRadii; ++i)
         for (int y = 0; y < kAcross; ++y)
             for (int x = 0; x < kAcross; ++x)
