@@ -10,8 +10,8 @@ namespace {
 
 constexpr float kStepsPerCell = 16;
 // What a narrow disc leaves in its own pixel changes fast: coarse steps would make one row of a slope cover
-// 2 % too little, and let what is hidden show through. Below kNarrow cells steps are finer.
-constexpr float kNarrow = 2, kNarrowSteps = 64;
+// 2 % too little, and let what is hidden show through. Below kNarrowCells steps are finer.
+constexpr float kNarrowCells = 2, kNarrowSteps = 64;
 constexpr float kMadePerCell = 4;  // of lenses that take long; rims a quarter cell apart blend
 constexpr int kPartsX = 9, kPartsY = 6;
 constexpr float kCoreEnd = 1.5f;       // times the radius a level is made for
@@ -20,12 +20,12 @@ constexpr float kNegligible = 0.001f;  // share of light in all that is cut away
 
 // Of a radius >= 0, on the scale of steps; and back.
 float place_of(float radius) {
-    return radius < kNarrow ? radius * kNarrowSteps
-                            : kNarrow * kNarrowSteps + (radius - kNarrow) * kStepsPerCell;
+    return radius < kNarrowCells ? radius * kNarrowSteps
+                                 : kNarrowCells * kNarrowSteps + (radius - kNarrowCells) * kStepsPerCell;
 }
 float radius_at(float place) {
-    constexpr float kFine = kNarrow * kNarrowSteps;
-    return place < kFine ? place / kNarrowSteps : kNarrow + (place - kFine) / kStepsPerCell;
+    constexpr float kFine = kNarrowCells * kNarrowSteps;
+    return place < kFine ? place / kNarrowSteps : kNarrowCells + (place - kFine) / kStepsPerCell;
 }
 
 // The light of a kernel from each whole distance outwards.
