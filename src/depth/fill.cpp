@@ -306,8 +306,9 @@ private:
                 const float total = a->distance_px + b->distance_px;
                 const float wa = b->distance_px / total, wb = a->distance_px / total;
                 const float alike = likeness(*a, paths_[k].direction, *b, paths_[k + kPairs].direction);
+                const float closeness = 1 / a->distance_px + 1 / b->distance_px;
                 votes.add(wa * colour_of(*a) + wb * colour_of(*b), wa * a->coc_px + wb * b->coc_px,
-                          (1 / a->distance_px + 1 / b->distance_px) * alike);
+                          closeness * std::sqrt(closeness) * alike);
             } else if (a || b) {
                 const Found& one = a ? *a : *b;
                 votes.add(colour_of(one), one.coc_px, kOneSided / (one.distance_px * one.distance_px));

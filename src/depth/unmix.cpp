@@ -76,8 +76,13 @@ struct Sides {
     Pool near_clean, far_clean, far_mixed;
     float near_coc = 0, far_coc = 0;  // of the closest pixel of that side
     float near_closest = 1e9f, far_closest = 1e9f;
-    float near_share_by_shape = 0;  // share of the 3 x 3 tent that shows the nearer surface
+    float near_share_by_shape = 0;
 };
+
+// Of the 3 x 3 tent around a pixel, the part that shows the other surface than the pixel itself takes up so
+// much of the pixel (1 for straight edges that may lie anywhere; thin things lie mostly in the pixels that
+// show them).
+constexpr float kOtherSide = 0.5f;
 
 Sides look_around(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
                   int y, float threshold) {
@@ -106,6 +111,9 @@ Sides look_around(View<const Rgba> colour, View<const float> coc, View<const uns
             }
         }
     s.near_share_by_shape /= tent_total;
+    const bool shows_near = coc(x, y) <= threshold;
+    s.near_share_by_shape =
+        shows_near ? 1 - kOtherSide * (1 - s.near_share_by_shape) : kOtherSide * s.near_share_by_shape;
     return s;
 }
 
