@@ -284,8 +284,7 @@ std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const floa
     float largest = 0;
     for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
     const Maker maker(samples, coc_px, connected, rule);
-    const int coarsest =
-        int(std::ceil(rule.position(largest))) + (table.has_skirts() ? StampTable::kMostSkirtLevels : 0);
+    const int coarsest = table.coarsest_for(int(std::ceil(rule.position(largest))));
     const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
     std::vector<SourceLevel> levels(std::size_t(coarsest) + 1);
     std::vector<int> margins;

@@ -107,11 +107,14 @@ StampTable::StampTable(const LensOnPicture& lens, int width, int height, const L
         const int reach = int(std::ceil(lens.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
         has_skirts_ = has_skirts_ || reach > longest;
         reach_.push_back(std::min(reach, longest));
+        int farthest = reach;
         for (int step = 0; step < steps_; ++step) {
             const double radius = double(radius_at(float(step) + 0.5f));
             const int own = int(std::ceil(lens.lens(l).reach_px(radius) + 0.5));
             reach_of_radius_.push_back(short(std::min(own, reach_.back())));
+            farthest = std::max(farthest, own);
         }
+        most_skirt_levels_.push_back(farthest > longest ? skirt_levels_for(float(farthest) + 1) : 0);
     }
     const std::size_t radii = std::size_t(levels_ * 2 * steps_);
     kernels_ = std::vector<std::atomic<const Kernel*>>(
@@ -308,6 +311,17 @@ int StampTable::skirt_levels(int level, float radius) const {
     return levels;
 }
 
+int StampTable::skirt_levels_for(float farthest) const {
+    return std::clamp(int(std::ceil(std::log2(farthest / core_end_))), 1, kMostSkirtLevels);
+}
+
+int StampTable::coarsest_for(int level) const {
+    int coarsest = level;
+    for (int l = 0; l <= level; ++l)
+        coarsest = std::max(coarsest, l + most_skirt_levels_[std::size_t(std::min(l, levels_ - 1))]);
+    return coarsest;
+}
+
 // As many as make the skirt as small as a core, wherever in the picture it is largest.
 int StampTable::find_skirt_levels(int level, float radius) const {
     int levels = 0;
@@ -315,11 +329,9 @@ int StampTable::find_skirt_levels(int level, float radius) const {
     for (const int part : {centre, corner}) {
         const std::vector<float> beyond = light_beyond(whole(level, part, radius));
         if (radius_but_for(beyond, kTrace) <= int(core_end_)) continue;
-        const float farthest = float(radius_but_for(beyond, kNegligible));
-        const int coarser = int(std::ceil(std::log2(farthest / core_end_)));
-        levels = std::max(levels, std::clamp(coarser, 1, kMostSkirtLevels));
+        levels = std::max(levels, skirt_levels_for(float(radius_but_for(beyond, kNegligible))));
     }
-    return levels;
+    return std::min(levels, most_skirt_levels_[std::size_t(level)]);
 }
 
 }  // namespace petzval::engine

@@ -48,7 +48,8 @@ public:
     // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
     int skirt_levels(int level, float radius) const;
     static constexpr int kMostSkirtLevels = 3;
-    bool has_skirts() const { return has_skirts_; }
+    // The coarsest level that sources of levels 0…level are stamped on, skirts included.
+    int coarsest_for(int level) const;
     // Largest offset of any weight of a kernel of this level, in cells.
     int reach(int level) const { return reach_[std::min(std::size_t(level), reach_.size() - 1)]; }
     // The same, of kernels for this radius.
@@ -71,7 +72,8 @@ private:
     kernel::PointSpread skirt(kernel::PointSpread cut_out, int level, int part, float radius,
                               int skirt_of) const;
     int find_skirt_levels(int level, float radius) const;
-    float stepped(float radius) const;  // the radius that stands for it
+    int skirt_levels_for(float farthest) const;  // of light that reaches so many cells
+    float stepped(float radius) const;           // the radius that stands for it
 
     LensOnPicture lens_;
     int width_, height_;
@@ -79,6 +81,7 @@ private:
     int inner_cells_, outer_cells_;
     float core_begin_, core_end_;  // cells from the middle where cores fade out
     bool has_skirts_ = false;
+    std::vector<int> most_skirt_levels_;  // of any kernel of a level
     std::vector<int> reach_;
     std::vector<short> reach_of_radius_;  // per level and step
     mutable std::vector<std::atomic<const Kernel*>> kernels_;
