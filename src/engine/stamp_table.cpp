@@ -223,8 +223,8 @@ kernel::PointSpread StampTable::skirt(kernel::PointSpread cut_out, int level, in
 const StampTable::Kernel& StampTable::kernel_at(int level, int part, float radius, int skirt_of) const {
     const std::size_t slot = slot_of(level, part, radius, skirt_of);
     if (const Kernel* kernel = kernels_[slot].load(std::memory_order_acquire)) return *kernel;
-    return keep_first(kernels_[slot],
-                      std::make_unique<const Kernel>(StampKernel(piece(level, part, radius, skirt_of))));
+    return keep_first(kernels_[slot], std::make_unique<const Kernel>(
+                                          StampKernel(piece(level, part, stepped(radius), skirt_of))));
 }
 
 std::span<const StampKernel, 1> StampTable::at(int level, int part, float radius, int skirt_of) const {
@@ -237,7 +237,7 @@ std::span<const StampKernel> StampTable::by_pupil_cell(int level, int part, floa
     level = std::min(level, levels_ - 1);
     const Kernel& kernel = kernel_at(level, part, radius, skirt_of);
     if (const Cells* cells = kernel.cells.load(std::memory_order_acquire)) return *cells;
-    return keep_first(kernel.cells, cells_of(piece(level, part, radius, skirt_of), radius < 0));
+    return keep_first(kernel.cells, cells_of(piece(level, part, stepped(radius), skirt_of), radius < 0));
 }
 
 // Cells of equal light: rings around the middle, cut across by angle. Taps that lie in several give to each.

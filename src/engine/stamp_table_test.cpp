@@ -63,5 +63,39 @@ TEST(StampTable, NearlySharpSourcesOfAnAberratedLensTakeTheirShareOfEachPart) {
     EXPECT_EQ(mean_place(0, 205, 100)[1], 3) << "narrow kernels: the nearest part alone";
 }
 
+TEST(StampTable, TheFirstToAskForAKernelDoesNotShapeIt) {
+    LensChoice choice;
+    choice.name = "doublet";
+    std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
+    for (int level = 0; level < 8; ++level)
+        lenses.push_back(
+            std::move(kernel::make_lens(choice, {{105, 36, 2.1, 4.8}, 3840 >> level, 2160 >> level}))
+                .value());
+    LensOnPicture lens;
+    lens.lens_levels = lenses;
+    const StampTable one(lens, 3840, 2160, LevelRule{}), other(lens, 3840, 2160, LevelRule{});
+    int skirts = 0;
+    for (int level = 0; level < 4; ++level)
+        for (float radius = 2; radius < 8; radius += 0.5f) {
+            const int coarser = one.skirt_levels(level, radius);
+            if (coarser == 0) continue;
+            ++skirts;
+            // Half a step of radius apart, less a trace: one kernel stands for both.
+            const float at = radius_in_cells(radius_in_pixels(radius, level), level + coarser);
+            const float middle = std::round(at * 16) / 16;
+            const StampKernel& a = one.at(level + coarser, 0, middle - 0.007f, coarser)[0];
+            const StampKernel& b = other.at(level + coarser, 0, middle + 0.007f, coarser)[0];
+            ASSERT_EQ(a.extent(), b.extent()) << "level " << level << " radius " << radius;
+            for (int row = 0; row < a.extent().height(); ++row) {
+                ASSERT_EQ(a.first_group(row), b.first_group(row));
+                ASSERT_EQ(a.last_group(row), b.last_group(row));
+                const int from = 4 * StampKernel::kGroup * a.first_group(row);
+                const int to = 4 * StampKernel::kGroup * a.last_group(row);
+                EXPECT_TRUE(std::equal(a.row(row) + from, a.row(row) + to, b.row(row) + from));
+            }
+        }
+    EXPECT_GT(skirts, 5);
+}
+
 }  // namespace
 }  // namespace petzval::engine
