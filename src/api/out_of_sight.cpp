@@ -12,7 +12,9 @@ namespace {
 constexpr float kOpaque = 1 - 1e-3f;
 constexpr float kSheetPx = 0.5f;  // change of radius within which it is one sheet
 constexpr float kNoRoomPx = 0.2f;
-constexpr int kWidest = 12;  // pixels: wider windows take longer to look through than they save
+// Pixels, and samples of a pixel: more take longer to look through than they save.
+constexpr int kWidest = 12;
+constexpr std::size_t kMostSamples = 64;
 
 class Sheets {
 public:
@@ -39,7 +41,8 @@ public:
 
 private:
     bool goes_on(int x, int y, float sheet, float hidden) const {
-        for (const engine::CocSample& s : view_.at(x, y))
+        const auto here = view_.at(x, y);
+        for (const engine::CocSample& s : here.first(std::min(here.size(), kMostSamples)))
             if (s.colour.a > kOpaque && std::abs(s.coc_px - sheet) < kSheetPx &&
                 s.coc_px < hidden - kNoRoomPx)
                 return true;
@@ -61,6 +64,7 @@ void drop_out_of_sight(engine::CocSamples& samples, double stretch, int threads)
         for (int x = 0; x < samples.width; ++x) {
             const std::size_t pixel = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
             const std::size_t first = samples.first[pixel], count = samples.first[pixel + 1] - first;
+            if (count > kMostSamples) continue;
             // Where one is hidden, so are those behind it.
             for (std::size_t k = count; k-- > 1 && sheets.hide(x, y, k);) hidden[first + k] = 1;
         }

@@ -83,7 +83,7 @@ struct StripPlan {
 // Of working memory: 80 to 93 a pixel were measured on the built-in scenes, given as flat pictures.
 constexpr std::size_t kBytesPerPixel = 20, kBytesPerSample = 90;
 // Strips of wide frames that are narrower are mostly halo.
-constexpr std::size_t kDefaultWorkingBytes = std::size_t(2600) << 20;
+constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 constexpr std::size_t kFixedWorkingBytes = std::size_t(100) << 20;  // kernels, tables, code
 
 Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const StampTable& table) {
