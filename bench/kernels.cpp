@@ -1,5 +1,6 @@
 // Builds the kernels a lens needs for one frame and prints what that took: `./dev bench kernels`.
-#include "kernel/bank.h"
+#include "kernel/keep/bank.h"
+#include "kernel/lenses/make_lens.h"
 
 #include <chrono>
 #include <cstdio>

@@ -4,6 +4,7 @@
 #include "petzval/camera.h"
 #include "petzval/deep.h"
 #include "petzval/engine_options.h"
+#include "petzval/engine_report.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
@@ -18,9 +19,6 @@
 #include <vector>
 
 namespace petzval {
-
-// Accuracy only: radius and energy are the same at every level.
-enum class Quality { Draft, Standard, Final };
 
 // The lens and its kernels as one job left them, for the next job with the same lens, camera, frame, engine
 // and quality: they are then not made again. Of another job it is emptied first. The result never depends on
@@ -77,22 +75,6 @@ struct DefocusJob {
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
     KernelMemory* kernel_memory = nullptr;  // outlives the job; null: nothing is kept
     std::function<bool(double)> progress;   // share done 0…1, one call at a time; false cancels
-};
-
-struct StageTime {
-    std::string stage;
-    double seconds = 0;
-    // Bytes touched and multiply-adds, as the stage counted them (docs/command-line.md); 0: it did not.
-    std::uint64_t bytes = 0, multiply_adds = 0;
-};
-
-// One of several pictures in one.
-struct Panel {
-    std::string name;
-    Rect area;
-    Rgba colour;                            // that stands for it in a map among the panels; all 0: none
-    std::optional<std::string> layer = {};  // of a file, that can hold it: it is of the input's size
-    bool is_numbers = false;                // red holds a number for every pixel, NaN for none; not light
 };
 
 struct DefocusReport {

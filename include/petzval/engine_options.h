@@ -7,6 +7,9 @@
 
 namespace petzval {
 
+// Accuracy only: radius and energy are the same at every level.
+enum class Quality { Draft, Standard, Final };
+
 // What the scatter engine made on its way, in place of its result: several pictures in one, DefocusReport
 // says where each lies.
 enum class ScatterView {

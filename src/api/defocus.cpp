@@ -1,15 +1,15 @@
 // From a job as a user states it to the input of an engine: checks, circles of confusion, lens, sample lists.
 #include "petzval/defocus.h"
 
-#include "api/deep_samples.h"
 #include "api/distort.h"
+#include "api/engines.h"
 #include "api/light_points.h"
-#include "api/out_of_sight.h"
 #include "base/parallel.h"
-#include "engine/engine.h"
-#include "kernel/kernel_store.h"
-#include "kernel/lens_model.h"
-#include "kernel/remembered_lens.h"
+#include "engine/samples/deep_samples.h"
+#include "engine/samples/out_of_sight.h"
+#include "kernel/keep/kernel_store.h"
+#include "kernel/keep/remembered_lens.h"
+#include "kernel/lenses/make_lens.h"
 
 #include <algorithm>
 #include <atomic>
@@ -143,7 +143,8 @@ void hide_what_is_covered(BigVector<engine::CocSample>& samples, std::size_t fir
 
 engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, const Radii& radii) {
     engine::CocSamples all;
-    if (job.deep && !job.deep->empty()) return deep_samples(*job.deep, radii, job.depth_is_coc, job.threads);
+    if (job.deep && !job.deep->empty())
+        return engine::deep_samples(*job.deep, radii, job.depth_is_coc, job.threads);
     all.width = colour.width();
     const DeepPicture* const extra = job.behind;
     if (!extra || extra->empty()) return all;
@@ -300,7 +301,7 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.coc_px = coc_px;
     engine::CocSamples samples = all_samples(job, colour, *radii);
     if (job.scatter.view != ScatterView::Layers)  // shows them all
-        drop_out_of_sight(samples, memory.lenses.front()->reach_px(1), job.threads);
+        engine::drop_out_of_sight(samples, memory.lenses.front()->reach_px(1), job.threads);
     if (!samples.first.empty()) input.deep = samples;
     input.deep_dims_itself = job.deep && !job.deep->empty();
     const auto note_radius = [&](float radius_px) {
@@ -311,7 +312,7 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     for (const engine::CocSample& sample : samples.samples) note_radius(sample.coc_px);
     engine::CocSamples holdout;
     if (job.holdout && !job.holdout->empty())
-        input.holdout = holdout = deep_samples(*job.holdout, *radii, job.depth_is_coc, job.threads);
+        input.holdout = holdout = engine::deep_samples(*job.holdout, *radii, job.depth_is_coc, job.threads);
     input.open_edges = open_edges(job);
     input.field_centre_x = 0.5 * (job.display_window.x0 + job.display_window.x1) - job.data_window.x0;
     input.field_centre_y = 0.5 * (job.display_window.y0 + job.display_window.y1) - job.data_window.y0;

@@ -1,6 +1,6 @@
 #include "petzval/lens_facts.h"
 
-#include "kernel/aberration_curves.h"
+#include "kernel/lenses/aberration_curves.h"
 #include "lens_files/shelf.h"
 #include "optics/aberrations.h"
 #include "optics/seidel.h"

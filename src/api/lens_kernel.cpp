@@ -1,7 +1,7 @@
 #include "petzval/lens_kernel.h"
 
 #include "base/parallel.h"
-#include "kernel/lens_model.h"
+#include "kernel/lenses/make_lens.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include "glare/light.h"
 #include "glare/star_kernel.h"
 #include "glare/streaks.h"
-#include "kernel/lens_model.h"
-#include "kernel/pupil.h"
+#include "kernel/draw/pupil.h"
+#include "kernel/lenses/make_lens.h"
 
 #include <sstream>
 #include <vector>

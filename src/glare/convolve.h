@@ -4,7 +4,7 @@
 
 #include "petzval/image.h"
 
-#include "kernel/lens_model.h"
+#include "kernel/model/lens_model.h"
 
 namespace petzval::glare {
 

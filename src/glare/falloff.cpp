@@ -3,8 +3,8 @@
 #include "petzval/glare.h"
 
 #include "base/parallel.h"
-#include "kernel/lens_model.h"
-#include "kernel/pupil.h"
+#include "kernel/draw/pupil.h"
+#include "kernel/lenses/make_lens.h"
 #include "lens_files/shelf.h"
 #include "optics/aberrations.h"
 

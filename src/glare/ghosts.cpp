@@ -1,7 +1,7 @@
 #include "glare/ghosts.h"
 
 #include "base/parallel.h"
-#include "kernel/outline.h"
+#include "kernel/draw/outline.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "petzval/glare.h"
 
-#include "kernel/coverage.h"
+#include "kernel/model/coverage.h"
 
 #include <functional>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "glare/bloom.h"
 #include "glare/ghosts.h"
-#include "kernel/outline.h"
+#include "kernel/draw/outline.h"
 
 #include <cmath>
 

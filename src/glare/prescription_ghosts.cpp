@@ -7,7 +7,7 @@
 // intersection is the bundle that comes through, and the sensor's a and b throw it onto the picture.
 // Reflection is a refraction into index -n: u' = -u - 2 c y; thickness counts backwards between i and j.
 #include "glare/ghosts.h"
-#include "kernel/outline.h"
+#include "kernel/draw/outline.h"
 #include "lens_files/shelf.h"
 #include "optics/traced_lens.h"
 

@@ -3,8 +3,8 @@
 #include "base/fft.h"
 #include "base/parallel.h"
 #include "colour/spectrum.h"
-#include "kernel/outline.h"
-#include "kernel/spread.h"
+#include "kernel/draw/outline.h"
+#include "kernel/model/spread.h"
 
 #include <algorithm>
 #include <cmath>

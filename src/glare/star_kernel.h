@@ -13,7 +13,7 @@
 
 #include "petzval/lens.h"
 
-#include "kernel/lens_model.h"
+#include "kernel/model/lens_model.h"
 
 namespace petzval::glare {
 

@@ -6,7 +6,7 @@
 #include "petzval/image.h"
 #include "petzval/lens.h"
 
-#include "kernel/coverage.h"
+#include "kernel/model/coverage.h"
 
 #include <vector>
 

@@ -34,13 +34,23 @@ class Checks(unittest.TestCase):
 
     def test_an_upward_include_is_found(self):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "engine/b.h"\n'}, "src/image/a.cpp:1")
-        self.assert_clean("check_layers.py", {"src/engine/a.cpp": '#include "image/b.h"\n'})
+        self.assert_clean("check_layers.py", {"src/engine/waist/a.cpp": '#include "image/b.h"\n'})
+
+    def test_an_engine_that_looks_into_another_is_found(self):
+        self.assert_found("check_layers.py", {"src/engine/gather/a.cpp": '#include "engine/scatter/b.h"\n'},
+                          "engine/gather must not include engine/scatter/b.h")
+        self.assert_found("check_layers.py", {"src/engine/a.cpp": ""}, "stands in no room")
+
+    def test_tests_may_make_a_lens_and_code_may_not(self):
+        line = '#include "kernel/lenses/make_lens.h"\n'
+        self.assert_found("check_layers.py", {"src/kernel/keep/bank.cpp": line}, "kernel/keep must not include")
+        self.assert_clean("check_layers.py", {"src/kernel/keep/bank_test.cpp": line})
 
     def test_a_public_header_of_a_higher_room_is_found(self):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "petzval/defocus.h"\n'}, "petzval/defocus.h")
 
     def test_other_peoples_headers_stay_in_their_room(self):
-        self.assert_found("check_layers.py", {"src/engine/a.cpp": "#include <tbb/task_arena.h>\n"}, "parallel")
+        self.assert_found("check_layers.py", {"src/engine/waist/a.cpp": "#include <tbb/task_arena.h>\n"}, "parallel")
         self.assert_found("check_layers.py", {"include/petzval/a.h": "#include <OpenEXR/ImfArray.h>\n"}, "files")
 
     def test_the_program_sees_public_headers_only(self):

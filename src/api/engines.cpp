@@ -1,0 +1,25 @@
+#include "api/engines.h"
+
+#include "engine/gather/gather.h"
+#include "engine/gaussian/gaussian.h"
+#include "engine/reference/reference.h"
+#include "engine/scatter/scatter.h"
+#include "engine/sprites/sprites.h"
+
+namespace petzval::engine {
+
+std::span<const Engine> engines() {
+    static constexpr Engine kEngines[] = {
+        {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter, true},
+        {"gather", "previews: every pixel collects from a few sizes of the lens's kernel, at half resolution",
+         run_gather},
+        {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
+         run_gaussian},
+        {"sprites", "lights as the lens's own kernels, found or given, over gather or gaussian", run_sprites},
+        {"reference", "the definition of a correct result, traced through the lens; slow", run_reference,
+         true},
+    };
+    return kEngines;
+}
+
+}  // namespace petzval::engine

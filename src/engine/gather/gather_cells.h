@@ -1,0 +1,60 @@
+// The prefilter: the picture's light on grids of cells 2, 4, … pixels wide, kept apart by ring.
+//
+// A cell holds one entry for each ring that light in its pixels belongs to, so a cell on a silhouette keeps
+// both radii, and neither surface's darkness bleeds into the other.
+#pragma once
+
+#include "engine/gather/gather_fill.h"
+#include "engine/gather/gather_rings.h"
+#include "engine/waist/engine.h"
+
+#include <span>
+#include <vector>
+
+namespace petzval::engine {
+
+// Light of one ring in one cell: sums over its pixels, divided by the cell's size.
+struct CellLight {
+    Rgba colour;
+    float covered = 0;  // share of the cell's lens area it takes up
+    float beyond = 0;   // the same for the part of the cell outside the picture: the surface goes on, its
+                        // colour is not known
+    int ring = 0;
+};
+
+// The samples that a gather takes from one pixel, as emit(colour, coc_px, covered).
+template <typename Emit>
+void for_each_sample(const Input& input, const BlockFill& fill, int x, int y, const Emit& emit) {
+    if (input.deep.empty()) {
+        const float coc = input.coc_px(x, y);
+        emit(input.colour(x, y), coc, 1.0f);
+        if (const auto hidden = fill.behind(x, y, coc)) emit(hidden->colour, hidden->coc_px, 1.0f);
+        return;
+    }
+    for (const CocSample& s : input.deep.at(x, y))
+        emit(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
+}
+
+class CellLevel {
+public:
+    // Requires: level >= 1.
+    CellLevel(const Input& input, const BlockFill& fill, const RingSizes& sizes, int level);
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::span<const CellLight> at(int x, int y) const {
+        const Row& row = rows_[std::size_t(y)];
+        const std::size_t i = std::size_t(x);
+        return std::span(row.lights).subspan(row.first[i], row.first[i + 1] - row.first[i]);
+    }
+    bool has_any(int y) const { return !rows_[std::size_t(y)].lights.empty(); }
+
+private:
+    struct Row {
+        std::vector<std::size_t> first;
+        std::vector<CellLight> lights;
+    };
+    int width_, height_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace petzval::engine

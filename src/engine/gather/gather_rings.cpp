@@ -1,0 +1,143 @@
+#include "engine/gather/gather_rings.h"
+
+#include "device/cpu/gather_taps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+// A disc of this radius lies within its pixel: light that is out of focus by less stays where it is.
+constexpr float kWithinPixelPx = 0.5f;
+constexpr int kPartsX = 9, kPartsY = 6;
+
+std::vector<float> steps_down_from(float largest_px, float ratio) {
+    std::vector<float> radii;
+    for (float r = largest_px; r > kWithinPixelPx; r /= ratio) radii.push_back(r);
+    return radii;
+}
+
+// Radius on a level's grid. Averaging into cells and enlarging again blur too: by s^2/4 px^2 per axis for
+// cells s wide, and the grid's own squares by (s^2 - 1)/12 more than pixels. A disc's second moment is
+// r^2/4, so the kernel's is taken smaller by that much.
+double radius_in_cells(double radius_px, int level) {
+    if (level == 0) return radius_px;
+    const double s = std::ldexp(1.0, level);
+    const double squared = radius_px * radius_px - (4 * s * s - 1) / 3;
+    return std::copysign(std::sqrt(std::max(0.0, squared)) / s, radius_px);
+}
+
+}  // namespace
+
+RingRule ring_rule(Quality quality) {
+    switch (quality) {
+        case Quality::Draft:
+            return {.ratio = 1.3f, .full_res_px = 4, .largest_cells = 8};
+        case Quality::Standard:
+            return {};
+        case Quality::Final:
+            return {.ratio = 1.07f, .full_res_px = 12, .largest_cells = 24};
+    }
+    return {};
+}
+
+RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) {
+    for (const float r : steps_down_from(-nearest_px, rule.ratio)) radii_px_.push_back(-r);
+    const int zero_of_rings = count();
+    radii_px_.push_back(0);
+    const std::vector<float> far = steps_down_from(farthest_px, rule.ratio);
+    radii_px_.insert(radii_px_.end(), far.rbegin(), far.rend());
+    for (const float radius : radii_px_) {
+        const float r = std::abs(radius);
+        int level = 0;
+        if (r > rule.full_res_px)
+            level = std::max(1, int(std::ceil(std::log2(r / rule.largest_cells) - 1e-4f)));
+        levels_.push_back(level);
+    }
+    const auto squared = [&](int ring) {
+        const float r = std::max(std::abs(radius_px(ring)), kWithinPixelPx);
+        return r * r;
+    };
+    for (int i = 0; i <= count(); ++i) {
+        const int below = std::max(0, i - 1), above = std::min(i, count() - 1);
+        const int inner = i <= zero_of_rings ? above : below, outer = i <= zero_of_rings ? below : above;
+        const float apart = squared(outer) - squared(inner);
+        // Beyond the largest radius there is nothing but that.
+        intervals_.push_back({inner, outer, apart > 0 ? squared(inner) : -1, apart > 0 ? 1 / apart : 1e30f});
+    }
+    constexpr int kSteps = 4096;
+    const float width_px = radii_px_.back() - radii_px_.front();
+    steps_per_px_ = width_px > 0 ? kSteps / width_px : 0;
+    for (int i = 0; i <= kSteps; ++i) {
+        const float start = radii_px_.front() + width_px * (float(i) - 0.01f) / kSteps;
+        starts_.push_back(
+            std::uint16_t(std::lower_bound(radii_px_.begin(), radii_px_.end(), start) - radii_px_.begin()));
+    }
+}
+
+int RingSizes::levels() const { return 1 + *std::max_element(levels_.begin(), levels_.end()); }
+
+RingKernels::RingKernels(const Input& input, const RingSizes& sizes)
+    : input_(input), sizes_(sizes), reach_(std::size_t(sizes.levels()), 0) {
+    if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
+    for (int ring = 0; ring < sizes.count(); ++ring) {
+        const int level = sizes.level(ring);
+        const double reach =
+            input.lens(level).reach_px(std::abs(radius_in_cells(double(sizes.radius_px(ring)), level)));
+        int& cells = reach_[std::size_t(level)];
+        cells = std::max(cells, int(std::ceil(reach + 0.5)));
+    }
+    kernels_ = std::vector<std::atomic<const RingKernel*>>(std::size_t(sizes.count() * parts_x_ * parts_y_));
+}
+
+RingKernels::~RingKernels() {
+    for (auto& kernel : kernels_) delete kernel.load();
+}
+
+int RingKernels::part_of(double x, double y) const {
+    const int px = std::clamp(int((x + 0.5) / input_.width() * parts_x_), 0, parts_x_ - 1);
+    const int py = std::clamp(int((y + 0.5) / input_.height() * parts_y_), 0, parts_y_ - 1);
+    return py * parts_x_ + px;
+}
+
+std::unique_ptr<const RingKernel> RingKernels::made(int ring, int part) const {
+    const int column = part % parts_x_, row = part / parts_x_;
+    const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
+    const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
+    const int level = sizes_.level(ring);
+    const kernel::PointSpread spread = input_.lens(level).point_spread(
+        radius_in_cells(double(sizes_.radius_px(ring)), level), input_.field_at(x, y));
+    auto made = std::make_unique<RingKernel>();
+    made->neutral = spread.neutral;
+    made->extent = spread.extent;
+    const Rect& e = spread.extent;
+    for (int dy = 1 - e.y1; dy < kGatherRows - e.y0; ++dy)
+        for (int dx = 1 - e.x1; dx <= -e.x0; ++dx) {
+            std::array<Rgba, kGatherRows> rows;  // of output: each lies its number further from what is read
+            for (int k = 0; k < kGatherRows; ++k)
+                if (const int v = k - dy - e.y0; v >= 0 && v < e.height())
+                    rows[std::size_t(k)] = spread.weights(-dx - e.x0, v);
+            if (rows == std::array<Rgba, kGatherRows>{}) continue;
+            made->steps.push_back({dx, dy});
+            for (const Rgba& w : rows)
+                if (spread.neutral)
+                    made->weights.push_back(w.r);
+                else
+                    made->weights.insert(made->weights.end(), {w.r, w.g, w.b, w.a});
+        }
+    return made;
+}
+
+const RingKernel& RingKernels::at(int ring, int part) const {
+    std::atomic<const RingKernel*>& slot = kernels_[std::size_t(ring * parts_x_ * parts_y_ + part)];
+    if (const RingKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
+    std::unique_ptr<const RingKernel> kernel = made(ring, part);
+    const RingKernel* expected = nullptr;
+    if (slot.compare_exchange_strong(expected, kernel.get(), std::memory_order_acq_rel))
+        return *kernel.release();
+    return *expected;  // another thread was first, with the same kernel
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,103 @@
+// The few sizes of kernel that a gather works with, and the kernels of the lens at these sizes.
+//
+// A source of any radius is handed to the two rings around it,
+//     share of the outer = (c^2 - inner^2) / (outer^2 - inner^2),
+// so that the second moment of what arrives is that of the source's own disc.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace petzval::engine {
+
+struct RingRule {
+    float ratio = 1.15f;    // of one radius to the next
+    float full_res_px = 6;  // rings up to this radius are gathered at full resolution
+    float largest_cells =
+        16;  // rings beyond, at the finest of 1/2, 1/4, … where they are not wider than this
+};
+RingRule ring_rule(Quality quality);
+
+// Radii of the rings: 0, and steps of `ratio` down from the largest radius on either side, so that what lies
+// at infinity has a ring of its own. Numbered from the nearest (most negative) to the farthest.
+class RingSizes {
+public:
+    RingSizes(float nearest_px, float farthest_px, const RingRule& rule);
+
+    int count() const { return int(radii_px_.size()); }
+    float radius_px(int ring) const { return radii_px_[std::size_t(ring)]; }
+    int level(int ring) const { return levels_[std::size_t(ring)]; }  // cells are 2^level pixels wide
+    int levels() const;
+
+    struct Mix {
+        int inner = 0, outer = 0;
+        float outer_share = 0;
+    };
+    Mix mix(float coc_px) const {
+        const float step = (coc_px - radii_px_.front()) * steps_per_px_;
+        std::size_t i = starts_[std::size_t(std::clamp(step, 0.0f, float(starts_.size() - 1)))];
+        while (i < radii_px_.size() && radii_px_[i] < coc_px) ++i;
+        const Interval& between = intervals_[i];
+        return {between.inner, between.outer,
+                std::clamp((coc_px * coc_px - between.low) * between.scale, 0.0f, 1.0f)};
+    }
+
+private:
+    // What is handed out between two radii, with the smaller one's c^2 and 1 / (outer^2 - inner^2). What a
+    // pixel holds anyway is not blurred: no c^2 counts as less than that of a disc within its pixel.
+    struct Interval {
+        int inner, outer;
+        float low, scale;
+    };
+    std::vector<float> radii_px_;
+    std::vector<int> levels_;
+    std::vector<Interval> intervals_;  // [i]: up to radii_px_[i]; the last: beyond all
+    // The first radius not below the start of each of many equal steps from the first radius to the last:
+    // millions of pixels ask.
+    std::vector<std::uint16_t> starts_;
+    float steps_per_px_ = 0;
+};
+
+// One kernel as the inner loop wants it (device/cpu/gather_taps.h): which cells it reads for a few rows of
+// output at once, and the weight each has in them.
+struct RingKernel {
+    struct Step {
+        int dx, dy;  // from the first of the rows to what is read, cells
+    };
+    std::vector<Step> steps;
+    std::vector<float> weights;
+    bool neutral = true;  // one weight per row for all channels, else r, g, b and a for coverage
+    Rect extent;          // of where light lands, from its source
+};
+
+// Kernels of all rings for all parts of the picture, made when first asked for. Thread-safe. What a kernel
+// holds depends on its ring and part alone.
+class RingKernels {
+public:
+    // Both outlive this.
+    RingKernels(const Input& input, const RingSizes& sizes);
+    ~RingKernels();
+    RingKernels(const RingKernels&) = delete;
+    RingKernels& operator=(const RingKernels&) = delete;
+
+    int part_of(double x, double y) const;  // of a place in the picture, pixels
+    const RingKernel& at(int ring, int part) const;
+    // Cells by which any kernel of a level reaches.
+    int reach(int level) const { return reach_[std::size_t(level)]; }
+
+private:
+    std::unique_ptr<const RingKernel> made(int ring, int part) const;
+
+    const Input& input_;
+    const RingSizes& sizes_;
+    int parts_x_ = 1, parts_y_ = 1;
+    std::vector<int> reach_;
+    mutable std::vector<std::atomic<const RingKernel*>> kernels_;
+};
+
+}  // namespace petzval::engine

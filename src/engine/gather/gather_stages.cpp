@@ -1,0 +1,194 @@
+#include "engine/gather/gather_stages.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+// The article's permissible radius and where its far part is wholly blurred, px.
+constexpr float kSharpPx = 0.2f, kBlurredPx = 1, kFarBlurredPx = 1.2f;
+
+float smoothstep(float low, float high, float x) {
+    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (3 - 2 * t);
+}
+
+Rgba mixed(Rgba a, Rgba b, float share_of_b) { return a + share_of_b * (b - a); }
+
+struct Place {
+    float x, y;
+};
+
+// A centre and rings of n, 2n, 3n … points in the unit disc, ring k of R at (k + 1/n) / (R + 1/n): 16 is
+// 1 + 5 + 10 with the inner ring at 0.545; 22, 43 and 71 have rings of multiples of 7.
+std::vector<Place> disc_of(int taps) {
+    const int first = taps == 16 ? 5 : 7;
+    std::vector<Place> places{{0, 0}};
+    int rings = 0;
+    for (int total = 1; total < taps; total += first * rings) ++rings;
+    for (int ring = 1; ring <= rings; ++ring) {
+        const double radius = (ring + 1.0 / first) / (rings + 1.0 / first);
+        for (int i = 0; i < first * ring; ++i) {
+            const double angle = 2 * M_PI * i / (first * ring);
+            places.push_back({float(radius * std::cos(angle)), float(radius * std::sin(angle))});
+        }
+    }
+    return places;
+}
+
+// Colour and radius at half resolution; radii stay in pixels of the whole picture.
+struct HalfPicture {
+    Picture colour;
+    Plane coc_px;
+};
+
+// As a texture unit reads it: bilinear, clamped; (x, y) in cells, centres at whole numbers.
+template <typename Read>
+auto bilinear(float x, float y, const Read& read) {
+    const int u = int(std::floor(x)), v = int(std::floor(y));
+    const float right = x - float(u), below = y - float(v);
+    return (1 - below) * ((1 - right) * read(u, v) + right * read(u + 1, v)) +
+           below * ((1 - right) * read(u, v + 1) + right * read(u + 1, v + 1));
+}
+
+class Article {
+public:
+    explicit Article(const Input& input) : in_(input), disc_(disc_of(input.gather.taps)) {
+        // CoC = clamp(1 - F/z, -1, 1) * largest: with `largest` the radius at infinity that is the metric
+        // one, but for near things closer than half the focus distance.
+        largest_px_ = input.radius_at_infinity_px;
+        if (largest_px_ <= 0) largest_px_ = std::max(-input.nearest_coc_px, input.farthest_coc_px);
+    }
+
+    Picture stage() const {
+        const GatherStage stage = in_.gather.stage;
+        if (stage == GatherStage::Coc)
+            return each([&](int x, int y) {
+                const float c = coc(x, y);
+                return Rgba{c, c, c, 1};
+            });
+        const HalfPicture half = prefiltered();
+        if (stage == GatherStage::Prefilter) return enlarged(half.colour);
+        const bool apart = stage == GatherStage::NearFar || stage == GatherStage::Cure;
+        const Picture bokeh = gathered(half, stage == GatherStage::Disc, apart);
+        if (stage == GatherStage::Disc || stage == GatherStage::HardTest || stage == GatherStage::NearFar)
+            return enlarged(bokeh);
+        const Picture soft = blurred(bokeh);
+        if (stage == GatherStage::Blur) return enlarged(soft);
+        return combined(enlarged(soft), apart);
+    }
+
+private:
+    float coc(int x, int y) const { return std::clamp(in_.coc_px.clamped(x, y), -largest_px_, largest_px_); }
+
+    template <typename Make>
+    Picture each(const Make& make) const {
+        return each(in_.width(), in_.height(), make);
+    }
+    template <typename Make>
+    Picture each(int width, int height, const Make& make) const {
+        Picture picture = Picture::uninitialised(width, height);
+        parallel_for(height, in_.threads, [&](int y) {
+            for (int x = 0; x < width; ++x) picture(x, y) = make(x, y);
+        });
+        return picture;
+    }
+
+    HalfPicture prefiltered() const {
+        const int width = (in_.width() + 1) / 2, height = (in_.height() + 1) / 2;
+        HalfPicture half{Picture(width, height), Plane(width, height)};
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+                    half.colour(x, y) += 0.25f * in_.colour.clamped(2 * x + dx, 2 * y + dy);
+                    const float c = coc(2 * x + dx, 2 * y + dy);
+                    float& kept = half.coc_px(x, y);
+                    if (!in_.gather.extreme_coc)
+                        kept += 0.25f * c;
+                    else if (std::abs(c) > std::abs(kept))
+                        kept = c;
+                }
+        return half;
+    }
+
+    // blind: every tap counts. apart: near and far by saturate(-+CoC - distance); else by |CoC| >= distance.
+    Picture gathered(const HalfPicture& half, bool blind, bool apart) const {
+        const View<const Rgba> colour = half.colour;
+        const View<const float> radii = half.coc_px;
+        const float cells = largest_px_ / 2;
+        return each(colour.width(), colour.height(), [&](int x, int y) {
+            Rgba sum, near;
+            float weight = 0, near_weight = 0;
+            for (const Place& p : disc_) {
+                const float u = float(x) + cells * p.x, v = float(y) + cells * p.y;
+                const Rgba c = bilinear(u, v, [&](int i, int j) { return colour.clamped(i, j); });
+                const float r = bilinear(u, v, [&](int i, int j) { return radii.clamped(i, j); });
+                const float distance = largest_px_ * std::hypot(p.x, p.y);
+                const float w = blind   ? 1.0f
+                                : apart ? std::clamp(r - distance, 0.0f, 1.0f)
+                                        : float(std::abs(r) >= distance);
+                sum += w * c, weight += w;
+                const float n = apart ? std::clamp(-r - distance, 0.0f, 1.0f) : 0;
+                near += n * c, near_weight += n;
+            }
+            const auto mean = [](Rgba total, float w) { return w > 0 ? total * (1 / w) : Rgba{}; };
+            if (!apart) return weight > 0 ? mean(sum, weight) : colour(x, y);
+            const float alpha = std::min(1.0f, near_weight);
+            Rgba result = mixed(mean(sum, weight), mean(near, near_weight), alpha);
+            result.a = alpha;
+            return result;
+        });
+    }
+
+    // Four taps half a cell off on both axes: with bilinear reads a tent of 3 x 3. (The article's taps are a
+    // whole texel off.)
+    Picture blurred(const Picture& half) const {
+        const View<const Rgba> from = half;
+        return each(half.width(), half.height(), [&](int x, int y) {
+            Rgba sum;
+            for (const float dx : {-0.5f, 0.5f})
+                for (const float dy : {-0.5f, 0.5f})
+                    sum += 0.25f * bilinear(float(x) + dx, float(y) + dy,
+                                            [&](int i, int j) { return from.clamped(i, j); });
+            return sum;
+        });
+    }
+
+    Picture enlarged(const Picture& half) const {
+        const View<const Rgba> from = half;
+        return each([&](int x, int y) {
+            return bilinear((float(x) + 0.5f) / 2 - 0.5f, (float(y) + 0.5f) / 2 - 0.5f,
+                            [&](int i, int j) { return from.clamped(i, j); });
+        });
+    }
+
+    Picture combined(const Picture& bokeh, bool apart) const {
+        return each([&](int x, int y) {
+            const Rgba sharp = in_.colour(x, y);
+            Rgba soft = bokeh(x, y);
+            const float near = soft.a;
+            if (apart) soft.a = sharp.a;
+            if (!apart) return mixed(sharp, soft, smoothstep(kSharpPx, kBlurredPx, std::abs(coc(x, y))));
+            const Rgba with_far = mixed(sharp, soft, smoothstep(kSharpPx, kFarBlurredPx, coc(x, y)));
+            return mixed(with_far, soft, near);
+        });
+    }
+
+    const Input& in_;
+    std::vector<Place> disc_;
+    float largest_px_ = 0;
+};
+
+}  // namespace
+
+Result<Output> run_gather_stage(const Input& input) {
+    Output output;
+    output.image = Article(input).stage();
+    output.warnings.emplace_back("this picture is a stage of the published gather method, not a result");
+    return output;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,12 @@
+// The gather method step by step as it was published: docs/published/gather.md says where from, and where we
+// set units right.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+namespace petzval::engine {
+
+// The picture that input.gather.stage asks for. Requires: a stage other than Final.
+Result<Output> run_gather_stage(const Input& input);
+
+}  // namespace petzval::engine

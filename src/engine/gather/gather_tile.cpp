@@ -1,0 +1,305 @@
+#include "engine/gather/gather_tile.h"
+
+#include "device/cpu/gather_taps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kPlanes = 6;
+enum PlaneName { kRed, kGreen, kBlue, kCovered, kAlpha, kBeyond };
+constexpr int kTentBorder = 1;  // cells around a tile that enlarging reads
+
+// Planes side by side in one block of memory that is kept from tile to tile.
+class Planes {
+public:
+    void shape(int count, int width, int height) {
+        width_ = (width + kGatherGroup - 1) / kGatherGroup * kGatherGroup + kGatherGroup;
+        height_ = height, stride_ = std::size_t(width_) * std::size_t(height_);
+        // The last row may be read a group beyond its end.
+        const std::size_t needed = std::size_t(count) * stride_ + kGatherGroup;
+        if (floats_.size() < needed) floats_.resize(needed);
+    }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::ptrdiff_t stride() const { return std::ptrdiff_t(stride_); }  // from plane to plane
+    float* plane(int i) { return floats_.data() + std::size_t(i) * stride_; }
+    float* row(int i, int y) { return plane(i) + std::size_t(y) * std::size_t(width_); }
+    void clear(int count) { std::fill_n(floats_.data(), std::size_t(count) * stride_ + kGatherGroup, 0.0f); }
+
+private:
+    int width_ = 0, height_ = 0;
+    std::size_t stride_ = 0;
+    std::vector<float> floats_;
+};
+
+// Light of one ring that may reach the tile, at its place in the window.
+struct Arrival {
+    int x, y;
+    Rgba colour;
+    float covered, beyond;
+};
+
+// What has been combined so far, per cell: light, and the part of the lens that is still free.
+struct Combined {
+    Planes planes;  // red, green, blue, alpha, free
+    static constexpr int kSumAlpha = 3, kFree = 4, kCount = 5;
+    void reset(int width, int height) {
+        planes.shape(kCount, width, height);
+        planes.clear(kFree);
+        std::fill_n(planes.plane(kFree), std::size_t(planes.width()) * std::size_t(planes.height()), 1.0f);
+    }
+};
+
+struct Workspace {
+    std::vector<std::vector<Arrival>> arrivals;  // by ring
+    std::vector<std::ptrdiff_t> offsets;
+    Planes window, gathered;
+    Combined cells, tile;
+};
+
+Rect cells_of(const Rect& tile, int level) {
+    if (level == 0) return tile;
+    return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
+                ((tile.y1 - 1) >> level) + 1}
+        .grown(kTentBorder);
+}
+
+class TileGather {
+public:
+    TileGather(const GatherSource& source, const Rect& tile, Workspace& workspace)
+        : s_(source), tile_(tile), w_(workspace) {
+        part_ =
+            s_.kernels.part_of(0.5 * (tile.x0 + tile.x1 - 1), s_.first_row + 0.5 * (tile.y0 + tile.y1 - 1));
+    }
+
+    void run(View<Rgba> out) {
+        w_.tile.reset(tile_.width(), tile_.height());
+        const int rings = s_.sizes.count();
+        for (int begin = 0; begin < rings;) {
+            int end = begin;
+            while (end < rings && s_.sizes.level(end) == s_.sizes.level(begin)) ++end;
+            group(begin, end, s_.sizes.level(begin));
+            begin = end;
+        }
+        write(out);
+    }
+
+private:
+    // Rings begin…end-1, all of one level.
+    void group(int begin, int end, int level) {
+        target_ = cells_of(tile_, level);
+        window_ = target_.grown(s_.kernels.reach(level));
+        find_arrivals(begin, end, level);
+        if (std::all_of(w_.arrivals.begin() + begin, w_.arrivals.begin() + end,
+                        [](const auto& arrivals) { return arrivals.empty(); }))
+            return;
+        Combined& into = level == 0 ? w_.tile : w_.cells;
+        if (level > 0) into.reset(target_.width(), target_.height());
+        for (int ring = begin; ring < end; ++ring) {
+            if (w_.arrivals[std::size_t(ring)].empty()) continue;
+            gather_ring(ring);
+            take(into);
+        }
+        if (level > 0) enlarge(level);
+    }
+
+    void find_arrivals(int begin, int end, int level) {
+        w_.arrivals.resize(std::size_t(s_.sizes.count()));
+        for (int ring = begin; ring < end; ++ring) w_.arrivals[std::size_t(ring)].clear();
+        has_beyond_ = false;
+        level == 0 ? find_in_picture(begin, end) : find_in_cells(begin, end, level);
+    }
+
+    void arrive(int ring, int x, int y, Rgba colour, float covered, float beyond) {
+        has_beyond_ = has_beyond_ || beyond > 0;
+        w_.arrivals[std::size_t(ring)].push_back({x - window_.x0, y - window_.y0, colour, covered, beyond});
+    }
+
+    // Whether what lies outside at (x, y) goes on as the nearest cell inside; else there is emptiness.
+    bool goes_on(int x, int y, int width, int height) const {
+        const OpenEdges& open = s_.input.open_edges;
+        return (x >= 0 || open.left) && (x < width || open.right) && (y >= 0 || open.top) &&
+               (y < height || open.bottom);
+    }
+
+    void find_in_picture(int begin, int end) {
+        const int width = s_.input.width(), height = s_.input.height();
+        for (int y = window_.y0; y < window_.y1; ++y)
+            for (int x = window_.x0; x < window_.x1; ++x) {
+                const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
+                const bool outside = u != x || v != y, on = !outside || goes_on(x, y, width, height);
+                for_each_sample(s_.input, s_.fill, u, v, [&](Rgba colour, float coc_px, float covered) {
+                    const RingSizes::Mix mix = s_.sizes.mix(coc_px);
+                    const auto add = [&](int ring, float share) {
+                        if (share <= 0 || ring < begin || ring >= end) return;
+                        arrive(ring, x, y, outside ? Rgba{} : share * colour,
+                               outside && on ? 0 : share * covered, outside && on ? share * covered : 0);
+                    };
+                    add(mix.inner, 1 - mix.outer_share);
+                    add(mix.outer, mix.outer_share);
+                });
+            }
+    }
+
+    void find_in_cells(int begin, int end, int level) {
+        const CellLevel& cells = s_.levels[std::size_t(level - 1)];
+        for (int y = window_.y0; y < window_.y1; ++y) {
+            const int v = std::clamp(y, 0, cells.height() - 1);
+            if (!cells.has_any(v)) continue;
+            for (int x = window_.x0; x < window_.x1; ++x) {
+                const int u = std::clamp(x, 0, cells.width() - 1);
+                const bool outside = u != x || v != y;
+                const bool on = outside && goes_on(x, y, cells.width(), cells.height());
+                for (const CellLight& light : cells.at(u, v)) {
+                    if (light.ring < begin || light.ring >= end) continue;
+                    const float all = light.covered + light.beyond;
+                    if (!outside)
+                        arrive(light.ring, x, y, light.colour, light.covered, light.beyond);
+                    else
+                        arrive(light.ring, x, y, {}, on ? 0 : all, on ? all : 0);
+                }
+            }
+        }
+    }
+
+    // The light of one ring, at every cell of its reach within the target.
+    void gather_ring(int ring) {
+        const std::vector<Arrival>& arrivals = w_.arrivals[std::size_t(ring)];
+        const RingKernel& kernel = s_.kernels.at(ring, part_);
+        Rect lit{arrivals.front().x, arrivals.front().y, arrivals.front().x, arrivals.front().y};
+        w_.window.shape(kPlanes, window_.width(), window_.height() + kGatherRows);
+        // Alpha is coverage where all is opaque; what lies beyond the picture is seldom near.
+        const int planes = has_beyond_ || !s_.opaque ? kPlanes : kAlpha;
+        w_.window.clear(planes);
+        for (const Arrival& a : arrivals) {
+            const std::array<float, kPlanes> values{a.colour.r, a.colour.g, a.colour.b,
+                                                    a.covered,  a.colour.a, a.beyond};
+            float* at = w_.window.row(0, a.y) + a.x;
+            for (int k = 0; k < planes; ++k, at += w_.window.stride()) *at += values[std::size_t(k)];
+            lit = {std::min(lit.x0, a.x), std::min(lit.y0, a.y), std::max(lit.x1, a.x + 1),
+                   std::max(lit.y1, a.y + 1)};
+        }
+        // Where it lands, in cells of the target.
+        const int shift_x = window_.x0 - target_.x0, shift_y = window_.y0 - target_.y0;
+        reached_ = Rect{lit.x0 + shift_x + kernel.extent.x0, lit.y0 + shift_y + kernel.extent.y0,
+                        lit.x1 + shift_x + kernel.extent.x1, lit.y1 + shift_y + kernel.extent.y1}
+                       .intersected({0, 0, target_.width(), target_.height()});
+        if (reached_.empty()) return;
+        w_.gathered.shape(kPlanes, target_.width() + kGatherGroup, target_.height() + kGatherRows);
+        w_.offsets.clear();
+        for (const RingKernel::Step& step : kernel.steps)
+            w_.offsets.push_back(std::ptrdiff_t(step.dy) * w_.window.width() + step.dx);
+        sum_taps(kernel);
+    }
+
+    void sum_taps(const RingKernel& kernel) {
+        const int in_x = reached_.x0 + target_.x0 - window_.x0, in_y = reached_.y0 + target_.y0 - window_.y0;
+        const int groups = (reached_.width() + kGatherGroup - 1) / kGatherGroup;
+        const StepJob job{w_.offsets.data(), kernel.weights.data(), int(kernel.steps.size()),
+                          kernel.neutral,    groups * kGatherGroup, reached_.height(),
+                          w_.window.width(), w_.gathered.width()};
+        const auto plane = [&](int k) {
+            return TapPlane{w_.window.row(k, in_y) + in_x, w_.gathered.row(k, reached_.y0) + reached_.x0};
+        };
+        gather_two(job, plane(kRed), 0, plane(kGreen), 1);
+        gather_two(job, plane(kBlue), 2, plane(kCovered), 3);
+        if (has_beyond_ || !s_.opaque) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
+    }
+
+    // Of each cell's lens, the area that the ring arrives with, or what is left.
+    void take(Combined& into) {
+        for (int y = reached_.y0; y < reached_.y1; ++y) {
+            const float *covered = w_.gathered.row(kCovered, y), *beyond = w_.gathered.row(kBeyond, y);
+            const float* light[4] = {w_.gathered.row(kRed, y), w_.gathered.row(kGreen, y),
+                                     w_.gathered.row(kBlue, y),
+                                     w_.gathered.row(s_.opaque ? kCovered : kAlpha, y)};
+            float* const sum[4] = {into.planes.row(0, y), into.planes.row(1, y), into.planes.row(2, y),
+                                   into.planes.row(3, y)};
+            float* free = into.planes.row(Combined::kFree, y);
+            for (int x = reached_.x0; x < reached_.x1; ++x) {
+                const float area = covered[x] + (has_beyond_ ? beyond[x] : 0);
+                // Light that covers nothing is seen through whatever part is still free.
+                const bool covers = covered[x] > kLeastArea;
+                const float taken = covers ? std::min(area, free[x]) : 0;
+                const float share = covers ? taken / covered[x] : free[x];
+                for (int k = 0; k < 4; ++k) sum[k][x] += share * light[k][x];
+                free[x] -= taken;
+            }
+        }
+        reached_ = {};
+    }
+
+    // What a coarse group combined to takes its part of the tile's pixels.
+    void enlarge(int level) {
+        const float per_cell = 1 / float(1 << level);
+        std::array<std::vector<float>, Combined::kCount> line;
+        for (auto& values : line) values.resize(std::size_t(target_.width()));
+        for (int y = 0; y < tile_.height(); ++y) {
+            const float at_y = (float(tile_.y0 + y) + 0.5f) * per_cell - 0.5f - float(target_.y0);
+            const int row = int(at_y);
+            const float below = at_y - float(row);
+            for (int k = 0; k < Combined::kCount; ++k) {
+                const float *a = w_.cells.planes.row(k, row), *b = w_.cells.planes.row(k, row + 1);
+                for (int x = 0; x < target_.width(); ++x)
+                    line[std::size_t(k)][std::size_t(x)] = a[x] + below * (b[x] - a[x]);
+            }
+            enlarge_row(line, y, per_cell);
+        }
+    }
+
+    void enlarge_row(const std::array<std::vector<float>, Combined::kCount>& line, int y, float per_cell) {
+        float* free = w_.tile.planes.row(Combined::kFree, y);
+        for (int x = 0; x < tile_.width(); ++x) {
+            const float at = (float(tile_.x0 + x) + 0.5f) * per_cell - 0.5f - float(target_.x0);
+            const std::size_t i = std::size_t(at);
+            const float right = at - float(i);
+            const auto value = [&](int k) {
+                const std::vector<float>& values = line[std::size_t(k)];
+                return values[i] + right * (values[i + 1] - values[i]);
+            };
+            const float area = 1 - value(Combined::kFree);
+            const bool covers = area > kLeastArea;
+            const float taken = covers ? std::min(area, free[x]) : 0;
+            const float share = covers ? taken / area : free[x];
+            for (int k = 0; k < 4; ++k) w_.tile.planes.row(k, y)[x] += share * value(k);
+            free[x] -= taken;
+        }
+    }
+
+    void write(View<Rgba> out) {
+        for (int y = 0; y < tile_.height(); ++y) {
+            Planes& p = w_.tile.planes;
+            const float *r = p.row(kRed, y), *g = p.row(kGreen, y), *b = p.row(kBlue, y),
+                        *a = p.row(Combined::kSumAlpha, y), *free = p.row(Combined::kFree, y);
+            for (int x = 0; x < tile_.width(); ++x) {
+                const float taken = 1 - free[x];
+                const float scale = taken > kLeastArea ? 1 / taken : 0;
+                out(tile_.x0 + x, tile_.y0 + y) = Rgba{r[x], g[x], b[x], a[x]} * scale;
+            }
+        }
+    }
+
+    static constexpr float kLeastArea = 1e-6f;
+
+    const GatherSource& s_;
+    Rect tile_;
+    Workspace& w_;
+    int part_ = 0;
+    Rect target_, window_;  // cells of the level: where light is wanted, where it may come from
+    Rect reached_;          // cells of the target that the ring reaches
+    bool has_beyond_ = false;
+};
+
+}  // namespace
+
+void gather_tile(const GatherSource& source, const Rect& tile, View<Rgba> out) {
+    thread_local Workspace workspace;
+    TileGather(source, tile, workspace).run(out);
+}
+
+}  // namespace petzval::engine

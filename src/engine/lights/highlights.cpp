@@ -1,0 +1,232 @@
+#include "engine/lights/highlights.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kLeastAlpha = 1e-4f;
+constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything that is compared with it
+constexpr int kNarrowReach = 1, kWideReach = 3;  // cells on either side: 12 and 28 pixels
+
+// Mean of 1 / (luminance + kDark) over cells of `size` pixels. Its reciprocal, the harmonic mean, follows
+// what most of the cell shows and hardly moves for a few bright pixels.
+Plane reciprocal_cells(View<const Rgba> picture, int size, int threads) {
+    Plane cells((picture.width() + size - 1) / size, (picture.height() + size - 1) / size);
+    parallel_for(cells.height(), threads, [&](int cy) {
+        for (int cx = 0; cx < cells.width(); ++cx) {
+            const Rect r =
+                Rect{cx * size, cy * size, (cx + 1) * size, (cy + 1) * size}.intersected(picture.rect());
+            float sum = 0;
+            for (int y = r.y0; y < r.y1; ++y)
+                for (int x = r.x0; x < r.x1; ++x)
+                    sum += 1 / (std::max(0.0f, luminance(picture(x, y))) + kDark);
+            cells(cx, cy) = sum / float(r.width() * r.height());
+        }
+    });
+    return cells;
+}
+
+float box_mean(View<const float> cells, int cx, int cy, int reach) {
+    const Rect r = Rect{cx - reach, cy - reach, cx + reach + 1, cy + reach + 1}.intersected(cells.rect());
+    float sum = 0;
+    for (int y = r.y0; y < r.y1; ++y)
+        for (int x = r.x0; x < r.x1; ++x) sum += cells(x, y);
+    return sum / float(r.width() * r.height());
+}
+
+}  // namespace
+
+HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
+                               int threads)
+    : rule_(rule), width_(picture.width()), height_(picture.height()) {
+    find_contested(coc_px, threads);
+    const Plane reciprocal = reciprocal_cells(picture, kCell, threads);
+    surroundings_ = Plane(reciprocal.width(), reciprocal.height());
+    parallel_for(reciprocal.height(), threads, [&](int y) {
+        for (int x = 0; x < reciprocal.width(); ++x) {
+            const float narrow = 1 / box_mean(reciprocal, x, y, kNarrowReach);
+            const float wide = 1 / box_mean(reciprocal, x, y, kWideReach);
+            surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
+        }
+    });
+    // Rows are summed on their own, then in order: the same bits for any threads.
+    std::vector<double> rows(static_cast<std::size_t>(picture.height()));
+    parallel_for(picture.height(), threads, [&](int y) {
+        for (int x = 0; x < picture.width(); ++x)
+            rows[std::size_t(y)] += double(std::max(0.0f, luminance(picture(x, y))));
+    });
+    double sum = 0;
+    for (const double row : rows) sum += row;
+    white_ = float(4 * sum / (double(picture.width()) * picture.height()));
+}
+
+// A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all
+// surfaces, which is a distance transform (two-sweep chamfer, G. Borgefors 1986) of the blocks' nearest
+// radii.
+void HighlightSplit::find_contested(View<const float> coc_px, int threads) {
+    constexpr float kMarginPx = 3;  // what is nearer by less hides next to nothing
+    contested_ =
+        Plane((coc_px.width() + kBlock - 1) / kBlock, (coc_px.height() + kBlock - 1) / kBlock, 1e30f);
+    parallel_for(contested_.height(), threads, [&](int by) {
+        for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_px.height()); ++y)
+            for (int x = 0; x < coc_px.width(); ++x)
+                contested_(x / kBlock, by) = std::min(contested_(x / kBlock, by), coc_px(x, y) + kMarginPx);
+    });
+    const auto relax = [&](int x, int y, int dx, int dy) {
+        if (!contested_.rect().contains(x + dx, y + dy)) return;
+        const float step = (dx != 0 && dy != 0 ? 1.3693f : 0.955f) * kBlock;
+        contested_(x, y) = std::min(contested_(x, y), contested_(x + dx, y + dy) + step);
+    };
+    for (int y = 0; y < contested_.height(); ++y)
+        for (int x = 0; x < contested_.width(); ++x)
+            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
+    for (int y = contested_.height() - 1; y >= 0; --y)
+        for (int x = contested_.width() - 1; x >= 0; --x)
+            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+}
+
+float HighlightSplit::floor_at(int x, int y, float coc_px) const {
+    const float radius = std::abs(coc_px);
+    const float open = std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
+    // The base goes on beyond the frame, highlights do not: near its edge only true ones count.
+    const int to_edge = std::min(std::min(x, width_ - 1 - x), std::min(y, height_ - 1 - y));
+    const bool contested = coc_px > contested_(x / kBlock, y / kBlock) && float(to_edge) >= radius + 1;
+    if (!contested) return white_ * open;
+    constexpr float kRisesFromPx = 8;  // a wide disc of little light shows no shadow
+    return white_ * std::min(open, rule_.contested_floor * std::max(1.0f, radius / kRisesFromPx));
+}
+
+Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
+    const float brightness = luminance(light);
+    if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
+    if (std::abs(coc_px) > kWidestHighlightPx) return light;
+    if (brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * light.a) return light;
+    const float surroundings = surroundings_(x / kCell, y / kCell);
+    const bool outermost = x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1;
+    const float bound =
+        light.a * (outermost ? white_ * rule_.contested_floor + 2 * rule_.factor * surroundings
+                             : floor_at(x, y, coc_px) + rule_.factor * surroundings);
+    if (brightness <= bound) return light;
+    const Rgba scaled = light * (bound / brightness);
+    return {scaled.r, scaled.g, scaled.b, light.a};
+}
+
+namespace {
+
+constexpr float kSquaresPerRadius = 4;
+constexpr float kSameRadius = 0.01f;  // pixels of a square differ by less than this share of their radius
+
+// What was taken from one sample.
+struct Taken {
+    Rgba colour;
+    std::size_t sample = 0;
+};
+
+// The front-most bright samples of a block of kLargestSquare pixels on a side, to be taken apart into
+// squares.
+class Block {
+public:
+    // The block's first pixel; rows count from first_row of the picture.
+    Block(int x, int y, int first_row) : x_(x), y_(y), first_row_(first_row) {}
+
+    bool empty() const { return empty_; }
+    void put(int x, int y, float coc_px, const Taken& taken) {
+        Cell& c = cell(x - x_, y - y_);
+        c = {taken, coc_px, true};
+        empty_ = false;
+    }
+    // Takes squares of `size` that have light in common.
+    void take_squares(int size, const HighlightSplit& split, std::vector<Highlight>& out) {
+        for (int y = 0; y < kLargestSquare; y += size)
+            for (int x = 0; x < kLargestSquare; x += size) {
+                Rgba common = cell(x, y).taken.colour;
+                const float coc = cell(x, y).coc_px;
+                bool all = true;
+                for_square(x, y, size, [&](const Cell& c) {
+                    all = all && c.lit && std::abs(c.coc_px - coc) <= kSameRadius * std::abs(coc) + 0.02f;
+                    common = {std::min(common.r, c.taken.colour.r), std::min(common.g, c.taken.colour.g),
+                              std::min(common.b, c.taken.colour.b), 0};
+                });
+                // A wide square in a small disc would smear the shadows that nearer things throw into it.
+                const bool narrow = float(size) * kSquaresPerRadius <= std::abs(coc);
+                if (!all || !narrow || split.may_stay(x_ + x, first_row_ + y_ + y, coc, luminance(common)))
+                    continue;
+                for_square(x, y, size, [&](Cell& c) { c.taken.colour -= common; });
+                out.push_back({x_ + x, y_ + y, size, coc, common});
+            }
+    }
+    // What is left: pixel by pixel, or back to the base.
+    void finish(const HighlightSplit& split, CocSamples& samples, std::vector<Highlight>& out) {
+        for (int y = 0; y < kLargestSquare; ++y)
+            for (int x = 0; x < kLargestSquare; ++x) {
+                const Cell& c = cell(x, y);
+                if (!c.lit || c.taken.colour == Rgba{}) continue;
+                if (split.may_stay(x_ + x, first_row_ + y_ + y, c.coc_px, luminance(c.taken.colour)) &&
+                    samples.samples[c.taken.sample].colour.a > kLeastAlpha)
+                    samples.samples[c.taken.sample].colour += c.taken.colour;
+                else
+                    out.push_back({x_ + x, y_ + y, 1, c.coc_px, c.taken.colour});
+            }
+    }
+
+private:
+    struct Cell {
+        Taken taken;
+        float coc_px = 0;
+        bool lit = false;
+    };
+    Cell& cell(int x, int y) { return cells_[y * kLargestSquare + x]; }
+    template <typename Visit>
+    void for_square(int x0, int y0, int size, const Visit& visit) {
+        for (int y = y0; y < y0 + size; ++y)
+            for (int x = x0; x < x0 + size; ++x) visit(cell(x, y));
+    }
+    int x_, y_, first_row_;
+    bool empty_ = true;
+    Cell cells_[kLargestSquare * kLargestSquare];
+};
+
+}  // namespace
+
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
+                                       int largest_square, int threads) {
+    const int width = samples.width, height = samples.height();
+    const int bands = (height + kLargestSquare - 1) / kLargestSquare;
+    std::vector<std::vector<Highlight>> found(static_cast<std::size_t>(bands));
+    parallel_for(bands, threads, [&](int band) {
+        std::vector<Highlight>& out = found[std::size_t(band)];
+        const int y0 = band * kLargestSquare;
+        for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
+            Block block(x0, y0, first_row);
+            for (int y = y0; y < std::min(height, y0 + kLargestSquare); ++y)
+                for (int x = x0; x < std::min(width, x0 + kLargestSquare); ++x) {
+                    const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+                    bool in_block = false;
+                    for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
+                        CocSample& sample = samples.samples[k];
+                        const Rgba base = split.base(x, first_row + y, sample.coc_px, sample.colour);
+                        if (base == sample.colour) continue;
+                        const Rgba taken = sample.colour - base;
+                        const float coc = std::clamp(sample.coc_px, -kWidestHighlightPx, kWidestHighlightPx);
+                        sample.colour = base;
+                        if (in_block)
+                            out.push_back({x, y, 1, coc, taken});
+                        else
+                            block.put(x, y, coc, {taken, k}), in_block = true;
+                    }
+                }
+            if (block.empty()) continue;
+            for (int size = largest_square; size > 1; size /= 2) block.take_squares(size, split, out);
+            block.finish(split, samples, out);
+        }
+    });
+    std::vector<Highlight> highlights;
+    for (const auto& band : found) highlights.insert(highlights.end(), band.begin(), band.end());
+    return highlights;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,73 @@
+// Light too bright to be handled with its neighbours: taken out of the picture exactly, spread on its own.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+#include <vector>
+
+namespace petzval::engine {
+
+// A square of pixels of one radius and one colour.
+struct Highlight {
+    int x = 0, y = 0;  // its top-left pixel
+    int size = 1;      // pixels on a side
+    float coc_px = 0;
+    Rgba colour;  // what was taken out of each of its pixels; a is 0: the surface itself stays in the base
+};
+
+// What light counts as a highlight: luminance above
+//     factor * surroundings + white * max(least_floor, floor_at_1px * radius^1.5)
+// (scene-linear; light of coverage a is compared with a times that), white being four times the picture's
+// mean: highlights are a matter of contrast, not of exposure. The floor rises with the radius because a wider
+// disc hides more of what the levels blur (docs/design/scatter.md gives the law).
+// Light wider than kWidestHighlightPx is none: a kernel of it takes 4 r^2 pixels, and no one sees its rim.
+// (Light without alpha cannot stay in the base; it is drawn as wide as that.)
+constexpr float kWidestHighlightPx = 1024;
+struct HighlightRule {
+    float factor = 2;
+    float least_floor = 1;
+    float floor_at_1px = 0.006f;
+    // The least floor where nearer things stand in the way of the lens: their shadows are exact in highlights
+    // only.
+    float contested_floor = 0.15f;
+};
+
+// Splits light where it stands out of its surroundings:  base + highlight = light. The surroundings are the
+// smaller of two harmonic means of the picture's luminance, over 12 x 12 pixels and twice that over 28 x 28:
+// lamps hardly raise them, surfaces do. Light without alpha (additive glow) is taken out whole.
+class HighlightSplit {
+public:
+    // coc_px: the nearest radius of every pixel of the picture.
+    HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
+                   int threads);
+    // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
+    Rgba base(int x, int y, float coc_px, Rgba light) const;
+    float white() const { return white_; }
+    // Whether light so bright, left over at this place and radius, may stay whatever surrounds it.
+    bool may_stay(int x, int y, float coc_px, float brightness) const {
+        return brightness <= floor_at(x, y, coc_px);
+    }
+
+private:
+    float floor_at(int x, int y, float coc_px) const;
+    void find_contested(View<const float> coc_px, int threads);
+
+    HighlightRule rule_;
+    int width_, height_;
+    float white_ = 0;
+    Plane surroundings_;  // per cell of kCell x kCell pixels
+    static constexpr int kCell = 4;
+    Plane contested_;  // per block of kBlock pixels: the radius from which on something nearer is in the way
+    static constexpr int kBlock = 16;
+};
+
+constexpr int kLargestSquare = 8;  // of highlights; a power of 2
+
+// Splits every sample in place; returns what was taken. Bright areas are taken as few squares: what all
+// pixels of a square of 8, then 4, then 2 have in common goes first, and what is then left of a pixel and no
+// longer stands out stays in the base. largest_square = 1 takes pixels alone. `samples` are rows of the
+// picture that `split` was made for, from first_row (a multiple of 8) on; highlights count rows from there.
+std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
+                                       int largest_square, int threads);
+
+}  // namespace petzval::engine

@@ -1,0 +1,50 @@
+// What can stand between a highlight and the lens, as few squares.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace petzval::engine {
+
+// A square of pixels that one surface covers at one radius.
+struct Caster {
+    float x = 0, y = 0;  // its middle, in pixels; the middle of pixel 0 is 0
+    float size = 1;      // pixels on a side
+    float coc_px = 0;
+    float coverage = 1;
+};
+
+// The samples of a picture by blocks of pixels. Opaque samples of nearly one radius are merged into squares
+// of up to a block. What is far nearer than a highlight is seen small in its disc: for that there are coarser
+// views of the same, whose squares are no smaller than 2 or 4 pixels and cover as much.
+class ShadowCasters {
+public:
+    static constexpr int kBlock = 16;
+    static constexpr int kViews = 3;  // view n: squares of 2^n pixels and more
+    // How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a
+    // tap. To what is behind one by less it is no shadow: it may be its own surface.
+    static constexpr float kSameRadiusPx = 0.2f;
+    ShadowCasters(const CocSamples& samples, int threads);
+
+    float nearest_coc_px() const { return nearest_; }  // of all
+    // Blocks are counted from the picture's corner.
+    const Plane& nearest_of_blocks() const { return nearest_of_blocks_; }
+    // All that is nearer than end_of_view(n) is the same in view n as in finer ones, but for its resolution.
+    std::span<const Caster> of_block(int view, int bx, int by) const;  // nearest first
+    // The largest radius up to which a highlight of this radius loses nothing by view n.
+    static float end_of_view(int view, float highlight_coc_px);
+
+private:
+    Plane nearest_of_blocks_;
+    float nearest_ = 1e30f;
+    struct RowOfBlocks {
+        std::vector<Caster> casters;
+        std::vector<std::size_t> first;  // of each block, and the end
+    };
+    std::array<std::vector<RowOfBlocks>, kViews> views_;
+};
+
+}  // namespace petzval::engine

@@ -1,0 +1,324 @@
+// The definition of a correct result (docs/conventions.md), evaluated.
+//
+// For each output pixel and each of many pupil points u, the ray  q(c) = p - c u  is followed to the first
+// surface it meets. Instead of walking every ray, all rays of one pupil point are answered at once: seen
+// through u, a facet at signed radius c stands at its place + c u, so the facets of a tile are drawn there,
+// nearest in front, and every pixel looks up what covers its centre. Facets are a pixel wide: that is the box
+// filter, once. A facet that covers only part of its pixel is there for that share of the pupil points.
+//
+// Bright points would be hit by few pupil points and come out dotted; they are taken out first and spread
+// with the lens's exact kernel, each tap dimmed by the share of its rays that a nearer surface stops.
+#include "engine/reference/reference.h"
+
+#include "base/parallel.h"
+#include "engine/lights/highlights.h"
+#include "engine/reference/lens_ray.h"
+#include "engine/reference/surfaces.h"
+#include "engine/waist/holdout.h"
+#include "engine/waist/memory.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kTile = 128;
+constexpr int kTileFieldVaries = 32;  // one set of rays for so many pixels on a side
+// Light above 1.5 x its surroundings and a quarter of white is spread exactly; the rest is smooth enough for
+// rays.
+constexpr HighlightRule kHighlights{
+    .factor = 1.5f, .least_floor = 0.25f, .floor_at_1px = 0, .contested_floor = 0.25f};
+constexpr double kShareOfRays = 0.8, kShareOfHighlights = 0.2;  // of the progress bar
+
+double fraction(double x) { return x - std::floor(x); }
+
+// Digits of k mirrored at the point (van der Corput), 0…1.
+double radical_inverse(int k, int base) {
+    double value = 0, digit = 1.0 / base;
+    for (; k > 0; k /= base, digit /= base) value += (k % base) * digit;
+    return value;
+}
+
+std::uint32_t mirrored(std::uint32_t bits) {
+    std::uint32_t result = 0;
+    for (int i = 0; i < 32; ++i, bits >>= 1) result = result << 1 | (bits & 1u);
+    return result;
+}
+
+// Mixes every bit into those above it (Laine and Karras 2011, constants of Vegdahl, psychopath.io 2021).
+std::uint32_t mixed_upwards(std::uint32_t bits, std::uint32_t seed) {
+    bits ^= bits * 0x3d20adeau;
+    bits += seed;
+    bits *= (seed >> 16) | 1u;
+    bits ^= bits * 0x05526c56u;
+    return bits ^ bits * 0x53a22864u;
+}
+
+// MurmurHash3's last step (A. Appleby, public domain).
+std::uint32_t hashed(std::uint32_t h) {
+    h = (h ^ (h >> 16)) * 0x85ebca6bu;
+    h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+    return h ^ (h >> 16);
+}
+
+// A number in 0…1 for ray k: evenly spread over the rays, in an order of its own for each seed. Van der
+// Corput points, shuffled and scrambled (B. Burley, "Practical hash-based Owen scrambling", 2020).
+double scrambled(std::uint32_t k, std::uint32_t seed) {
+    const std::uint32_t place = mirrored(mixed_upwards(mirrored(k), hashed(seed)));
+    return mirrored(mixed_upwards(place, seed)) * 0x1p-32;
+}
+
+// A facet that dims what is behind it is there for its share of the rays, whatever others are.
+bool is_there_by_itself(const Facet& facet, std::uint32_t index, int k) {
+    return facet.coverage >= 1 || scrambled(std::uint32_t(k), hashed(index + 1)) < double(facet.coverage);
+}
+
+// One tile of the output, drawn once per pupil point.
+class Tile {
+public:
+    Tile(const Surfaces& surfaces, CocSamplesView holdout, const Rect& area)
+        : surfaces_(surfaces),
+          holdout_(holdout),
+          area_(area),
+          nearest_(area.width(), area.height()),
+          hit_(area.width(), area.height()),
+          recent_(area.width(), area.height()),
+          sum_(area.width(), area.height()) {}
+
+    void add(const kernel::PupilRay& ray, int k) {
+        clear();
+        for (int by = 0; by < surfaces_.blocks_y(); ++by)
+            for (int bx = 0; bx < surfaces_.blocks_x(); ++bx)
+                if (reaches(bx, by, ray)) draw_block(surfaces_.block_area(bx, by), ray, k);
+        for (int y = 0; y < area_.height(); ++y)
+            for (int x = 0; x < area_.width(); ++x)
+                if (const std::uint32_t hit = hit_(x, y); hit != kNothing)
+                    recent_(x, y) += arriving(surfaces_.facets()[hit], x, y) * ray.weight;
+        if (k % kRecent == kRecent - 1) settle();
+    }
+
+    const Picture& sum() {
+        settle();
+        return sum_;
+    }
+
+private:
+    static constexpr std::uint32_t kNothing = 0xffffffff;
+    // Thousands of small floats added to one large one lose digits; sums of this many first do not.
+    static constexpr int kRecent = 64;
+
+    void settle() {
+        for (std::size_t i = 0; i < sum_.size(); ++i) {
+            sum_.pixels()[i] += recent_.pixels()[i];
+            recent_.pixels()[i] = {};
+        }
+    }
+
+    Rgba arriving(const Facet& facet, int x, int y) const {
+        return facet.colour * let_through(holdout_, area_.x0 + x, area_.y0 + y, facet.coc_px);
+    }
+
+    void clear() {
+        std::fill_n(nearest_.pixels(), nearest_.size(), 1e30f);
+        std::fill_n(hit_.pixels(), hit_.size(), kNothing);
+    }
+
+    bool reaches(int bx, int by, const kernel::PupilRay& ray) const {
+        const Surfaces::Bounds bounds = surfaces_.block(bx, by);
+        if (bounds.min > bounds.max) return false;
+        const Rect r = surfaces_.block_area(bx, by);
+        const float ax = bounds.min * ray.x + ray.offset_x_px, bx_px = bounds.max * ray.x + ray.offset_x_px;
+        const float ay = bounds.min * ray.y + ray.offset_y_px, by_px = bounds.max * ray.y + ray.offset_y_px;
+        return float(r.x1) + std::max(ax, bx_px) >= float(area_.x0) &&
+               float(r.x0) + std::min(ax, bx_px) < float(area_.x1) &&
+               float(r.y1) + std::max(ay, by_px) >= float(area_.y0) &&
+               float(r.y0) + std::min(ay, by_px) < float(area_.y1);
+    }
+
+    void draw_block(const Rect& block, const kernel::PupilRay& ray, int k) {
+        // Base 11: unrelated to the sequences that lenses spread their rays by.
+        const double chance = radical_inverse(k, 11);
+        const float shift_x = ray.offset_x_px - 0.5f - float(area_.x0);
+        const float shift_y = ray.offset_y_px - 0.5f - float(area_.y0);
+        for (int y = block.y0; y < block.y1; ++y)
+            for (int x = block.x0; x < block.x1; ++x) {
+                std::uint32_t index = surfaces_.first(x, y);
+                const double place = fraction(index * 0.7320508075688772);
+                for (const Facet& facet : surfaces_.at(x, y)) {
+                    if (surfaces_.dims_itself() ? is_there_by_itself(facet, index, k)
+                                                : facet.takes(chance + place))
+                        draw(facet, index, float(x) + shift_x, float(y) + shift_y, ray);
+                    ++index;
+                }
+            }
+    }
+
+    // (left, top): corner of the facet's pixel, such that samples are at whole numbers.
+    void draw(const Facet& facet, std::uint32_t index, float left, float top, const kernel::PupilRay& ray) {
+        const float* c = facet.corner_coc_px;
+        const float bend = std::max({std::abs(c[0] - c[1]), std::abs(c[0] - c[2]), std::abs(c[0] - c[3])});
+        if (bend < 1e-5f) {  // flat: a unit square holds exactly one sample
+            const int x = int(std::ceil(left + facet.coc_px * ray.x)),
+                      y = int(std::ceil(top + facet.coc_px * ray.y));
+            if (x >= 0 && x < area_.width() && y >= 0 && y < area_.height()) put(x, y, facet.coc_px, index);
+            return;
+        }
+        const float x[4] = {left + c[0] * ray.x, left + 1 + c[1] * ray.x, left + c[2] * ray.x,
+                            left + 1 + c[3] * ray.x};
+        const float y[4] = {top + c[0] * ray.y, top + c[1] * ray.y, top + 1 + c[2] * ray.y,
+                            top + 1 + c[3] * ray.y};
+        const int x0 = std::max(0, int(std::ceil(std::min({x[0], x[1], x[2], x[3]}))));
+        const int x1 = std::min(area_.width() - 1, int(std::floor(std::max({x[0], x[1], x[2], x[3]}))));
+        const int y0 = std::max(0, int(std::ceil(std::min({y[0], y[1], y[2], y[3]}))));
+        const int y1 = std::min(area_.height() - 1, int(std::floor(std::max({y[0], y[1], y[2], y[3]}))));
+        for (int v = y0; v <= y1; ++v)
+            for (int u = x0; u <= x1; ++u)
+                if (in_triangle(float(u), float(v), x, y, 0, 1, 2) ||
+                    in_triangle(float(u), float(v), x, y, 1, 3, 2))
+                    put(u, v, facet.coc_px, index);
+    }
+
+    // Either way round: a surface seen from a far side of the pupil may be turned over.
+    static bool in_triangle(float u, float v, const float* x, const float* y, int a, int b, int c) {
+        const auto side = [&](int i, int j) {
+            return (x[j] - x[i]) * (v - y[i]) - (y[j] - y[i]) * (u - x[i]);
+        };
+        const float ab = side(a, b), bc = side(b, c), ca = side(c, a);
+        return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+    }
+
+    void put(int x, int y, float coc_px, std::uint32_t index) {
+        if (coc_px >= nearest_(x, y)) return;
+        nearest_(x, y) = coc_px;
+        hit_(x, y) = index;
+    }
+
+    const Surfaces& surfaces_;
+    CocSamplesView holdout_;
+    Rect area_;
+    Plane nearest_;
+    Image<std::uint32_t> hit_;
+    Picture recent_, sum_;
+};
+
+std::vector<Rect> tiles_of(const Rect& area, int size) {
+    std::vector<Rect> tiles;
+    for (int y = area.y0; y < area.y1; y += size)
+        for (int x = area.x0; x < area.x1; x += size)
+            tiles.push_back(Rect{x, y, x + size, y + size}.intersected(area));
+    return tiles;
+}
+
+void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
+    const bool varies = input.lens(0).varies_over_field();
+    const std::vector<Rect> tiles = tiles_of(out.rect(), varies ? kTileFieldVaries : kTile);
+    const auto rays_at = [&](const Rect& r) {
+        return input.lens(0).rays(
+            input.pupil_points, input.field_at(0.5 * (r.x0 + r.x1 - 1), 0.5 * (r.y0 + r.y1 - 1)), input.seed);
+    };
+    const std::vector<kernel::PupilRay> everywhere = rays_at(out.rect());
+    parallel_for(int(tiles.size()), input.threads, [&](int i) {
+        if (input.progress->cancelled()) return;
+        const Rect& area = tiles[std::size_t(i)];
+        const std::vector<kernel::PupilRay> here = varies ? rays_at(area) : std::vector<kernel::PupilRay>{};
+        const std::vector<kernel::PupilRay>& rays = varies ? here : everywhere;
+        Tile tile(surfaces, input.holdout, area);
+        for (int k = 0; k < int(rays.size()) && !input.progress->cancelled(); ++k)
+            tile.add(rays[std::size_t(k)], k);
+        for (int y = area.y0; y < area.y1; ++y)
+            for (int x = area.x0; x < area.x1; ++x) out(x, y) = tile.sum()(x - area.x0, y - area.y0);
+        input.progress->advance(kShareOfRays / double(tiles.size()));
+    });
+}
+
+void spread_highlights(const Input& input, const Surfaces& surfaces, const std::vector<Highlight>& highlights,
+                       View<Rgba> out) {
+    // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
+    // threads.
+    constexpr int kBatch = 512;
+    const int count = int(highlights.size());
+    for (int begin = 0; begin < count && !input.progress->cancelled(); begin += kBatch) {
+        const int size = std::min(kBatch, count - begin);
+        std::vector<kernel::PointSpread> spreads(static_cast<std::size_t>(size));
+        parallel_for(size, input.threads, [&](int i) {
+            const Highlight& h = highlights[std::size_t(begin + i)];
+            spreads[std::size_t(i)] =
+                visible_point_spread(surfaces, input.lens(0), input.field_at(h.x, h.y), h.x, h.y, h.coc_px,
+                                     std::max(1.0, input.pixel_aspect));
+        });
+        constexpr int kBand = 32;
+        parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
+            const Rect rows = Rect{0, band * kBand, out.width(), (band + 1) * kBand}.intersected(out.rect());
+            for (int i = 0; i < size; ++i) {
+                const Highlight& h = highlights[std::size_t(begin + i)];
+                const kernel::PointSpread& spread = spreads[std::size_t(i)];
+                const Rect e = spread.extent;
+                const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
+                for (int y = place.y0; y < place.y1; ++y)
+                    for (int x = place.x0; x < place.x1; ++x)
+                        out(x, y) += spread.weights(x - h.x - e.x0, y - h.y - e.y0) * h.colour *
+                                     let_through(input.holdout, x, y, h.coc_px);
+            }
+        });
+        input.progress->advance(kShareOfHighlights * size / count);
+    }
+}
+
+double largest_radius(const Input& input) {
+    float largest = 0;
+    for (int y = 0; y < input.height(); ++y)
+        for (int x = 0; x < input.width(); ++x) largest = std::max(largest, std::abs(input.coc_px(x, y)));
+    for (const CocSample& s : input.deep.samples()) largest = std::max(largest, std::abs(s.coc_px));
+    return largest;
+}
+
+// The scene goes on beyond the picture as far as a ray may come from, so wide radii take memory: refused in
+// good time rather than tried.
+Status surfaces_fit(const Input& input, const CocSamples& samples, int margin) {
+    constexpr double kMost = double(std::size_t(8) << 30);
+    const double pixels = double(input.width()) * input.height();
+    const double cells = (double(input.width()) + 2.0 * margin) * (double(input.height()) + 2.0 * margin);
+    const double per_cell =
+        sizeof(std::uint32_t) + sizeof(Facet) * std::max(1.0, double(samples.samples.size()) / pixels);
+    const double bytes = cells * per_cell + double(held_bytes(input));
+    const double most = input.max_memory_bytes > 0 ? double(input.max_memory_bytes) : kMost;
+    if (bytes <= most) return Done{};
+    Error error = too_little_memory("reference", std::size_t(bytes));
+    if (input.max_memory_bytes == 0)
+        error.message =
+            "engine reference takes about " + std::to_string(std::size_t(bytes) >> 20) +
+            "M for this picture and blur; cut radii with --max-radius, or allow it with --max-memory";
+    return error;
+}
+
+}  // namespace
+
+Result<Output> run_reference(const Input& input) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+
+    CocSamples samples = stated_samples(input);
+    const HighlightSplit split(input.colour, input.coc_px, kHighlights, input.threads);
+    const std::vector<Highlight> highlights = take_highlights(samples, split, 0, 1, input.threads);
+    // A ray may come from as far as the largest radius on either side of focus.
+    const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
+    if (const Status fits = surfaces_fit(input, samples, margin); !fits) return fits.error();
+    const Surfaces surfaces =
+        Surfaces::make(samples, input.open_edges, margin, input.deep_dims_itself, input.threads);
+    const double prepared = seconds();
+
+    Output output;
+    output.image = Picture(input.width(), input.height());
+    trace_base(input, surfaces, output.image);
+    const double traced = seconds();
+    spread_highlights(input, surfaces, highlights, output.image);
+    if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+    output.stages = {{"surfaces", prepared}, {"rays", traced - prepared}, {"highlights", seconds() - traced}};
+    return output;
+}
+
+}  // namespace petzval::engine

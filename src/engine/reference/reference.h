@@ -1,0 +1,11 @@
+// The definition of a correct result: rays, as many as asked for.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+namespace petzval::engine {
+
+// Errors: Cancelled, OutOfMemory.
+Result<Output> run_reference(const Input& input);
+
+}  // namespace petzval::engine

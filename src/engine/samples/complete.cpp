@@ -1,0 +1,135 @@
+#include "engine/samples/complete.h"
+
+#include "base/parallel.h"
+#include "engine/samples/connectivity.h"
+#include "engine/samples/hidden.h"
+#include "engine/samples/layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kLeastShare = 1e-3f;
+
+// A sample that takes up `share` of its pixel; what its colour does not cover of that is emptiness.
+CocSample sample(Rgba colour, float coc_px, float share) {
+    const float empty = share - colour.a;
+    return {colour, coc_px, coc_px, empty > kLeastShare ? empty : 0};
+}
+
+// How many pixels away (the larger of columns and rows) the picture is transparent; many where it nowhere is.
+Image<int> distance_to_emptiness(View<const Rgba> picture) {
+    constexpr int kFar = 1 << 20;
+    Image<int> distance(picture.width(), picture.height(), kFar);
+    const auto step = [&](int x, int y, int dx, int dy) {
+        if (!distance.rect().contains(x + dx, y + dy)) return;
+        distance(x, y) = std::min(distance(x, y), distance(x + dx, y + dy) + 1);
+    };
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            if (picture(x, y).a <= 1 - kLeastShare) distance(x, y) = 0;
+            step(x, y, -1, 0), step(x, y, -1, -1), step(x, y, 0, -1), step(x, y, 1, -1);
+        }
+    for (int y = picture.height() - 1; y >= 0; --y)
+        for (int x = picture.width() - 1; x >= 0; --x)
+            step(x, y, 1, 0), step(x, y, 1, 1), step(x, y, 0, 1), step(x, y, -1, 1);
+    return distance;
+}
+
+// The stated samples, with emptiness at the end of pixels that the picture shows to be transparent, and of
+// those so near to one that a lens looks past what they show: there the emptiness goes on, as everything does
+// behind what hides it. It takes what the others leave of a pixel's lens, and is no wider than the pixel.
+// (Coverages of a pixel's samples need not sum to 1 where it is opaque: surfaces that meet in it share it.)
+CocSamples deep_completed(const Input& input) {
+    const CocSamples stated = stated_samples(input);
+    const Image<int> distance = distance_to_emptiness(input.colour);
+    const double stretch = input.lens(0).reach_px(1);
+    CocSamples all;
+    all.width = stated.width;
+    all.first.reserve(stated.first.size());
+    all.samples.reserve(stated.samples.size());
+    for (std::size_t i = 0; i + 1 < stated.first.size(); ++i) {
+        all.first.push_back(all.samples.size());
+        float largest = 0;
+        for (std::size_t k = stated.first[i]; k < stated.first[i + 1]; ++k) {
+            all.samples.push_back(stated.samples[k]);
+            largest = std::max(largest, std::abs(stated.samples[k].coc_px));
+        }
+        const bool looks_past = double(distance.pixels()[i]) <= stretch * double(largest) + 1;
+        if (distance.pixels()[i] == 0 || looks_past) all.samples.push_back(emptiness_behind_everything());
+    }
+    all.first.push_back(all.samples.size());
+    return all;
+}
+
+}  // namespace
+
+CocSamples completed(const Input& input, View<const unsigned char> connected) {
+    if (!input.deep.empty()) return deep_completed(input);
+    auto mixtures = unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
+    const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
+    const auto hidden = fill_hidden(input.colour, input.coc_px, connected, mixtures, input.nearest_coc_px,
+                                    input.farthest_coc_px, shared_from_px, input.threads);
+
+    unmix_nearer(mixtures, input.colour, hidden, input.threads);
+
+    // Counted first, then written, so that rows can be done in parallel.
+    const int width = input.width(), height = input.height();
+    const auto samples_at = [&](int x, int y, const auto& emit) {
+        if (const Mixture* m = mixtures.at(x, y)) {
+            if (m->near_share > kLeastShare) emit(sample(m->near_colour, m->near_coc_px, m->near_share));
+            const auto behind = hidden.at(x, y);
+            for (const Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
+            if (behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
+        } else {
+            emit(sample(input.colour(x, y), input.coc_px(x, y), 1));
+            for (const Hidden& h : hidden.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
+        }
+    };
+    std::vector<std::size_t> first_of_row(std::size_t(height) + 1, 0);
+    parallel_for(height, input.threads, [&](int y) {
+        std::size_t n = 0;
+        for (int x = 0; x < width; ++x) samples_at(x, y, [&](const CocSample&) { ++n; });
+        first_of_row[std::size_t(y) + 1] = n;
+    });
+    std::partial_sum(first_of_row.begin(), first_of_row.end(), first_of_row.begin());
+    CocSamples all;
+    all.width = width;
+    all.first.resize(std::size_t(width) * std::size_t(height) + 1);
+    all.samples.resize(first_of_row.back());
+    parallel_for(height, input.threads, [&](int y) {
+        std::size_t at = first_of_row[std::size_t(y)];
+        for (int x = 0; x < width; ++x) {
+            all.first[std::size_t(y) * std::size_t(width) + std::size_t(x)] = at;
+            samples_at(x, y, [&](const CocSample& s) { all.samples[at++] = s; });
+        }
+    });
+    all.first.back() = all.samples.size();
+    return all;
+}
+
+void share_lens_area(CocSamples& samples, int threads) {
+    parallel_for(samples.height(), threads, [&](int y) {
+        const std::size_t row = std::size_t(y) * std::size_t(samples.width);
+        for (std::size_t i = row; i < row + std::size_t(samples.width); ++i) {
+            float free = 1;
+            bool dimmed_in_layer = false;
+            int layer = std::numeric_limits<int>::min();
+            for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
+                CocSample& s = samples.samples[k];
+                if (const int own = layer_of(s.coc_px); own != layer) layer = own, dimmed_in_layer = false;
+                const float alpha = s.colour.a;
+                const bool opaque = alpha > 1 - kLeastShare;
+                if (!opaque || dimmed_in_layer) s.colour *= free;
+                if (!opaque) free *= 1 - alpha, dimmed_in_layer = true;
+            }
+        }
+    });
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,22 @@
+// From one picture with depth to all that a lens may see of the scene: silhouettes taken apart, hidden parts
+// continued.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+namespace petzval::engine {
+
+// Every sample of every pixel, nearest first. A deep input says it all itself; of a flat one, pixels at
+// silhouettes are taken apart into what they show of each surface, and what is hidden near silhouettes is
+// filled in (engine/samples/hidden.h). What a flat pixel leaves uncovered (alpha below 1) lies at the far end
+// as emptiness: covered, transparent black. `connected`: connections(input.coc_px).
+CocSamples completed(const Input& input, View<const unsigned char> connected);
+
+// From samples that dim each other (Input::deep_dims_itself) to shares of the lens: what a ray straight
+// through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front
+// of them. An opaque one takes what is left of the lens anyway, and rays that come past what is in front of
+// it see all of it; only translucent samples composited with it in one layer (engine/scatter/sources.h) dim
+// it. For what is left once highlights are taken: they look for what is in front of them themselves.
+void share_lens_area(CocSamples& samples, int threads);
+
+}  // namespace petzval::engine

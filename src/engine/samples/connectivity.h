@@ -1,0 +1,37 @@
+// Which neighbouring pixels show one surface, told from their signed circles of confusion.
+//
+// The radius is linear in 1/depth, and 1/depth of a plane is linear in image position: on a flat surface the
+// radius changes by the same amount from pixel to pixel, however steep the surface is.
+#pragma once
+
+#include "petzval/image.h"
+
+#include <cmath>
+
+namespace petzval::engine {
+
+// True if two neighbouring samples belong to one surface. A step of up to one pixel of radius cannot hide
+// anything wider than that, so it always connects; a larger one only where it continues the slope on one of
+// its sides (signed change of radius from the sample before a to a, and from b to the sample after b).
+inline bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px, float slope_after_b_px) {
+    constexpr float kAlwaysConnectedPx = 1.0f, kSlopeTolerance = 0.5f;
+    const float step = coc_b_px - coc_a_px;
+    if (std::abs(step) <= kAlwaysConnectedPx) return true;
+    const float tolerance = kSlopeTolerance * std::abs(step);
+    return std::abs(step - slope_before_a_px) <= tolerance || std::abs(step - slope_after_b_px) <= tolerance;
+}
+
+// Bits of a pixel: connected to its neighbour on that side. Beyond the picture counts as connected.
+enum Connected : unsigned char { kLeft = 1, kRight = 2, kUp = 4, kDown = 8, kAll = 15 };
+
+// Connections of every pixel of a plane of signed radii.
+Image<unsigned char> connections(View<const float> coc_px, int threads);
+
+// Change of the radius per pixel along x and y within the surface of each pixel: the mean of the steps to its
+// connected neighbours.
+struct Slope {
+    float x = 0, y = 0;
+};
+Slope slope_at(View<const float> coc_px, View<const unsigned char> connected, int x, int y);
+
+}  // namespace petzval::engine

@@ -1,0 +1,421 @@
+#include "base/parallel.h"
+#include "engine/samples/hidden.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kDirections = 16;      // even: opposite directions are paired
+constexpr float kBehindPx = 1.0f;    // farther by less than this in radius is not worth filling
+constexpr float kPastEdgePx = 2.0f;  // how far beyond the reach of the blur to look
+constexpr float kLikeEnough =
+    0.1f;                       // squared relative difference below which two patches are as good as the same
+constexpr float kPlain = 0.1f;  // squared relative contrast below which a patch shows no edge
+constexpr float kUsualContrast = 20;  // of votes; brighter ones are lamps
+constexpr float kOneSided = 10;       // what a surface met on one side counts, against two unlike patches
+
+float square(Rgba c) { return c.r * c.r + c.g * c.g + c.b * c.b; }
+
+// The end of a search: a pixel of the surface that was met.
+constexpr int kHits = 2;      // per direction
+constexpr int kSurfaces = 3;  // behind one pixel
+struct Found {
+    bool found = false;
+    int x = 0, y = 0;
+    float coc_px = 0, distance_px = 0;
+};
+// A few pixels around it, as seen coming from the hidden pixel: itself, one to either side, two beyond.
+constexpr int kPatch = 5;
+using Patch = std::array<Rgba, kPatch>;
+
+constexpr int kBlock = 4;  // pixels on a side share one distance to the nearest silhouette
+
+using Hits = std::array<std::array<Found, kHits>, kDirections>;
+
+struct Direction {
+    float x, y;
+};
+struct Step {
+    float t;  // distance, px
+    int x, y;
+    std::ptrdiff_t offset;  // in the plane of clean radii
+};
+struct Path {
+    Direction direction;
+    std::vector<Step> steps;
+    std::vector<std::size_t> at_distance;  // the first step at least so many pixels away
+};
+
+// Weighted opinions on what is hidden.
+class Votes {
+public:
+    void add(Rgba colour, float coc_px, float weight) {
+        const float light = std::max(0.0f, luminance(colour));
+        votes_[std::size_t(count_++)] = {colour, coc_px, weight, light};
+        roots_ += weight * std::sqrt(light), weight_ += weight;
+    }
+    // Their mean; but a lamp that few see does not shine all over a surface.
+    Hidden result() const {
+        const float usual = kUsualContrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
+        Rgba sum;
+        float coc = 0, total = 0;
+        for (const Vote& vote : std::span(votes_).first(std::size_t(count_))) {
+            const float excess = vote.light / usual;
+            const float weight = vote.weight / (1 + excess * excess);
+            sum += weight * vote.colour, coc += weight * vote.coc_px, total += weight;
+        }
+        return {sum * (1 / total), coc / total, 1};
+    }
+
+private:
+    struct Vote {
+        Rgba colour;
+        float coc_px, weight, light;
+    };
+    std::array<Vote, kDirections> votes_;
+    int count_ = 0;
+    float roots_ = 0, weight_ = 0;
+};
+
+class Filler {
+public:
+    Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
+           const Sparse<Mixture>& mixtures, float largest, float farthest, int threads)
+        : colour_(colour),
+          coc_(coc),
+          connected_(connected),
+          mixtures_(mixtures),
+          farthest_(farthest),
+          largest_(largest) {
+        clean_ = Plane::uninitialised(coc.width(), coc.height());
+        parallel_for(coc.height(), threads, [&](int y) {
+            for (int x = 0; x < coc.width(); ++x) clean_(x, y) = known_radius(x, y);
+        });
+        measure_distances(threads);
+        lay_paths();
+    }
+
+    // Whether any lens ray can come past what hides what is behind (x, y).
+    bool may_hide(int x, int y) const {
+        return beyond_(x / kBlock, y / kBlock) <= std::abs(coc_(x, y)) + kPastEdgePx;
+    }
+    // Appends what lies behind (x, y), if any surface nearby does.
+    void fill(int x, int y, std::vector<Hidden>& hidden) const {
+        const Mixture* m = mixtures_.at(x, y);
+        const float own = m ? m->near_coc_px : coc_(x, y);
+        Hits hits;
+        bool any = false;
+        const Slope slope = slope_at(coc_, connected_, x, y);
+        for (std::size_t k = 0; k < kDirections; ++k) {
+            hits[k] = search(x, y, own, slope, paths_[k]);
+            any = any || hits[k][0].found;
+        }
+        if (any) stack(hits, hidden);
+    }
+
+private:
+    // What is known of the surface that a pixel shows: nothing of the nearer one at a silhouette.
+    float known_radius(int x, int y) const {
+        const Mixture* m = mixtures_.at(x, y);
+        return !m ? coc_(x, y) : m->shows_far ? m->far_coc_px : -1e30f;
+    }
+    Rgba known_colour(int x, int y) const {
+        const Mixture* m = mixtures_.at(x, y);
+        return m ? m->far_colour : colour_(x, y);
+    }
+
+    // Per block of pixels: distance to each silhouette of a surface in the block, less the blur of what lies
+    // behind it, the smallest. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
+    // digital images", 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own
+    // blur need no search.
+    void measure_distances(int threads) {
+        const int width = (coc_.width() + kBlock - 1) / kBlock,
+                  height = (coc_.height() + kBlock - 1) / kBlock;
+        beyond_ = Plane(width, height, 1e9f);
+        free_ = Image<int>(width, height, 1 << 20);
+        Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
+        parallel_for(height, threads, [&](int by) {
+            for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y)
+                for (int x = 0; x < coc_.width(); ++x) {
+                    const int bx = x / kBlock;
+                    nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
+                    const Mixture* m = mixtures_.at(x, y);
+                    if (!m) continue;
+                    free_(bx, by) = -kBlock;
+                    if (m->far_coc_px > far(bx, by))
+                        beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
+                }
+        });
+        constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
+        const auto relax = [&](int x, int y, int dx, int dy) {
+            if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
+            free_(x, y) = std::min(free_(x, y), free_(x + dx, y + dy) + kBlock);
+            const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
+            if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + kBehindPx) return;
+            beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
+        };
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
+        for (int y = height - 1; y >= 0; --y)
+            for (int x = width - 1; x >= 0; --x)
+                relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+    }
+
+    // Where the steps of each direction land: every pixel at first, every eighth of the way further out.
+    void lay_paths() {
+        const float longest = largest_ + std::abs(farthest_) + kPastEdgePx;
+        for (int k = 0; k < kDirections; ++k) {
+            const double angle = 2 * M_PI * k / kDirections;
+            Path& path = paths_[std::size_t(k)];
+            path.direction = {float(std::cos(angle)), float(std::sin(angle))};
+            for (float t = 1; t <= longest; t += std::max(1.0f, t / 8)) {
+                const int dx = int(std::lround(t * path.direction.x)),
+                          dy = int(std::lround(t * path.direction.y));
+                path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * clean_.width() + dx});
+            }
+            for (std::size_t i = 0; i < path.steps.size(); ++i)
+                while (float(path.at_distance.size()) <= path.steps[i].t) path.at_distance.push_back(i);
+        }
+    }
+
+    // The first clean pixel of a farther surface, walking from (x, y), and of one farther still.
+    std::array<Found, kHits> search(int x, int y, float own, Slope slope, const Path& path) const {
+        const float own_per_px = std::max(0.0f, slope.x * path.direction.x + slope.y * path.direction.y);
+        float longest = std::abs(own) + std::abs(farthest_) + kPastEdgePx;
+        const float* const start = &clean_(x, y);
+        std::array<Found, kHits> hits;
+        std::size_t n = 0;
+        float behind = own + kBehindPx;
+        const unsigned width = unsigned(clean_.width()), height = unsigned(clean_.height());
+        const Step *step = path.steps.data(), *const end = step + path.steps.size();
+        while (step != end && step->t <= longest) {
+            const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
+            if (u >= width || v >= height) break;
+            const float c = start[step->offset];
+            if (c > behind && c > own + step->t * own_per_px + kBehindPx) {
+                if (step->t <= std::abs(own) + std::abs(c) + kPastEdgePx) {
+                    hits[n++] = {true, int(u), int(v), c, step->t};
+                    longest = std::min(longest, 2 * step->t + 8);
+                }
+                behind = c + 2 * kBehindPx;
+                if (n == kHits || behind >= farthest_) break;
+            }
+            // No other surface comes before the next silhouette.
+            const int free = free_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
+            if (free <= 1) {
+                ++step;
+                continue;
+            }
+            const std::size_t distance = std::size_t(step->t) + std::size_t(free);
+            if (distance >= path.at_distance.size()) break;
+            step = std::max(step + 1, path.steps.data() + path.at_distance[distance]);
+        }
+        return hits;
+    }
+
+    Patch patch_at(const Found& hit, Direction d) const {
+        const int x = hit.x, y = hit.y;
+        // Across the direction in a fixed sense, so that patches met in opposite directions can be compared.
+        const bool turned = d.y < 0 || (d.y == 0 && d.x < 0);
+        const float across_x = turned ? d.y : -d.y, across_y = turned ? -d.x : d.x;
+        const std::array<Direction, kPatch> offsets{{{0, 0},
+                                                     {1.5f * across_x, 1.5f * across_y},
+                                                     {-1.5f * across_x, -1.5f * across_y},
+                                                     {1.5f * d.x, 1.5f * d.y},
+                                                     {3 * d.x, 3 * d.y}}};
+        Patch patch;
+        for (int k = 0; k < kPatch; ++k) {
+            const Direction o = offsets[std::size_t(k)];
+            const int u = x + int(std::lround(o.x)), v = y + int(std::lround(o.y));
+            const bool usable = coc_.rect().contains(u, v) && std::abs(clean_(u, v) - hit.coc_px) < 1;
+            patch[std::size_t(k)] = comparable(usable ? known_colour(u, v) : known_colour(x, y));
+        }
+        return patch;
+    }
+
+    // High where two patches could be two pieces of one surface, and higher where an edge runs from one to
+    // the other: plain patches look alike everywhere.
+    float likeness(const Found& a, Direction to_a, const Found& b, Direction to_b) const {
+        const Patch at_a = patch_at(a, to_a), at_b = patch_at(b, to_b);
+        float difference = 0, level = 0.003f;
+        for (std::size_t k = 0; k < kPatch; ++k) {
+            difference += square(at_a[k] - at_b[k]);
+            level += square(0.5f * (at_a[k] + at_b[k]));
+        }
+        const float depth = a.coc_px - b.coc_px;
+        const float unlike = difference / level + 0.02f * depth * depth;
+        const auto across = [](const Patch& p) { return square(p[0] - p[1]) + square(p[0] - p[2]); };
+        const auto along = [](const Patch& p) { return square(p[0] - p[3]) + square(p[0] - p[4]); };
+        const float plain = kPlain * level;
+        const float edge = (plain + across(at_a) + across(at_b)) / (plain + along(at_a) + along(at_b));
+        return edge / (kLikeEnough + unlike * unlike);
+    }
+
+    static bool one_surface(float coc_a, float coc_b) {
+        return std::abs(coc_a - coc_b) < 1.5f + 0.05f * std::abs(coc_a + coc_b);
+    }
+
+    // A surface mostly there is wholly there, one hardly there is not: smoothstep around one half.
+    static float sharpened(float share) {
+        const float t = std::clamp((share - 0.3f) / 0.4f, 0.0f, 1.0f);
+        return t * t * (3 - 2 * t);
+    }
+
+    // The surfaces that were met, nearest first. The farthest fills all there is; a nearer one only the share
+    // of the surroundings that it has: a wire behind a leaf goes on as a wire.
+    void stack(Hits& hits, std::vector<Hidden>& hidden) const {
+        float share_behind = 0;
+        std::array<Hidden, kSurfaces> surfaces{};
+        int n = 0;
+        for (; n < kSurfaces; ++n) {
+            // The farthest that is left, and all that belongs to it.
+            float farthest = -1e30f;
+            for (const auto& direction : hits)
+                for (const Found& f : direction)
+                    if (f.found) farthest = std::max(farthest, f.coc_px);
+            if (farthest < -1e29f) break;
+            float share = 0;
+            surfaces[std::size_t(n)] = surface(hits, farthest, share);
+            share_behind += share;
+            surfaces[std::size_t(n)].share = sharpened(share / share_behind);
+            surfaces[std::size_t(n)].colour *= surfaces[std::size_t(n)].share;
+        }
+        for (int i = n - 1; i >= 0; --i) hidden.push_back(surfaces[std::size_t(i)]);
+    }
+
+    // What the hits at `coc_px` agree on; they are used up. share: their weight, the sum of 1/distance.
+    Hidden surface(Hits& hits, float coc_px, float& share) const {
+        Votes votes;
+        const auto take = [&](std::size_t k) -> Found* {
+            for (Found& f : hits[k])
+                if (f.found && one_surface(f.coc_px, coc_px)) return &f;
+            return nullptr;
+        };
+        const auto colour_of = [&](const Found& f) { return known_colour(f.x, f.y); };
+        constexpr std::size_t kPairs = kDirections / 2;
+        for (std::size_t k = 0; k < kPairs; ++k) {
+            Found *a = take(k), *b = take(k + kPairs);
+            // Seen on both sides, it most likely goes on between them.
+            if (a && b) share += 2 / a->distance_px + 2 / b->distance_px;
+            if (!a != !b) share += 0.5f / (a ? a : b)->distance_px;
+            if (a && b) {
+                const float total = a->distance_px + b->distance_px;
+                const float wa = b->distance_px / total, wb = a->distance_px / total;
+                const float alike = likeness(*a, paths_[k].direction, *b, paths_[k + kPairs].direction);
+                const float closeness = 1 / a->distance_px + 1 / b->distance_px;
+                votes.add(wa * colour_of(*a) + wb * colour_of(*b), wa * a->coc_px + wb * b->coc_px,
+                          closeness * std::sqrt(closeness) * alike);
+            } else if (a || b) {
+                const Found& one = a ? *a : *b;
+                votes.add(colour_of(one), one.coc_px, kOneSided / (one.distance_px * one.distance_px));
+            }
+            if (a) a->found = false;
+            if (b) b->found = false;
+        }
+        return votes.result();
+    }
+
+    View<const Rgba> colour_;
+    View<const float> coc_;
+    View<const unsigned char> connected_;
+    const Sparse<Mixture>& mixtures_;
+    Plane clean_;      // radius of pixels that touch no silhouette, else far in front
+    Plane beyond_;     // see measure_distances
+    Image<int> free_;  // pixels one can go from anywhere in a block without meeting a silhouette
+    std::array<Path, kDirections> paths_;
+    float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
+};
+
+constexpr int kLargestSquare = 8;
+
+// What is hidden is seen through its own blur: pixels of one surface share what was found for the first of
+// them in a square of so many on a side.
+int shared_square(std::span<const Hidden> hidden, float shared_from_px) {
+    float least_blur_px = 1e30f;
+    for (const Hidden& h : hidden) least_blur_px = std::min(least_blur_px, std::abs(h.coc_px));
+    const float blur = least_blur_px / shared_from_px;
+    return blur < 1 ? 1 : blur < 2 ? 2 : blur < 6 ? 4 : kLargestSquare;
+}
+
+using Range = HiddenLayers::Range;  // at first in the samples of its band of rows
+
+// What was found in a square of kLargestSquare pixels so far.
+class Answers {
+public:
+    void clear() { answers_.clear(); }
+    const Range* find(int x, int y, float surface_px) const {
+        for (const Answer& a : answers_)
+            if (x / a.square == a.x / a.square && y / a.square == a.y / a.square &&
+                std::abs(a.surface_px - surface_px) <= kBehindPx / 2)
+                return &a.range;
+        return nullptr;
+    }
+    void add(int x, int y, float surface_px, int square, Range range) {
+        answers_.push_back({x, y, square, surface_px, range});
+    }
+
+private:
+    struct Answer {
+        int x, y, square;
+        float surface_px;
+        Range range;
+    };
+    std::vector<Answer> answers_;
+};
+
+}  // namespace
+
+HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
+                         const Sparse<Mixture>& mixtures, float nearest_coc_px, float farthest_coc_px,
+                         float shared_from_px, int threads) {
+    const int width = coc.width(), height = coc.height();
+    HiddenLayers layers;
+    if (mixtures.values.empty()) return layers;
+    const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
+    const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px, threads);
+    const int bands = (height + kLargestSquare - 1) / kLargestSquare;
+    std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
+    layers.ranges = Image<Range>::uninitialised(width, height);
+    Image<Range>& ranges = layers.ranges;
+    parallel_for(bands, threads, [&](int band) {
+        std::vector<Hidden>& here = found[std::size_t(band)];
+        Answers answers;
+        for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
+            const Rect square =
+                Rect{x0, band * kLargestSquare, x0 + kLargestSquare, (band + 1) * kLargestSquare}.intersected(
+                    coc.rect());
+            answers.clear();
+            for (int y = square.y0; y < square.y1; ++y)
+                for (int x = square.x0; x < square.x1; ++x) {
+                    const Mixture* m = mixtures.at(x, y);
+                    ranges(x, y) = {};
+                    if (m ? m->shows_far : !filler.may_hide(x, y)) continue;
+                    if (const Range* known = answers.find(x, y, coc(x, y))) {
+                        ranges(x, y) = *known;
+                        continue;
+                    }
+                    const std::size_t begin = here.size();
+                    filler.fill(x, y, here);
+                    ranges(x, y) = {std::uint32_t(begin), std::uint32_t(here.size() - begin)};
+                    answers.add(x, y, coc(x, y),
+                                shared_square(std::span(here).subspan(begin), shared_from_px), ranges(x, y));
+                }
+        }
+    });
+    std::vector<std::size_t> starts;
+    for (const auto& band : found) {
+        starts.push_back(layers.samples.size());
+        layers.samples.insert(layers.samples.end(), band.begin(), band.end());
+    }
+    parallel_for(height, threads, [&](int y) {
+        const auto start = std::uint32_t(starts[std::size_t(y / kLargestSquare)]);
+        for (int x = 0; x < width; ++x) ranges(x, y).begin += start;
+    });
+    return layers;
+}
+
+}  // namespace petzval::engine

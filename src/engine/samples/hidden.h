@@ -1,0 +1,92 @@
+// What one picture with depth does not say: which part of a silhouette's pixel belongs to which surface, and
+// what lies behind a surface near its edge, where a lens looks past it.
+#pragma once
+
+#include "petzval/image.h"
+
+#include "engine/samples/connectivity.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace petzval::engine {
+
+// Light as it is compared: so that squares of it stay finite.
+inline Rgba comparable(Rgba c) {
+    constexpr float kMost = 1e8f;
+    return {std::clamp(c.r, -kMost, kMost), std::clamp(c.g, -kMost, kMost), std::clamp(c.b, -kMost, kMost),
+            c.a};
+}
+
+// A pixel of a silhouette taken apart. The renderer filtered its colour over the pixel and beyond, but its
+// depth is that of one point:  colour = near_colour + (1 - near_share) far_colour.
+struct Mixture {
+    bool shows_far = false;  // that point lies on the farther surface
+    float near_share = 0;    // 0…1: coverage of the nearer surface
+    Rgba near_colour;        // premultiplied by near_share
+    Rgba far_colour;         // of the farther surface, as if it filled the pixel
+    float near_coc_px = 0, far_coc_px = 0;
+    // What is known of the nearer surface beforehand: its colour where it fills pixels, the variance of that
+    // (mean of the channels), and the share that the shape of the silhouette tells.
+    Rgba near_clean;
+    float near_variance = 0, share_by_shape = 0;
+};
+
+// Sparse per-pixel values: `index` of each pixel into `values`, or -1.
+template <typename T>
+struct Sparse {
+    Image<int> index;
+    std::vector<T> values;
+    const T* at(int x, int y) const {
+        const int i = index(x, y);
+        return i < 0 ? nullptr : &values[std::size_t(i)];
+    }
+};
+
+// Finds every pixel that touches a silhouette (also diagonally), and takes apart those that show the farther
+// surface: the clean colours of both come from their nearest pixels that touch no silhouette (of a thin thing
+// that has none, from its pixels least like the far side); the share is the one expected of all that explain
+// the pixel, and what it leaves unexplained is the farther surface's detail. Of those that show the nearer
+// surface hardly anything of the farther one is to be seen: it is filled in first, then unmix_nearer().
+Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc_px,
+                                  View<const unsigned char> connected, int threads);
+
+// A sample behind the visible one that takes up `share` of its pixel; colour is premultiplied by that and by
+// its alpha.
+struct Hidden {
+    Rgba colour;
+    float coc_px = 0;
+    float share = 1;
+};
+
+// Hidden samples of every pixel, nearest first; pixels may share theirs.
+struct HiddenLayers {
+    struct Range {
+        std::uint32_t begin = 0, count = 0;
+    };
+    Image<Range> ranges;  // empty: nothing is hidden anywhere
+    std::vector<Hidden> samples;
+    std::span<const Hidden> at(int x, int y) const {
+        if (ranges.empty()) return {};
+        return {samples.data() + ranges(x, y).begin, ranges(x, y).count};
+    }
+};
+
+// Takes apart the pixels of silhouettes that show the nearer surface, before what is hidden behind them.
+void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
+                  int threads);
+
+// Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
+// behind it. Only from surfaces farther than the one that hides. Along opposite directions that agree,
+// colours are interpolated (edges run on behind a thin thing); otherwise the nearest continues. The weights
+// fall with distance a little faster than those of the mean-value interpolant (M. Floater, "Mean value
+// coordinates", 2003), 1/distance: its power of 1.5 comes closer on the path-traced fence.
+// Neighbours share what was found where it is blurred by shared_from_px or more: squares of 2,
+// of 4 at twice, of 8 at six times that.
+HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc_px,
+                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
+                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, int threads);
+
+}  // namespace petzval::engine

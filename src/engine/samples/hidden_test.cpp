@@ -1,0 +1,127 @@
+// Pixels of silhouettes taken apart, and what hides behind them filled in, on small drawn scenes whose truth
+// is known: a background, a wire before it that covers known shares of pixels, depth of one point per pixel.
+#include "engine/samples/hidden.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kWidth = 48, kHeight = 48;
+constexpr float kNearPx = -8, kFarPx = 1;
+
+Rgba grey(float v) { return {v, v, v, 1}; }
+
+struct Drawn {
+    Picture colour{kWidth, kHeight}, behind{kWidth, kHeight};
+    Plane coc{kWidth, kHeight};
+    Sparse<Mixture> mixtures;
+    HiddenLayers hidden;
+
+    // The farther surface where it shows or is hidden: what the lens may see of it.
+    Rgba background(int x, int y) const {
+        const Mixture* m = mixtures.at(x, y);
+        if (m) return m->far_colour;
+        const auto here = hidden.at(x, y);
+        return here.empty() ? colour(x, y) : here.back().colour;
+    }
+};
+
+using Paint = std::function<Rgba(int, int)>;
+
+// A wire from corner to corner, so many pixels wide along a row, before what `behind` says.
+Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float offset_px = 0.2f) {
+    Drawn d;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            // Its share of the pixel's row through the middle, from left edge to right edge.
+            const float left = float(y) + offset_px, right = left + width_px;
+            const float share = std::max(0.0f, std::min(right, float(x + 1)) - std::max(left, float(x)));
+            const float middle = float(x) + 0.5f;
+            d.behind(x, y) = behind(x, y);
+            d.colour(x, y) = share * wire(x, y) + (1 - share) * behind(x, y);
+            d.coc(x, y) = middle >= left && middle < right ? kNearPx : kFarPx;
+        }
+    const Image<unsigned char> connected = connections(d.coc, 1);
+    d.mixtures = unmix_silhouettes(d.colour, d.coc, connected, 1);
+    d.hidden = fill_hidden(d.colour, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, 1);
+    unmix_nearer(d.mixtures, d.colour, d.hidden, 1);
+    return d;
+}
+
+// Root mean square error of the background, away from the frame's edges.
+double background_error(const Drawn& d) {
+    double sum = 0;
+    int n = 0;
+    for (int y = 12; y < kHeight - 12; ++y)
+        for (int x = 12; x < kWidth - 12; ++x) {
+            const double e = double(d.background(x, y).g - d.behind(x, y).g);
+            sum += e * e, ++n;
+        }
+    return std::sqrt(sum / n);
+}
+
+TEST(Hidden, PartsOfAMixedPixelMakeThePixel) {
+    const Drawn d = behind_wire([](int x, int) { return grey(0.3f + 0.01f * float(x)); },
+                                [](int, int) { return grey(0.1f); }, 3);
+    int mixed = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            if (const Mixture* m = d.mixtures.at(x, y)) {
+                const Rgba sum = m->near_colour + (1 - m->near_share) * m->far_colour;
+                EXPECT_NEAR(sum.r, d.colour(x, y).r, 1e-5f) << x << ", " << y;
+                EXPECT_GE(m->near_colour.r, 0) << x << ", " << y;
+                EXPECT_LE(m->near_share, 1) << x << ", " << y;
+                ++mixed;
+            }
+    EXPECT_GT(mixed, 100);
+}
+
+TEST(Hidden, LinesRunOnBehindAWire) {
+    // Mortar between bricks, two pixels wide, every ten: 0.06 where it ends at the wire.
+    const Paint bricks = [](int, int y) { return grey(y % 10 < 2 ? 0.5f : 0.2f); };
+    EXPECT_LT(background_error(behind_wire(
+                  bricks, [](int, int) { return grey(0.1f); }, 3)),
+              0.03);
+}
+
+TEST(Hidden, DetailUpToAWireStays) {
+    // Rows of any brightness: the pixels beside the wire show theirs, mixed with a quarter of the wire.
+    const Paint rows = [](int, int y) { return grey(0.3f + 0.1f * std::sin(float(5 * y))); };
+    const Drawn d = behind_wire(
+        rows, [](int, int) { return grey(0.05f); }, 3, 0.75f);
+    double sum = 0;
+    int n = 0;
+    for (int y = 12; y < kHeight - 12; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            if (const Mixture* m = d.mixtures.at(x, y); m && m->shows_far) {
+                sum += std::pow(double(m->far_colour.g - d.behind(x, y).g), 2), ++n;
+            }
+    // Their mean colour instead would be 0.07 off.
+    EXPECT_LT(std::sqrt(sum / n), 0.045);
+}
+
+TEST(Hidden, TheDarkSideOfAWireLeavesNoMarkBehindIt) {
+    // Bright along one side, dark along the other: neither is what the wall behind looks like.
+    const Paint wire = [](int x, int y) { return grey(x - y < 4 ? 0.7f : 0.02f); };
+    EXPECT_LT(background_error(behind_wire([](int, int) { return grey(0.4f); }, wire, 6)), 0.03);
+}
+
+TEST(Hidden, LightOfALampBeforeANightSkyIsTheLamps) {
+    // It sits on the edge of a dark thing, and shines into the pixel beside it as well: renderers filter
+    // colour, not depth.
+    const Paint lamp = [](int x, int y) { return grey(y == 24 && x - y >= 4 ? 80.0f : 0.04f); };
+    const Paint sky = [](int x, int y) { return grey(0.008f + 0.002f * std::sin(float(3 * x + 5 * y))); };
+    const Drawn d = behind_wire(sky, lamp, 5.2f, 0);
+    EXPECT_GT(d.colour(29, 24).g, 10) << "the pixel shows the sky, and is bright";
+    EXPECT_GT(d.coc(29, 24), 0);
+    for (int y = 12; y < kHeight - 12; ++y)
+        for (int x = 12; x < kWidth - 12; ++x) EXPECT_LT(d.background(x, y).g, 0.1f) << x << ", " << y;
+}
+
+}  // namespace
+}  // namespace petzval::engine

@@ -1,0 +1,263 @@
+#include "base/parallel.h"
+#include "engine/samples/hidden.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kDark = 1e-3f;  // keeps reciprocals finite
+constexpr int kReach = 3;       // clean colours are looked for within so many pixels
+
+bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
+    const auto at = [&](int u, int v) {
+        return connected.rect().contains(u, v) ? int(connected(u, v)) : int(kAll);
+    };
+    // Diagonal: a side neighbour is cut from the diagonal pixel.
+    constexpr int kVertical = kUp | kDown, kHorizontal = kLeft | kRight;
+    return connected(x, y) != kAll || (at(x - 1, y) & at(x + 1, y) & kVertical) != kVertical ||
+           (at(x, y - 1) & at(x, y + 1) & kHorizontal) != kHorizontal;
+}
+
+// The same for a whole row at once, where most pixels touch none.
+void find_touching(View<const unsigned char> connected, int y, View<unsigned char> touching) {
+    const int width = connected.width();
+    if (y == 0 || y + 1 == connected.height() || width < 3) {
+        for (int x = 0; x < width; ++x) touching(x, y) = touches_silhouette(connected, x, y);
+        return;
+    }
+    touching(0, y) = touches_silhouette(connected, 0, y);
+    touching(width - 1, y) = touches_silhouette(connected, width - 1, y);
+    const unsigned char *above = connected.row(y - 1), *own = connected.row(y), *below = connected.row(y + 1);
+    unsigned char* const out = touching.row(y);
+    for (int x = 1; x + 1 < width; ++x) {
+        const unsigned beside = own[x - 1] & own[x + 1] & (kUp | kDown);
+        const unsigned over = above[x] & below[x] & (kLeft | kRight);
+        out[x] = (own[x] & (beside | over)) != kAll;
+    }
+}
+
+float distance2(Rgba a, Rgba b) {
+    const Rgba d = a - b;
+    return d.r * d.r + d.g * d.g + d.b * d.b + d.a * d.a;
+}
+float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b + a.a * b.a; }
+
+// A colour that is known to within a variance, the mean of its channels'.
+struct Guess {
+    Rgba colour;
+    float variance = 0;
+};
+
+// Weighted mean and variance of colours.
+class Pool {
+public:
+    void add(Rgba light, float weight) {
+        const Rgba c = comparable(light);
+        sum_ += weight * c, squares_ += weight * (c.r * c.r + c.g * c.g + c.b * c.b), weight_ += weight;
+    }
+    bool empty() const { return weight_ <= 0; }
+    Guess guess() const {
+        const Rgba m = sum_ * (1 / weight_);
+        const float spread = squares_ / weight_ - (m.r * m.r + m.g * m.g + m.b * m.b);
+        return {m, std::max(0.0f, spread) / 3};
+    }
+
+private:
+    Rgba sum_;
+    float squares_ = 0, weight_ = 0;
+};
+
+// What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
+struct Sides {
+    Pool near_clean, far_clean, far_mixed;
+    float near_coc = 0, far_coc = 0;  // of the closest pixel of that side
+    float near_closest = 1e9f, far_closest = 1e9f;
+    float near_share_by_shape = 0;
+};
+
+// Of the 3 x 3 tent around a pixel, the part that shows the other surface than the pixel itself takes up so
+// much of the pixel (1 for straight edges that may lie anywhere; thin things lie mostly in the pixels that
+// show them).
+constexpr float kOtherSide = 0.5f;
+
+Sides look_around(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
+                  int y, float threshold) {
+    Sides s;
+    const Rect window = Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(coc.rect());
+    const float own_light = std::max(0.0f, luminance(colour(x, y))) + kDark;
+    float tent_total = 0;
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u) {
+            const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
+            const bool near = coc(u, v) <= threshold;
+            // Far pixels count little, and pixels much brighter than this one too: a lamp nearby is not this
+            // surface.
+            const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour(u, v)))));
+            if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) {
+                const float tent = (u == x ? 2.0f : 1.0f) * (v == y ? 2.0f : 1.0f);
+                tent_total += tent;
+                if (near) s.near_share_by_shape += tent;
+            }
+            if (near) {
+                if (!touching(u, v)) s.near_clean.add(colour(u, v), weight);
+                if (d2 < s.near_closest) s.near_closest = d2, s.near_coc = coc(u, v);
+            } else {
+                (touching(u, v) ? s.far_mixed : s.far_clean).add(colour(u, v), weight);
+                if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
+            }
+        }
+    s.near_share_by_shape /= tent_total;
+    const bool shows_near = coc(x, y) <= threshold;
+    s.near_share_by_shape =
+        shows_near ? 1 - kOtherSide * (1 - s.near_share_by_shape) : kOtherSide * s.near_share_by_shape;
+    return s;
+}
+
+// The colour of a thin thing that has no clean pixel: its pixels nearby count as they differ from the far
+// side.
+Guess least_like(Rgba far_colour, View<const Rgba> colour, View<const float> coc, int x, int y,
+                 float threshold) {
+    Pool pool;
+    for (int v = std::max(0, y - 2); v <= std::min(coc.height() - 1, y + 2); ++v)
+        for (int u = std::max(0, x - 2); u <= std::min(coc.width() - 1, x + 2); ++u)
+            if (coc(u, v) <= threshold)
+                pool.add(colour(u, v), distance2(comparable(colour(u, v)), far_colour) + 1e-9f);
+    return pool.guess();
+}
+
+constexpr float kShapeError = 0.08f;    // of the share that the shape tells
+constexpr float kModelError2 = 0.001f;  // squared, relative: of taking a pixel for a mixture of two colours
+
+Rgba light_only(Rgba c) {
+    return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b), std::clamp(c.a, 0.0f, 1.0f)};
+}
+
+// How a pixel's colour came about.
+struct Explained {
+    float near_share = 0;
+    Rgba far_colour;
+};
+
+// What to expect of all shares that explain the pixel's colour c, each as likely as it makes c and as it
+// agrees with the shape. What the two colours leave unexplained belongs to the surface that is known less.
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) {
+    constexpr std::size_t kShares = 11;
+    const float least = 1e-6f + kModelError2 * dot(c, c);
+    std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
+    for (std::size_t i = 0; i < kShares; ++i) {
+        const float s = float(i) / (kShares - 1), off = (s - by_shape) / kShapeError;
+        variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
+        unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
+    }
+    const float best = *std::min_element(unlikely.begin(), unlikely.end());
+    float share = 0, total = 0;
+    Rgba step;
+    for (std::size_t i = 0; i < kShares; ++i) {
+        const float s = float(i) / (kShares - 1);
+        const float weight = std::exp(-0.5f * (unlikely[i] - best)) / (variance[i] * std::sqrt(variance[i]));
+        share += weight * s, total += weight;
+        const float gain = weight * (1 - s) * far.variance / variance[i];
+        step += gain * (c - s * near.colour - (1 - s) * far.colour);
+    }
+    return {share / total, light_only(far.colour + (1 / total) * step)};
+}
+
+Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
+                    int y) {
+    float low = coc(x, y), high = coc(x, y);
+    for (int v = std::max(0, y - 1); v <= std::min(coc.height() - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(coc.width() - 1, x + 1); ++u)
+            low = std::min(low, coc(u, v)), high = std::max(high, coc(u, v));
+    const float threshold = 0.5f * (low + high);
+    const Sides s = look_around(colour, coc, touching, x, y, threshold);
+    const Guess far = (s.far_clean.empty() ? s.far_mixed : s.far_clean).guess();
+    const Guess near =
+        s.near_clean.empty() ? least_like(far.colour, colour, coc, x, y, threshold) : s.near_clean.guess();
+    Mixture m;
+    m.shows_far = coc(x, y) > threshold;
+    m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
+    m.far_colour = far.colour;
+    m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
+    if (!m.shows_far) return m;
+    const Rgba c = colour(x, y);
+    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape);
+    m.near_share = e.near_share, m.far_colour = e.far_colour;
+    const float far_share = 1 - m.near_share;
+    m.near_colour = light_only(c - far_share * m.far_colour);
+    // What is left of a dark pixel is all that either may have.
+    if (far_share > 0.05f) {
+        const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
+        m.far_colour = {left.r, left.g, left.b, far.colour.a};
+    }
+    return m;
+}
+
+// Takes the nearer surface's part of a pixel of colour c, given what lies behind it.
+void put_in_front(Mixture& m, Rgba c, Rgba behind) {
+    float share =
+        expected(comparable(c), {m.near_clean, m.near_variance}, {comparable(behind), 0}, m.share_by_shape)
+            .near_share;
+    // No more light can come from behind than there is.
+    const auto at_most = [&](float own, float from_behind) {
+        if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;
+    };
+    at_most(c.r, behind.r), at_most(c.g, behind.g), at_most(c.b, behind.b);
+    m.near_share = share;
+    m.near_colour = light_only(c - (1 - share) * behind);
+}
+
+// What shows of hidden samples where nothing is in front of them.
+Rgba composited(std::span<const Hidden> hidden) {
+    Rgba sum;
+    float open = 1;
+    for (const Hidden& h : hidden) sum += open * h.colour, open *= 1 - h.share;
+    return sum;
+}
+
+}  // namespace
+
+Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc,
+                                  View<const unsigned char> connected, int threads) {
+    const int width = coc.width(), height = coc.height();
+    auto touching = Image<unsigned char>::uninitialised(width, height);
+    parallel_for(height, threads, [&](int y) { find_touching(connected, y, touching); });
+    // Of each row, then one after the other.
+    std::vector<std::vector<Mixture>> rows(static_cast<std::size_t>(height));
+    Sparse<Mixture> mixtures{Image<int>::uninitialised(width, height), {}};
+    parallel_for(height, threads, [&](int y) {
+        for (int x = 0; x < width; ++x) {
+            mixtures.index(x, y) = touching(x, y) ? int(rows[std::size_t(y)].size()) : -1;
+            if (touching(x, y)) rows[std::size_t(y)].push_back(taken_apart(colour, coc, touching, x, y));
+        }
+    });
+    std::vector<int> before;
+    for (const auto& row : rows) {
+        before.push_back(int(mixtures.values.size()));
+        mixtures.values.insert(mixtures.values.end(), row.begin(), row.end());
+    }
+    parallel_for(height, threads, [&](int y) {
+        if (rows[std::size_t(y)].empty()) return;
+        for (int x = 0; x < width; ++x)
+            if (mixtures.index(x, y) >= 0) mixtures.index(x, y) += before[std::size_t(y)];
+    });
+    return mixtures;
+}
+
+void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
+                  int threads) {
+    parallel_for(colour.height(), threads, [&](int y) {
+        for (int x = 0; x < colour.width(); ++x) {
+            if (mixtures.index(x, y) < 0) continue;
+            Mixture& m = mixtures.values[std::size_t(mixtures.index(x, y))];
+            if (m.shows_far) continue;
+            if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
+            put_in_front(m, colour(x, y), m.far_colour);
+        }
+    });
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,138 @@
+#include "engine/scatter/scatter_levels.h"
+
+#include "base/parallel.h"
+#include "engine/lights/highlight_spread.h"
+#include "engine/lights/highlights.h"
+#include "engine/samples/complete.h"
+#include "engine/samples/connectivity.h"
+#include "engine/scatter/stamp_table.h"
+#include "engine/waist/memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kBand = 64;  // rows of cells done at once
+constexpr std::size_t kBytesPerPixel = 260;
+
+// Linear; level 0 is grey, the others after Okabe and Ito ("Color universal design", 2008), whom colour blind
+// readers can follow.
+constexpr std::array<Rgba, 8> kColours{{{0.5f, 0.5f, 0.5f, 1},
+                                        {0.093f, 0.456f, 0.815f, 1},
+                                        {0, 0.342f, 0.171f, 1},
+                                        {0.871f, 0.776f, 0.054f, 1},
+                                        {0.791f, 0.347f, 0, 1},
+                                        {0.665f, 0.112f, 0, 1},
+                                        {0.604f, 0.191f, 0.386f, 1},
+                                        {0, 0.168f, 0.445f, 1}}};
+constexpr Rgba kHighlightColour{1, 1, 1, 1};
+
+Rgba colour_of(int level) { return kColours[std::size_t(level) % kColours.size()]; }
+
+std::string name_of_level(int level, const LevelRule& rule) {
+    const auto largest = int(std::lround(rule.end_of_level(level)));
+    if (level == 0) return "LEVEL 0  PIXELS, RADII TO " + std::to_string(largest) + " PX";
+    return "LEVEL " + std::to_string(level) + "  CELLS " + std::to_string(1 << level) + " PX, RADII TO " +
+           std::to_string(largest) + " PX";
+}
+
+// Where everything lies in the oversized picture.
+struct Layout {
+    std::vector<Rect> levels;
+    Rect highlights, map, all;
+
+    Layout(int width, int height, int count) {
+        int x = 0, lowest = height + (height + 1) / 2;
+        levels.push_back({0, 0, width, height});
+        for (int l = 1; l < count; ++l) {
+            const int w = (width + (1 << l) - 1) >> l, h = (height + (1 << l) - 1) >> l;
+            levels.push_back({x, height, x + w, height + h});
+            x += w;
+        }
+        highlights = {width, 0, 2 * width, height};
+        const int left = std::max(width, x);
+        map = {left, height, left + (width + 1) / 2, lowest};
+        all = {0, 0, std::max(2 * width, map.x1), lowest};
+    }
+};
+
+// All that the sources of one level send, over all depths.
+void accumulate(const Input& input, const SourceLevel& sources, int level, const StampTable& table,
+                View<Rgba> out) {
+    parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
+        if (input.progress->cancelled()) return;
+        const Rect rows{0, band * kBand, out.width(), std::min(out.height(), (band + 1) * kBand)};
+        Accumulator cells;
+        cells.reset(rows);
+        const int reach = table.reach(level);
+        for (int y = rows.y0 - reach; y < rows.y1 + reach; ++y)
+            for (const Source& s : sources.row(y)) {
+                if (is_emptiness(s.layer)) continue;
+                for (const auto& [part, share] : table.parts_for(level, s.x, y, s.radius))
+                    if (share > 0)
+                        stamp(table.at(level, part, s.radius, s.skirt_of), s.x, y, s.light * share, s.tilt_x,
+                              s.tilt_y, {&cells, 1});
+            }
+        for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells.row(y), out.width(), out.row(y));
+    });
+}
+
+// Every pixel of half the size: the colours of the levels, by the lens area that each drew there, on the
+// picture's own brightness.
+void draw_map(const Input& input, View<const Rgba> atlas, const Layout& layout, View<Rgba> out) {
+    const auto shown = [](float light) { return 0.25f + 0.75f * light / (light + 0.5f); };
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x) {
+            const int u = std::min(2 * x, input.width() - 1), v = std::min(2 * y, input.height() - 1);
+            Rgba sum;
+            float area = 0;
+            for (std::size_t l = 0; l < layout.levels.size(); ++l) {
+                const Rect& at = layout.levels[l];
+                const float covered = atlas(at.x0 + (u >> l), at.y0 + (v >> l)).a;
+                sum += covered * colour_of(int(l)), area += covered;
+            }
+            const Rgba light = atlas(layout.highlights.x0 + u, layout.highlights.y0 + v);
+            const float bright = luminance(light), brightness = luminance(input.colour(u, v));
+            const Rgba drawn = area > 0 ? sum * (shown(std::max(0.0f, brightness)) / area) : Rgba{};
+            const float white = bright > 0 ? bright / (bright + 0.5f) : 0;
+            out(x, y) = drawn * (1 - white) + white * kHighlightColour;
+            out(x, y).a = 1;
+        }
+}
+
+}  // namespace
+
+Result<Output> run_scatter_levels(const Input& input, const LevelRule& rule) {
+    if (const Status fits = fits_memory(input, kBytesPerPixel, "--view levels"); !fits) return fits.error();
+    Output output;
+    const Image<unsigned char> connected = connections(input.coc_px, input.threads);
+    CocSamples samples = completed(input, connected);
+    const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
+    const std::vector<Highlight> highlights =
+        take_highlights(samples, split, 0, kLargestSquare, input.threads);
+    if (input.deep_dims_itself) share_lens_area(samples, input.threads);
+    const StampTable table(input, input.width(), input.height(), rule);
+    const std::vector<SourceLevel> levels =
+        make_sources(samples, input.coc_px, connected, input.open_edges, rule, table, input.threads);
+
+    const Layout layout(input.width(), input.height(), int(levels.size()));
+    output.image = Picture(layout.all.width(), layout.all.height(), Rgba{0, 0, 0, 1});
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        accumulate(input, levels[l], int(l), table, output.image.view().part(layout.levels[l]));
+        output.panels.push_back({name_of_level(int(l), rule), layout.levels[l], colour_of(int(l))});
+        if (!input.progress->advance(0.8 / double(levels.size())))
+            return Error{ErrorCode::Cancelled, "cancelled"};
+    }
+    const View<Rgba> bright = output.image.view().part(layout.highlights);
+    spread_highlights(input, HighlightKernels(input), samples, highlights, split.white(), input.colour.rect(),
+                      bright);
+    output.panels.push_back({"HIGHLIGHTS  EACH WITH ITS WHOLE KERNEL", layout.highlights, kHighlightColour});
+    draw_map(input, output.image, layout, output.image.view().part(layout.map));
+    output.panels.push_back({"WHICH LEVEL DREW WHAT", layout.map, {}});
+    return output;
+}
+
+}  // namespace petzval::engine

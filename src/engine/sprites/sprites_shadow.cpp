@@ -1,0 +1,180 @@
+#include "engine/sprites/sprites_shadow.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kOwnSurfacePx = 1;  // what is nearer by less is the light's own surface
+constexpr float kJumpPx = 1;        // from pixel to pixel: another surface
+constexpr float kWidestPupil = 1.0f - 1.0f / PupilMask::kSide;  // where the outermost points of the grid lie
+// A square whose radii differ by less than this share of the way to it hides as if they were one.
+constexpr float kNarrow = 0.06f;
+
+// Grid points between two places on an axis of the pupil, as bits.
+unsigned points(float from, float to) {
+    constexpr float kHalf = 0.5f * PupilMask::kSide, kEnd = PupilMask::kSide;
+    const float first = std::clamp((from + 1) * kHalf - 0.5f, 0.0f, kEnd);
+    const float last = std::clamp((to + 1) * kHalf - 0.5f, -1.0f, kEnd - 1);
+    const int begin = PupilMask::kSide - int(kEnd - first),
+              end = int(last + 1);  // rounded up, down and past it
+    return begin < end ? (1u << end) - (1u << begin) : 0;
+}
+
+// Every row of the grid that `rows` names, with the columns that `columns` names.
+std::uint64_t grid(unsigned columns, unsigned rows) {
+    // The bits of `rows`, each the lowest of its byte: bit i goes up by 7 i. (The last one apart, since it
+    // would meet the first on its way.)
+    const std::uint64_t spread = ((rows & 127) * std::uint64_t(0x0002040810204081) & 0x0101010101010101u) |
+                                 std::uint64_t(rows >> 7) << 56;
+    return spread * columns;
+}
+
+}  // namespace
+
+PupilMask::Between::Between(float place) {
+    const float p = std::clamp((place + 1) / 2 * kSide - 0.5f, 0.0f, float(kSide - 1));
+    cell = std::min(int(p), kSide - 2);
+    share = p - float(cell);
+}
+
+void SpriteShadows::Node::include(const Node& other) {
+    nearest = std::min(nearest, other.nearest), farthest = std::max(farthest, other.farthest);
+    is_whole = is_whole && other.is_whole;
+    bins |= other.bins;
+}
+
+int SpriteShadows::bin(float coc_px) const {
+    return int(std::clamp((coc_px - in_.nearest_coc_px) * bins_per_px_, 0.0f, 63.0f));
+}
+
+// Up to the middle between it and each of its neighbours on one surface, so that a surface has no cracks.
+SpriteShadows::Node SpriteShadows::pixel(int x, int y) const {
+    const View<const float> coc = in_.coc_px;
+    const float own = coc(x, y);
+    Node node{own, own, true, 0};
+    const auto meet = [&](int u, int v) {
+        if (u < 0 || v < 0 || u >= coc.width() || v >= coc.height()) return;
+        const float there = coc(u, v), middle = 0.5f * (own + there);
+        if (std::abs(there - own) >= kJumpPx)
+            node.is_whole = false;
+        else
+            node.nearest = std::min(node.nearest, middle), node.farthest = std::max(node.farthest, middle);
+    };
+    meet(x - 1, y), meet(x + 1, y), meet(x, y - 1), meet(x, y + 1);
+    node.bins = (std::uint64_t(2) << bin(node.farthest)) - (std::uint64_t(1) << bin(node.nearest));
+    return node;
+}
+
+SpriteShadows::SpriteShadows(const Input& input) : in_(input) {
+    const float range = input.farthest_coc_px - input.nearest_coc_px;
+    bins_per_px_ = range > 0 ? 64 / range : 0;
+    for (int width = input.width(), height = input.height(); width > 1 || height > 1;) {
+        const int level = top(), below_width = width, below_height = height;
+        width = (width + 1) / 2, height = (height + 1) / 2;
+        Image<Node> nodes(width, height);
+        parallel_for(height, input.threads, [&](int y) {
+            for (int x = 0; x < width; ++x)
+                for (int v = 2 * y; v < std::min(2 * y + 2, below_height); ++v)
+                    for (int u = 2 * x; u < std::min(2 * x + 2, below_width); ++u)
+                        nodes(x, y).include(node(level, u, v));
+        });
+        levels_.push_back(std::move(nodes));
+    }
+}
+
+// The sides of a square of pixels as a light sees them.
+struct SpriteShadows::Square {
+    float left, top, right, bottom;  // from the light; vertically as wide as a pixel
+    // Pupil points behind the square wherever it stands between two radii, given as 1 / (way to them).
+    std::uint64_t anywhere(float close, float far) const {
+        const unsigned columns = points(left * (left < 0 ? close : far), right * (right < 0 ? far : close));
+        return columns == 0 ? 0
+                            : grid(columns, points(top * (top < 0 ? close : far),
+                                                   bottom * (bottom < 0 ? far : close)));
+    }
+    // Those behind it all the way.
+    std::uint64_t throughout(float close, float far) const {
+        return grid(points(left * (left < 0 ? far : close), right * (right < 0 ? close : far)),
+                    points(top * (top < 0 ? far : close), bottom * (bottom < 0 ? close : far)));
+    }
+};
+
+SpriteShadows::Behind SpriteShadows::behind(const Light& light, int level, int x, int y,
+                                            const Node& node) const {
+    const Rect pixels =
+        Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(in_.coc_px.rect());
+    const float per_row = 1 / float(in_.pixel_aspect);
+    const Square square{float(pixels.x0) - light.x, (float(pixels.y0) - light.y) * per_row,
+                        float(pixels.x1) - light.x, (float(pixels.y1) - light.y) * per_row};
+    const float limit = light.coc_px - kOwnSurfacePx;
+    Behind found;
+    if (node.farthest < limit) {
+        const float close = 1 / (light.coc_px - node.farthest), far = 1 / (light.coc_px - node.nearest);
+        const bool narrow = level == 0 || (node.farthest - node.nearest) * close <= kNarrow;
+        if (narrow || node.is_whole) {
+            found.all = square.anywhere(close, far);
+            // Of one surface every ray is stopped that stays within the square from its farthest to its
+            // nearest radius.
+            if (found.all) found.surely = narrow ? found.all : square.throughout(close, far);
+            return found;
+        }
+    }
+    // Surfaces apart, each between the radii of a run of bins.
+    for (std::uint64_t bins = node.bins; bins;) {
+        const int first = std::countr_zero(bins), count = std::countr_one(bins >> first);
+        const float nearest = std::max(node.nearest, in_.nearest_coc_px + float(first) / bins_per_px_);
+        const float farthest =
+            std::min({node.farthest, limit, in_.nearest_coc_px + float(first + count) / bins_per_px_});
+        if (nearest >= limit) break;
+        found.all |= square.anywhere(1 / (light.coc_px - farthest), 1 / (light.coc_px - nearest));
+        if (first + count == 64) break;
+        bins &= ~std::uint64_t(0) << (first + count);
+    }
+    if (level == 0) found.surely = found.all;
+    return found;
+}
+
+void SpriteShadows::hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const {
+    const Node here = node(level, x, y);
+    if (here.nearest >= light.coc_px - kOwnSurfacePx) return;
+    const Behind found = behind(light, level, x, y, here);
+    seen &= ~found.surely;
+    if (level == 0 || !(found.all & seen)) return;
+    const int width = (in_.width() - 1) >> (level - 1), height = (in_.height() - 1) >> (level - 1);
+    hide_four(light, level - 1, {2 * x, 2 * y, std::min(2 * x + 1, width), std::min(2 * y + 1, height)},
+              seen);
+}
+
+void SpriteShadows::hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const {
+    // Where the light is first: what stands close behind others hides most, and ends the search.
+    const float size = float(1 << level);
+    const bool right = light.x >= float(squares.x1) * size, down = light.y >= float(squares.y1) * size;
+    for (int j = 0; j <= squares.height() && seen; ++j)
+        for (int i = 0; i <= squares.width() && seen; ++i)
+            hide(light, level, right ? squares.x1 - i : squares.x0 + i,
+                 down ? squares.y1 - j : squares.y0 + j, seen);
+}
+
+PupilMask SpriteShadows::mask(float x, float y, float coc_px) const {
+    PupilMask mask;
+    if (in_.nearest_coc_px >= coc_px - kOwnSurfacePx) return mask;
+    const float reach =
+        (coc_px - in_.nearest_coc_px) * kWidestPupil * std::max(1.0f, float(in_.pixel_aspect));
+    // Squares so large that two by two hold all that is in reach.
+    const int level = std::min(1 + int(std::log2(std::max(1.0f, 2 * reach))), top());
+    const auto square = [&](float at, int pixels) {
+        return int(std::clamp(std::floor(at), 0.0f, float(pixels - 1))) >> level;
+    };
+    hide_four({x, y, coc_px}, level,
+              {square(x - reach, in_.width()), square(y - reach, in_.height()),
+               square(x + reach, in_.width()), square(y + reach, in_.height())},
+              mask.seen);
+    return mask;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,75 @@
+// Which part of the lens a light is seen through: the part whose rays meet nothing nearer on their way.
+//
+// A light at s with radius c lands through the pupil point u at s + c u; on the way, where something has the
+// radius c' < c, its ray passes s + (c - c') u (docs/conventions.md). So what stands at q with radius c'
+// hides the pupil point u = (q - s) / (c - c'), and a square of pixels at much the same radius hides a square
+// of the pupil. A quad-tree of the picture's radii finds these squares, large ones first.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace petzval::engine {
+
+// What is seen (1) and hidden (0) on a grid over the pupil's square, -1…1 on both axes, row by row. A bit
+// for each point: there may be ten million lights.
+struct PupilMask {
+    static constexpr int kSide = 8;
+    std::uint64_t seen = ~std::uint64_t(0);
+    bool is_open() const { return seen == ~std::uint64_t(0); }
+    bool is_closed() const { return seen == 0; }
+    std::uint8_t row(int y) const { return std::uint8_t(seen >> (y * kSide)); }
+
+    // The two grid points around a place of the pupil's square, clamped to the grid.
+    struct Between {
+        int cell;
+        float share;  // of the second
+        explicit Between(float place);
+    };
+};
+
+class SpriteShadows {
+public:
+    // input outlives this.
+    explicit SpriteShadows(const Input& input);
+    // (x, y) in pixels, centres at +0.5.
+    PupilMask mask(float x, float y, float coc_px) const;
+
+private:
+    // Radii in a square of 2^level pixels.
+    struct Node {
+        float nearest = 1e30f, farthest = -1e30f;
+        bool is_whole = true;  // one surface without a jump
+        std::uint64_t bins =
+            0;  // which of 64 equal steps from the picture's nearest to its farthest there are
+        void include(const Node& other);
+    };
+    int bin(float coc_px) const;
+    Node pixel(int x, int y) const;
+    Node node(int level, int x, int y) const {
+        return level == 0 ? pixel(x, y) : levels_[std::size_t(level - 1)](x, y);
+    }
+    int top() const { return int(levels_.size()); }
+
+    struct Light {
+        float x, y, coc_px;
+    };
+    struct Square;
+    // Pupil points behind a square, of which `all` may be hidden by it and `surely` are.
+    struct Behind {
+        std::uint64_t all = 0, surely = 0;
+    };
+    Behind behind(const Light& light, int level, int x, int y, const Node& node) const;
+    // Takes what a square, or those of a level in a range (ends included, 2 x 2 at most), hides from `seen`.
+    void hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const;
+    void hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const;
+
+    const Input& in_;
+    float bins_per_px_ = 0;
+    std::vector<Image<Node>> levels_;  // [0]: squares of 2 pixels
+};
+
+}  // namespace petzval::engine

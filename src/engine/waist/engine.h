@@ -1,0 +1,174 @@
+// The waist every defocus engine fits through: one input, one output, one line in a list.
+//
+// The api room has checked everything by the time an engine runs: sizes agree, colour is finite, circles of
+// confusion are finite, the picture is not empty. An engine validates nothing and throws nothing but
+// std::bad_alloc.
+#pragma once
+
+#include "petzval/engine_options.h"
+#include "petzval/engine_report.h"
+#include "petzval/image.h"
+#include "petzval/light_point.h"
+#include "petzval/result.h"
+
+#include "base/progress.h"
+#include "image/big_vector.h"
+#include "kernel/model/lens_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace petzval::engine {
+
+// One thing seen in one pixel: premultiplied colour with its own coverage colour.a, signed CoC radius of its
+// front and of its back (equal for a surface).
+struct CocSample {
+    Rgba colour;
+    float coc_px = 0, coc_back_px = 0;
+    float empty = 0;  // share of the pixel that is emptiness from here on: nothing behind is ever seen there
+};
+
+// Emptiness that takes what everything else leaves of a pixel's lens; the last of its samples.
+inline CocSample emptiness_behind_everything() { return {{}, 0, std::numeric_limits<float>::infinity(), 1}; }
+inline bool is_behind_everything(const CocSample& s) { return s.empty > 0 && std::isinf(s.coc_back_px); }
+
+// Samples per pixel, nearest (smallest CoC) first, rows top to bottom; a view, owned by CocSamples.
+class CocSamplesView {
+public:
+    CocSamplesView() = default;
+    CocSamplesView(std::span<const std::size_t> first, std::span<const CocSample> samples, int width)
+        : first_(first), samples_(samples), width_(width) {}
+    bool empty() const { return first_.empty(); }
+    std::span<const CocSample> at(int x, int y) const {
+        const std::size_t i = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+        return samples_.subspan(first_[i], first_[i + 1] - first_[i]);
+    }
+    std::span<const std::size_t> first() const { return first_; }
+    std::span<const CocSample> samples() const { return samples_; }
+    // Rows y0…y1-1 alone.
+    CocSamplesView rows(int y0, int y1) const {
+        if (empty()) return {};
+        const std::size_t from = std::size_t(y0) * std::size_t(width_),
+                          to = std::size_t(y1) * std::size_t(width_);
+        return {first_.subspan(from, to - from + 1), samples_, width_};
+    }
+
+private:
+    std::span<const std::size_t> first_;  // width * height + 1 entries, or empty: none
+    std::span<const CocSample> samples_;
+    int width_ = 0;
+};
+
+struct CocSamples {
+    int width = 0;
+    BigVector<std::size_t> first;
+    BigVector<CocSample> samples;
+    int height() const { return width > 0 ? int((first.size() - 1) / std::size_t(width)) : 0; }
+    operator CocSamplesView() const { return {first, samples, width}; }
+};
+
+// Which edges of the picture are merely where the render stopped (the scene goes on beyond them), as against
+// edges of a data window inside the frame, beyond which there is nothing.
+struct OpenEdges {
+    bool left = true, top = true, right = true, bottom = true;
+};
+
+// A lens, and where the pixels of a picture lie in its field.
+struct LensOnPicture {
+    // Field position of pixel (x, y): ((x + 0.5 - centre_x) * per_px, -(y + 0.5 - centre_y) * per_px /
+    // pixel_aspect).
+    double field_centre_x = 0, field_centre_y = 0, field_per_px = 0;
+    double pixel_aspect = 1;
+    // The lens on pixels 1, 2, 4, … times as wide: lens_levels[n]. At least one; the last stands for all
+    // beyond.
+    std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
+
+    const kernel::LensModel& lens(int level) const {
+        return *lens_levels[std::min(std::size_t(level), lens_levels.size() - 1)];
+    }
+    kernel::FieldPosition field_at(double x, double y) const {
+        return {(x + 0.5 - field_centre_x) * field_per_px,
+                -(y + 0.5 - field_centre_y) * field_per_px / pixel_aspect};
+    }
+};
+
+// What an engine keeps from one picture for the next of the same lens, size and quality.
+struct KeptKernels {
+    virtual ~KeptKernels() = default;
+};
+
+struct Input : LensOnPicture {
+    View<const Rgba> colour;   // premultiplied; the front view of `deep` where that is given
+    View<const float> coc_px;  // signed radius, + behind focus
+    // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
+    // then colour and coc_px are not all there is to hit. Empty otherwise.
+    CocSamplesView deep;
+    // What a coverage below 1 in `deep` means. True: as in deep files, each sample dims what is behind it in
+    // its pixel, as thin fog does. False: it is the share of the pixel's area that a surface fills, and
+    // others lie beside it.
+    bool deep_dims_itself = false;
+    // Light that lands in a pixel is dimmed by these samples of that pixel that lie in front of where it came
+    // from (engine/waist/holdout.h). Coverages as in deep files: each sample dims what is behind it. Empty:
+    // none.
+    CocSamplesView holdout;
+    OpenEdges open_edges;
+    float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
+    // The whole frame's height and the row of it that is row 0 here, when an engine works on part of a frame.
+    int frame_height = 0, first_row = 0;
+    // Where kernels of this lens, size and quality are kept between pictures; null: nowhere.
+    std::unique_ptr<KeptKernels>* kept_kernels = nullptr;
+    Quality quality = Quality::Standard;
+    int pupil_points = 4096;
+    ScatterOptions scatter;
+    GatherOptions gather;
+    GaussianOptions gaussian;
+    SpriteOptions sprites;
+    std::span<const LightPoint> points;  // checked; coc_px holds the radius of each
+    View<const float> depth_m;           // planar, may hold misses; empty where radii were given
+    double focus_distance_m = 0;         // 0: unknown
+    float radius_at_infinity_px = 0;     // 0: unknown
+    int threads = 0;
+    std::size_t max_memory_bytes = 0;
+    std::uint64_t seed = 1;
+    Progress* progress = nullptr;
+
+    int width() const { return colour.width(); }
+    int height() const { return colour.height(); }
+    // Rows y0…y1-1 as an input of their own. The edges towards the other rows count as open.
+    Input rows(int y0, int y1) const {
+        Input part = *this;
+        const Rect r{0, y0, width(), y1};
+        part.colour = colour.part(r), part.coc_px = coc_px.part(r);
+        if (!depth_m.empty()) part.depth_m = depth_m.part(r);
+        part.deep = deep.rows(y0, y1), part.holdout = holdout.rows(y0, y1);
+        part.field_centre_y -= y0, part.first_row += y0;
+        if (y0 > 0) part.open_edges.top = true;
+        if (y1 < height()) part.open_edges.bottom = true;
+        return part;
+    }
+};
+
+// Every sample the input states: those of deep, or the one of each pixel.
+CocSamples stated_samples(const Input& input);
+
+struct Output {
+    Picture image;
+    std::vector<Panel> panels;  // where `image` holds several pictures side by side, else empty
+    std::vector<StageTime> stages;
+    std::vector<std::string> warnings;
+};
+
+struct Engine {
+    const char* name;
+    const char* purpose;  // one line for help texts
+    Result<Output> (*run)(const Input&);
+    bool takes_holdout = false;
+};
+
+}  // namespace petzval::engine

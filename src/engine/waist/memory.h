@@ -1,0 +1,33 @@
+// What an engine may take: --max-memory against what it knows it needs.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+#include <string>
+
+namespace petzval::engine {
+
+// Bytes besides the engine's own: the caller's colour and depth, the radii; code, tables, kernels.
+inline std::size_t held_bytes(const Input& input) {
+    constexpr std::size_t kFixedBytes = std::size_t(32) << 20;
+    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
+    return pixels * (sizeof(Rgba) + 2 * sizeof(float)) + input.deep.samples().size_bytes() + kFixedBytes;
+}
+
+inline Error too_little_memory(const std::string& what, std::size_t needed_bytes) {
+    return {ErrorCode::OutOfMemory, "--max-memory is too little: " + what + " takes about " +
+                                        std::to_string((needed_bytes >> 20) + 1) +
+                                        "M for this picture and blur"};
+}
+
+// For engines that work on the whole picture at once. bytes_per_pixel: of their working memory, the result
+// included; more_bytes: what does not go with pixels. Errors: OutOfMemory.
+inline Status fits_memory(const Input& input, std::size_t bytes_per_pixel, const std::string& what,
+                          std::size_t more_bytes = 0) {
+    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
+    const std::size_t needed = held_bytes(input) + pixels * bytes_per_pixel + more_bytes;
+    if (input.max_memory_bytes == 0 || needed <= input.max_memory_bytes) return Done{};
+    return too_little_memory(what, needed);
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,87 @@
+// Where the rays of one object point land, as polynomials of where they cross the stop.
+//
+// Everything is symmetric about the plane through the axis and the object, so along the field's direction
+// only even powers of the coordinate across it occur, and across it only odd ones.
+#pragma once
+
+#include "kernel/draw/linear_fit.h"
+#include "kernel/model/coverage.h"
+#include "optics/beam.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace petzval::kernel {
+
+inline constexpr int kRayMapDegree = 9;
+inline constexpr int kEvenTerms = 30, kOddTerms = 25;  // of that degree, in two variables
+
+// Powers of a pupil point (along, across) in the order that coefficients are kept in.
+struct PupilPowers {
+    std::array<double, kEvenTerms> even;
+    std::array<double, kOddTerms> odd;
+
+    explicit PupilPowers(Point pupil);
+};
+
+// A displacement in the picture, (along, across) the field's direction.
+struct Displacement {
+    std::array<double, kEvenTerms> along{};
+    std::array<double, kOddTerms> across{};
+
+    Point at(const PupilPowers& powers) const;
+    Displacement& add(double factor, const Displacement& other);
+};
+
+// Where many points of the pupil land; `landed` has room for one per point. Some points at a time (SIMD).
+void land(const Displacement& map, std::span<const Point> pupil, Point* landed);
+// The value of a polynomial of even powers at many points of the pupil.
+void values_at(const std::array<double, kEvenTerms>& polynomial, std::span<const Point> pupil,
+               double* values);
+
+// The part of the stop that no rim but the stop's own cuts off, seen from the beam's object: a polygon around
+// its middle, (along, across), corners at even angles from +along. Where nothing is cut it reaches beyond the
+// unit disc.
+struct OpenStop {
+    Point middle;
+    std::vector<Point> corners;  // empty: no ray passes
+
+    static OpenStop of(const optics::Beam& beam, int corners);
+};
+
+// One field position and wavelength. `along` points outward; the far disc of the picture is upright.
+struct RayMap {
+    Displacement offset_mm;  // landing place, from where the chief ray of the primary wavelength lands
+    Displacement slope;      // what a sensor moved by 1 mm away from the lens adds
+    std::array<double, kEvenTerms> light{};  // per area of the stop
+
+    RayMap& add(double factor, const RayMap& other);
+};
+
+// Fits the maps of one field position at several wavelengths, through the same points of the stop.
+class RayMapFitter {
+public:
+    // Through what is open of the stop for the primary wavelength, whose chief ray is the origin.
+    RayMapFitter(const optics::Beam& primary, const OpenStop& open);
+    // False where too few rays get through.
+    bool usable() const {
+        return even_.solvable() && odd_.solvable() && samples_.size() > 2 * std::size_t(kEvenTerms);
+    }
+    // Requires: usable(). Rays that do not get through at this wavelength count as those of the primary one.
+    RayMap fit(const optics::Beam& beam) const;
+
+private:
+    struct Sample {
+        Point pupil;
+        optics::SensorRay primary;
+        double weight = 1;
+    };
+    static std::vector<Sample> traced(const optics::Beam& primary, const OpenStop& open);
+
+    optics::SensorRay chief_;
+    std::vector<Sample> samples_;
+    LinearFit even_, odd_;
+};
+
+}  // namespace petzval::kernel

@@ -1,0 +1,178 @@
+#include "kernel/draw/ring_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace petzval::kernel {
+namespace {
+
+using Rgb = std::array<double, 3>;
+
+// Energy of rings on a fine grid of radii, for one wavelength.
+class RingGrid {
+public:
+    RingGrid(double reach_px, std::size_t bins) : step_(reach_px / double(bins)), energy_(bins, 0.0) {}
+
+    // `energy` spread evenly over the area between radii a and b; either may be negative: the ring then
+    // passes through the axis.
+    void add_annulus(double a, double b, double energy) {
+        if (a * b < 0) {
+            // Zones so thin that their radius runs straight: energy falls to both sides of the axis in
+            // proportion.
+            const double share = std::abs(a) / (std::abs(a) + std::abs(b));
+            add_ordered(0, std::abs(a), energy * share);
+            add_ordered(0, std::abs(b), energy * (1 - share));
+        } else {
+            add_ordered(std::min(std::abs(a), std::abs(b)), std::max(std::abs(a), std::abs(b)), energy);
+        }
+    }
+    double step() const { return step_; }
+    std::vector<double>& energy() { return energy_; }
+
+private:
+    void add_ordered(double a, double b, double energy) {
+        const std::size_t top = energy_.size() - 1;
+        const std::size_t first = std::min(top, std::size_t(a / step_)),
+                          last = std::min(top, std::size_t(b / step_));
+        if (first == last) {
+            energy_[first] += energy;
+            return;
+        }
+        const double per_area = energy / (b * b - a * a);
+        double inner = a;
+        for (std::size_t i = first; i <= last; ++i) {
+            const double outer = i == last ? b : step_ * double(i + 1);
+            energy_[i] += per_area * (outer * outer - inner * inner);
+            inner = outer;
+        }
+    }
+
+    double step_;
+    std::vector<double> energy_;
+};
+
+// Light per area against radius, constant within a bin, with its first and second integrals: what a square
+// sees of it is a second difference.
+class RadialProfile {
+public:
+    RadialProfile(const std::vector<Light>& energy, double step) : step_(step), nodes_(energy.size() + 1) {
+        for (std::size_t i = 0; i < energy.size(); ++i) {
+            const double ring_area = std::numbers::pi * step * step * double(2 * i + 1);
+            const Rgb light{energy[i].r, energy[i].g, energy[i].b};
+            for (std::size_t c = 0; c < 3; ++c) {
+                nodes_[i].density[c] = light[c] / ring_area;
+                nodes_[i + 1].first[c] = nodes_[i].first[c] + nodes_[i].density[c] * step;
+                nodes_[i + 1].second[c] =
+                    nodes_[i].second[c] + step * (nodes_[i].first[c] + 0.5 * nodes_[i].density[c] * step);
+            }
+        }
+    }
+
+    // Mean over a square of side `side` centred at (x, y), not over the axis. Circles count as straight lines
+    // across the square, whose projection on the radius is a trapezoid: the product of two boxes.
+    Rgb mean_over_square(double x, double y, double side) const {
+        const double to_centre = std::hypot(x, y);
+        // The mean radius of a square is a little more than the radius of its middle.
+        const double r = to_centre + side * side / (24 * to_centre);
+        constexpr double kNarrowest = 1e-3;  // keeps the second difference away from 0/0
+        const double p = std::max(side * std::abs(x) / to_centre, kNarrowest);
+        const double q = std::max(side * std::abs(y) / to_centre, kNarrowest);
+        const double outer = 0.5 * (p + q), inner = 0.5 * std::abs(p - q);
+        const Rgb a = second(r + outer), b = second(r + inner), c = second(r - inner), d = second(r - outer);
+        Rgb mean;
+        for (std::size_t i = 0; i < 3; ++i) mean[i] = (a[i] - b[i] - c[i] + d[i]) / (p * q);
+        return mean;
+    }
+
+    // Light in the square of side 1 around the axis.
+    Rgb in_middle_square() const {
+        Rgb sum{};
+        for (std::size_t i = 0; i + 1 < nodes_.size() && step_ * double(i) < std::numbers::sqrt2 / 2; ++i) {
+            const double part = disc_in_square(step_ * double(i + 1)) - disc_in_square(step_ * double(i));
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += nodes_[i].density[c] * part;
+        }
+        return sum;
+    }
+
+private:
+    // Area that a disc about the axis shares with the square of side 1: the disc less four segments.
+    static double disc_in_square(double r) {
+        if (r <= 0.5) return std::numbers::pi * r * r;
+        if (r >= std::numbers::sqrt2 / 2) return 1;
+        return std::numbers::pi * r * r - 4 * (r * r * std::acos(0.5 / r) - 0.5 * std::sqrt(r * r - 0.25));
+    }
+
+    struct Node {
+        Rgb density{}, first{}, second{};
+    };
+    Rgb second(double r) const {
+        r = std::max(r, 0.0);
+        const std::size_t i = std::min(std::size_t(r / step_), nodes_.size() - 1);
+        const double t = r - step_ * double(i);
+        const Node& n = nodes_[i];
+        Rgb value;
+        for (std::size_t c = 0; c < 3; ++c)
+            value[c] = n.second[c] + t * (n.first[c] + 0.5 * t * n.density[c]);
+        return value;
+    }
+
+    double step_;
+    std::vector<Node> nodes_;
+};
+
+// A pixel is cut into squares so small that circles leave their tangents by less than 0.004 px across one.
+Rgb pixel_share(const RadialProfile& profile, int x, int y) {
+    const int cuts = std::clamp(int(std::ceil(5.6 / std::sqrt(std::hypot(x, y)))), 1, 8);
+    Rgb sum{};
+    for (int j = 0; j < cuts; ++j)
+        for (int i = 0; i < cuts; ++i) {
+            const Rgb mean =
+                profile.mean_over_square(x - 0.5 + (i + 0.5) / cuts, y - 0.5 + (j + 0.5) / cuts, 1.0 / cuts);
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += mean[c] / (cuts * cuts);
+        }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_px, std::size_t bins) {
+    // Zones of even area, thinner than a tenth of a pixel at the rim.
+    const int zones = int(std::clamp(8 * reach_px, 128.0, 4096.0));
+    std::vector<Light> total(bins);
+    for (const RingBand& band : bands) {
+        RingGrid grid(reach_px, bins);
+        double from = band.landing_px(0);
+        for (int i = 1; i <= zones; ++i) {
+            const double to = band.landing_px(double(i) / zones);
+            grid.add_annulus(from, to, 1.0 / zones);
+            from = to;
+        }
+        for (std::size_t i = 0; i < bins; ++i) total[i] += grid.energy()[i] * band.weight;
+    }
+    return total;
+}
+
+PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px) {
+    const int radius = int(std::ceil(reach_px - 0.5));  // pixels beyond the first that light touches
+    if (radius <= 0) return single_pixel();
+    const std::size_t bins = std::size_t(std::clamp(32 * reach_px, 64.0, 8192.0));
+    const RadialProfile profile(ring_energy(bands, reach_px, bins), reach_px / double(bins));
+
+    const int width = 2 * radius + 1;
+    PointSpread spread{{-radius, -radius, radius + 1, radius + 1}, Image<Rgba>(width, width), false};
+    const auto as_weight = [](const Rgb& c) { return Rgba{float(c[0]), float(c[1]), float(c[2]), 0}; };
+    spread.weights(radius, radius) = as_weight(profile.in_middle_square());
+    for (int y = 0; y <= radius; ++y)
+        for (int x = std::max(y, 1); x <= radius; ++x) {
+            const Rgba weight = as_weight(pixel_share(profile, x, y));
+            for (const auto& [px, py] : {std::pair{x, y}, {y, x}})
+                for (const int sx : {-1, 1})
+                    for (const int sy : {-1, 1}) spread.weights(radius + sx * px, radius + sy * py) = weight;
+        }
+    normalise(spread);
+    return spread;
+}
+
+}  // namespace petzval::kernel

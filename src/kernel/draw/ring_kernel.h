@@ -1,0 +1,30 @@
+// Kernels of lenses that are the same in every direction: exact ring energy instead of sample points.
+//
+// The light of a thin zone of the pupil lands in a thin ring; it is deposited as an annulus with its exact
+// energy, so a caustic is bright but never grainy, at any size. Rings of all wavelengths make one radial
+// profile, and the profile is integrated over the squares of the pixels.
+#pragma once
+
+#include "kernel/model/coverage.h"
+#include "kernel/model/spread.h"
+
+#include <functional>
+#include <vector>
+
+namespace petzval::kernel {
+
+// A wavelength band: its share of the channels, and the signed radius in pixels at which the light of pupil
+// radius sqrt(area) lands, area in 0…1. A negative radius lies on the other side of the axis.
+struct RingBand {
+    Light weight;
+    std::function<double(double area)> landing_px;
+};
+
+// The light that falls into each of `bins` rings of even width between the axis and reach_px, the largest
+// |landing| of all bands: exact energies, nothing sampled. Requires: reach_px > 0, bins >= 1.
+std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_px, std::size_t bins);
+
+// Channels sum to 1; colours are not mapped. reach_px: largest |landing| of all bands.
+PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px);
+
+}  // namespace petzval::kernel

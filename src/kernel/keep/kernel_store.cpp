@@ -1,0 +1,347 @@
+#include "kernel/keep/kernel_store.h"
+
+#include "base/build_id.h"
+#include "base/content_hash.h"
+#include "kernel/model/spread.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace petzval::kernel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMagic = 0x314e5245'4b5a5450u;  // "PTZKERN1", and the order of bytes
+constexpr std::size_t kPendingBytes = std::size_t(48) << 20;
+constexpr std::size_t kMostRecords = 1 << 22;
+constexpr int kLargestSide = 1 << 14;
+
+struct Header {
+    std::uint64_t magic = kMagic, records = 0, index_hash = 0;
+};
+
+struct Record {
+    double coc_radius_px = 0, field_x = 0, field_y = 0;
+    std::int32_t level = 0, x0 = 0, y0 = 0, x1 = 0, y1 = 0, neutral = 0;
+    std::uint64_t offset = 0, hash = 0;  // of the weights in the file
+
+    Rect extent() const { return {x0, y0, x1, y1}; }
+    // Neutral kernels keep one number per pixel, others r, g and b.
+    std::size_t floats() const { return std::size_t(x1 - x0) * std::size_t(y1 - y0) * (neutral ? 1u : 3u); }
+};
+
+// Alpha is a function of the colours (spread.h) and is made again.
+std::vector<float> packed(const PointSpread& kernel) {
+    std::vector<float> floats;
+    for (std::size_t i = 0; i < kernel.weights.size(); ++i) {
+        const Rgba& w = kernel.weights.pixels()[i];
+        floats.push_back(w.r);
+        if (!kernel.neutral) floats.push_back(w.g), floats.push_back(w.b);
+    }
+    return floats;
+}
+
+PointSpread unpacked(const Record& r, const std::vector<float>& floats) {
+    const Rect e = r.extent();
+    PointSpread kernel{e, Image<Rgba>::uninitialised(e.width(), e.height()), r.neutral != 0};
+    for (std::size_t i = 0; i < kernel.weights.size(); ++i) {
+        Rgba& w = kernel.weights.pixels()[i];
+        if (kernel.neutral)
+            w = {floats[i], floats[i], floats[i], floats[i]};
+        else
+            w = {floats[3 * i], floats[3 * i + 1], floats[3 * i + 2], 0}, w.a = alpha_of(w);
+    }
+    return kernel;
+}
+
+bool same_bits(const PointSpread& a, const PointSpread& b) {
+    return a.extent == b.extent && a.neutral == b.neutral &&
+           std::memcmp(a.weights.pixels(), b.weights.pixels(), a.weights.bytes()) == 0;
+}
+
+// A name that no other process, and nothing else in this one, uses.
+std::string own_name() {
+    static std::atomic<unsigned> count{0};
+    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+    return std::to_string(now) + "-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+}
+
+// Removes the segments that were not used longest, and what runs that died left behind.
+void make_room(const std::string& folder, std::size_t max_bytes) {
+    struct File {
+        fs::file_time_type used;
+        std::uintmax_t bytes;
+        fs::path path;
+    };
+    std::vector<File> files;
+    std::error_code problem;
+    std::uintmax_t bytes = 0;
+    for (fs::recursive_directory_iterator i(folder, problem), end; !problem && i != end;
+         i.increment(problem)) {
+        const std::string suffix = i->path().extension();
+        if (suffix != ".kernels" && suffix != ".part") continue;
+        std::error_code gone;
+        const File file{i->last_write_time(gone), i->file_size(gone), i->path()};
+        if (gone) continue;
+        const bool left_behind =
+            suffix == ".part" && fs::file_time_type::clock::now() - file.used > std::chrono::hours(1);
+        if (left_behind) fs::remove(file.path, gone);
+        if (suffix == ".part") continue;
+        files.push_back(file);
+        bytes += file.bytes;
+    }
+    std::sort(files.begin(), files.end(), [](const File& p, const File& q) { return p.used < q.used; });
+    for (const File& file : files) {
+        if (bytes <= max_bytes) break;
+        fs::remove(file.path, problem);
+        fs::remove(file.path.parent_path(), problem);  // succeeds when it is empty
+        bytes -= file.bytes;
+    }
+}
+
+}  // namespace
+
+// A file of the store: checked index, weights read when asked for.
+struct KernelStore::Segment {
+    int file = -1;
+    std::vector<Record> records;
+
+    Segment() = default;
+    Segment(const Segment&) = delete;
+    Segment& operator=(const Segment&) = delete;
+    ~Segment() {
+        if (file >= 0) close(file);
+    }
+
+    bool read(void* to, std::size_t size, std::size_t offset) const {
+        for (char* at = static_cast<char*>(to); size > 0;) {
+            const ssize_t got = pread(file, at, size, off_t(offset));
+            if (got <= 0) return false;
+            at += got, offset += std::size_t(got), size -= std::size_t(got);
+        }
+        return true;
+    }
+
+    // Null for anything that is not a whole, undamaged segment.
+    static std::unique_ptr<Segment> opened(const std::string& path) {
+        auto segment = std::make_unique<Segment>();
+        segment->file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        struct stat about {};
+        Header header;
+        if (segment->file < 0 || fstat(segment->file, &about) != 0 ||
+            !segment->read(&header, sizeof header, 0) || header.magic != kMagic || header.records == 0 ||
+            header.records > kMostRecords)
+            return nullptr;
+        const std::size_t index = header.records * sizeof(Record), size = std::size_t(about.st_size);
+        if (size < sizeof header + index) return nullptr;
+        segment->records.resize(header.records);
+        if (!segment->read(segment->records.data(), index, sizeof header) ||
+            hash_of(segment->records.data(), index, kMagic) != header.index_hash)
+            return nullptr;
+        for (const Record& r : segment->records) {
+            const Rect e = r.extent();
+            if (e.empty() || e.width() > kLargestSide || e.height() > kLargestSide || r.offset > size ||
+                r.floats() * sizeof(float) > size - r.offset)
+                return nullptr;
+        }
+        futimens(segment->file, nullptr);  // used now
+        return segment;
+    }
+};
+
+KernelStore::KernelStore(std::string folder, const std::string& lens_key, std::size_t max_bytes)
+    : folder_(std::move(folder)), lens_folder_(folder_ + "/" + lens_key), max_bytes_(max_bytes) {
+    if (lens_key.empty() || folder_.empty())
+        max_bytes_ = 0;
+    else
+        open_segments();
+}
+
+KernelStore::~KernelStore() {
+    const std::lock_guard lock(mutex_);
+    write_pending();
+}
+
+void KernelStore::open_segments() {
+    std::vector<std::string> paths;
+    std::error_code problem;
+    for (fs::directory_iterator i(lens_folder_, problem), end; !problem && i != end; i.increment(problem))
+        if (i->path().extension() == ".kernels") paths.push_back(i->path());
+    std::sort(paths.begin(), paths.end());
+    for (const std::string& path : paths) {
+        auto segment = Segment::opened(path);
+        if (!segment) continue;
+        for (std::size_t i = 0; i < segment->records.size(); ++i) {
+            const Record& r = segment->records[i];
+            places_[{r.level, r.coc_radius_px, r.field_x, r.field_y}] = {segment.get(), i};
+        }
+        segments_.push_back(std::move(segment));
+    }
+}
+
+std::optional<PointSpread> KernelStore::find(const Key& key) const {
+    const auto place = places_.find(key);
+    if (place == places_.end()) return std::nullopt;
+    const Record& record = place->second.segment->records[place->second.record];
+    std::vector<float> floats(record.floats());
+    const std::size_t bytes = floats.size() * sizeof(float);
+    if (!place->second.segment->read(floats.data(), bytes, record.offset) ||
+        hash_of(floats.data(), bytes, kMagic) != record.hash)
+        return std::nullopt;
+    ++found_;
+    return unpacked(record, floats);
+}
+
+void KernelStore::add(const Key& key, const PointSpread& kernel) {
+    const Record as_record{
+        0, 0, 0, 0, kernel.extent.x0, kernel.extent.y0, kernel.extent.x1, kernel.extent.y1, kernel.neutral,
+        0, 0};
+    const std::size_t bytes = as_record.floats() * sizeof(float) + sizeof(Record);
+    const std::lock_guard lock(mutex_);
+    if (written_bytes_ + pending_bytes_ + bytes > max_bytes_ / 8) return;
+    PointSpread copy{kernel.extent, kernel.weights.clone(), kernel.neutral};
+    // Kernels whose alpha or neutral colour is not what it is made from again would come back changed.
+    if (!same_bits(unpacked(as_record, packed(copy)), kernel)) return;
+    pending_.emplace_back(key, std::move(copy));
+    pending_bytes_ += bytes;
+    if (pending_bytes_ > kPendingBytes) write_pending();
+}
+
+// Requires: mutex_ is held.
+void KernelStore::write_pending() {
+    if (pending_.empty()) return;
+    std::vector<Record> records;
+    std::vector<std::vector<float>> weights;
+    std::size_t offset = sizeof(Header) + pending_.size() * sizeof(Record);
+    for (const auto& [key, kernel] : pending_) {
+        weights.push_back(packed(kernel));
+        const std::size_t bytes = weights.back().size() * sizeof(float);
+        const Rect e = kernel.extent;
+        records.push_back({key.coc_radius_px, key.field_x, key.field_y, key.level, e.x0, e.y0, e.x1, e.y1,
+                           kernel.neutral, offset, hash_of(weights.back().data(), bytes, kMagic)});
+        offset += bytes;
+    }
+    Header header;
+    header.records = records.size();
+    header.index_hash = hash_of(records.data(), records.size() * sizeof(Record), kMagic);
+
+    std::error_code problem;
+    fs::create_directories(lens_folder_, problem);
+    const std::string name = lens_folder_ + "/" + own_name(), part = name + ".part";
+    std::ofstream file(part, std::ios::binary);
+    const auto write = [&](const void* from, std::size_t bytes) {
+        file.write(static_cast<const char*>(from), std::streamsize(bytes));
+    };
+    write(&header, sizeof header);
+    write(records.data(), records.size() * sizeof(Record));
+    for (const std::vector<float>& floats : weights) write(floats.data(), floats.size() * sizeof(float));
+    file.close();
+    if (file)
+        fs::rename(part, name + ".kernels", problem);
+    else
+        fs::remove(part, problem);
+    written_bytes_ += pending_bytes_;
+    pending_.clear(), pending_bytes_ = 0;
+    make_room(folder_, max_bytes_);
+}
+
+namespace {
+
+// A lens whose kernels are looked up first.
+class KeptLens final : public LensModel {
+public:
+    KeptLens(std::unique_ptr<const LensModel> lens, std::shared_ptr<KernelStore> store, int level)
+        : lens_(std::move(lens)), store_(std::move(store)), level_(level) {}
+
+    PointSpread point_spread(double coc_radius_px, FieldPosition field) const override {
+        const KernelStore::Key key{level_, coc_radius_px, field.x, field.y};
+        if (auto before = store_->find(key)) return std::move(*before);
+        PointSpread made = lens_->point_spread(coc_radius_px, field);
+        store_->add(key, made);
+        return made;
+    }
+    PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override {
+        return lens_->raw_point_spread(coc_radius_px, field);
+    }
+    std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override {
+        return lens_->rays(count, field, seed);
+    }
+    double reach_px(double coc_radius_px) const override { return lens_->reach_px(coc_radius_px); }
+    bool varies_over_field() const override { return lens_->varies_over_field(); }
+    Mirrors mirrors() const override { return lens_->mirrors(); }
+    std::string description() const override { return lens_->description(); }
+    bool is_quick() const override { return false; }
+
+private:
+    std::unique_ptr<const LensModel> lens_;
+    std::shared_ptr<KernelStore> store_;
+    int level_;
+};
+
+void add_picture(ContentHash& hash, const Plane* plane) {
+    hash.add(plane != nullptr);
+    if (!plane) return;
+    hash.add(plane->width()).add(plane->height());
+    for (int y = 0; y < plane->height(); ++y)
+        hash.add(std::string_view(reinterpret_cast<const char*>(plane->row(y)),
+                                  std::size_t(plane->width()) * sizeof(float)));
+}
+
+// The bytes of a lens in a file; none for a name of ours, which stands for itself, because the program holds
+// it. Nothing for what cannot be read twice (a pipe) or is no lens (a folder, a device, a huge file).
+std::optional<std::string> lens_content(const std::string& name) {
+    constexpr std::uintmax_t kLargestFile = 1 << 22;
+    std::error_code problem;
+    if (!std::filesystem::exists(name, problem)) return std::string();
+    if (!std::filesystem::is_regular_file(name, problem)) return std::nullopt;
+    if (std::filesystem::file_size(name, problem) > kLargestFile || problem) return std::nullopt;
+    std::ifstream file(name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+}  // namespace
+
+std::string lens_key(const LensChoice& c, const Mount& m) {
+    const std::string program = build_id();
+    if (program.empty() || c.kernel_images.far || c.kernel_images.near) return {};
+    const std::optional<std::string> content = lens_content(c.name);
+    if (!content) return {};
+    ContentHash hash;
+    hash.add(program).add(c.name).add(*content);
+    const ApertureShape& a = c.aperture;
+    hash.add(a.blades).add(a.rotation_deg).add(a.curvature).add(a.squeeze).add(a.round_at_f_number);
+    hash.add(c.cats_eye).add(c.barrel.size());
+    for (const BarrelRim& rim : c.barrel) hash.add(rim.radius_mm).add(rim.distance_mm);
+    hash.add(c.barn_doors.left).add(c.barn_doors.right).add(c.barn_doors.top).add(c.barn_doors.bottom);
+    const PupilTexture& t = c.texture;
+    hash.add(t.dust).add(t.scratches).add(t.onion_rings).add(t.seed);
+    add_picture(hash, t.image.get());
+    hash.add(c.focus_mode)
+        .add(c.focus_shift_mm)
+        .add(c.spherical)
+        .add(c.axial_colour)
+        .add(c.lateral_colour)
+        .add(c.coma);
+    hash.add(c.astigmatism).add(c.distortion).add(c.wavelengths).add(c.wave);
+    const Camera& camera = m.camera;
+    hash.add(camera.focal_length_mm).add(camera.sensor_width_mm).add(camera.f_number);
+    hash.add(camera.focus_distance_m).add(m.display_width_px).add(m.display_height_px).add(m.pixel_aspect);
+    return hash.text();
+}
+
+std::unique_ptr<const LensModel> kept(std::unique_ptr<const LensModel> lens,
+                                      std::shared_ptr<KernelStore> store, int level) {
+    if (lens->is_quick()) return lens;
+    return std::make_unique<KeptLens>(std::move(lens), std::move(store), level);
+}
+
+}  // namespace petzval::kernel

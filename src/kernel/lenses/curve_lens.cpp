@@ -1,0 +1,236 @@
+#include "kernel/lenses/curve_lens.h"
+
+#include "kernel/draw/band_groups.h"
+#include "kernel/draw/mesh_kernel.h"
+#include "kernel/draw/ray_set.h"
+#include "kernel/draw/ring_kernel.h"
+#include "kernel/draw/sector_kernel.h"
+#include "kernel/model/spread.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace petzval::kernel {
+namespace {
+
+constexpr int kLadder[] = {1, 7, 15, 31, 62, 124, 248};
+// Neighbouring bands may land this far apart before their rims show as separate lines.
+constexpr double kBandStepPx = 0.7;
+// Bands that all land within this are one.
+constexpr double kNoColourPx = 0.02;
+// How far chords of the outline may be off their arcs.
+constexpr double kChordPx = 0.04;
+// Light outside carries under 1 % of the luminance; it does not decide how many bands are needed.
+// Rays see the pupil's texture through a window of this half width, pupil radii.
+constexpr double kRayWidth = 1.0 / 256;
+constexpr int kLeastRingBands = 31, kLeastMeshBands = 7, kLeastRayBands = 62;
+constexpr double kSeenFrom_nm = 430, kSeenTo_nm = 670;
+
+// Units of LensChoice::coma and ::astigmatism, focal lengths (petzval/lens.h).
+constexpr double kComaUnit = 0.02, kAstigmatismUnit = 0.01;
+
+double focus_of(const CurveSampler& sampler, const LensChoice& choice, double focal_length_mm) {
+    switch (choice.focus_mode) {
+        case FocusMode::Best:
+            return sampler.best_focus();
+        case FocusMode::Shift:
+            return choice.focus_shift_mm / focal_length_mm;
+        case FocusMode::Paraxial:
+            break;
+    }
+    return 0;
+}
+
+std::string describe(const AberrationCurves& curves, const Camera& camera) {
+    std::string text = curves.name + ": " + curves.description;
+    if (camera.f_number < curves.f_number)
+        text += " (curves stretched to this aperture, wider than drawn for)";
+    return text;
+}
+
+ZoneShift mean_shift(const CurveSampler& sampler, const BandGroup& group) {
+    std::vector<double> mean(sampler.at(group.sum.wavelength_nm).samples().size(), 0.0);
+    for (std::size_t b = 0; b < group.bands.size(); ++b) {
+        const ZoneShift shift = sampler.at(group.bands[b].wavelength_nm);
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += group.say[b] * shift.samples()[i];
+    }
+    return ZoneShift(std::move(mean));
+}
+
+Light weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band.b}; }
+
+}  // namespace
+
+CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount)
+    : description_(describe(curves, mount.camera)),
+      sampler_(curves, {mount.camera.f_number, choice.spherical, choice.axial_colour}),
+      pupil_(choice, mount),
+      choice_(choice),
+      pixel_aspect_(mount.pixel_aspect) {
+    const Camera& camera = mount.camera;
+    const double focal_length_px = camera.focal_length_mm / camera.sensor_width_mm * mount.display_width_px;
+    const double rim = 0.5 / camera.f_number;
+    aberration_px_ = rim * focal_length_px;
+    coma_px_ = choice.coma * kComaUnit * rim * rim * focal_length_px;
+    astigmatism_px_ = choice.astigmatism * kAstigmatismUnit * aberration_px_;
+
+    focus_ = focus_of(sampler_, choice, camera.focal_length_mm);
+    const auto add_rung = [&](int count) {
+        ladder_.emplace_back();
+        for (const BandGroup& group : band_groups(count, choice.wavelengths > 0 ? count : kLeastWavelengths))
+            ladder_.back().push_back({group.sum, mean_shift(sampler_, group)});
+    };
+    if (choice.wavelengths > 0)
+        add_rung(choice.wavelengths);
+    else
+        for (const int count : kLadder) add_rung(count);
+    measure_curves();
+}
+
+void CurveLens::measure_curves() {
+    const std::vector<Band>& bands = ladder_.back();
+    const std::size_t samples = bands[0].shift.samples().size();
+    for (std::size_t i = 0; i < samples; ++i) {
+        const double rho = std::sqrt(double(i) / double(samples - 1));
+        const Band* before = nullptr;
+        double path = 0;
+        for (const Band& band : bands) {
+            const double miss = rho * (band.shift.samples()[i] - focus_);
+            largest_shift_ = std::max(largest_shift_, std::abs(miss));
+            if (band.spectrum.wavelength_nm < kSeenFrom_nm || band.spectrum.wavelength_nm > kSeenTo_nm)
+                continue;
+            largest_seen_ = std::max(largest_seen_, std::abs(miss));
+            if (before) path += rho * std::abs(band.shift.samples()[i] - before->shift.samples()[i]);
+            before = &band;
+        }
+        colour_path_ = std::max(colour_path_, path);
+    }
+}
+
+const std::vector<CurveLens::Band>& CurveLens::bands_for(int at_least) const {
+    const double path_px = colour_path_ * aberration_px_;
+    const double needed = path_px < kNoColourPx ? 1 : std::max(double(at_least), path_px / kBandStepPx);
+    for (const std::vector<Band>& rung : ladder_)
+        if (double(rung.size()) >= needed) return rung;
+    return ladder_.back();
+}
+
+Point CurveLens::landing_px(const ZoneShift& shift, double coc_radius_px, const FieldAxis& axis,
+                            Point pupil) const {
+    const double area = pupil.x * pupil.x + pupil.y * pupil.y;
+    const double scale = coc_radius_px - aberration_px_ * (shift(area) - focus_);
+    if (axis.size == 0) return {scale * pupil.x, scale * pupil.y * pixel_aspect_};
+    const Point p = axis.to_axis(pupil);
+    // Coma: rho^2 (2 + cos 2 theta, sin 2 theta). Astigmatism: one focus nearer, the other farther by
+    // field^2.
+    const double coma = coma_px_ * axis.size, bend = astigmatism_px_ * axis.size * axis.size;
+    const double stretch = choice_.distortion * axis.size * axis.size;
+    const Point landed{(scale + bend) * p.x + coma * (3 * p.x * p.x + p.y * p.y),
+                       (scale - bend) * p.y + coma * 2 * p.x * p.y};
+    const Point image = axis.from_axis({landed.x * (1 + 3 * stretch), landed.y * (1 + stretch)});
+    return {image.x, image.y * pixel_aspect_};
+}
+
+std::function<Point(Point)> CurveLens::landing(double wavelength_nm, double coc_radius_px,
+                                               FieldPosition field) const {
+    return [this, shift = sampler_.at(wavelength_nm), coc_radius_px, axis = FieldAxis(field)](Point pupil) {
+        return landing_px(shift, coc_radius_px, axis, pupil);
+    };
+}
+
+bool CurveLens::varies_over_field() const {
+    return pupil_.varies_over_field() || choice_.coma != 0 || choice_.astigmatism != 0 ||
+           choice_.distortion != 0;
+}
+
+Mirrors CurveLens::mirrors() const { return pupil_.mirrors(); }
+
+double CurveLens::reach_px(double coc_radius_px) const {
+    const double off_axis = 3 * std::abs(coma_px_) + std::abs(astigmatism_px_);
+    const double stretch = std::max(1.0, 1 + 3 * std::abs(choice_.distortion));
+    return (std::abs(coc_radius_px) + aberration_px_ * largest_shift_ + off_axis) * stretch *
+           std::max(1.0, pixel_aspect_);
+}
+
+PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+    const bool on_axis = field.x == 0 && field.y == 0;
+    const bool same_around_the_axis =
+        on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0);
+    if (!same_around_the_axis || pupil_.has_texture()) return mesh_spread(coc_radius_px, field);
+    if (pupil_.is_disc(field) && pixel_aspect_ == 1) {
+        const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
+        return ring_kernel(rings.bands, rings.reach_px);
+    }
+    const std::shared_ptr<const RingSweep> sweep = sweep_of(coc_radius_px);
+    const std::vector<Point> outline = pupil_.outline(field, kChordPx / std::max(sweep->reach_px(), 4.0));
+    if (!is_star_about_axis(outline)) return mesh_spread(coc_radius_px, field);
+    return sector_kernel(outline, *sweep, pixel_aspect_);
+}
+
+// Places of the picture share the sweep of a radius: the last few are kept. Two threads may make the same.
+std::shared_ptr<const RingSweep> CurveLens::sweep_of(double coc_radius_px) const {
+    {
+        const std::lock_guard lock(sweeps_mutex_);
+        for (const auto& [radius, sweep] : sweeps_)
+            if (sweep && radius == coc_radius_px) return sweep;
+    }
+    const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
+    auto sweep = std::make_shared<const RingSweep>(rings.bands, rings.reach_px);
+    const std::lock_guard lock(sweeps_mutex_);
+    sweeps_[next_sweep_++ % sweeps_.size()] = {coc_radius_px, sweep};
+    return sweep;
+}
+
+PointSpread CurveLens::point_spread(double coc_radius_px, FieldPosition field) const {
+    PointSpread spread = raw_point_spread(coc_radius_px, field);
+    map_into_gamut(spread);
+    return spread;
+}
+
+CurveLens::Rings CurveLens::rings_of(double coc_radius_px, int least_bands) const {
+    Rings rings;
+    for (const Band& band : bands_for(least_bands)) {
+        const auto landing = [this, coc_radius_px, &band](double area) {
+            return std::sqrt(area) * (coc_radius_px - aberration_px_ * (band.shift(area) - focus_));
+        };
+        const std::size_t last = band.shift.samples().size() - 1;
+        for (std::size_t i = 0; i <= last; ++i)
+            rings.reach_px = std::max(rings.reach_px, std::abs(landing(double(i) / double(last))));
+        rings.bands.push_back({weight_of(band.spectrum), landing});
+    }
+    return rings;
+}
+
+PointSpread CurveLens::mesh_spread(double coc_radius_px, FieldPosition field) const {
+    const FieldAxis axis(field);
+    // Aberrations bend faster across the pupil than they reach.
+    const double aberration = aberration_px_ * largest_seen_, coma = 3 * std::abs(coma_px_) * axis.size;
+    const double size = std::abs(coc_radius_px) + aberration + coma;
+    const double bend = std::abs(coc_radius_px) + 3 * aberration + 4 * coma;
+    const MeshPupil pupil = mesh_pupil(pupil_, pupil_.outline(field, mesh_tolerance(bend)), size, bend);
+    std::vector<MeshBand> bands;
+    for (const Band& band : bands_for(kLeastMeshBands))
+        bands.push_back(
+            {weight_of(band.spectrum), [&, coc_radius_px](std::span<const Point> points, Point* landed) {
+                 for (const Point& p : points) *landed++ = landing_px(band.shift, coc_radius_px, axis, p);
+             }});
+    return mesh_kernel(pupil, bands);
+}
+
+std::vector<PupilRay> CurveLens::rays(int count, FieldPosition field, std::uint64_t seed) const {
+    const FieldAxis axis(field);
+    const std::vector<Band>& bands = bands_for(kLeastRayBands);
+    std::vector<colour::SpectralBand> spectrum;
+    for (const Band& band : bands) spectrum.push_back(band.spectrum);
+    return spread_rays(pupil_.outline(field, 1e-5), spectrum, count, seed,
+                       [&](std::size_t band, Point pupil) {
+                           const ZoneShift& shift = bands[band].shift;
+                           const Point offset = landing_px(shift, 0, axis, pupil);
+                           // What the radius alone does: the landing place is linear in it.
+                           return RayLanding{landing_px(shift, 1, axis, pupil) - offset, offset,
+                                             pupil_.transmission(pupil, kRayWidth)};
+                       });
+}
+
+}  // namespace petzval::kernel

@@ -1,0 +1,25 @@
+// What every lens of rays can tell of itself, beyond its kernels: the pupil and where its points land.
+// Diffraction needs it.
+#pragma once
+
+#include "kernel/model/coverage.h"
+#include "kernel/model/lens_model.h"
+
+#include <functional>
+#include <vector>
+
+namespace petzval::kernel {
+
+class GeometricLens : public LensModel {
+public:
+    // The outline that passes light, seen from `field`; pixel orientation, pupil radii, before pixel aspect.
+    virtual std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const = 0;
+    // Where points of the pupil land in pixels, pixel aspect included. Requires: the lens outlives the
+    // function.
+    virtual std::function<Point(Point)> landing(double wavelength_nm, double coc_radius_px,
+                                                FieldPosition field) const = 0;
+    // Share of light that passes a point of the pupil, mean over a square.
+    virtual double pupil_transmission(Point pupil, double half_width) const = 0;
+};
+
+}  // namespace petzval::kernel

@@ -1,0 +1,394 @@
+#include "kernel/lenses/traced_model.h"
+
+#include "kernel/draw/band_groups.h"
+#include "kernel/draw/outline.h"
+#include "kernel/draw/ray_set.h"
+#include "kernel/model/spread.h"
+#include "optics/traced_lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+namespace petzval::kernel {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kNodes = 15;                // field sizes traced, axis and corner included
+constexpr double kUnstatedField_deg = 1;  // for lenses whose source speaks of the axis alone
+constexpr int kOutlineCorners = 96;       // of what the rims leave open
+// Wavelengths traced; parabolas join three neighbours.
+constexpr double kTraced_nm[] = {420, 455, 495, 540, 590, 640, 690};
+constexpr double kMiddle_nm = 555;
+constexpr double kProbed_nm[] = {430, 490, 550, 610, 670};  // wavelengths that count
+constexpr int kRayBands = 62;
+constexpr double kRayWidth =
+    1.0 / 256;  // of the window through which rays see the pupil's texture, pupil radii
+// Rims of neighbouring bands this far apart are not seen singly: pixels are as wide.
+constexpr double kBandStepPx = 1, kNoColourPx = 0.02;
+constexpr double kSharpPathPx = 6;  // of rims over the spectrum; above, meshes may be coarser
+constexpr int kFewestBands = 7, kMostBands = 36;
+
+Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+Status check_choice(const LensChoice& c) {
+    if (c.spherical != 1 || c.axial_colour != 1 || c.coma != 0 || c.astigmatism != 0 || c.distortion != 0)
+        return refuse(
+            "--spherical, --axial-colour, --coma, --astigmatism and --distortion shape lenses drawn as "
+            "curves (lens list); \"" +
+            c.name + "\" is traced from its surfaces");
+    return Done{};
+}
+
+// The three traced wavelengths nearest to one, and the weights of the parabola through them over
+// 1/wavelength^2.
+struct Parabola {
+    std::size_t first = 0;
+    double weight[3] = {1, 0, 0};
+
+    Parabola(const std::vector<double>& wavelengths_nm, double wavelength_nm) {
+        if (wavelengths_nm.size() < 3) return;
+        while (first + 3 < wavelengths_nm.size() && std::abs(wavelengths_nm[first + 3] - wavelength_nm) <
+                                                        std::abs(wavelengths_nm[first] - wavelength_nm))
+            ++first;
+        const auto axis = [](double nm) { return 1e6 / (nm * nm); };
+        // Beyond the traced range, as at its end.
+        const double x = axis(std::clamp(wavelength_nm, wavelengths_nm.front(), wavelengths_nm.back()));
+        for (std::size_t i = 0; i < 3; ++i) {
+            weight[i] = 1;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double xi = axis(wavelengths_nm[first + i]), xk = axis(wavelengths_nm[first + k]);
+                if (k != i) weight[i] *= (x - xk) / (xi - xk);
+            }
+        }
+    }
+};
+
+double light_at(const RayMap& map, const PupilPowers& powers) {
+    double light = 0;
+    for (std::size_t i = 0; i < map.light.size(); ++i) light += map.light[i] * powers.even[i];
+    return std::max(0.0, light);
+}
+
+// Where the middle of the light lands, along the field's direction.
+struct Middle {
+    double offset_mm = 0, slope = 0;
+};
+
+Middle middle_of(const RayMap& map, const OpenStop& open) {
+    constexpr int kRings = 8;
+    Middle sum;
+    double light = 0;
+    for (const Point& corner : open.corners)
+        for (int j = 0; j < kRings; ++j) {
+            const double share = (j + 0.5) / kRings;
+            const Point to_corner = corner - open.middle;
+            const double reach = std::min(1.0, 1 / std::max(1e-9, std::hypot(corner.x, corner.y)));
+            const PupilPowers powers(open.middle + (share * reach) * to_corner);
+            const double here = light_at(map, powers) * share * reach * reach *
+                                (to_corner.x * to_corner.x + to_corner.y * to_corner.y);
+            sum.offset_mm += here * map.offset_mm.at(powers).x;
+            sum.slope += here * map.slope.at(powers).x;
+            light += here;
+        }
+    if (light > 0) sum.offset_mm /= light, sum.slope /= light;
+    return sum;
+}
+
+// Of the visible spectrum, the luminance in the 10 nm around a wavelength.
+double luminance_at(double wavelength_nm) {
+    double sum = 0;
+    for (const colour::SpectralBand& band : colour::spectral_bands(60))
+        if (std::abs(band.wavelength_nm - wavelength_nm) <= 5) sum += band.luminance;
+    return sum;
+}
+
+}  // namespace
+
+TracedModel::TracedModel(const LensChoice& choice, const Mount& mount)
+    : pupil_(choice, mount), choice_(choice), mount_(mount) {}
+
+Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Prescription& prescription,
+                                                               const LensChoice& choice, const Mount& mount) {
+    if (const Status status = check_choice(choice); !status) return status.error();
+    const auto first = optics::first_order(prescription, prescription.primary_um);
+    if (!first) return first.error();
+    if (!(first->focal_length_mm > 0)) return refuse(prescription.name + " does not form a real image");
+    std::unique_ptr<TracedModel> model(new TracedModel(choice, mount));
+    const double factor = mount.camera.focal_length_mm / first->focal_length_mm;
+    std::ostringstream text;
+    text << prescription.name << ", f/" << mount.camera.f_number << ", scaled from " << first->focal_length_mm
+         << " mm to " << mount.camera.focal_length_mm << " mm";
+    if (!prescription.dispersion_known) text << ", without colour: the dispersion of its glass is not known";
+    model->description_ = text.str();
+    if (const Status status = model->trace(optics::scaled(prescription, factor)); !status)
+        return status.error();
+    model->measure();
+    return std::unique_ptr<const GeometricLens>(std::move(model));
+}
+
+// Rays are kept in millimetres.
+std::unique_ptr<const LensModel> TracedModel::on_pixels(const Mount& mount) const {
+    auto same = std::make_unique<TracedModel>(*this);
+    const double factor = mount.display_width_px / mount.camera.sensor_width_mm / px_per_mm_;
+    same->mount_.display_width_px = mount.display_width_px;
+    same->mount_.display_height_px = mount.display_height_px;
+    same->px_per_mm_ *= factor;
+    same->reach_offset_px_ *= factor;
+    return same;
+}
+
+Status TracedModel::trace(const optics::Prescription& lens) {
+    const Camera& camera = mount_.camera;
+    px_per_mm_ = mount_.display_width_px / camera.sensor_width_mm;
+    if (lens.dispersion_known)
+        wavelength_nm_.assign(std::begin(kTraced_nm), std::end(kTraced_nm));
+    else
+        wavelength_nm_ = {lens.primary_um * 1000};
+
+    optics::LensSetting setting{camera.f_number,
+                                camera.focus_distance_m > 0 ? camera.focus_distance_m * 1000
+                                                            : std::numeric_limits<double>::infinity(),
+                                0};
+    // At the open aperture the numbers of a lens are often rounded: half a percent is the lens itself.
+    const auto first = optics::first_order(lens, lens.primary_um);
+    if (!first) return first.error();
+    if (setting.f_number < first->f_number && setting.f_number > 0.99 * first->f_number)
+        setting.f_number = first->f_number;
+    auto traced = optics::TracedLens::make(lens, setting);
+    if (!traced) return traced.error();
+    if (choice_.focus_mode != FocusMode::Paraxial) {
+        setting.sensor_shift_mm = choice_.focus_shift_mm;
+        if (choice_.focus_mode == FocusMode::Best) {
+            std::vector<optics::Beam> beams;
+            std::vector<double> weights;
+            for (const double nm : wavelength_nm_) {
+                auto beam = traced->beam(nm / 1000, 0.0);
+                if (!beam) return beam.error();
+                beams.push_back(std::move(*beam));
+                weights.push_back(luminance_at(nm));
+            }
+            setting.sensor_shift_mm = optics::best_focus_shift_mm(beams, weights);
+        }
+        traced = optics::TracedLens::make(lens, setting);
+        if (!traced) return traced.error();
+    }
+    image_slope_ = traced->image_side_slope();
+
+    trace_fields(*traced);
+    if (nodes_.empty()) return refuse(lens.name + ": no light passes to the middle of the picture");
+    return Done{};
+}
+
+void TracedModel::trace_fields(const optics::TracedLens& lens) {
+    // Heights on the sensor, and the angles at which a pinhole sees them: the input was rendered with one.
+    const double aspect = double(mount_.display_height_px) / mount_.display_width_px / mount_.pixel_aspect;
+    const double corner =
+        0.5 * mount_.camera.sensor_width_mm * std::hypot(1.0, aspect) / mount_.camera.focal_length_mm;
+    const double designed_deg = optics::field_angle_deg(lens.prescription(), lens.first_order());
+    const double usable_deg = designed_deg > 0 ? designed_deg : kUnstatedField_deg;
+    const double designed = std::tan(std::min(usable_deg, 85.0) * kPi / 180);
+    largest_field_ = std::min(1.0, designed / corner);
+    for (int i = 0; i < kNodes; ++i) {
+        const double size = largest_field_ * i / (kNodes - 1);
+        std::optional<Node> node = traced_node(lens, std::atan(size * corner));
+        if (!node) break;
+        nodes_.push_back(std::move(*node));
+    }
+    node_step_ = largest_field_ / (kNodes - 1);
+    if (!nodes_.empty()) largest_field_ = node_step_ * double(nodes_.size() - 1);
+    if (largest_field_ < 0.99) {
+        std::ostringstream text;
+        text << "; made for " << std::atan(largest_field_ * corner) * 180 / kPi
+             << " degrees off the axis, beyond it as there";
+        description_ += text.str();
+    }
+}
+
+std::optional<TracedModel::Node> TracedModel::traced_node(const optics::TracedLens& lens,
+                                                          double field_rad) const {
+    const auto primary = lens.beam(lens.prescription().primary_um, field_rad);
+    if (!primary) return std::nullopt;
+    const OpenStop open = OpenStop::of(*primary, kOutlineCorners);
+    if (open.corners.empty()) return std::nullopt;
+    const RayMapFitter fitter(*primary, open);
+    if (!fitter.usable()) return std::nullopt;
+    Node node{{}, open.corners};
+    const Middle of_primary = middle_of(fitter.fit(*primary), open);
+    for (const double nm : wavelength_nm_) {
+        const auto beam = lens.beam(nm / 1000, field_rad);
+        if (!beam) return std::nullopt;
+        RayMap& map = node.maps.emplace_back(fitter.fit(*beam));
+        if (choice_.lateral_colour == 1) continue;
+        const Middle here = middle_of(map, open);
+        map.offset_mm.along[0] += (choice_.lateral_colour - 1) * (here.offset_mm - of_primary.offset_mm);
+        map.slope.along[0] += (choice_.lateral_colour - 1) * (here.slope - of_primary.slope);
+    }
+    return node;
+}
+
+void TracedModel::measure() {
+    for (const Node& node : nodes_)
+        for (const RayMap& map : node.maps)
+            for (const Point& corner : node.open) {
+                const PupilPowers powers((1 / std::max(1.0, std::hypot(corner.x, corner.y))) * corner);
+                const Point offset = map.offset_mm.at(powers), slope = map.slope.at(powers);
+                reach_offset_px_ = std::max(reach_offset_px_, px_per_mm_ * std::hypot(offset.x, offset.y));
+                reach_per_coc_ = std::max(reach_per_coc_, std::hypot(slope.x, slope.y) / image_slope_);
+            }
+}
+
+double TracedModel::reach_px(double coc_radius_px) const {
+    return (reach_offset_px_ + reach_per_coc_ * std::abs(coc_radius_px)) * std::max(1.0, mount_.pixel_aspect);
+}
+
+TracedModel::Node TracedModel::at(double field_size) const {
+    const double place = node_step_ > 0 ? std::min(field_size, largest_field_) / node_step_ : 0;
+    const std::size_t i = std::min(std::size_t(place), nodes_.size() - 1),
+                      k = std::min(i + 1, nodes_.size() - 1);
+    const double t = place - double(i);
+    Node node = nodes_[i];
+    for (std::size_t w = 0; w < node.maps.size(); ++w) {
+        node.maps[w].add(-t, nodes_[i].maps[w]);
+        node.maps[w].add(t, nodes_[k].maps[w]);
+    }
+    for (std::size_t c = 0; c < node.open.size(); ++c)
+        node.open[c] = node.open[c] + t * (nodes_[k].open[c] - node.open[c]);
+    return node;
+}
+
+RayMap TracedModel::map_at(const Node& node, double wavelength_nm) const {
+    const Parabola parabola(wavelength_nm_, wavelength_nm);
+    RayMap map;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, node.maps.size()); ++i)
+        map.add(parabola.weight[i], node.maps[parabola.first + i]);
+    return map;
+}
+
+Displacement TracedModel::landing(const RayMap& map, double coc_radius_px) const {
+    Displacement px;
+    px.add(px_per_mm_, map.offset_mm);
+    px.add(coc_radius_px / image_slope_, map.slope);
+    return px;
+}
+
+std::vector<Point> TracedModel::outline(const Node& node, const FieldAxis& axis, FieldPosition field,
+                                        double tolerance) const {
+    std::vector<Point> iris = pupil_.outline(field, tolerance);
+    for (Point& p : iris) p = axis.to_axis(p);
+    std::vector<Point> seen = clipped(iris, node.open);
+    // Blades and rims may leave nothing between them; then the rims alone decide.
+    if (seen.size() < 3 || area(seen) < 1e-4) seen = clipped(node.open, Circle{}, tolerance);
+    return seen.size() < 3 ? iris : seen;
+}
+
+std::vector<Point> TracedModel::pupil_outline(FieldPosition field, double tolerance) const {
+    const FieldAxis axis(field);
+    std::vector<Point> seen = outline(at(axis.size), axis, field, tolerance);
+    for (Point& p : seen) p = axis.from_axis(p);
+    return seen;
+}
+
+std::function<Point(Point)> TracedModel::landing(double wavelength_nm, double coc_radius_px,
+                                                 FieldPosition field) const {
+    const FieldAxis axis(field);
+    const Displacement px = landing(map_at(at(axis.size), wavelength_nm), coc_radius_px);
+    return [px, axis, aspect = mount_.pixel_aspect](Point pupil) {
+        const Point image = axis.from_axis(px.at(PupilPowers(axis.to_axis(pupil))));
+        return Point{image.x, image.y * aspect};
+    };
+}
+
+TracedModel::Fineness TracedModel::fineness(const Node& node, const std::vector<Point>& outline,
+                                            double coc_radius_px) const {
+    std::vector<Displacement> maps;
+    for (const double nm : kProbed_nm) maps.push_back(landing(map_at(node, nm), coc_radius_px));
+    Fineness fine;
+    for (std::size_t i = 0; i < outline.size(); i += 1 + outline.size() / 24) {
+        const PupilPowers powers(outline[i]);
+        Point before;
+        double path = 0;
+        for (std::size_t w = 0; w < maps.size(); ++w) {
+            const Point p = maps[w].at(powers), step = p - before;
+            fine.size_px = std::max(fine.size_px, std::hypot(p.x, p.y));
+            if (w > 0) path += std::hypot(step.x, step.y);
+            before = p;
+        }
+        fine.path_px = std::max(fine.path_px, path);
+    }
+    // Rays inside the rim may land farther out than the rim.
+    fine.size_px = std::max(fine.size_px, std::abs(coc_radius_px));
+    if (choice_.wavelengths > 0) {
+        fine.bands = choice_.wavelengths;
+    } else if (wavelength_nm_.size() >= 3 && fine.path_px >= kNoColourPx) {
+        fine.bands =
+            int(std::clamp(std::ceil(fine.path_px / kBandStepPx), double(kFewestBands), double(kMostBands)));
+    }
+    return fine;
+}
+
+PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+    const FieldAxis axis(field);
+    const Node node = at(axis.size);
+    const Fineness fine = fineness(node, outline(node, axis, field, 1e-3), coc_radius_px);
+    const RayMap middle = map_at(node, kMiddle_nm);
+    // Colours side by side smear what a coarser mesh would show.
+    const double smear = std::clamp(fine.path_px / kSharpPathPx, 1.0, 8.0);
+    const double size_px = fine.size_px / std::cbrt(smear), along_rim = std::cbrt(smear * smear);
+    MeshPupil pupil = mesh_pupil(pupil_, outline(node, axis, field, mesh_tolerance(fine.size_px / along_rim)),
+                                 size_px, (2 * fine.size_px - std::abs(coc_radius_px)) / along_rim);
+    pupil.density = [&](std::span<const Point> points, double* light) {
+        values_at(middle.light, points, light);
+        for (std::size_t i = 0; i < points.size(); ++i) light[i] = std::max(0.0, light[i]);
+    };
+    if (pupil_.has_texture())
+        pupil.transmission = [&](Point p, double half_width) {
+            return pupil_.transmission(axis.from_axis(p), half_width);
+        };
+    std::vector<MeshBand> bands;
+    const auto groups = band_groups(fine.bands, choice_.wavelengths > 0 ? fine.bands : kLeastWavelengths);
+    for (const BandGroup& group : groups) {
+        Displacement px;
+        for (std::size_t i = 0; i < group.bands.size(); ++i)
+            px.add(group.say[i], landing(map_at(node, group.bands[i].wavelength_nm), coc_radius_px));
+        const colour::SpectralBand& band = group.sum;
+        bands.push_back(
+            {{band.r, band.g, band.b}, [this, px, axis](std::span<const Point> points, Point* landed) {
+                 land(px, points, landed);
+                 for (std::size_t i = 0; i < points.size(); ++i) {
+                     const Point image = axis.from_axis(landed[i]);
+                     landed[i] = {image.x, image.y * mount_.pixel_aspect};
+                 }
+             }});
+    }
+    return mesh_kernel(pupil, bands);
+}
+
+PointSpread TracedModel::point_spread(double coc_radius_px, FieldPosition field) const {
+    PointSpread spread = raw_point_spread(coc_radius_px, field);
+    map_into_gamut(spread);
+    return spread;
+}
+
+std::vector<PupilRay> TracedModel::rays(int count, FieldPosition field, std::uint64_t seed) const {
+    const FieldAxis axis(field);
+    const Node node = at(axis.size);
+    const auto bands = colour::spectral_bands(wavelength_nm_.size() < 3 ? 1 : kRayBands);
+    std::vector<RayMap> maps;
+    for (const colour::SpectralBand& band : bands) maps.push_back(map_at(node, band.wavelength_nm));
+    const auto picture = [&](Point p) {
+        const Point image = axis.from_axis(p);
+        return Point{image.x, image.y * mount_.pixel_aspect};
+    };
+    return spread_rays(outline(node, axis, field, 1e-4), bands, count, seed,
+                       [&](std::size_t band, Point pupil) {
+                           const PupilPowers powers(pupil);
+                           const double passed = pupil_.transmission(axis.from_axis(pupil), kRayWidth);
+                           return RayLanding{picture((1 / image_slope_) * maps[band].slope.at(powers)),
+                                             picture(px_per_mm_ * maps[band].offset_mm.at(powers)),
+                                             light_at(maps[band], powers) * passed};
+                       });
+}
+
+}  // namespace petzval::kernel

@@ -1,0 +1,80 @@
+// A lens given by its prescription, as engines use it.
+//
+// Rays are traced for a row of field positions and wavelengths from the axis to the corner of the picture;
+// between them, and over the stop, polynomials stand for them. Defocus moves the sensor: a source of signed
+// CoC radius c is spread as by a sensor that stands c / (slope of the marginal ray) beyond its image.
+// Vignetting comes from the clear apertures of all surfaces. Kernels are centred on the chief ray of the
+// primary wavelength, so lateral colour shows and distortion does not move the picture.
+#pragma once
+
+#include "colour/spectrum.h"
+#include "kernel/draw/mesh_kernel.h"
+#include "kernel/draw/pupil.h"
+#include "kernel/draw/ray_map.h"
+#include "kernel/lenses/field_axis.h"
+#include "kernel/lenses/geometric_lens.h"
+#include "optics/traced_lens.h"
+
+#include <optional>
+
+namespace petzval::kernel {
+
+class TracedModel final : public GeometricLens {
+public:
+    // The lens is scaled to the camera's focal length.
+    // Errors: InvalidArgument for an aperture wider than the lens has, a focus distance too near for it,
+    // glass without known dispersion limits, options that only curve lenses have; those of
+    // optics::TracedLens.
+    static Result<std::unique_ptr<const GeometricLens>> make(const optics::Prescription& prescription,
+                                                             const LensChoice& choice, const Mount& mount);
+
+    std::unique_ptr<const LensModel> on_pixels(const Mount& mount) const override;
+    PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
+    PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override;
+    std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
+    double reach_px(double coc_radius_px) const override;
+    bool varies_over_field() const override { return true; }
+    Mirrors mirrors() const override { return pupil_.mirrors(); }
+    std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const override;
+    std::function<Point(Point)> landing(double wavelength_nm, double coc_radius_px,
+                                        FieldPosition field) const override;
+    double pupil_transmission(Point pupil, double half_width) const override {
+        return pupil_.transmission(pupil, half_width);
+    }
+    std::string description() const override { return description_; }
+
+private:
+    struct Node {                  // one field size
+        std::vector<RayMap> maps;  // by wavelength
+        std::vector<Point> open;   // of the stop, (along, across)
+    };
+    TracedModel(const LensChoice& choice, const Mount& mount);
+    Status trace(const optics::Prescription& lens);
+    void trace_fields(const optics::TracedLens& lens);
+    void measure();
+    Node at(double field_size) const;
+    RayMap map_at(const Node& node, double wavelength_nm) const;
+    Displacement landing(const RayMap& map, double coc_radius_px) const;
+    std::vector<Point> outline(const Node& node, const FieldAxis& axis, FieldPosition field,
+                               double tolerance) const;
+    struct Fineness {
+        int bands = 1;
+        double size_px = 0;  // how far light lands
+        double path_px = 0;  // that rims travel over wavelengths that count
+    };
+    Fineness fineness(const Node& node, const std::vector<Point>& outline, double coc_radius_px) const;
+    std::optional<Node> traced_node(const optics::TracedLens& lens, double field_rad) const;
+
+    std::string description_;
+    Pupil pupil_;
+    LensChoice choice_;
+    Mount mount_;
+    double px_per_mm_ = 0, image_slope_ = 1;
+    std::vector<double> wavelength_nm_;
+    std::vector<Node> nodes_;  // even steps of field size, from 0
+    double node_step_ = 0;
+    double largest_field_ = 0;  // of the last node; beyond it, the lens is as there
+    double reach_offset_px_ = 0, reach_per_coc_ = 1;
+};
+
+}  // namespace petzval::kernel

@@ -1,0 +1,288 @@
+#include "kernel/lenses/wave_lens.h"
+
+#include "base/fft.h"
+#include "colour/spectrum.h"
+#include "kernel/model/spread.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace petzval::kernel {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kShortest_nm = 400, kLongest_nm = 700;
+// Diffraction is followed this many wavelength x N beyond the rays: 99 % of the light of a round focus.
+constexpr double kTail = 20, kLongestTailPx = 48;
+
+// What the wavefront has beyond that of pure defocus, on a grid over the square around the pupil, in pixels x
+// pupil radii. Few nodes are integrated; cubic lines (E. Catmull, R. Rom, 1974) through them give a grid so
+// fine that straight lines do between its nodes.
+class Wavefront {
+public:
+    Wavefront(const std::function<Point(Point)>& landing, double coc_radius_px, double pixel_aspect) {
+        std::vector<double> coarse(std::size_t(kNodes * kNodes));
+        for (int j = 0; j < kNodes; ++j)
+            for (int i = 0; i < kNodes; ++i)
+                coarse[std::size_t(j * kNodes + i)] =
+                    integral({place(i), place(j)}, landing, coc_radius_px, pixel_aspect);
+        std::vector<double> wide(std::size_t(kNodes * kSide));  // refined along x
+        for (int j = 0; j < kNodes; ++j)
+            refine(&coarse[std::size_t(j * kNodes)], 1, &wide[std::size_t(j * kSide)], 1);
+        values_.resize(std::size_t(kSide * kSide));
+        for (int i = 0; i < kSide; ++i) refine(&wide[std::size_t(i)], kSide, &values_[std::size_t(i)], kSide);
+    }
+    double at(Point u) const {
+        const double x = (u.x / kHalf + 1) * 0.5 * (kSide - 1), y = (u.y / kHalf + 1) * 0.5 * (kSide - 1);
+        const int i = std::clamp(int(x), 0, kSide - 2), j = std::clamp(int(y), 0, kSide - 2);
+        const double s = x - i, t = y - j;
+        const double* v = &values_[std::size_t(j * kSide + i)];
+        return (1 - t) * ((1 - s) * v[0] + s * v[1]) + t * ((1 - s) * v[kSide] + s * v[kSide + 1]);
+    }
+
+private:
+    static constexpr int kNodes = 57, kFiner = 3;  // the outermost nodes only bend the lines
+    static constexpr int kSide = (kNodes - 3) * kFiner + 1;
+    static constexpr double kHalf = 1.02;
+    static constexpr double kFarthest = 1.15;  // rays mean nothing farther out
+
+    // Node 1 stands at -kHalf, node kNodes - 2 at kHalf.
+    static double place(int i) { return kHalf * (2.0 * (i - 1) / (kNodes - 3) - 1); }
+
+    static double integral(Point u, const std::function<Point(Point)>& landing, double coc_radius_px,
+                           double pixel_aspect) {
+        // Nodes and weights of Gauss and Legendre on 0…1, five points: exact for rays of ninth order.
+        constexpr double kNode[] = {0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415,
+                                    0.953089922969332};
+        constexpr double kWeight[] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                      0.23931433524968324, 0.11846344252809454};
+        const double out = std::hypot(u.x, u.y);
+        if (out > kFarthest) u = (kFarthest / out) * u;
+        double sum = 0;
+        for (int k = 0; k < 5; ++k) {
+            const Point at = kNode[k] * u, d = landing(at);
+            const Point aberration = Point{d.x, d.y / pixel_aspect} - coc_radius_px * at;
+            sum += kWeight[k] * (aberration.x * u.x + aberration.y * u.y);
+        }
+        return sum;
+    }
+
+    static void refine(const double* from, std::ptrdiff_t from_step, double* to, std::ptrdiff_t to_step) {
+        for (std::ptrdiff_t i = 0; i < kSide; ++i) {
+            const std::ptrdiff_t node =
+                std::min<std::ptrdiff_t>(i / kFiner, kNodes - 4);  // between node + 1 and node + 2
+            const double t = double(i - node * kFiner) / kFiner;
+            const double* p = from + node * from_step;
+            const double a = p[0], b = p[from_step], c = p[2 * from_step], d = p[3 * from_step];
+            to[i * to_step] =
+                b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+        }
+    }
+
+    std::vector<double> values_;
+};
+
+// The unit vectors of many angles, in turns; the compiler makes several at once. Off by 2e-7 at most:
+// Taylor's series within an eighth of a turn.
+void unit_vectors(const double* turns, std::size_t count, float* cosines, float* sines) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double quarters = std::nearbyint(4 * turns[i]);
+        const float x = float(kTurn / 4 * (4 * turns[i] - quarters)), z = x * x;
+        const float s = x * (1 + z * (-1.0f / 6 + z * (1.0f / 120 - z * (1.0f / 5040))));
+        const float c = 1 + z * (-0.5f + z * (1.0f / 24 + z * (-1.0f / 720 + z * (1.0f / 40320))));
+        const int quadrant = int(quarters - 4 * std::floor(0.25 * quarters));
+        const bool odd = (quadrant & 1) != 0;
+        cosines[i] = (odd ? s : c) * (quadrant == 1 || quadrant == 2 ? -1.0f : 1.0f);
+        sines[i] = (odd ? c : s) * (quadrant >= 2 ? -1.0f : 1.0f);
+    }
+}
+
+int power_of_two_at_least(double n) {
+    int side = 64;
+    while (side < n) side *= 2;
+    return side;
+}
+
+// How much of each sample lies in a pixel: samples are 1 wide, pixels `width` wide, both centred on 0.
+struct Share {
+    int sample = 0;
+    float part = 1;
+};
+std::vector<Share> samples_in(int pixel, double width) {
+    const double low = (pixel - 0.5) * width, high = (pixel + 0.5) * width;
+    std::vector<Share> shares;
+    for (int k = int(std::floor(low + 0.5)); k - 0.5 < high; ++k) {
+        const double part = std::min(high, k + 0.5) - std::max(low, k - 0.5);
+        if (part > 1e-9) shares.push_back({k, float(part)});
+    }
+    return shares;
+}
+
+// Intensity summed over the squares of pixels.
+PointSpread summed_over_pixels(const std::vector<std::complex<float>>& field, int side, double wide,
+                               double tall, const Rect& extent) {
+    PointSpread spread{extent, Image<Rgba>(extent.width(), extent.height()), false};
+    std::vector<std::vector<Share>> columns;
+    for (int x = extent.x0; x < extent.x1; ++x) columns.push_back(samples_in(x, wide));
+    for (int y = extent.y0; y < extent.y1; ++y)
+        for (const Share& down : samples_in(y, tall)) {
+            // The transform repeats: negative places are at its end.
+            const std::complex<float>* row =
+                &field[std::size_t(down.sample & (side - 1)) * std::size_t(side)];
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                float sum = 0;
+                for (const Share& across : columns[i])
+                    sum += across.part * std::norm(row[across.sample & (side - 1)]);
+                Rgba& w = spread.weights(int(i), y - extent.y0);
+                w = w + Rgba{1, 1, 1, 0} * (down.part * sum);
+            }
+        }
+    normalise(spread);
+    return spread;
+}
+
+PointSpread convolved(const PointSpread& a, const PointSpread& b) {
+    const Rect e{a.extent.x0 + b.extent.x0, a.extent.y0 + b.extent.y0, a.extent.x1 + b.extent.x1 - 1,
+                 a.extent.y1 + b.extent.y1 - 1};
+    PointSpread sum{e, Image<Rgba>(e.width(), e.height()), false};
+    for (int y = 0; y < a.weights.height(); ++y)
+        for (int x = 0; x < a.weights.width(); ++x) {
+            const Rgba w = a.weights(x, y);
+            if (w == Rgba{}) continue;
+            for (int v = 0; v < b.weights.height(); ++v) {
+                Rgba* row = sum.weights.row(y + v) + x;
+                for (int u = 0; u < b.weights.width(); ++u) row[u] += w * b.weights(u, v);
+            }
+        }
+    return sum;
+}
+
+}  // namespace
+
+WaveLens::WaveLens(std::unique_ptr<const GeometricLens> lens, const Mount& mount, int wavelengths)
+    : lens_(std::move(lens)),
+      f_number_(mount.camera.f_number),
+      pixel_mm_(mount.camera.sensor_width_mm / mount.display_width_px),
+      pixel_aspect_(mount.pixel_aspect),
+      wavelengths_(wavelengths > 0 ? wavelengths : 21) {}
+
+// Two per wavelength x N, which holds all detail of an intensity.
+int WaveLens::samples_per_pixel() const {
+    return std::max(2, int(std::ceil(2 * pixel_mm_ / (f_number_ * kShortest_nm * 1e-6))));
+}
+
+double WaveLens::tail_px() const {
+    return std::min(kLongestTailPx, kTail * f_number_ * kLongest_nm * 1e-6 / pixel_mm_) + 1;
+}
+
+double WaveLens::reach_px(double coc_radius_px) const {
+    return lens_->reach_px(coc_radius_px) + tail_px() * std::max(1.0, pixel_aspect_);
+}
+
+Rect WaveLens::extent_at(double coc_radius_px) const {
+    const int wide =
+        int(std::ceil(lens_->reach_px(coc_radius_px) / std::max(1.0, pixel_aspect_) + tail_px()));
+    const int tall = int(std::ceil(wide * pixel_aspect_));
+    return {-wide, -tall, wide + 1, tall + 1};
+}
+
+bool WaveLens::is_wave_at(double coc_radius_px) const {
+    return samples_per_pixel() * extent_at(coc_radius_px).width() <= kLargestGrid;
+}
+
+PointSpread WaveLens::monochromatic(double wavelength_nm, double coc_radius_px, FieldPosition field,
+                                    const Rect& extent) const {
+    const Wavefront aberration(lens_->landing(wavelength_nm, coc_radius_px, field), coc_radius_px,
+                               pixel_aspect_);
+    const double px_to_waves = pixel_mm_ / (2 * f_number_ * wavelength_nm * 1e-6);
+    return transformed(wavelength_nm, field, extent, [&](Point u) {
+        return px_to_waves * (0.5 * coc_radius_px * (u.x * u.x + u.y * u.y) + aberration.at(u));
+    });
+}
+
+PointSpread WaveLens::transformed(double wavelength_nm, FieldPosition field, const Rect& extent,
+                                  const std::function<double(Point)>& waves) const {
+    const int per_pixel = samples_per_pixel();
+    const int side = std::min(kLargestGrid, power_of_two_at_least(double(per_pixel) * extent.width()));
+    // x u/(2 N wavelength) is to be m i/side, for x = m pixel/per_pixel and u = i step.
+    const double step = 2 * f_number_ * wavelength_nm * 1e-6 * per_pixel / (side * pixel_mm_);
+    // Coverage smooths the rim; the axis is entry (0, 0) of the transform.
+    const int half = std::min(side / 2 - 2, int(std::ceil(1.02 / step)) + 1);
+    CoverageBuffer<double> coverage({-half, -half, half + 1, half + 1});
+    std::vector<Point> outline = lens_->pupil_outline(field, 0.02 * step);
+    for (Point& p : outline) p = (1 / step) * p;
+    coverage.add_polygon(outline, 1);
+    std::vector<std::complex<float>> wave(std::size_t(side) * std::size_t(side));
+    const std::size_t columns = std::size_t(2 * half + 1);
+    std::vector<double> turns(columns), amplitude(columns);
+    std::vector<float> cosines(columns), sines(columns);
+    for (int j = -half; j <= half; ++j) {
+        const double* covered = coverage.resolve_row(j + half);
+        for (std::size_t i = 0; i < columns; ++i) {
+            const Point u{(int(i) - half) * step, j * step};
+            const bool open = covered[i] >= 1e-9;
+            turns[i] = open ? waves(u) : 0;
+            amplitude[i] = open ? covered[i] * std::sqrt(lens_->pupil_transmission(u, 0.5 * step)) : 0;
+        }
+        unit_vectors(turns.data(), columns, cosines.data(), sines.data());
+        std::complex<float>* row = &wave[std::size_t(j & (side - 1)) * std::size_t(side)];
+        for (std::size_t i = 0; i < columns; ++i)
+            row[(int(i) - half) & (side - 1)] = {float(amplitude[i]) * cosines[i],
+                                                 float(amplitude[i]) * sines[i]};
+    }
+    fft_square(wave, Fft(side), false, 1);
+    return summed_over_pixels(wave, side, per_pixel, per_pixel / pixel_aspect_, extent);
+}
+
+PointSpread WaveLens::sum_of_bands(const Rect& extent,
+                                   const std::function<PointSpread(double)>& one_band) const {
+    PointSpread sum{extent, Image<Rgba>(extent.width(), extent.height()), false};
+    for (const colour::SpectralBand& band : colour::spectral_bands(wavelengths_)) {
+        const PointSpread one = one_band(band.wavelength_nm);
+        const Rgba weight{float(band.r), float(band.g), float(band.b), 0};
+        for (std::size_t i = 0; i < sum.weights.size(); ++i)
+            sum.weights.pixels()[i] += one.weights.pixels()[i] * weight;
+    }
+    normalise(sum);
+    return sum;
+}
+
+PointSpread WaveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+    const Rect extent = extent_at(coc_radius_px);
+    if (is_wave_at(coc_radius_px))
+        return sum_of_bands(extent,
+                            [&](double nm) { return monochromatic(nm, coc_radius_px, field, extent); });
+    PointSpread spread = convolved(lens_->raw_point_spread(coc_radius_px, field), *focus_figure(field));
+    normalise(spread);
+    return spread;
+}
+
+// The figure of a perfect focus through the pupil, as far as the grid holds it. It is small against a pixel,
+// so one does for a sixteenth of the half diagonal around, and all of them are kept.
+std::shared_ptr<const PointSpread> WaveLens::focus_figure(FieldPosition field) const {
+    constexpr double kSteps = 16;
+    std::pair<int, int> place{0, 0};
+    if (lens_->varies_over_field())
+        place = {int(std::lround(kSteps * field.x)), int(std::lround(kSteps * field.y))};
+    const FieldPosition middle{place.first / kSteps, place.second / kSteps};
+    const std::lock_guard lock(figures_mutex_);  // while it is made, too: others would make the same
+    std::shared_ptr<const PointSpread>& figure = figures_[place];
+    if (figure) return figure;
+    const int half = std::min(int(std::ceil(tail_px())), (kLargestGrid / samples_per_pixel() - 1) / 2);
+    const Rect near{-half, -half, half + 1, half + 1};
+    figure = std::make_shared<const PointSpread>(sum_of_bands(
+        near, [&](double nm) { return transformed(nm, middle, near, [](Point) { return 0.0; }); }));
+    return figure;
+}
+
+PointSpread WaveLens::point_spread(double coc_radius_px, FieldPosition field) const {
+    PointSpread spread = raw_point_spread(coc_radius_px, field);
+    map_into_gamut(spread);
+    trim(spread);
+    return spread;
+}
+
+}  // namespace petzval::kernel

@@ -1,0 +1,38 @@
+// Finishing a kernel: energy, alpha, and the mapping of colours that no screen has.
+#pragma once
+
+#include "kernel/model/lens_model.h"
+
+#include <memory>
+#include <span>
+
+namespace petzval::kernel {
+
+// All light on the pixel of the source.
+PointSpread single_pixel();
+
+// What the kernel is at a place that mirrors its own. Mirrors never leave gaps: pixel 0 stays where it is.
+PointSpread mirrored(const PointSpread& from, bool left_right, bool up_down);
+
+// The sum of kernels, each times its share.
+struct Share {
+    std::shared_ptr<const PointSpread> kernel;
+    float share = 1;
+};
+PointSpread mixed(std::span<const Share> shares);
+
+// Drops border rows and columns that hold no light.
+void trim(PointSpread& spread);
+
+// What alpha is blurred with: the luminance of the weights, and exactly them where they are neutral.
+inline float alpha_of(const Rgba& w) { return w.r == w.g && w.g == w.b ? w.g : luminance(w); }
+
+// Scales r, g, b to sum to 1 each, sets a to alpha_of them, and notes whether all are equal.
+// Requires: each channel's sum is positive.
+void normalise(PointSpread& spread);
+
+// Texels with a negative channel move towards the grey of their luminance until none is negative (black where
+// the luminance itself is not positive); then normalise(). Neutral kernels come out as they went in.
+void map_into_gamut(PointSpread& spread);
+
+}  // namespace petzval::kernel

@@ -1,0 +1,197 @@
+#include "lens_sheet/subject.h"
+
+#include "colour/spectrum.h"
+#include "kernel/draw/ring_kernel.h"
+#include "kernel/lenses/make_lens.h"
+#include "kernel/model/spread.h"
+#include "lens_files/shelf.h"
+#include "optics/aberrations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace petzval::lens_sheet {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kPrimary_nm = 587.5618;
+// Fields that a flat frame can hold; a fisheye's goes on beyond.
+constexpr double kWidestField_deg = 60, kLeastField_deg = 1;
+constexpr int kZones = 40, kHeights = 256, kSlices = 93;
+
+std::vector<kernel::RingBand> ring_bands(const AxialBands& bands, double coc_um, double um_per_px) {
+    std::vector<kernel::RingBand> rings;
+    for (const AxialBand& band : bands)
+        rings.push_back({band.weight, [&band, coc_um, um_per_px](double area) {
+                             return band.height_um(std::sqrt(area), coc_um) / um_per_px;
+                         }});
+    return rings;
+}
+
+double reach_of(const std::vector<kernel::RingBand>& bands) {
+    double reach = 0;
+    for (const kernel::RingBand& band : bands)
+        for (int i = 0; i <= kZones; ++i)
+            reach = std::max(reach, std::abs(band.landing_px(double(i) / kZones)));
+    return 1.02 * reach + 1e-6;
+}
+
+}  // namespace
+
+Axial::Axial(RayLens lens_in_um) : lens_(std::move(lens_in_um)) {
+    open_ = 0;
+    for (const Point& p : lens_->pupil_outline({}, 1e-3)) open_ = std::max(open_, std::hypot(p.x, p.y));
+    open_ = std::min(open_, 1.0);
+    bands_ = bands(kSlices);
+}
+
+double AxialBand::height_um(double rho, double coc_um) const {
+    const double at = rho * double(at_focus_um.size() - 1);
+    const std::size_t i = std::min(std::size_t(at), at_focus_um.size() - 2);
+    const double t = at - double(i);
+    return (1 - t) * (at_focus_um[i] + coc_um * per_um[i]) +
+           t * (at_focus_um[i + 1] + coc_um * per_um[i + 1]);
+}
+
+AxialBands Axial::bands(int count) const {
+    AxialBands bands;
+    for (const colour::SpectralBand& slice : colour::spectral_bands(count)) {
+        AxialBand& band = bands.emplace_back();
+        band.weight = {slice.r, slice.g, slice.b};
+        const auto sharp = height_um(slice.wavelength_nm, 0), blurred = height_um(slice.wavelength_nm, 1);
+        for (int i = 0; i <= kHeights; ++i) {
+            const double rho = double(i) / kHeights;
+            band.at_focus_um.push_back(sharp(rho));
+            band.per_um.push_back(blurred(rho) - band.at_focus_um.back());
+        }
+    }
+    return bands;
+}
+
+std::function<double(double)> Axial::height_um(double wavelength_nm, double coc_um) const {
+    return [landing = lens_->landing(wavelength_nm, coc_um, {}), open = open_](double rho) {
+        return landing({rho * open, 0}).x;
+    };
+}
+
+double Axial::reach_um(double coc_um) const {
+    double reach = 0;
+    for (int nm = 440; nm <= 660; nm += 20) {
+        const auto height = height_um(nm, coc_um);
+        for (int i = 0; i <= kZones; ++i)
+            reach = std::max(reach, std::abs(height(std::sqrt(double(i) / kZones))));
+    }
+    return reach;
+}
+
+kernel::PointSpread Axial::disc(double coc_um, double um_per_px) const {
+    const auto rings = ring_bands(bands_, coc_um, um_per_px);
+    kernel::PointSpread disc = kernel::ring_kernel(rings, reach_of(rings));
+    kernel::map_into_gamut(disc);
+    return disc;
+}
+
+std::vector<kernel::Light> ring_light(const AxialBands& bands, double coc_um, double reach_um, int rings) {
+    const auto ring_band = ring_bands(bands, coc_um, reach_um / rings);
+    const double reach = std::max(double(rings), std::ceil(reach_of(ring_band)));
+    std::vector<kernel::Light> light = kernel::ring_energy(ring_band, reach, std::size_t(reach));
+    light.resize(std::size_t(rings));
+    return light;
+}
+
+bool Subject::has_colour() const { return !lens_ || lens_->dispersion_known; }
+
+kernel::Mount Subject::mount(double f_number, double um_per_px, double scale) const {
+    kernel::Mount mount;
+    mount.camera.focal_length_mm = focal_length_mm_ * scale;
+    mount.camera.sensor_width_mm = sensor_width_mm_ * scale;
+    mount.camera.f_number = f_number;
+    mount.camera.focus_distance_m = std::numeric_limits<double>::infinity();
+    mount.display_width_px = std::max(2, int(std::lround(1000 * sensor_width_mm_ * scale / um_per_px)));
+    mount.display_height_px = std::max(1, mount.display_width_px * 2 / 3);
+    return mount;
+}
+
+Result<RayLens> Subject::mounted(double f_number, const LensChoice& character, double um_per_px) const {
+    LensChoice choice = character;
+    choice.name = asked_;
+    auto lens = kernel::make_lens(choice, mount(f_number, um_per_px, 1));
+    if (!lens) return lens.error();
+    const std::shared_ptr<const kernel::LensModel> model = std::move(*lens);
+    return std::dynamic_pointer_cast<const kernel::GeometricLens>(model);
+}
+
+Result<std::shared_ptr<const kernel::LensModel>> Subject::wave_lens(double f_number, double um_per_px,
+                                                                    double scale,
+                                                                    const LensChoice& character) const {
+    LensChoice choice = character;
+    choice.name = asked_;
+    choice.wave = true;
+    if (choice.wavelengths == 0) choice.wavelengths = 15;
+    auto lens = kernel::make_lens(choice, mount(f_number, um_per_px, scale));
+    if (!lens) return lens.error();
+    return std::shared_ptr<const kernel::LensModel>(std::move(*lens));
+}
+
+std::vector<Point> Subject::zone_foci(double wavelength_nm) const {
+    std::vector<Point> points;
+    if (lens_) {
+        const auto first = optics::first_order(*lens_, lens_->primary_um);
+        std::vector<double> zones;
+        for (int i = 0; i <= kZones; ++i) zones.push_back(double(i) / kZones);
+        const double um[] = {wavelength_nm / 1000, kPrimary_nm / 1000};
+        const auto lsa = optics::longitudinal_aberration(*lens_, *first, um, zones);
+        // From the paraxial focus at d, whatever the lens's own primary wavelength is.
+        for (std::size_t i = 0; i < zones.size(); ++i)
+            points.push_back({lsa.shift_mm[0][i] - lsa.shift_mm[1][0], zones[i]});
+    } else if (facts_.summary.model == LensModelKind::Curves) {
+        // By similar triangles, from where rays meet the sensor: what the kernels are made of.
+        const auto height = axis_->height_um(wavelength_nm, 0);
+        for (int i = 0; i <= kZones; ++i) {
+            const double zone = std::max(double(i), 0.1) / kZones;
+            points.push_back(
+                {best_focus_mm_ - height(zone) / zone * 2 * f_number_ / 1000, double(i) / kZones});
+        }
+    }
+    return points;
+}
+
+void Subject::measure() {
+    const double least_um = focal_length_mm_;  // 1/1000 of the focal length
+    blur_um_ = std::max(axis_->reach_um(0), 0.02 * least_um);
+    if (facts_.summary.model == LensModelKind::Ideal) blur_um_ = 0.4 * least_um;
+    constexpr double kNearAxis = 0.02;
+    best_focus_mm_ = axis_->height_um(kPrimary_nm, 0)(kNearAxis) / kNearAxis * 2 * f_number_ / 1000;
+}
+
+Result<Subject> Subject::make(const std::string& name_or_file) {
+    Subject subject;
+    auto facts = lens_facts(name_or_file);
+    if (!facts) return facts.error();
+    subject.facts_ = std::move(*facts);
+    subject.asked_ = name_or_file;
+    const LensFacts& f = subject.facts_;
+    if (f.efl_mm > 0) subject.focal_length_mm_ = f.efl_mm;
+    // Rounded up, so that the lens has it.
+    if (f.f_number > 0) subject.f_number_ = f.f_number * (1 + 1e-9);
+    const double format = f.sensor_width_mm > 0 ? f.sensor_width_mm / subject.focal_length_mm_ : 0.72;
+    double corner = 0.5 * std::hypot(1.0, 2.0 / 3) * format;
+    if (f.has_prescription) {
+        auto file = lens_files::find_lens(name_or_file);
+        if (!file) return file.error();
+        subject.lens_ = std::move(file->lens);
+        corner = std::tan(std::clamp(f.field_deg, kLeastField_deg, kWidestField_deg) * kDegree);
+    }
+    subject.corner_deg_ = std::atan(corner) / kDegree;
+    const double width_mm = 2 * corner * subject.focal_length_mm_ / std::hypot(1.0, 2.0 / 3);
+    subject.sensor_width_mm_ = std::ceil(1000 * width_mm) / 1000;
+    auto open = subject.mounted(subject.f_number_);
+    if (!open) return open.error();
+    subject.open_ = std::move(*open);
+    subject.axis_.emplace(subject.open_);
+    subject.measure();
+    return subject;
+}
+
+}  // namespace petzval::lens_sheet
