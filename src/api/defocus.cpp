@@ -5,6 +5,7 @@
 #include "api/engines.h"
 #include "api/light_points.h"
 #include "base/parallel.h"
+#include "engine/samples/all_samples.h"
 #include "engine/samples/deep_samples.h"
 #include "engine/samples/out_of_sight.h"
 #include "kernel/keep/kernel_store.h"
@@ -30,10 +31,6 @@ Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, 
 float finite_radius(double radius_px) {
     if (std::isnan(radius_px)) return 0;
     return float(std::clamp(radius_px, double(-kLargestRadiusPx), double(kLargestRadiusPx)));
-}
-
-double finite_depth(double depth_m) {
-    return depth_m > 0 ? depth_m : std::numeric_limits<double>::infinity();
 }
 
 Status check_sizes(const DefocusJob& job) {
@@ -73,7 +70,7 @@ public:
         return radii;
     }
     float operator()(float depth) const {
-        return finite_radius(coc_ ? coc_->radius_px(finite_depth(double(depth))) : double(depth));
+        return finite_radius(coc_ ? coc_->radius_px(engine::finite_depth(double(depth))) : double(depth));
     }
     // 0 where radii are given.
     float at_infinity_px() const { return coc_ ? finite_radius(coc_->radius_at_infinity_px()) : 0; }
@@ -89,17 +86,12 @@ private:
     std::optional<CircleOfConfusion> coc_;
 };
 
-Rgba finite_colour(Rgba c) {
-    const auto fix = [](float v) { return std::isfinite(v) ? v : 0.0f; };
-    return {fix(c.r), fix(c.g), fix(c.b), std::clamp(fix(c.a), 0.0f, 1.0f)};
-}
-
 bool is_finite(View<const Rgba> colour, int threads) {
     std::atomic<bool> finite{true};
     parallel_for(colour.height(), threads, [&](int y) {
         bool row_finite = true;
         for (int x = 0; x < colour.width(); ++x)
-            row_finite = row_finite && finite_colour(colour(x, y)) == colour(x, y);
+            row_finite = row_finite && engine::finite_colour(colour(x, y)) == colour(x, y);
         if (!row_finite) finite = false;
     });
     return finite;
@@ -108,65 +100,9 @@ bool is_finite(View<const Rgba> colour, int threads) {
 Picture finite_picture(View<const Rgba> colour, int threads) {
     Picture picture = Picture::uninitialised(colour.width(), colour.height());
     parallel_for(colour.height(), threads, [&](int y) {
-        for (int x = 0; x < colour.width(); ++x) picture(x, y) = finite_colour(colour(x, y));
+        for (int x = 0; x < colour.width(); ++x) picture(x, y) = engine::finite_colour(colour(x, y));
     });
     return picture;
-}
-
-// Hidden layers describe a pixel completely where they hold a sample at or in front of the visible one;
-// elsewhere the visible sample lies in front of them. Equal depths may differ by rounding (half floats have
-// 11 bits); far away, radii alone say too little: 110 m and 112 m may be a hundredth of a pixel apart.
-constexpr float kSameRadiusPx = 0.02f, kSameDepth = 1.001f;
-
-bool starts_at_visible(const DefocusJob& job, const Radii& radii, float front, float visible) {
-    return radii(front) <= radii(visible) + kSameRadiusPx &&
-           (job.depth_is_coc || finite_depth(double(front)) <= finite_depth(double(visible)) * kSameDepth);
-}
-
-// Engines take what is nearer by less than this for the light's own surface.
-constexpr float kNoRoomPx = 0.2f;
-
-// Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each keeps the
-// room that those less than kNoRoomPx in front of it leave.
-void hide_what_is_covered(BigVector<engine::CocSample>& samples, std::size_t first) {
-    for (std::size_t k = samples.size(); k-- > first + 1;) {
-        engine::CocSample& s = samples[k];
-        float room = 1;
-        for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < kNoRoomPx;)
-            if (samples[j].coc_px < s.coc_px) room -= samples[j].colour.a;
-        if (s.colour.a > room) s.colour = s.colour * (std::max(0.0f, room) / s.colour.a);
-    }
-    samples.erase(std::remove_if(samples.begin() + std::ptrdiff_t(first), samples.end(),
-                                 [](const engine::CocSample& s) { return s.colour == Rgba{}; }),
-                  samples.end());
-}
-
-engine::CocSamples all_samples(const DefocusJob& job, View<const Rgba> colour, const Radii& radii) {
-    engine::CocSamples all;
-    if (job.deep && !job.deep->empty())
-        return engine::deep_samples(*job.deep, radii, job.depth_is_coc, job.threads);
-    all.width = colour.width();
-    const DeepPicture* const extra = job.behind;
-    if (!extra || extra->empty()) return all;
-    all.first.reserve(extra->first().size());
-    all.samples.reserve(extra->sample_count() + std::size_t(colour.width()) * std::size_t(colour.height()));
-    for (int y = 0; y < colour.height(); ++y)
-        for (int x = 0; x < colour.width(); ++x) {
-            all.first.push_back(all.samples.size());
-            const std::span<const DeepSample> samples = extra->at(x, y);
-            const float visible = radii(job.depth_m(x, y));
-            const bool complete =
-                !samples.empty() && starts_at_visible(job, radii, samples.front().depth_m, job.depth_m(x, y));
-            if (!complete) all.samples.push_back({colour(x, y), visible, visible});
-            for (const DeepSample& s : samples)
-                all.samples.push_back({finite_colour(s.colour), radii(s.depth_m), radii(s.depth_back_m)});
-            std::stable_sort(
-                all.samples.begin() + std::ptrdiff_t(all.first.back()), all.samples.end(),
-                [](const engine::CocSample& a, const engine::CocSample& b) { return a.coc_px < b.coc_px; });
-            hide_what_is_covered(all.samples, all.first.back());
-        }
-    all.first.push_back(all.samples.size());
-    return all;
 }
 
 using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
@@ -299,7 +235,8 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     engine::Input input;
     input.colour = colour;
     input.coc_px = coc_px;
-    engine::CocSamples samples = all_samples(job, colour, *radii);
+    const engine::StatedPicture stated{colour, job.depth_m, job.depth_is_coc, job.deep, job.behind, *radii};
+    engine::CocSamples samples = engine::all_samples(stated, job.threads);
     if (job.scatter.view != ScatterView::Layers)  // shows them all
         engine::drop_out_of_sight(samples, memory.lenses.front()->reach_px(1), job.threads);
     if (!samples.first.empty()) input.deep = samples;

@@ -1,0 +1,67 @@
+#include "engine/samples/all_samples.h"
+
+#include "engine/samples/deep_samples.h"
+
+#include <span>
+
+namespace petzval::engine {
+namespace {
+
+// Equal depths may differ by rounding (half floats have 11 bits); far away, radii alone say too little: 110 m
+// and 112 m may be a hundredth of a pixel apart.
+constexpr float kSameRadiusPx = 0.02f, kSameDepth = 1.001f;
+
+bool starts_at_visible(const StatedPicture& p, float front, float visible) {
+    return p.radius_px(front) <= p.radius_px(visible) + kSameRadiusPx &&
+           (p.depth_is_coc || finite_depth(double(front)) <= finite_depth(double(visible)) * kSameDepth);
+}
+
+// Engines take what is nearer by less than this for the light's own surface.
+constexpr float kNoRoomPx = 0.2f;
+
+// Right behind another surface no ray gets in between: of a pixel's samples from `first` on, each keeps the
+// room that those less than kNoRoomPx in front of it leave.
+void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
+    for (std::size_t k = samples.size(); k-- > first + 1;) {
+        CocSample& s = samples[k];
+        float room = 1;
+        for (std::size_t j = k; j-- > first && s.coc_px - samples[j].coc_px < kNoRoomPx;)
+            if (samples[j].coc_px < s.coc_px) room -= samples[j].colour.a;
+        if (s.colour.a > room) s.colour = s.colour * (std::max(0.0f, room) / s.colour.a);
+    }
+    samples.erase(std::remove_if(samples.begin() + std::ptrdiff_t(first), samples.end(),
+                                 [](const CocSample& s) { return s.colour == Rgba{}; }),
+                  samples.end());
+}
+
+}  // namespace
+
+CocSamples all_samples(const StatedPicture& p, int threads) {
+    CocSamples all;
+    if (p.deep && !p.deep->empty()) return deep_samples(*p.deep, p.radius_px, p.depth_is_coc, threads);
+    const View<const Rgba> colour = p.colour;
+    all.width = colour.width();
+    const DeepPicture* const extra = p.behind;
+    if (!extra || extra->empty()) return all;
+    all.first.reserve(extra->first().size());
+    all.samples.reserve(extra->sample_count() + std::size_t(colour.width()) * std::size_t(colour.height()));
+    for (int y = 0; y < colour.height(); ++y)
+        for (int x = 0; x < colour.width(); ++x) {
+            all.first.push_back(all.samples.size());
+            const std::span<const DeepSample> samples = extra->at(x, y);
+            const float visible = p.radius_px(p.depth(x, y));
+            const bool complete =
+                !samples.empty() && starts_at_visible(p, samples.front().depth_m, p.depth(x, y));
+            if (!complete) all.samples.push_back({colour(x, y), visible, visible});
+            for (const DeepSample& s : samples)
+                all.samples.push_back(
+                    {finite_colour(s.colour), p.radius_px(s.depth_m), p.radius_px(s.depth_back_m)});
+            std::stable_sort(all.samples.begin() + std::ptrdiff_t(all.first.back()), all.samples.end(),
+                             [](const CocSample& a, const CocSample& b) { return a.coc_px < b.coc_px; });
+            hide_what_is_covered(all.samples, all.first.back());
+        }
+    all.first.push_back(all.samples.size());
+    return all;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,41 @@
+// All that is stated of a picture, as samples with radii: deep files, or a picture with hidden layers behind
+// it.
+#pragma once
+
+#include "petzval/deep.h"
+#include "petzval/image.h"
+
+#include "engine/waist/engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace petzval::engine {
+
+// Non-finite colour counts as 0.
+inline Rgba finite_colour(Rgba c) {
+    const auto fix = [](float v) { return std::isfinite(v) ? v : 0.0f; };
+    return {fix(c.r), fix(c.g), fix(c.b), std::clamp(fix(c.a), 0.0f, 1.0f)};
+}
+
+// What is not finite, or not in front of the camera, is a miss: infinitely far.
+inline double finite_depth(double depth_m) {
+    return depth_m > 0 ? depth_m : std::numeric_limits<double>::infinity();
+}
+
+// A picture with depth and what else is known of it; all of one size.
+struct StatedPicture {
+    View<const Rgba> colour;  // finite
+    View<const float> depth;  // planar metres, or radii in pixels where depth_is_coc
+    bool depth_is_coc = false;
+    const DeepPicture* deep = nullptr;      // all samples: replaces colour and depth; may be null or empty
+    const DeepPicture* behind = nullptr;    // hidden layers; may be null or empty
+    std::function<float(float)> radius_px;  // the signed radius of a depth; never falls with depth
+};
+
+// Empty where nothing but colour and depth is stated. Hidden layers describe a pixel completely where they
+// hold a sample at or in front of the visible one; elsewhere the visible sample lies in front of them.
+CocSamples all_samples(const StatedPicture& picture, int threads);
+
+}  // namespace petzval::engine
