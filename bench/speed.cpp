@@ -6,6 +6,7 @@
 // but the first find their kernels made; what the first takes longer is kernels_s.
 #include "petzval/defocus.h"
 #include "petzval/files.h"
+#include "petzval/names.h"
 
 #include <algorithm>
 #include <chrono>
@@ -24,7 +25,8 @@ using namespace petzval;
 
 struct Options {
     std::string file;
-    std::string engine = "scatter", quality = "standard", lens = "ideal";
+    std::string engine = "scatter", lens = "ideal";
+    Quality quality = Quality::Standard;
     double radius_px = 32, limit_s = 60;
     int threads = 0, repeat = 1, mirror = 1, pupil_points = 64;
 };
@@ -32,6 +34,12 @@ struct Options {
 [[noreturn]] void fail(const std::string& message) {
     std::fprintf(stderr, "petzval_bench_speed: %s\n", message.c_str());
     std::exit(2);
+}
+
+Quality quality_of(const std::string& name) {
+    const Result<Quality> quality = petzval::parse<Quality>(name);
+    if (!quality) fail("--quality " + name + ": " + quality.error().message);
+    return *quality;
 }
 
 Options parse(int count, char** words) {
@@ -44,7 +52,7 @@ Options parse(int count, char** words) {
         if (flag == "--engine")
             options.engine = value;
         else if (flag == "--quality")
-            options.quality = value;
+            options.quality = quality_of(value);
         else if (flag == "--lens")
             options.lens = value;
         else if (flag == "--radius")
@@ -63,12 +71,6 @@ Options parse(int count, char** words) {
             fail("unknown flag " + flag);
     }
     return options;
-}
-
-Quality quality_of(const std::string& name) {
-    if (name == "draft") return Quality::Draft;
-    if (name == "final") return Quality::Final;
-    return Quality::Standard;
 }
 
 // times x times copies, every other one mirrored: more pixels of the same content, without new edges.
@@ -158,7 +160,7 @@ int main(int count, char** words) {
     job.camera = camera_of(frame->camera);
     job.lens.name = options.lens;
     job.engine = options.engine;
-    job.quality = quality_of(options.quality);
+    job.quality = options.quality;
     job.threads = options.threads;
     job.pupil_points = options.pupil_points;
     *frame = Frame{};

@@ -33,9 +33,10 @@ ALLOWED = {
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": WAIST | {"engine/lights"},
     "glare": LENS,
+    "names": {"base", "optics", "depth", "colour", "engine/waist", "glare"},
     "scene": PIXELS | {"optics"},
     "lens_sheet": LENS | {"api", "files"},
-    "files": PIXELS | {"colour", "optics", "depth"},
+    "files": PIXELS | {"colour", "optics", "depth", "names"},
     "ocio": PIXELS,
     "api": WAIST | ENGINES | {"depth", "glare"},
 }
@@ -46,7 +47,7 @@ PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
     "compare": "image", "light_point": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
     "dynamic_range": "colour", "lens_facts": "api", "lens_kernel": "api", "defocus": "api",
-    "engine_options": "engine/waist", "engine_report": "engine/waist", "glare": "glare", "files": "files", "lens_report": "lens_sheet", "ocio": "ocio",
+    "engine_options": "engine/waist", "engine_report": "engine/waist", "glare": "glare", "names": "names", "files": "files", "lens_report": "lens_sheet", "ocio": "ocio",
     "scene": "scene", "petzval": "api",
 }
 # Headers of other people and the only files that may see them.

@@ -50,15 +50,11 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner) {
         .value("--fstop", "N", "f-number, as 2.8", parse_f_number, f_number)
         .value("--focus", "M", "focus distance along the axis, as 2.5m or 120cm", parse_length_m,
                focus_distance_m)
-        .value(
-            "--image-scale", "NAME",
+        .choice<ImageScale>(
+            "--image-scale",
             "rendered: sensor one focal length behind the pinhole, as renderers have it (default); "
             "thin-lens: "
             "where a real lens forms the image, which breathes with focus",
-            [](const std::string& text) {
-                return parse_name<ImageScale>(
-                    text, {{"rendered", ImageScale::Rendered}, {"thin-lens", ImageScale::ThinLens}});
-            },
             image_scale);
 }
 

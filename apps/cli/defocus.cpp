@@ -74,8 +74,7 @@ Status Run::operator()() {
 Status Run::read() {
     const Stopwatch watch;
     detail("petzval " PETZVAL_VERSION ", " + (flags_.run.threads > 0 ? plain(flags_.run.threads) : "all") +
-           " threads, seed " + std::to_string(flags_.seed) + ", " + quality_name(flags_.quality) +
-           " quality");
+           " threads, seed " + std::to_string(flags_.seed) + ", " + name_of(flags_.quality) + " quality");
     if (Status done = flags_.lens.load(); !done) return done;
     auto loaded = load_input(flags_.input, flags_.camera);
     if (!loaded) return loaded.error();

@@ -1,6 +1,5 @@
 #include "defocus_flags.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -13,31 +12,18 @@ Result<int> parse_overscan(const std::string& text) {
     return Error{ErrorCode::InvalidArgument, "not auto or a number of pixels, 1 to 65536"};
 }
 
-const std::vector<std::pair<std::string, Quality>> kQualities{
-    {"draft", Quality::Draft}, {"standard", Quality::Standard}, {"final", Quality::Final}};
+NameTable<std::string> engines() {
+    NameTable<std::string> table;
+    for (const std::string& name : engine_names()) table.emplace_back(name, name);
+    return table;
+}
 
 }  // namespace
 
-std::string quality_name(Quality quality) {
-    for (const auto& [name, value] : kQualities)
-        if (value == quality) return name;
-    return "?";
-}
-
 void DefocusFlags::add_engine_to(Verb& verb) {
     FlagGroup(verb, "Engine")
-        .value(
-            "--engine", "NAME", listed(engine_names()) + "; scatter is the default",
-            [](const std::string& text) -> Result<std::string> {
-                const auto names = engine_names();
-                if (std::find(names.begin(), names.end(), text) != names.end()) return text;
-                return Error{ErrorCode::InvalidArgument, "not one of " + listed(names)};
-            },
-            engine)
-        .value(
-            "--quality", "NAME",
-            "draft, standard (default) or final: accuracy only, never the size of the blur",
-            [](const std::string& text) { return parse_name(text, kQualities); }, quality)
+        .choice("--engine", "what computes the blur (default scatter)", engines(), engine)
+        .choice<Quality>("--quality", "accuracy only, never the size of the blur (default standard)", quality)
         .value("--pupil-points", "N", "rays per pixel of --engine reference (default 4096)", parse_count,
                pupil_points)
         .value("--seed", "N", "start of all random choices (default 1)", parse_seed, seed)
@@ -51,14 +37,14 @@ void DefocusFlags::add_output_to(Verb& verb) {
                "the result: .exr holds scene-linear light and all else the input held, .png "
                "a display picture",
                parse_text, output)
-        .value(
-            "--view", "NAME",
-            "beauty (default); coc, signed blur radius; focus, what is sharp, near and far; depth; alpha; of "
-            "--engine gaussian: sharp, blur-small, blur-large, focus-index; of "
-            "scatter: layers, the surfaces seen and found behind them; levels, what each level of detail "
-            "drew; "
-            "highlights, light spread by itself",
-            [](const std::string& text) { return parse_name(text, view_names()); }, view)
+        .choice("--view",
+                "the picture (beauty, default); coc, signed blur radius; focus, what is sharp, near and far; "
+                "depth; alpha; of "
+                "--engine gaussian: sharp, blur-small, blur-large, focus-index; of "
+                "scatter: layers, the surfaces seen and found behind them; levels, what each level of detail "
+                "drew; "
+                "highlights, light spread by itself",
+                view_names(), view)
         .value(
             "--overscan", "PX",
             "grow the data window by so many pixels, or by as many as the blur reaches (auto), where it ends "
@@ -210,7 +196,7 @@ DefocusJob DefocusFlags::job(const Input& loaded, const Camera& complete) const 
 
 Json DefocusFlags::parameters_json(const DefocusJob& job) const {
     return {{"view", name_of(view)},
-            {"quality", quality_name(job.quality)},
+            {"quality", name_of(job.quality)},
             {"pupil_points", job.pupil_points},
             {"threads", job.threads},
             {"max_memory_bytes", job.max_memory_bytes},

@@ -66,6 +66,4 @@ private:
     void check_display() const;
 };
 
-std::string quality_name(Quality quality);
-
 }  // namespace petzval::cli

@@ -10,6 +10,7 @@
 #include "petzval/result.h"
 
 #include "ocio.h"
+#include "values.h"
 
 #include <string>
 #include <utility>
@@ -37,7 +38,7 @@ bool is_rendered(ViewKind view);
 // Those whose PNG is developed: exposure, tone.
 bool is_developed(ViewKind view);
 
-const std::vector<std::pair<std::string, ViewKind>>& view_names();
+const NameTable<ViewKind>& view_names();
 const char* name_of(ViewKind view);
 
 struct ViewSource {

@@ -7,30 +7,9 @@
 namespace petzval::cli {
 namespace {
 
-const std::vector<std::pair<std::string, GatherStage>> kStages{
-    {"coc", GatherStage::Coc},          {"prefilter", GatherStage::Prefilter},
-    {"disc", GatherStage::Disc},        {"hard-test", GatherStage::HardTest},
-    {"blur", GatherStage::Blur},        {"combine", GatherStage::Combine},
-    {"near-far", GatherStage::NearFar}, {"cure", GatherStage::Cure}};
-const std::vector<std::pair<std::string, int>> kTaps{{"16", 16}, {"22", 22}, {"43", 43}, {"71", 71}};
-const std::vector<std::pair<std::string, bool>> kCocOfFour{{"mean", false}, {"extreme", true}};
-const std::vector<std::pair<std::string, bool>> kSwitch{{"off", false}, {"on", true}};
-const std::vector<std::pair<std::string, GaussianStyle>> kStyles{
-    {"layered", GaussianStyle::Layered}, {"plain", GaussianStyle::Plain}, {"wgld", GaussianStyle::Wgld}};
-const std::vector<std::pair<std::string, SpriteBackground>> kBackgrounds{
-    {"gather", SpriteBackground::Gather}, {"gaussian", SpriteBackground::Gaussian}};
-
-template <typename T>
-auto one_of(const std::vector<std::pair<std::string, T>>& table) {
-    return [&table](const std::string& text) { return parse_name(text, table); };
-}
-
-template <typename T>
-std::string name_in(const std::vector<std::pair<std::string, T>>& table, T value) {
-    for (const auto& [name, known] : table)
-        if (known == value) return name;
-    return "?";
-}
+const NameTable<int> kTaps{{"16", 16}, {"22", 22}, {"43", 43}, {"71", 71}};
+const NameTable<bool> kCocOfFour{{"mean", false}, {"extreme", true}};
+const NameTable<bool> kSwitch{{"off", false}, {"on", true}};
 
 std::optional<GaussianView> gaussian_view(ViewKind view) {
     switch (view) {
@@ -68,22 +47,20 @@ void require(bool fits, bool given, const std::string& flag, const std::string& 
 
 void EngineOptionFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Engine gather")
-        .value(
-            "--gather-stage", "NAME",
-            "a stop of the published method in place of the result: coc, prefilter, disc, hard-test, blur, "
-            "combine, near-far, cure",
-            one_of(kStages), gather_stage)
-        .value("--gather-taps", "N", "samples of the published disc: 16, 22, 43 (default) or 71",
-               one_of(kTaps), gather_taps)
-        .value("--gather-coc", "NAME",
-               "of 2 x 2 pixels in the published prefilter: mean (default) or extreme", one_of(kCocOfFour),
-               gather_extreme_coc)
-        .value("--gather-fill", "on|off",
-               "continue what near things hide under their soft edges (default on)", one_of(kSwitch),
-               gather_fill);
+        .choice<GatherStage>(
+            "--gather-stage",
+            "a stop of the published method in place of the result; final (default) is the engine itself",
+            gather_stage)
+        .choice("--gather-taps", "samples of the published disc (default 43)", kTaps, gather_taps)
+        .choice("--gather-coc", "the radius of 2 x 2 pixels in the published prefilter (default mean)",
+                kCocOfFour, gather_extreme_coc)
+        .choice("--gather-fill", "continue what near things hide under their soft edges (default on)",
+                kSwitch, gather_fill);
     FlagGroup(verb, "Engine gaussian")
-        .value("--gaussian-style", "NAME", "layered (default), plain, or wgld: by depth, as published",
-               one_of(kStyles), gaussian_style)
+        .choice<GaussianStyle>("--gaussian-style",
+                               "near and far apart (layered, default), by each pixel's radius (plain), or by "
+                               "depth, as published (wgld)",
+                               gaussian_style)
         .value("--focus-band", "N",
                "hold radii up to N px sharp (default 0); wgld: the band's share of all depth (default 0.2)",
                parse_not_negative, focus_band)
@@ -97,10 +74,10 @@ void EngineOptionFlags::add_to(Verb& verb) {
         .value("--points", "FILE.csv",
                "lights to draw: columns x, y, depth or coc, r, g, b, perhaps size, named in its first line",
                parse_text, points)
-        .value("--background", "NAME", "what draws everything else: gather (default) or gaussian",
-               one_of(kBackgrounds), background)
-        .value("--find-points", "on|off", "draw the picture's own bright points as kernels too (default on)",
-               one_of(kSwitch), find_points)
+        .choice<SpriteBackground>("--background", "the engine that draws everything else (default gather)",
+                                  background)
+        .choice("--find-points", "draw the picture's own bright points as kernels too (default on)", kSwitch,
+                find_points)
         .value("--bright-factor", "N", "how many times its surroundings a bright point is (default 3)",
                parse_positive, bright_factor);
 }
@@ -156,17 +133,17 @@ void EngineOptionFlags::apply(DefocusJob& job, ViewKind view) const {
 
 Json EngineOptionFlags::json() const {
     Json given = Json::object();
-    if (gather_stage) given["gather_stage"] = name_in(kStages, *gather_stage);
+    if (gather_stage) given["gather_stage"] = name_of(*gather_stage);
     if (gather_taps) given["gather_taps"] = *gather_taps;
-    if (gather_extreme_coc) given["gather_coc"] = name_in(kCocOfFour, *gather_extreme_coc);
+    if (gather_extreme_coc) given["gather_coc"] = kCocOfFour[std::size_t(*gather_extreme_coc)].first;
     if (gather_fill) given["gather_fill"] = *gather_fill;
-    if (gaussian_style) given["gaussian_style"] = name_in(kStyles, *gaussian_style);
+    if (gaussian_style) given["gaussian_style"] = name_of(*gaussian_style);
     if (focus_band) given["focus_band"] = number(*focus_band);
     if (depth_offset) given["depth_offset"] = number(*depth_offset);
     if (depth_band_range_m)
         given["depth_band_range_m"] = {number(depth_band_range_m->low), number(depth_band_range_m->high)};
     if (!points.empty()) given["points"] = points;
-    if (background) given["background"] = name_in(kBackgrounds, *background);
+    if (background) given["background"] = name_of(*background);
     if (find_points) given["find_points"] = *find_points;
     if (bright_factor) given["bright_factor"] = number(*bright_factor);
     return given;

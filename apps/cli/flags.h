@@ -5,6 +5,7 @@
 #include "petzval/result.h"
 
 #include "console.h"
+#include "values.h"
 
 #include <functional>
 #include <stdexcept>
@@ -55,6 +56,17 @@ public:
             target = std::move(parsed.value());
         });
         return *this;
+    }
+    // "--name A|B|C": one of the names of a table, see values.h, or of a public enum.
+    template <typename T, typename Target>
+    FlagGroup& choice(const std::string& name, const std::string& help, const NameTable<T>& table,
+                      Target& target) {
+        const auto parse = [table](const std::string& text) { return parse_name(text, table); };
+        return value(name, placeholder_of(table), help, parse, target);
+    }
+    template <typename E, typename Target>
+    FlagGroup& choice(const std::string& name, const std::string& help, Target& target) {
+        return choice(name, help, name_table<E>(), target);
     }
     // "--name VALUE…": one or more texts.
     FlagGroup& values(const std::string& name, const std::string& placeholder, const std::string& help,

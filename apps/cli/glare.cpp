@@ -10,11 +10,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const std::vector<std::pair<std::string, StarQuality>> kStarQualities{{"draft", StarQuality::Draft},
-                                                                      {"final", StarQuality::Final}};
-const std::vector<std::pair<std::string, LensCoating>> kCoatings{{"none", LensCoating::None},
-                                                                 {"single", LensCoating::SingleLayer}};
-
 // The numbers that are known; those that are not stay 0.
 Camera known_numbers(const FoundCamera& found) {
     Camera camera;
@@ -45,16 +40,15 @@ void GlareFlags::add_to(Verb& verb) {
         .value("--star-radius", "SHARE",
                "where their red light ends, in heights of the picture (default 0.5)", parse_positive,
                star_radius)
-        .value(
-            "--star-quality", "NAME", "final (default): diffraction, by wavelength; draft: quick streaks",
-            [](const std::string& text) { return parse_name(text, kStarQualities); }, star_quality)
+        .choice<StarQuality>("--star-quality",
+                             "final (default): diffraction, by wavelength; draft: quick streaks",
+                             star_quality)
         .value("--ghosts", "SHARE",
                "reflections of highlights: of the --lens's surfaces if it is a prescription, else coloured "
                "copies",
                parse_share, ghosts)
-        .value(
-            "--coating", "NAME", "of the surfaces that reflect: single layer (default), none",
-            [](const std::string& text) { return parse_name(text, kCoatings); }, coating)
+        .choice<LensCoating>("--coating", "of the surfaces that reflect: single layer (default), none",
+                             coating)
         .value("--veil", "SHARE", "spread this share of all light evenly", parse_share, veil)
         .value("--glare-threshold", "LIGHT",
                "stars and ghosts are made of the light above this; 1 is diffuse white (default)",
@@ -134,14 +128,13 @@ Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const LensChoic
 Json GlareFlags::json() const {
     if (given().empty()) return nullptr;
     const GlareSettings defaults;
-    const bool draft = star_quality == StarQuality::Draft;
     return {{"bloom", bloom.value_or(0)},
             {"bloom_radius", bloom_radius.value_or(defaults.bloom_radius)},
             {"star", star.value_or(0)},
             {"star_radius", star_radius.value_or(defaults.star_radius)},
-            {"star_quality", draft ? "draft" : "final"},
+            {"star_quality", name_of(star_quality.value_or(defaults.star_quality))},
             {"ghosts", ghosts.value_or(0)},
-            {"coating", coating == LensCoating::None ? "none" : "single"},
+            {"coating", name_of(coating.value_or(defaults.coating))},
             {"veil", veil.value_or(0)},
             {"threshold", threshold.value_or(defaults.threshold)},
             {"vignetting", vignetting}};

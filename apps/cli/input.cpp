@@ -9,13 +9,6 @@
 namespace petzval::cli {
 namespace {
 
-const std::vector<std::pair<std::string, DepthKind>>& depth_kinds() {
-    static const std::vector<std::pair<std::string, DepthKind>> table{
-        {"planar", DepthKind::Planar},         {"ray", DepthKind::Ray},       {"inverse", DepthKind::Inverse},
-        {"normalized", DepthKind::Normalized}, {"device", DepthKind::Device}, {"coc-px", DepthKind::CocPx}};
-    return table;
-}
-
 DepthSettings depth_settings(const InputFlags& flags, const FoundCamera& camera) {
     DepthSettings settings;
     settings.kind = flags.depth_kind.value_or(DepthKind::Planar);
@@ -193,12 +186,6 @@ std::vector<std::string> Input::detected_in_picture() const {
     return lines;
 }
 
-const char* name_of(DepthKind kind) {
-    for (const auto& [name, value] : depth_kinds())
-        if (value == kind) return name.c_str();
-    return "?";
-}
-
 void InputFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Input")
         .argument("IN", "a picture: EXR, or PNG (decoded through the sRGB curve)", path)
@@ -211,12 +198,12 @@ void InputFlags::add_depth_to(Verb& verb) {
         .value("--depth", "FILE", "read depth from another file", parse_text, read.depth_file)
         .value("--depth-channel", "NAME", "depth channel, as Z or ViewLayer.Depth.Z", parse_text,
                read.depth_channel)
-        .value(
-            "--depth-kind", "NAME",
+        .choice<DepthKind>(
+            "--depth-kind",
             "what depth means: planar, along the axis (default); ray, from the pinhole; inverse, 1/planar; "
             "normalized and device, 0…1 and z-buffer between --depth-range; coc-px, signed blur radius in "
             "pixels",
-            [](const std::string& text) { return parse_name(text, depth_kinds()); }, depth_kind)
+            depth_kind)
         .value("--depth-range", "NEAR,FAR", "the ends of normalized or device depth, as 0.1,100", parse_range,
                depth_range)
         .value("--unit-scale", "METRES", "metres per unit of depth, as 0.01 for centimetres", parse_positive,
@@ -225,16 +212,8 @@ void InputFlags::add_depth_to(Verb& verb) {
 
 void InputFlags::add_transfer_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .value(
-            "--transfer", "NAME",
-            "how PNG codes stand for light, read and written: srgb (default), gamma2.2, gamma2.0, linear",
-            [](const std::string& text) {
-                return parse_name<Transfer>(text, {{"srgb", Transfer::Srgb},
-                                                   {"gamma2.2", Transfer::Gamma22},
-                                                   {"gamma2.0", Transfer::Gamma20},
-                                                   {"linear", Transfer::Linear}});
-            },
-            transfer);
+        .choice<Transfer>("--transfer", "how PNG codes stand for light, read and written (default srgb)",
+                          transfer);
 }
 
 void InputFlags::add_others_to(Verb& verb) {

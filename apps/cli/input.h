@@ -65,6 +65,4 @@ Status focus_on_pixel(Input& input, Pixel pixel);
 // InvalidArgument without a camera matrix, or for a point in the plane of the lens.
 Result<std::string> focus_on_point(Input& input, Place place, double unit_scale_m);
 
-const char* name_of(DepthKind kind);
-
 }  // namespace petzval::cli

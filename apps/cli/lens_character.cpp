@@ -53,6 +53,10 @@ Result<BarnDoors> parse_barn_doors(const std::string& text) {
     return BarnDoors{doors[0], doors[1], doors[2], doors[3]};
 }
 
+// Shift is said by its own flag.
+const NameTable<FocusMode> kFocusModes{{name_of(FocusMode::Best), FocusMode::Best},
+                                       {name_of(FocusMode::Paraxial), FocusMode::Paraxial}};
+
 struct NamedFlag {
     const char* name;
     bool given;
@@ -102,16 +106,11 @@ Error from_flag(const char* flag, const Error& error) {
 
 void LensCharacterFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Lens character")
-        .value(
-            "--focus-mode", "NAME",
-            "where the sensor stands behind a lens with aberrations: best, least blur at this aperture "
-            "(default); "
-            "paraxial, where light near the axis meets",
-            [](const std::string& text) {
-                return parse_name<FocusMode>(text,
-                                             {{"best", FocusMode::Best}, {"paraxial", FocusMode::Paraxial}});
-            },
-            focus_mode)
+        .choice("--focus-mode",
+                "where the sensor stands behind a lens with aberrations: best, least blur at this aperture "
+                "(default); "
+                "paraxial, where light near the axis meets",
+                kFocusModes, focus_mode)
         .value("--focus-shift", "MM",
                "the sensor this far behind the paraxial focus; negative is nearer the lens", parse_number,
                focus_shift_mm)
@@ -218,9 +217,8 @@ Json character_json(const LensChoice& lens) {
     Json rims = Json::array();
     for (const BarrelRim& rim : lens.barrel)
         rims.push_back({{"radius_mm", rim.radius_mm}, {"distance_mm", rim.distance_mm}});
-    const char* const modes[] = {"best", "paraxial", "shift"};
     const BarnDoors& doors = lens.barn_doors;
-    return {{"focus_mode", modes[int(lens.focus_mode)]},
+    return {{"focus_mode", name_of(lens.focus_mode)},
             {"focus_shift_mm", lens.focus_shift_mm},
             {"spherical", lens.spherical},
             {"axial_colour", lens.axial_colour},

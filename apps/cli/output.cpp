@@ -19,9 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::pair<std::string, ToneCurve>> kTones{
-    {"filmic", ToneCurve::Filmic}, {"reinhard", ToneCurve::Reinhard}, {"none", ToneCurve::None}};
-
 Error cannot_write(const std::string& path, const std::string& why) {
     return {ErrorCode::OutputFailed, "cannot write " + path + ": " + why};
 }
@@ -93,23 +90,17 @@ std::optional<std::string> OverwriteFlags::reason_to_skip(const std::vector<std:
     return listed(outputs) + ": newer than " + listed(inputs) + ", nothing to do (-u)";
 }
 
-const char* name_of(ToneCurve tone) {
-    for (const auto& [name, value] : kTones)
-        if (value == tone) return name.c_str();
-    return "?";
-}
-
 void DevelopFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Display picture (PNG)")
         .value("--exposure", "STOPS", "brighter by this many stops, as 1.5 or -2", parse_number,
                exposure_stops)
         .value("--contrast", "FACTOR", "exponent about mid-grey, as 1.2; 1 leaves it (default)",
                parse_positive, contrast)
-        .value(
-            "--tone", "NAME",
+        .choice<ToneCurve>(
+            "--tone",
             "filmic: mid-grey kept, highlights roll off and pale, hue kept (default; none for PNG input); "
             "reinhard: n/(1 + n); none: clip",
-            [](const std::string& text) { return parse_name(text, kTones); }, tone);
+            tone);
 }
 
 DevelopSettings DevelopFlags::settings(bool display_referred, std::optional<Transfer> transfer,

@@ -34,8 +34,6 @@ struct OverwriteFlags {
                                               const std::vector<std::string>& inputs) const;
 };
 
-const char* name_of(ToneCurve tone);
-
 // From scene-linear light to a display picture; only for PNG.
 struct DevelopFlags {
     std::optional<double> exposure_stops;

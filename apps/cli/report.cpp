@@ -56,7 +56,7 @@ Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
     add("sensor_width_mm", camera.sensor_width_mm);
     add("f_number", camera.f_number);
     add("focus_distance_m", camera.focus_distance_m);
-    json["image_scale"] = image_scale == ImageScale::ThinLens ? "thin-lens" : "rendered";
+    json["image_scale"] = name_of(image_scale);
     json["origins"] = origins;
     return json;
 }

@@ -7,6 +7,14 @@
 #include <thread>
 
 namespace petzval::cli {
+namespace {
+
+const NameTable<ProgressMode> kProgressModes{{"auto", ProgressMode::Auto},
+                                             {"plain", ProgressMode::Plain},
+                                             {"json", ProgressMode::JsonLines},
+                                             {"off", ProgressMode::Off}};
+
+}  // namespace
 
 void RunFlags::add_json_to(Verb& verb) {
     FlagGroup(verb, "Output")
@@ -22,16 +30,8 @@ void RunFlags::add_threads_to(Verb& verb) {
 void RunFlags::add_log_to(Verb& verb, bool with_progress) {
     FlagGroup group(verb, "Run");
     if (with_progress)
-        group.value(
-            "--progress", "NAME",
-            "auto: a bar on a terminal, else one plain line a second (default); plain, json, off",
-            [](const std::string& text) {
-                return parse_name<ProgressMode>(text, {{"auto", ProgressMode::Auto},
-                                                       {"plain", ProgressMode::Plain},
-                                                       {"json", ProgressMode::JsonLines},
-                                                       {"off", ProgressMode::Off}});
-            },
-            progress);
+        group.choice("--progress", "auto: a bar on a terminal, else one plain line a second (default)",
+                     kProgressModes, progress);
     group.on("-v,--verbose", "say more", verbose).on("-q,--quiet", "say nothing but errors", quiet);
 }
 

@@ -4,6 +4,7 @@
 // accepted.
 #pragma once
 
+#include "petzval/names.h"
 #include "petzval/result.h"
 
 #include <cstddef>
@@ -59,9 +60,29 @@ Result<std::size_t> parse_bytes(const std::string& text);
 
 Result<std::string> parse_text(const std::string& text);  // anything but nothing
 
+// What a value is called, in the order in which people should read it.
+template <typename T>
+using NameTable = std::vector<std::pair<std::string, T>>;
+
+// That of a public enum.
+template <typename E>
+NameTable<E> name_table() {
+    NameTable<E> table;
+    for (const Named<E>& known : names<E>()) table.emplace_back(known.name, known.value);
+    return table;
+}
+
+// "off|on"
+template <typename T>
+std::string placeholder_of(const NameTable<T>& table) {
+    std::string all;
+    for (const auto& [name, value] : table) all += (all.empty() ? "" : "|") + name;
+    return all;
+}
+
 // One of the names of a table.
 template <typename T>
-Result<T> parse_name(const std::string& text, const std::vector<std::pair<std::string, T>>& table) {
+Result<T> parse_name(const std::string& text, const NameTable<T>& table) {
     std::string names;
     for (const auto& [name, value] : table) {
         if (name == text) return value;

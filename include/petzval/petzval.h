@@ -15,5 +15,6 @@
 #include "petzval/lens.h"
 #include "petzval/lens_facts.h"
 #include "petzval/lens_kernel.h"
+#include "petzval/names.h"
 #include "petzval/result.h"
 #include "petzval/version.h"

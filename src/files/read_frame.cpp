@@ -1,5 +1,6 @@
 #include "petzval/develop.h"
 #include "petzval/files.h"
+#include "petzval/names.h"
 
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
@@ -120,9 +121,11 @@ Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const
         frame.parts[0].channels.push_back(
             std::string(png->channels == 1 ? "Y" : std::string("RGBA").substr(std::size_t(c), 1)) + " " +
             bits);
-    const char* const curves[] = {"the sRGB curve", "gamma 2.2", "gamma 2.0", "no curve: linear codes"};
-    frame.detected.push_back("colour: PNG, " + bits + ", decoded through " +
-                             curves[std::size_t(options.transfer)] + "; 1.0 is clipped highlights");
+    std::string curve;
+    for (const auto& known : names<Transfer>())
+        if (known.value == options.transfer) curve = known.meaning;
+    frame.detected.push_back("colour: PNG, " + bits + ", decoded through " + curve +
+                             "; 1.0 is clipped highlights");
     if (options.depth_file.empty() && (options.need_depth || !options.depth_channel.empty()) && pixels)
         return invalid_file(file->path(), "has no depth channel; a PNG needs a depth file, --depth FILE");
     if (!pixels) return frame;

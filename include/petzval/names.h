@@ -1,0 +1,81 @@
+// Names of all that can be chosen from a few: one table per enum. Flags, looks and reports say these words;
+// none is ever renamed without the old one still accepted.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/depth.h"
+#include "petzval/develop.h"
+#include "petzval/engine_options.h"
+#include "petzval/export.h"
+#include "petzval/glare.h"
+#include "petzval/lens.h"
+#include "petzval/result.h"
+
+#include <span>
+#include <string>
+#include <type_traits>
+
+namespace petzval {
+
+// A value, what it is called, and in a few words what it is.
+template <typename E>
+struct Named {
+    E value;
+    const char* name;
+    const char* meaning;
+};
+
+// Every value of the enum once, in the order in which people should read them. Of the enums below alone.
+template <typename E>
+std::span<const Named<E>> names();
+
+template <>
+PETZVAL_API std::span<const Named<Quality>> names();
+template <>
+PETZVAL_API std::span<const Named<ScatterView>> names();
+template <>
+PETZVAL_API std::span<const Named<GatherStage>> names();
+template <>
+PETZVAL_API std::span<const Named<GaussianStyle>> names();
+template <>
+PETZVAL_API std::span<const Named<GaussianView>> names();
+template <>
+PETZVAL_API std::span<const Named<SpriteBackground>> names();
+template <>
+PETZVAL_API std::span<const Named<FocusMode>> names();
+template <>
+PETZVAL_API std::span<const Named<ImageScale>> names();
+template <>
+PETZVAL_API std::span<const Named<StarQuality>> names();
+template <>
+PETZVAL_API std::span<const Named<LensCoating>> names();
+template <>
+PETZVAL_API std::span<const Named<ToneCurve>> names();
+template <>
+PETZVAL_API std::span<const Named<Transfer>> names();
+template <>
+PETZVAL_API std::span<const Named<DepthKind>> names();
+template <>
+PETZVAL_API std::span<const Named<ErrorCode>> names();
+
+// "standard"; "?" for a number that is no value of the enum.
+template <typename E>
+requires std::is_enum_v<E>
+const char* name_of(E value) {
+    for (const Named<E>& known : names<E>())
+        if (known.value == value) return known.name;
+    return "?";
+}
+
+// The value of that name. Errors: InvalidArgument, "not one of draft, standard, final".
+template <typename E>
+requires std::is_enum_v<E> Result<E> parse(const std::string& text) {
+    std::string all;
+    for (const Named<E>& known : names<E>()) {
+        if (text == known.name) return known.value;
+        all += (all.empty() ? "" : ", ") + std::string(known.name);
+    }
+    return Error{ErrorCode::InvalidArgument, "not one of " + all};
+}
+
+}  // namespace petzval

@@ -1,0 +1,89 @@
+#include "petzval/names.h"
+
+namespace petzval {
+namespace {
+
+constexpr Named<Quality> kQualities[]{{Quality::Draft, "draft", "quick"},
+                                      {Quality::Standard, "standard", "for work"},
+                                      {Quality::Final, "final", "as exact as the engine can be"}};
+constexpr Named<ScatterView> kScatterViews[]{
+    {ScatterView::Result, "result", "the picture"},
+    {ScatterView::Layers, "layers", "the surfaces seen and found behind them"},
+    {ScatterView::Levels, "levels", "what each level of detail drew"},
+    {ScatterView::Highlights, "highlights", "light spread by itself"}};
+constexpr Named<GatherStage> kStages[]{
+    {GatherStage::Final, "final", "the engine itself"},
+    {GatherStage::Coc, "coc", "the published signed radius"},
+    {GatherStage::Prefilter, "prefilter", "colour and radius at half resolution"},
+    {GatherStage::Disc, "disc", "a disc of samples, blind to their radii"},
+    {GatherStage::HardTest, "hard-test", "samples count where their own radius reaches"},
+    {GatherStage::Blur, "blur", "hard-test after the four-tap blur"},
+    {GatherStage::Combine, "combine", "blur mixed with the sharp picture"},
+    {GatherStage::NearFar, "near-far", "near and far apart"},
+    {GatherStage::Cure, "cure", "near and far combined"}};
+constexpr Named<GaussianStyle> kStyles[]{
+    {GaussianStyle::Layered, "layered", "near and far apart, nothing in focus bleeds"},
+    {GaussianStyle::Plain, "plain", "every pixel by its own radius"},
+    {GaussianStyle::Wgld, "wgld", "by depth, as published"}};
+constexpr Named<GaussianView> kGaussianViews[]{
+    {GaussianView::Result, "result", "the picture"},
+    {GaussianView::Sharp, "sharp", "the input"},
+    {GaussianView::BlurSmall, "blur-small", "all of it blurred by the smaller Gaussian"},
+    {GaussianView::BlurLarge, "blur-large", "all of it blurred by the larger Gaussian"},
+    {GaussianView::FocusIndex, "focus-index", "1 in focus to 0 wholly blurred"}};
+constexpr Named<SpriteBackground> kBackgrounds[]{{SpriteBackground::Gather, "gather", "engine gather"},
+                                                 {SpriteBackground::Gaussian, "gaussian", "engine gaussian"}};
+constexpr Named<FocusMode> kFocusModes[]{{FocusMode::Best, "best", "least blur at this aperture"},
+                                         {FocusMode::Paraxial, "paraxial", "where light near the axis meets"},
+                                         {FocusMode::Shift, "shift", "so far behind the paraxial focus"}};
+constexpr Named<ImageScale> kImageScales[]{
+    {ImageScale::Rendered, "rendered", "sensor one focal length behind the pinhole"},
+    {ImageScale::ThinLens, "thin-lens", "sensor where a real lens forms the image"}};
+constexpr Named<StarQuality> kStarQualities[]{{StarQuality::Draft, "draft", "quick streaks"},
+                                              {StarQuality::Final, "final", "diffraction, by wavelength"}};
+constexpr Named<LensCoating> kCoatings[]{
+    {LensCoating::None, "none", "bare glass"},
+    {LensCoating::SingleLayer, "single", "one layer of magnesium fluoride"}};
+constexpr Named<ToneCurve> kTones[]{
+    {ToneCurve::Filmic, "filmic", "mid-grey kept, highlights roll off and pale"},
+    {ToneCurve::Reinhard, "reinhard", "n/(1 + n)"},
+    {ToneCurve::None, "none", "clip"}};
+constexpr Named<Transfer> kTransfers[]{{Transfer::Srgb, "srgb", "the sRGB curve"},
+                                       {Transfer::Gamma22, "gamma2.2", "gamma 2.2"},
+                                       {Transfer::Gamma20, "gamma2.0", "gamma 2.0"},
+                                       {Transfer::Linear, "linear", "no curve: linear codes"}};
+constexpr Named<DepthKind> kDepthKinds[]{
+    {DepthKind::Planar, "planar", "along the axis"},
+    {DepthKind::Ray, "ray", "from the pinhole"},
+    {DepthKind::Inverse, "inverse", "1/planar"},
+    {DepthKind::Normalized, "normalized", "0 to 1 between the ends of a range"},
+    {DepthKind::Device, "device", "z-buffer between the ends of a range"},
+    {DepthKind::CocPx, "coc-px", "signed blur radius in pixels"}};
+constexpr Named<ErrorCode> kErrorCodes[]{
+    {ErrorCode::InvalidArgument, "invalid-argument", "a flag, a number or a field is wrong or missing"},
+    {ErrorCode::InvalidFile, "invalid-file", "an input is missing, damaged or lacks what is needed"},
+    {ErrorCode::Unsupported, "unsupported", "understood, but not possible here"},
+    {ErrorCode::OutputFailed, "output-failed", "an output could not be written"},
+    {ErrorCode::OutOfMemory, "out-of-memory", "the work does not fit the memory limit"},
+    {ErrorCode::Cancelled, "cancelled", "asked to stop"}};
+
+}  // namespace
+
+// clang-format off
+template <> std::span<const Named<Quality>> names() { return kQualities; }
+template <> std::span<const Named<ScatterView>> names() { return kScatterViews; }
+template <> std::span<const Named<GatherStage>> names() { return kStages; }
+template <> std::span<const Named<GaussianStyle>> names() { return kStyles; }
+template <> std::span<const Named<GaussianView>> names() { return kGaussianViews; }
+template <> std::span<const Named<SpriteBackground>> names() { return kBackgrounds; }
+template <> std::span<const Named<FocusMode>> names() { return kFocusModes; }
+template <> std::span<const Named<ImageScale>> names() { return kImageScales; }
+template <> std::span<const Named<StarQuality>> names() { return kStarQualities; }
+template <> std::span<const Named<LensCoating>> names() { return kCoatings; }
+template <> std::span<const Named<ToneCurve>> names() { return kTones; }
+template <> std::span<const Named<Transfer>> names() { return kTransfers; }
+template <> std::span<const Named<DepthKind>> names() { return kDepthKinds; }
+template <> std::span<const Named<ErrorCode>> names() { return kErrorCodes; }
+// clang-format on
+
+}  // namespace petzval
