@@ -32,13 +32,14 @@ ALLOWED = {
     "engine/gaussian": WAIST,
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": WAIST | {"engine/lights"},
+    "views": WAIST | {"engine/lights", "engine/scatter"},
     "glare": LENS,
     "names": {"base", "optics", "depth", "colour", "engine/waist", "glare"},
     "scene": PIXELS | {"optics"},
     "lens_sheet": LENS | {"api", "files"},
     "files": PIXELS | {"colour", "optics", "depth", "names"},
     "ocio": PIXELS,
-    "api": WAIST | ENGINES | {"depth", "glare"},
+    "api": WAIST | ENGINES | {"depth", "glare", "views"},
 }
 # What tests beside the code may see as well.
 TESTS = {"kernel/draw": {"kernel/lenses"}, "kernel/keep": {"kernel/lenses"}}

@@ -8,9 +8,11 @@
 #include "engine/samples/all_samples.h"
 #include "engine/samples/deep_samples.h"
 #include "engine/samples/out_of_sight.h"
+#include "engine/waist/memory.h"
 #include "kernel/keep/kernel_store.h"
 #include "kernel/keep/remembered_lens.h"
 #include "kernel/lenses/make_lens.h"
+#include "views/plan_view.h"
 
 #include <algorithm>
 #include <atomic>
@@ -261,7 +263,6 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.frame_height = colour.height();
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
-    input.scatter = job.scatter;
     input.gather = job.gather;
     input.gaussian = job.gaussian;
     input.sprites = job.sprites;
@@ -275,13 +276,24 @@ Result<DefocusReport> defocus(const DefocusJob& job) {
     input.max_memory_bytes = job.max_memory_bytes;
     input.seed = job.seed;
     input.progress = &progress;
+    const std::unique_ptr<views::PlanView> view = views::plan_view(job.scatter.view);
+    if (view) {
+        const std::string name = std::string("--view ") + views::name_of(job.scatter.view);
+        if (const Status fits = engine::fits_memory(input, views::kBytesPerPixel, name); !fits)
+            return fits.error();
+        input.plan_reader = view.get();
+    }
     const double prepared = seconds();
 
     Result<engine::Output> output = chosen->run(input);
     if (!output) return output.error();
     DefocusReport report;
     report.image = std::move(output->image);
-    report.panels = std::move(output->panels);
+    if (view) {
+        views::Shown shown = view->take();
+        report.image = std::move(shown.image), report.panels = std::move(shown.panels);
+        output->warnings = std::move(shown.warnings);
+    }
     if (job.lens.distortion != 0 && report.panels.empty())
         report.image = distorted(
             report.image, {input.field_centre_x, input.field_centre_y, input.field_per_px, job.pixel_aspect},

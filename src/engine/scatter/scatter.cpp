@@ -5,10 +5,8 @@
 #include "engine/lights/highlight_spread.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
-#include "engine/samples/connectivity.h"
-#include "engine/scatter/scatter_levels.h"
-#include "engine/scatter/scatter_views.h"
-#include "engine/scatter/sources.h"
+#include "engine/samples/sample_set.h"
+#include "engine/scatter/plan.h"
 #include "engine/scatter/tile_spread.h"
 #include "engine/waist/work.h"
 
@@ -23,18 +21,6 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kTile = 64;
-
-LevelRule level_rule(Quality quality) {
-    switch (quality) {
-        case Quality::Draft:
-            return {.largest_cells = 5, .surfaces_for_cells = std::numeric_limits<int>::max()};
-        case Quality::Standard:
-            return {.largest_cells = 8, .surfaces_for_cells = 2};
-        case Quality::Final:
-            return {.largest_cells = 24, .surfaces_for_cells = 2, .inner_cells = 1, .outer_cells = 5};
-    }
-    return {};
-}
 
 // Times the stages of a run; a stage that comes again adds to its time.
 class Stopwatch {
@@ -124,77 +110,119 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     return plan;
 }
 
-// Made when first asked for; the same for every picture of this lens, size and quality.
-struct ScatterKernels final : KeptKernels {
-    ScatterKernels(const Input& input, const LevelRule& rule)
-        : table(input, input.width(), input.height(), rule), highlights(input) {}
-    StampTable table;
-    HighlightKernels highlights;
+// A run over the strips of a frame: each is completed, split, planned and drawn.
+class ScatterRun {
+public:
+    ScatterRun(const Input& frame, const LevelRule& rule, const ScatterKernels& kernels, Stopwatch& watch)
+        : frame_(frame),
+          rule_(rule),
+          kernels_(kernels),
+          watch_(watch),
+          split_(frame.colour, frame.coc_px, {}, frame.threads) {
+        watch_.lap("split", {bytes_of(frame.colour) + bytes_of(frame.coc_px)});
+    }
+
+    // Draws `rows` of the frame. `share`: of the progress.
+    void draw(const Rect& rows, int halo, double share, View<Rgba> out) {
+        const int first = std::max(0, rows.y0 - halo);
+        const Input strip = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
+        SampleSet set = complete(strip);
+        const ScatterPlan plan = planned(strip, std::move(set), rows, first);
+        draw(strip, plan, share, out);
+    }
+    void show(PlanReader& reader) {
+        SampleSet set = complete(frame_);
+        if (!reader.read(frame_, set)) return;
+        reader.read(frame_, planned(frame_, std::move(set), frame_.colour.rect(), 0), split_, kernels_);
+    }
+
+private:
+    SampleSet complete(const Input& strip) {
+        SampleSet set = complete_samples(strip);
+        watch_.lap("complete", {bytes_of(strip.colour) + bytes_of(strip.coc_px) + bytes_of(set.samples)});
+        return set;
+    }
+
+    ScatterPlan planned(const Input& strip, SampleSet set, const Rect& rows, int first_row) {
+        ScatterPlan plan;
+        plan.first_row = first_row, plan.rule = rule_;
+        plan.rows = {0, rows.y0 - first_row, rows.width(), rows.y1 - first_row};
+        plan.base = std::move(set.samples);
+        plan.highlights = take_highlights(plan.base, split_, first_row, kLargestSquare, strip.threads);
+        if (strip.deep_dims_itself) share_lens_area(plan.base, strip.threads);
+        watch_.lap("split", {2 * bytes_of(plan.base) + plan.highlights.size() * sizeof(Highlight)});
+        plan.levels = make_sources(plan.base, strip.coc_px, set.connected, strip.open_edges, rule_,
+                                   kernels_.table, strip.threads);
+        watch_.lap("sources", {bytes_of(plan.base) + bytes_of(strip.coc_px) + set.connected.bytes() +
+                               bytes_of(plan.levels)});
+        return plan;
+    }
+
+    void draw(const Input& strip, const ScatterPlan& plan, double share, View<Rgba> out) {
+        const Rect& rows = plan.rows;
+        const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;
+        WorkCount spread;
+        parallel_for(tiles_x * tiles_y, strip.threads, [&](int i) {
+            if (strip.progress->cancelled()) return;
+            const int x = i % tiles_x * kTile, y = rows.y0 + i / tiles_x * kTile;
+            spread.add(spread_tile(plan.levels, kernels_.table, strip.holdout,
+                                   Rect{x, y, x + kTile, y + kTile}.intersected(rows), plan.first_row, rule_,
+                                   out));
+            strip.progress->advance(0.9 * share / (tiles_x * tiles_y));
+        });
+        watch_.lap("spread", spread.sum());
+        const Rect in_frame{0, plan.first_row + rows.y0, rows.width(), plan.first_row + rows.y1};
+        watch_.lap("highlights", spread_highlights(strip, kernels_.highlights, plan.base, plan.highlights,
+                                                   split_.white(), rows, out.part(in_frame)));
+        strip.progress->advance(0.1 * share);
+    }
+
+    const Input& frame_;
+    const LevelRule& rule_;
+    const ScatterKernels& kernels_;
+    Stopwatch& watch_;
+    HighlightSplit split_;
 };
 
-// Rows y0…y1-1 of the result. `share` of the progress.
-void scatter_rows(const Input& frame, const HighlightSplit& split, const LevelRule& rule,
-                  const ScatterKernels& kernels, const Rect& rows, int halo, double share, Stopwatch& watch,
-                  View<Rgba> out) {
-    const int first = std::max(0, rows.y0 - halo), last = std::min(frame.height(), rows.y1 + halo);
-    const Input input = frame.rows(first, last);
-    const Image<unsigned char> connected = connections(input.coc_px, input.threads);
-    CocSamples samples = completed(input, connected);
-    watch.lap("complete", {bytes_of(input.colour) + bytes_of(input.coc_px) + bytes_of(samples)});
-    const std::vector<Highlight> highlights =
-        take_highlights(samples, split, first, kLargestSquare, input.threads);
-    if (input.deep_dims_itself) share_lens_area(samples, input.threads);
-    watch.lap("split", {2 * bytes_of(samples) + highlights.size() * sizeof(Highlight)});
-    const std::vector<SourceLevel> levels =
-        make_sources(samples, input.coc_px, connected, input.open_edges, rule, kernels.table, input.threads);
-    watch.lap("sources", {bytes_of(samples) + bytes_of(input.coc_px) + connected.bytes() + bytes_of(levels)});
-
-    const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;
-    const Rect here{0, rows.y0 - first, rows.width(), rows.y1 - first};  // in the rows of `input`
-    WorkCount spread;
-    parallel_for(tiles_x * tiles_y, input.threads, [&](int i) {
-        if (input.progress->cancelled()) return;
-        const int x = i % tiles_x * kTile, y = here.y0 + i / tiles_x * kTile;
-        spread.add(spread_tile(levels, kernels.table, input.holdout,
-                               Rect{x, y, x + kTile, y + kTile}.intersected(here), first, rule, out));
-        input.progress->advance(0.9 * share / (tiles_x * tiles_y));
-    });
-    watch.lap("spread", spread.sum());
-    watch.lap("highlights", spread_highlights(input, kernels.highlights, samples, highlights, split.white(),
-                                              here, out.part(rows)));
-    input.progress->advance(0.1 * share);
-}
-
 }  // namespace
+
+LevelRule level_rule(const Input& input) {
+    LevelRule rule;
+    switch (input.quality) {
+        case Quality::Draft:
+            rule = {.largest_cells = 5, .surfaces_for_cells = std::numeric_limits<int>::max()};
+            break;
+        case Quality::Standard:
+            rule = {.largest_cells = 8, .surfaces_for_cells = 2};
+            break;
+        case Quality::Final:
+            rule = {.largest_cells = 24, .surfaces_for_cells = 2, .inner_cells = 1, .outer_cells = 5};
+            break;
+    }
+    if (!input.deep.empty()) rule.narrow_layer = 0;
+    return rule;
+}
 
 Result<Output> run_scatter(const Input& input) {
     Output output;
     Stopwatch watch(output.stages);
-    LevelRule rule = level_rule(input.quality);
-    if (!input.deep.empty()) rule.narrow_layer = 0;
-    switch (input.scatter.view) {
-        case ScatterView::Result:
-            break;
-        case ScatterView::Layers:
-            return run_scatter_layers(input);
-        case ScatterView::Levels:
-            return run_scatter_levels(input, rule);
-        case ScatterView::Highlights:
-            return run_scatter_highlights(input);
-    }
+    const LevelRule rule = level_rule(input);
     std::unique_ptr<KeptKernels> own;
     std::unique_ptr<KeptKernels>& kept = input.kept_kernels ? *input.kept_kernels : own;
     if (!kept) kept = std::make_unique<ScatterKernels>(input, rule);
     const auto& kernels = dynamic_cast<const ScatterKernels&>(*kept);
-    const Result<StripPlan> plan = plan_strips(input, rule, kernels.table);
-    if (!plan) return plan.error();
-    const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
-    watch.lap("split", {bytes_of(input.colour) + bytes_of(input.coc_px)});
+    if (input.plan_reader) {
+        ScatterRun(input, rule, kernels, watch).show(*input.plan_reader);
+        if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+        return output;
+    }
+    const Result<StripPlan> strips = plan_strips(input, rule, kernels.table);
+    if (!strips) return strips.error();
+    ScatterRun run(input, rule, kernels, watch);
     output.image = Picture::uninitialised(input.width(), input.height());
-    for (int y = 0; y < input.height() && !input.progress->cancelled(); y += plan->rows) {
-        const Rect rows = Rect{0, y, input.width(), y + plan->rows}.intersected(output.image.rect());
-        scatter_rows(input, split, rule, kernels, rows, plan->halo, double(rows.height()) / input.height(),
-                     watch, output.image);
+    for (int y = 0; y < input.height() && !input.progress->cancelled(); y += strips->rows) {
+        const Rect rows = Rect{0, y, input.width(), y + strips->rows}.intersected(output.image.rect());
+        run.draw(rows, strips->halo, double(rows.height()) / input.height(), output.image);
     }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     return output;

@@ -98,6 +98,8 @@ struct LensOnPicture {
     }
 };
 
+class PlanReader;  // engine/scatter/plan.h
+
 // What an engine keeps from one picture for the next of the same lens, size and quality.
 struct KeptKernels {
     virtual ~KeptKernels() = default;
@@ -123,9 +125,10 @@ struct Input : LensOnPicture {
     int frame_height = 0, first_row = 0;
     // Where kernels of this lens, size and quality are kept between pictures; null: nowhere.
     std::unique_ptr<KeptKernels>* kept_kernels = nullptr;
+    // What looks at scatter's plan in place of a result; null: nobody.
+    PlanReader* plan_reader = nullptr;
     Quality quality = Quality::Standard;
     int pupil_points = 4096;
-    ScatterOptions scatter;
     GatherOptions gather;
     GaussianOptions gaussian;
     SpriteOptions sprites;
@@ -159,7 +162,6 @@ CocSamples stated_samples(const Input& input);
 
 struct Output {
     Picture image;
-    std::vector<Panel> panels;  // where `image` holds several pictures side by side, else empty
     std::vector<StageTime> stages;
     std::vector<std::string> warnings;
 };

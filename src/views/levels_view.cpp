@@ -1,22 +1,18 @@
-#include "engine/scatter/scatter_levels.h"
-
 #include "base/parallel.h"
-#include "engine/lights/highlight_spread.h"
-#include "engine/lights/highlights.h"
-#include "engine/samples/complete.h"
-#include "engine/samples/connectivity.h"
-#include "engine/scatter/stamp_table.h"
-#include "engine/waist/memory.h"
+#include "device/cpu/stamp.h"
+#include "views/plan_view.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace petzval::engine {
+namespace petzval::views {
+
+using namespace engine;
+
 namespace {
 
 constexpr int kBand = 64;  // rows of cells done at once
-constexpr std::size_t kBytesPerPixel = 260;
 
 // Linear; level 0 is grey, the others after Okabe and Ito ("Color universal design", 2008), whom colour blind
 // readers can follow.
@@ -105,34 +101,22 @@ void draw_map(const Input& input, View<const Rgba> atlas, const Layout& layout, 
 
 }  // namespace
 
-Result<Output> run_scatter_levels(const Input& input, const LevelRule& rule) {
-    if (const Status fits = fits_memory(input, kBytesPerPixel, "--view levels"); !fits) return fits.error();
-    Output output;
-    const Image<unsigned char> connected = connections(input.coc_px, input.threads);
-    CocSamples samples = completed(input, connected);
-    const HighlightSplit split(input.colour, input.coc_px, {}, input.threads);
-    const std::vector<Highlight> highlights =
-        take_highlights(samples, split, 0, kLargestSquare, input.threads);
-    if (input.deep_dims_itself) share_lens_area(samples, input.threads);
-    const StampTable table(input, input.width(), input.height(), rule);
-    const std::vector<SourceLevel> levels =
-        make_sources(samples, input.coc_px, connected, input.open_edges, rule, table, input.threads);
-
+void LevelsView::read(const Input& input, const ScatterPlan& plan, const HighlightSplit& split,
+                      const ScatterKernels& kernels) {
+    const std::vector<SourceLevel>& levels = plan.levels;
     const Layout layout(input.width(), input.height(), int(levels.size()));
-    output.image = Picture(layout.all.width(), layout.all.height(), Rgba{0, 0, 0, 1});
+    shown_.image = Picture(layout.all.width(), layout.all.height(), Rgba{0, 0, 0, 1});
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        accumulate(input, levels[l], int(l), table, output.image.view().part(layout.levels[l]));
-        output.panels.push_back({name_of_level(int(l), rule), layout.levels[l], colour_of(int(l))});
-        if (!input.progress->advance(0.8 / double(levels.size())))
-            return Error{ErrorCode::Cancelled, "cancelled"};
+        accumulate(input, levels[l], int(l), kernels.table, shown_.image.view().part(layout.levels[l]));
+        shown_.panels.push_back({name_of_level(int(l), plan.rule), layout.levels[l], colour_of(int(l))});
+        if (!input.progress->advance(0.8 / double(levels.size()))) return;
     }
-    const View<Rgba> bright = output.image.view().part(layout.highlights);
-    spread_highlights(input, HighlightKernels(input), samples, highlights, split.white(), input.colour.rect(),
+    const View<Rgba> bright = shown_.image.view().part(layout.highlights);
+    spread_highlights(input, kernels.highlights, plan.base, plan.highlights, split.white(), plan.rows,
                       bright);
-    output.panels.push_back({"HIGHLIGHTS  EACH WITH ITS WHOLE KERNEL", layout.highlights, kHighlightColour});
-    draw_map(input, output.image, layout, output.image.view().part(layout.map));
-    output.panels.push_back({"WHICH LEVEL DREW WHAT", layout.map, {}});
-    return output;
+    shown_.panels.push_back({"HIGHLIGHTS  EACH WITH ITS WHOLE KERNEL", layout.highlights, kHighlightColour});
+    draw_map(input, shown_.image, layout, shown_.image.view().part(layout.map));
+    shown_.panels.push_back({"WHICH LEVEL DREW WHAT", layout.map, {}});
 }
 
-}  // namespace petzval::engine
+}  // namespace petzval::views

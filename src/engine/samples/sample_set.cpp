@@ -1,0 +1,15 @@
+#include "engine/samples/sample_set.h"
+
+#include "engine/samples/complete.h"
+#include "engine/samples/connectivity.h"
+
+namespace petzval::engine {
+
+SampleSet complete_samples(const Input& input) {
+    SampleSet set;
+    set.connected = connections(input.coc_px, input.threads);
+    set.samples = completed(input, set.connected);
+    return set;
+}
+
+}  // namespace petzval::engine

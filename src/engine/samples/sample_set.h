@@ -1,0 +1,16 @@
+// What the first stage leaves: everything that a lens may see, and which of it is one surface.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+namespace petzval::engine {
+
+struct SampleSet {
+    CocSamples samples;  // complete (engine/samples/complete.h)
+    Image<unsigned char>
+        connected;  // of the pixels of what the picture shows (engine/samples/connectivity.h)
+};
+
+SampleSet complete_samples(const Input& input);
+
+}  // namespace petzval::engine

@@ -1,0 +1,33 @@
+#include "views/plan_view.h"
+
+namespace petzval::views {
+
+std::unique_ptr<PlanView> plan_view(ScatterView view) {
+    switch (view) {
+        case ScatterView::Result:
+            break;
+        case ScatterView::Layers:
+            return std::make_unique<LayersView>();
+        case ScatterView::Levels:
+            return std::make_unique<LevelsView>();
+        case ScatterView::Highlights:
+            return std::make_unique<HighlightsView>();
+    }
+    return nullptr;
+}
+
+const char* name_of(ScatterView view) {
+    switch (view) {
+        case ScatterView::Result:
+            break;
+        case ScatterView::Layers:
+            return "layers";
+        case ScatterView::Levels:
+            return "levels";
+        case ScatterView::Highlights:
+            return "highlights";
+    }
+    return "result";
+}
+
+}  // namespace petzval::views
