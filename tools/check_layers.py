@@ -35,6 +35,7 @@ ALLOWED = {
     "views": WAIST | {"engine/lights", "engine/scatter"},
     "glare": LENS,
     "names": {"base", "optics", "depth", "colour", "engine/waist", "glare"},
+    "look": {"base", "image", "optics", "colour", "engine/waist", "glare", "names"},
     "scene": PIXELS | {"optics"},
     "lens_sheet": LENS | {"api", "files"},
     "files": PIXELS | {"colour", "optics", "depth", "names"},
@@ -48,7 +49,7 @@ PUBLIC = {
     "export": "base", "result": "base", "version": "base", "image": "image", "deep": "image",
     "compare": "image", "light_point": "image", "camera": "optics", "lens": "optics", "depth": "depth", "develop": "colour",
     "dynamic_range": "colour", "lens_facts": "api", "lens_kernel": "api", "defocus": "api",
-    "engine_options": "engine/waist", "engine_report": "engine/waist", "glare": "glare", "names": "names", "files": "files", "lens_report": "lens_sheet", "ocio": "ocio",
+    "engine_options": "engine/waist", "engine_report": "engine/waist", "glare": "glare", "names": "names", "look": "look", "look_json": "look", "files": "files", "lens_report": "lens_sheet", "ocio": "ocio",
     "scene": "scene", "petzval": "api",
 }
 # Headers of other people and the only files that may see them.
@@ -59,7 +60,7 @@ THIRD_PARTY = {
     r"png\.h": r"src/files/",
     r"OpenColorIO/": r"src/ocio/",
     r"embree": r"src/scene/",
-    r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet)/",
+    r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look)/",
     r"CLI/": r"apps/cli/",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]')

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -102,35 +101,6 @@ class Help : public CLI::FormatterBase {
     }
 };
 
-// Number of single-letter edits from a to b (Levenshtein, 1966).
-std::size_t edits(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
-
-// " (did you mean X?)" if something known is near.
-std::string suggestion(const std::string& given, const std::vector<std::string>& known) {
-    std::string best;
-    std::size_t least = 3;
-    for (const std::string& name : known) {
-        const bool begins = given.size() > 4 && name.starts_with(given);
-        const std::size_t distance = begins ? 0 : edits(given, name);
-        const bool nearer = distance < least || (begins && least == 0 && name.size() < best.size());
-        if (nearer && distance * 3 <= given.size()) best = name, least = distance;
-    }
-    return best.empty() ? "" : " (did you mean " + best + "?)";
-}
-
 std::string unknown_argument(const Verb& verb) {
     const auto extras = verb.remaining(true);
     auto odd = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with("-"); });
@@ -140,13 +110,13 @@ std::string unknown_argument(const Verb& verb) {
     if (word.starts_with("-")) {
         for (const CLI::Option* flag : verb.get_options())
             for (const std::string& name : flag->get_lnames()) known.push_back("--" + name);
-        return "unknown flag " + word + suggestion(word, known) + "; " + full_name(verb) +
+        return "unknown flag " + word + did_you_mean(word, known) + "; " + full_name(verb) +
                " --help lists the flags";
     }
     for (const CLI::App* sub : verb.get_subcommands({})) known.push_back(sub->get_name());
     if (known.empty())
         return "unexpected argument " + word + "; " + full_name(verb) + " --help shows how it is used";
-    return "unknown verb " + word + suggestion(word, known) + "; there are " + listed(known);
+    return "unknown verb " + word + did_you_mean(word, known) + "; there are " + listed(known);
 }
 
 }  // namespace

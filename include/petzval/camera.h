@@ -32,6 +32,8 @@ struct CocControls {
     double focus_near_m = 0, focus_far_m = 0;
     // Beyond each end of the range the blur eases in over this share of the end's distance; 0: at once.
     double focus_falloff = 0;
+
+    bool operator==(const CocControls&) const = default;
 };
 
 // Signed circle of confusion RADIUS in pixels as a function of planar depth: positive behind the focus plane,

@@ -39,6 +39,8 @@ PETZVAL_API DynamicRange measure_dynamic_range(View<const Rgba> picture, bool di
 struct HighlightExpansion {
     double knee = 0.5;  // 0 … 1
     double peak = 16;   // > 1: four stops above diffuse white
+
+    bool operator==(const HighlightExpansion&) const = default;
 };
 
 // Errors: InvalidArgument for numbers out of range, or if the picture holds light above 1.05: it is no plate

@@ -43,6 +43,8 @@ struct GatherOptions {
     int taps = 43;             // of the article's disc: 16, 22, 43 or 71
     bool extreme_coc = false;  // article's prefilter: the CoC largest in size of 2 x 2, not their mean
     bool fill_hidden = true;   // the engine: continue what lies behind near things under their soft edges
+
+    bool operator==(const GatherOptions&) const = default;
 };
 
 enum class GaussianStyle {
@@ -70,6 +72,8 @@ struct GaussianOptions {
     std::optional<double> depth_offset;
     // Wgld: depths that become 0 and 1; both 0: the nearest and farthest of the picture.
     double depth_near_m = 0, depth_far_m = 0;
+
+    bool operator==(const GaussianOptions&) const = default;
 };
 
 enum class SpriteBackground { Gather, Gaussian };
@@ -78,6 +82,8 @@ struct SpriteOptions {
     SpriteBackground background = SpriteBackground::Gather;  // what everything else is drawn by
     bool find = true;          // also draw the picture's own bright points as kernels
     double bright_factor = 3;  // of its surroundings: from where on light is a bright point; > 0
+
+    bool operator==(const SpriteOptions&) const = default;
 };
 
 }  // namespace petzval

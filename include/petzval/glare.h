@@ -27,7 +27,7 @@ enum class LensCoating {
 };
 
 // All amounts 0: the picture comes back bit for bit. Their sum may not exceed 1.
-struct GlareSettings {
+struct GlareAmounts {
     // Gaussian layers, each twice as wide as the one before and all of equal light, so that the glow falls
     // about as 1/r^2; of the whole picture.
     double bloom = 0;
@@ -37,9 +37,6 @@ struct GlareSettings {
     // 2n for an odd one. Needs lens.aperture.blades.
     double star = 0;
     double star_radius = 0.5;  // where a star's red light ends, share of the picture's height
-    // 550 nm times the f-number, in pixels: the grain of the diffraction pattern. 0 or less than the finest
-    // that is computed (about star_radius / 500 of the height): that finest, whose grain does not show.
-    double diffraction_px = 0;
     StarQuality star_quality = StarQuality::Final;
 
     // Reflections between surfaces, of the light above `threshold`. lens.name is a prescription: paraxial
@@ -47,7 +44,6 @@ struct GlareSettings {
     // upright copies of the lights on the line through the centre (M. Kawase, GDC 2003).
     double ghosts = 0;
     LensCoating coating = LensCoating::SingleLayer;
-    Camera camera;  // for the ghosts of a prescription: all four numbers
 
     double veil = 0;  // spread evenly over the picture
 
@@ -55,6 +51,15 @@ struct GlareSettings {
     // channel. 1 is diffuse white: a matt surface in the scene's own light throws no stars. >= 0.
     double threshold = 1;
 
+    bool operator==(const GlareAmounts&) const = default;
+};
+
+// And what it depends on in the shot.
+struct GlareSettings : GlareAmounts {
+    // 550 nm times the f-number, in pixels: the grain of the diffraction pattern. 0 or less than the finest
+    // that is computed (about star_radius / 500 of the height): that finest, whose grain does not show.
+    double diffraction_px = 0;
+    Camera camera;    // for the ghosts of a prescription: all four numbers
     LensChoice lens;  // the aperture, and the prescription for ghosts
     // Where the pixels lie in the frame; empty: the picture is the frame. Shares of height are of the display
     // window's, ghosts mirror about its centre.

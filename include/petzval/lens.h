@@ -20,18 +20,24 @@ struct ApertureShape {
     // > 0: the f-number at which the iris is fully open and round; its blades straighten towards `curvature`
     // over the first stop and a half.
     double round_at_f_number = 0;
+
+    bool operator==(const ApertureShape&) const = default;
 };
 
 // A circular rim of the barrel, a hood or a filter ring, in front of the entrance pupil (distance > 0) or
 // behind.
 struct BarrelRim {
     double radius_mm = 0, distance_mm = 0;
+
+    bool operator==(const BarrelRim&) const = default;
 };
 
 // How far each door of a matte box reaches over the pupil from its side, in pupil radii: 0 open, 1 half
 // covered.
 struct BarnDoors {
     double left = 0, right = 0, top = 0, bottom = 0;  // as seen in the far (upright) disc
+
+    bool operator==(const BarnDoors&) const = default;
 };
 
 // What lies in the pupil; seen best in large discs. Strengths 0 (none) to 1.
@@ -42,12 +48,16 @@ struct PupilTexture {
     double dust = 0, scratches = 0;
     double onion_rings = 0;  // turning marks of moulded aspheres
     std::uint64_t seed = 1;  // where dust, scratches and rings lie
+
+    bool operator==(const PupilTexture&) const = default;
 };
 
 // A disc photographed or drawn, used as it is instead of a lens; the circle it shows fills the picture. Far:
 // upright. Without `near`, discs in front of focus are the far one turned by 180 degrees.
 struct KernelImages {
     std::shared_ptr<const Picture> far, near;  // both null: none
+
+    bool operator==(const KernelImages&) const = default;
 };
 
 // Where the sensor is put, which spherical aberration and colour leave open.
@@ -82,6 +92,8 @@ struct LensChoice {
     double distortion = 0;
     int wavelengths = 0;  // bands of the spectrum; 0: as many as the kernel needs to be smooth
     bool wave = false;    // diffraction: rings in discs of small sensors, spikes of blades; slow
+
+    bool operator==(const LensChoice&) const = default;
 };
 
 }  // namespace petzval

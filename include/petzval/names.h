@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace petzval {
 
@@ -77,5 +78,8 @@ requires std::is_enum_v<E> Result<E> parse(const std::string& text) {
     }
     return Error{ErrorCode::InvalidArgument, "not one of " + all};
 }
+
+// " (did you mean X?)" where one of the known words is near the given one, else nothing. For messages.
+PETZVAL_API std::string did_you_mean(const std::string& given, const std::vector<std::string>& known);
 
 }  // namespace petzval

@@ -15,6 +15,8 @@
 #include "petzval/lens.h"
 #include "petzval/lens_facts.h"
 #include "petzval/lens_kernel.h"
+#include "petzval/look.h"
+#include "petzval/look_json.h"
 #include "petzval/names.h"
 #include "petzval/result.h"
 #include "petzval/version.h"

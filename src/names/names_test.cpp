@@ -45,5 +45,15 @@ TEST(Names, WhatIsNotThereIsRefusedWithAllThatIs) {
     EXPECT_FALSE(parse<Quality>("Draft"));
 }
 
+TEST(DidYouMean, NamesWhatIsNearAndNothingElse) {
+    const std::vector<std::string> known{"--blades", "--blade-rotation", "--coma", "doublet"};
+    EXPECT_EQ(did_you_mean("--blade", known), " (did you mean --blades?)");
+    EXPECT_EQ(did_you_mean("--comma", known), " (did you mean --coma?)");
+    EXPECT_EQ(did_you_mean("dublet", known), " (did you mean doublet?)");
+    EXPECT_EQ(did_you_mean("--zebra", known), "");
+    EXPECT_EQ(did_you_mean("", known), "");
+    EXPECT_EQ(did_you_mean("x", {}), "");
+}
+
 }  // namespace
 }  // namespace petzval

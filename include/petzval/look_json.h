@@ -1,0 +1,26 @@
+// A look as text, to keep, to send and to compare: JSON, one key a field, in sections.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/look.h"
+#include "petzval/result.h"
+
+#include <string>
+
+namespace petzval {
+
+// The form that look_to_json writes, under the key "petzval_look".
+constexpr int kLookVersion = 1;
+
+// Every field, also those at their defaults, so that the text means the same where defaults have changed.
+// Indented, ends with a newline. Infinity is the word "inf".
+PETZVAL_API std::string look_to_json(const Look& look);
+
+// The other way: keys that are left out keep their defaults. look_from_json(look_to_json(look)) is `look`,
+// bit for bit, but for pictures and views. Errors: InvalidFile for text that is no JSON, is no look or comes
+// from a later version, for an unknown key (with the known one that it resembles), a key given twice, a value
+// of the wrong type; the message names the key by its path, as lens.blades. Whether values fit each other is
+// said by check().
+PETZVAL_API Result<Look> look_from_json(const std::string& text);
+
+}  // namespace petzval
