@@ -7,6 +7,7 @@
 #include "petzval/defocus.h"
 #include "petzval/files.h"
 #include "petzval/names.h"
+#include "petzval/session.h"
 
 #include <algorithm>
 #include <chrono>
@@ -161,22 +162,20 @@ int main(int count, char** words) {
     job.lens.name = options.lens;
     job.engine = options.engine;
     job.quality = options.quality;
-    job.threads = options.threads;
     job.pupil_points = options.pupil_points;
     *frame = Frame{};
     const Result<Plane> at_f1 = circle_of_confusion(job);
     if (!at_f1) fail(at_f1.error().message);
     job.camera.f_number = largest(*at_f1) / options.radius_px;  // radii go with 1/f-number
 
-    KernelMemory kernels;
-    job.kernel_memory = &kernels;
+    Session session({.threads = options.threads});
     Measured measured;
     for (int run = 0; run < options.repeat; ++run) {
         forget_peak_memory();
         const auto start = std::chrono::steady_clock::now();
         const double cpu_start = cpu_seconds();
-        job.progress = [&](double) { return cpu_seconds() - cpu_start < options.limit_s; };
-        const Result<DefocusReport> report = defocus(job);
+        const auto in_time = [&](double) { return cpu_seconds() - cpu_start < options.limit_s; };
+        const Result<DefocusReport> report = session.defocus(job, {.progress = in_time});
         const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (!report && report.error().code != ErrorCode::Cancelled) fail(report.error().message);
         if (!report) {

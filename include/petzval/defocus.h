@@ -20,23 +20,6 @@
 
 namespace petzval {
 
-// The lens and its kernels as one job left them, for the next job with the same lens, camera, frame, engine
-// and quality: they are then not made again. Of another job it is emptied first. The result never depends on
-// it. Used by one job at a time.
-class PETZVAL_API KernelMemory {
-public:
-    KernelMemory();
-    ~KernelMemory();
-    KernelMemory(const KernelMemory&) = delete;
-    KernelMemory& operator=(const KernelMemory&) = delete;
-
-    struct Contents;
-    Contents& contents() { return *contents_; }
-
-private:
-    std::unique_ptr<Contents> contents_;
-};
-
 struct DefocusJob {
     View<const Rgba> colour;  // scene-linear, premultiplied
     View<const float>
@@ -73,8 +56,7 @@ struct DefocusJob {
     // not used longest go first; empty: none. The result never depends on it.
     std::string kernel_cache_folder;
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
-    KernelMemory* kernel_memory = nullptr;  // outlives the job; null: nothing is kept
-    std::function<bool(double)> progress;   // share done 0…1, one call at a time; false cancels
+    std::function<bool(double)> progress;  // share done 0…1, one call at a time; false cancels
 };
 
 struct DefocusReport {
@@ -89,9 +71,10 @@ struct DefocusReport {
 
 PETZVAL_API std::vector<std::string> engine_names();
 
-// Errors: InvalidArgument (sizes differ, empty picture, camera numbers, unknown engine or lens: the message
-// names the field and what would be accepted), OutOfMemory, Cancelled. Never throws anything but
-// std::bad_alloc. Non-finite colour counts as 0; non-finite depth as a miss.
+// A session of one frame (petzval/session.h). Errors: InvalidArgument (sizes differ, empty picture, camera
+// numbers, unknown engine or lens: the message names the field and what would be accepted), OutOfMemory,
+// Cancelled. Never throws anything but std::bad_alloc. Non-finite colour counts as 0; non-finite depth as a
+// miss.
 PETZVAL_API Result<DefocusReport> defocus(const DefocusJob& job);
 
 // The signed radius of every pixel, as the engines see it. Same errors as defocus().

@@ -19,4 +19,5 @@
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 #include "petzval/result.h"
+#include "petzval/session.h"
 #include "petzval/version.h"

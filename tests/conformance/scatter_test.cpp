@@ -220,28 +220,6 @@ TEST(Scatter, StagesCountWhatTheyTouch) {
     EXPECT_LE(count(lamp, "highlights").multiply_adds, 4u * 21 * 21);
 }
 
-TEST(Scatter, TheSameBitsWithKernelsKeptFromThePictureBefore) {
-    Shot first = flat(90, 70, {}, 6), second = flat(90, 70, {}, -11);
-    paint_noise(first.colour, 5), paint_noise(second.colour, 6);
-    second.colour(40, 30) = {900, 60, 20, 1};
-    KernelMemory memory;
-    const auto with_lens = [&](const Shot& shot, const char* lens, KernelMemory* kept) {
-        DefocusJob job = shot.job("scatter");
-        job.lens.name = lens, job.camera = {50, 36, 2, 3}, job.kernel_memory = kept;
-        return rendered(job);
-    };
-    for (const char* lens : {"doublet", "uncorrected", "ideal"})
-        for (const Shot* shot : {&first, &second, &first})
-            EXPECT_EQ(largest_difference(with_lens(*shot, lens, &memory), with_lens(*shot, lens, nullptr)), 0)
-                << lens;
-    // Another quality, and another lens, are other kernels.
-    DefocusJob job = second.job("scatter");
-    job.kernel_memory = &memory, job.quality = Quality::Draft;
-    const Picture kept = rendered(job);
-    job.kernel_memory = nullptr;
-    EXPECT_EQ(largest_difference(kept, rendered(job)), 0);
-}
-
 TEST(Scatter, ALightIsNotInTheShadowOfTheSurfaceItStandsOn) {
     // The surface leans by 0.15 px of radius from left to right: no ray from it meets it again.
     Shot shot = flat(120, 90, {0.02f, 0.02f, 0.02f, 1}, 0);

@@ -207,10 +207,8 @@ Result<Output> run_scatter(const Input& input) {
     Output output;
     Stopwatch watch(output.stages);
     const LevelRule rule = level_rule(input);
-    std::unique_ptr<KeptKernels> own;
-    std::unique_ptr<KeptKernels>& kept = input.kept_kernels ? *input.kept_kernels : own;
-    if (!kept) kept = std::make_unique<ScatterKernels>(input, rule);
-    const auto& kernels = dynamic_cast<const ScatterKernels&>(*kept);
+    const auto& kernels = input.kept_kernels->get<ScatterKernels>(
+        [&] { return std::make_unique<ScatterKernels>(input, rule); });
     if (input.plan_reader) {
         ScatterRun(input, rule, kernels, watch).show(*input.plan_reader);
         if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};

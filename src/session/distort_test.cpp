@@ -1,4 +1,4 @@
-#include "api/distort.h"
+#include "session/distort.h"
 
 #include "petzval/defocus.h"
 #include "petzval/lens_kernel.h"

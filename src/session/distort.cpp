@@ -1,4 +1,4 @@
-#include "api/distort.h"
+#include "session/distort.h"
 
 #include "base/parallel.h"
 

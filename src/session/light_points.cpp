@@ -1,4 +1,4 @@
-#include "api/light_points.h"
+#include "session/light_points.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "api/engines.h"
+#include "session/engines.h"
 
 #include "engine/gather/gather.h"
 #include "engine/gaussian/gaussian.h"

@@ -1,0 +1,47 @@
+// What outlives a frame: workers, kernels, one memory budget. `petzval::defocus(job)` is a session of one
+// frame.
+#pragma once
+
+#include "petzval/defocus.h"
+#include "petzval/export.h"
+#include "petzval/result.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace petzval {
+
+struct SessionSettings {
+    int threads = 0;                   // 0: all this process may use
+    std::size_t max_memory_bytes = 0;  // 0: no limit
+    // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those
+    // not used longest go first; empty: none.
+    std::string kernel_cache_folder = {};
+    std::size_t kernel_cache_bytes = std::size_t(1) << 30;
+};
+
+// How one frame is made.
+struct Control {
+    std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
+};
+
+// Used by any number of threads at once; frames that are made at the same time share what is kept. Results
+// depend neither on what was made before nor on what is made beside.
+class PETZVAL_API Session {
+public:
+    explicit Session(SessionSettings settings = {});
+    ~Session();
+    Session(Session&&) noexcept;
+    Session& operator=(Session&&) noexcept;
+
+    // The settings of the session stand in place of the job's own. Errors: those of petzval::defocus().
+    Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
+
+private:
+    struct Contents;
+    std::unique_ptr<Contents> contents_;
+};
+
+}  // namespace petzval

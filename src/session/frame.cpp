@@ -1,0 +1,161 @@
+#include "session/frame.h"
+
+#include "base/parallel.h"
+#include "engine/samples/all_samples.h"
+#include "engine/samples/deep_samples.h"
+#include "engine/samples/out_of_sight.h"
+#include "session/light_points.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <sstream>
+
+namespace petzval {
+namespace {
+
+// Radii beyond any picture are as good as this; keeps all arithmetic finite.
+constexpr float kLargestRadiusPx = 16384;
+
+Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+float finite_radius(double radius_px) {
+    if (std::isnan(radius_px)) return 0;
+    return float(std::clamp(radius_px, double(-kLargestRadiusPx), double(kLargestRadiusPx)));
+}
+
+bool is_finite(View<const Rgba> colour, int threads) {
+    std::atomic<bool> finite{true};
+    parallel_for(colour.height(), threads, [&](int y) {
+        bool row_finite = true;
+        for (int x = 0; x < colour.width(); ++x)
+            row_finite = row_finite && engine::finite_colour(colour(x, y)) == colour(x, y);
+        if (!row_finite) finite = false;
+    });
+    return finite;
+}
+
+Picture finite_picture(View<const Rgba> colour, int threads) {
+    Picture picture = Picture::uninitialised(colour.width(), colour.height());
+    parallel_for(colour.height(), threads, [&](int y) {
+        for (int x = 0; x < colour.width(); ++x) picture(x, y) = engine::finite_colour(colour(x, y));
+    });
+    return picture;
+}
+
+// An edge of the data window that lies inside the display window is the end of the scene; any other edge is
+// only where the render stopped.
+engine::OpenEdges open_edges(const DefocusJob& job) {
+    const Rect& display = job.display_window;
+    const Rect& data = job.data_window;
+    return {data.x0 <= display.x0, data.y0 <= display.y0, data.x1 >= display.x1, data.y1 >= display.y1};
+}
+
+}  // namespace
+
+Result<Radii> Radii::make(const DefocusJob& job) {
+    Radii radii;
+    if (job.depth_is_coc) return radii;
+    const auto coc = CircleOfConfusion::make(job.camera, job.display_window.width(), job.coc);
+    if (!coc) return coc.error();
+    radii.coc_ = coc.value();
+    return radii;
+}
+
+float Radii::operator()(float depth) const {
+    return finite_radius(coc_ ? coc_->radius_px(engine::finite_depth(double(depth))) : double(depth));
+}
+
+float Radii::at_infinity_px() const { return coc_ ? finite_radius(coc_->radius_at_infinity_px()) : 0; }
+
+Plane Radii::of(View<const float> depth, int threads) const {
+    Plane plane = Plane::uninitialised(depth.width(), depth.height());
+    parallel_for(depth.height(), threads, [&](int y) {
+        for (int x = 0; x < depth.width(); ++x) plane(x, y) = (*this)(depth(x, y));
+    });
+    return plane;
+}
+
+Status check_job(const DefocusJob& job) {
+    if (job.colour.empty()) return invalid("the picture is empty");
+    if (job.depth_m.width() != job.colour.width() || job.depth_m.height() != job.colour.height()) {
+        std::ostringstream text;
+        text << "depth is " << job.depth_m.width() << "x" << job.depth_m.height() << " and colour "
+             << job.colour.width() << "x" << job.colour.height() << "; they must be of one size";
+        return invalid(text.str());
+    }
+    for (const DeepPicture* deep : {job.deep, job.behind, job.holdout})
+        if (deep && !deep->empty() &&
+            (deep->width() != job.colour.width() || deep->height() != job.colour.height()))
+            return invalid("the deep samples, hidden layers or holdout are not of the picture's size");
+    if (job.display_window.empty()) return invalid("the display window is empty");
+    if (!(job.pixel_aspect > 0) || !std::isfinite(job.pixel_aspect))
+        return invalid("the pixel aspect ratio must be positive");
+    if (job.points && !job.points->empty() && job.engine != "sprites")
+        return invalid("given points are drawn by --engine sprites, not " + job.engine);
+    if (job.scatter.view != ScatterView::Result && job.engine != "scatter")
+        return invalid("layers, levels of detail and highlights are those of --engine scatter, not " +
+                       job.engine);
+    if (!(job.sprites.bright_factor > 0)) return invalid("--bright-factor must be more than 0");
+    if (job.pupil_points < 1) return invalid("--pupil-points must be at least 1");
+    return Done{};
+}
+
+PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double lens_reach_px)
+    : coc_px_(radii.of(job.depth_m, job.threads)) {
+    input.colour = job.colour;
+    if (!is_finite(job.colour, job.threads))
+        input.colour = repaired_ = finite_picture(job.colour, job.threads);
+    input.coc_px = coc_px_;
+    take_samples(job, radii, lens_reach_px);
+    note_radii();
+    place_in_field(job);
+    input.open_edges = open_edges(job);
+    input.frame_height = job.colour.height();
+    input.quality = job.quality;
+    input.pupil_points = job.pupil_points;
+    input.gather = job.gather;
+    input.gaussian = job.gaussian;
+    input.sprites = job.sprites;
+    points_ = drawable_points(
+        job, [&](float depth_m) { return radii(depth_m); }, warnings);
+    input.points = points_;
+    if (!job.depth_is_coc) {
+        input.depth_m = job.depth_m;
+        input.focus_distance_m = job.camera.focus_distance_m;
+    }
+    input.radius_at_infinity_px = radii.at_infinity_px();
+    input.threads = job.threads;
+    input.max_memory_bytes = job.max_memory_bytes;
+    input.seed = job.seed;
+}
+
+void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, double lens_reach_px) {
+    samples_ = engine::all_samples({input.colour, job.depth_m, job.depth_is_coc, job.deep, job.behind, radii},
+                                   job.threads);
+    if (job.scatter.view != ScatterView::Layers)  // shows them all
+        engine::drop_out_of_sight(samples_, lens_reach_px, job.threads);
+    if (!samples_.first.empty()) input.deep = samples_;
+    input.deep_dims_itself = job.deep && !job.deep->empty();
+    if (job.holdout && !job.holdout->empty())
+        input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, job.depth_is_coc, job.threads);
+}
+
+void PreparedFrame::note_radii() {
+    const auto note = [&](float radius_px) {
+        input.nearest_coc_px = std::min(input.nearest_coc_px, radius_px);
+        input.farthest_coc_px = std::max(input.farthest_coc_px, radius_px);
+    };
+    for (std::size_t i = 0; i < coc_px_.size(); ++i) note(coc_px_.pixels()[i]);
+    for (const engine::CocSample& sample : samples_.samples) note(sample.coc_px);
+}
+
+void PreparedFrame::place_in_field(const DefocusJob& job) {
+    const Rect& display = job.display_window;
+    input.field_centre_x = 0.5 * (display.x0 + display.x1) - job.data_window.x0;
+    input.field_centre_y = 0.5 * (display.y0 + display.y1) - job.data_window.y0;
+    input.field_per_px = 2 / std::hypot(display.width(), display.height() / job.pixel_aspect);
+    input.pixel_aspect = job.pixel_aspect;
+}
+
+}  // namespace petzval

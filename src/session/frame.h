@@ -1,0 +1,54 @@
+// From a job as a user states it to the input of an engine: checks, circles of confusion, samples.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/defocus.h"
+
+#include "engine/waist/engine.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// The radius of every pixel of a depth plane: by the camera, or as given.
+class Radii {
+public:
+    // Errors: those of CircleOfConfusion::make.
+    static Result<Radii> make(const DefocusJob& job);
+    float operator()(float depth) const;
+    float at_infinity_px() const;  // 0 where radii are given
+    Plane of(View<const float> depth, int threads) const;
+
+private:
+    std::optional<CircleOfConfusion> coc_;
+};
+
+// Errors: InvalidArgument naming what is wrong with the sizes, windows or numbers of a job.
+Status check_job(const DefocusJob& job);
+
+// The input of an engine with everything that it looks at. Stays where it was made: the input points into it.
+class PreparedFrame {
+public:
+    // lens_reach_px: how far light of a point with a radius of one pixel lands. Requires: check_job(job).
+    PreparedFrame(const DefocusJob& job, const Radii& radii, double lens_reach_px);
+    PreparedFrame(const PreparedFrame&) = delete;
+    PreparedFrame& operator=(const PreparedFrame&) = delete;
+
+    engine::Input input;
+    std::vector<std::string> warnings;
+
+private:
+    void take_samples(const DefocusJob& job, const Radii& radii, double lens_reach_px);
+    void note_radii();
+    void place_in_field(const DefocusJob& job);
+
+    Picture repaired_;  // stays empty for a picture that needs no repair
+    Plane coc_px_;
+    engine::CocSamples samples_, holdout_;
+    std::vector<LightPoint> points_;
+};
+
+}  // namespace petzval

@@ -1,0 +1,72 @@
+#include "session/mounted_lens.h"
+
+#include "kernel/keep/remembered_lens.h"
+#include "kernel/lenses/make_lens.h"
+
+namespace petzval {
+
+kernel::Mount mount_of(const DefocusJob& job) {
+    return {job.camera, job.display_window.width(), job.display_window.height(), job.pixel_aspect};
+}
+
+LensChoice lens_before_distortion(const DefocusJob& job) {
+    LensChoice lens = job.lens;
+    lens.distortion = 0;
+    return lens;
+}
+
+Status check_distortion(const DefocusJob& job) {
+    if (job.lens.distortion == 0) return Done{};
+    const auto lens = kernel::make_lens(job.lens, mount_of(job));
+    return lens ? Status(Done{}) : lens.error();
+}
+
+namespace {
+
+using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
+
+// The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
+Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store) {
+    constexpr std::size_t kRememberedBytes = std::size_t(48) << 20;
+    constexpr int kLevels =
+        13;  // the largest radius in cells of the last one is 4, fewer than any engine needs
+    auto levels = kernel::make_lens_levels(lens_before_distortion(job), mount_of(job), kLevels);
+    if (!levels) return levels;
+    for (std::size_t i = 0; i < levels->size(); ++i) {
+        auto& lens = (*levels)[i];
+        if (store) lens = kernel::kept(std::move(lens), store, int(i));
+        lens = kernel::remembered(std::move(lens), kRememberedBytes);
+    }
+    return levels;
+}
+
+// Null where nothing is to be kept. The reference engine asks for a new radius with every point of light.
+std::shared_ptr<kernel::KernelStore> store_for(const DefocusJob& job) {
+    if (job.kernel_cache_folder.empty() || job.engine == "reference") return nullptr;
+    return std::make_shared<kernel::KernelStore>(job.kernel_cache_folder,
+                                                 kernel::lens_key(lens_before_distortion(job), mount_of(job)),
+                                                 job.kernel_cache_bytes);
+}
+
+}  // namespace
+
+Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job) {
+    auto mounted = std::make_shared<MountedLens>();
+    mounted->store = store_for(job);
+    auto levels = lens_levels(job, mounted->store);
+    if (!levels) return levels.error();
+    mounted->levels = std::move(*levels);
+    return mounted;
+}
+
+std::string MountedLens::key_of(const DefocusJob& job) {
+    std::string key = kernel::lens_key(lens_before_distortion(job), mount_of(job));
+    if (key.empty()) return key;
+    const Rect &display = job.display_window, &data = job.data_window;
+    for (const int n : {display.x0, display.y0, display.x1, display.y1, data.x0, data.y0, data.x1, data.y1,
+                        int(job.quality)})
+        key += " " + std::to_string(n);
+    return key + " " + job.engine + " " + job.kernel_cache_folder;
+}
+
+}  // namespace petzval

@@ -1,0 +1,36 @@
+// A lens on a camera, for pictures of one size and quality: its levels, and the kernels that an engine made
+// of it.
+#pragma once
+
+#include "petzval/defocus.h"
+
+#include "engine/waist/engine.h"
+#include "kernel/keep/kernel_store.h"
+#include "kernel/model/lens_model.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+kernel::Mount mount_of(const DefocusJob& job);
+// The lens as engines see it: distortion comes last, of discs and picture at once.
+LensChoice lens_before_distortion(const DefocusJob& job);
+
+// Whether this lens can have the distortion asked for. Errors: those of the lens.
+Status check_distortion(const DefocusJob& job);
+
+struct MountedLens {
+    // On the picture's pixels and coarser ones, for engines that work at several resolutions. Errors: those
+    // of the lens.
+    static Result<std::shared_ptr<MountedLens>> make(const DefocusJob& job);
+    // Everything that decides what an engine's kernels are; empty if it cannot be told.
+    static std::string key_of(const DefocusJob& job);
+
+    std::shared_ptr<kernel::KernelStore> store;  // on disk; null: none
+    std::vector<std::unique_ptr<const kernel::LensModel>> levels;
+    engine::KernelSlot kernels;  // of `levels`
+};
+
+}  // namespace petzval

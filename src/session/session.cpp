@@ -1,0 +1,172 @@
+// What outlives a frame, and the order of one: lens, samples, engine, distortion, report.
+#include "petzval/session.h"
+
+#include "engine/waist/memory.h"
+#include "session/distort.h"
+#include "session/engines.h"
+#include "session/frame.h"
+#include "session/mounted_lens.h"
+#include "views/plan_view.h"
+
+#include <chrono>
+#include <list>
+#include <mutex>
+#include <utility>
+
+namespace petzval {
+namespace {
+
+Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+// Errors: InvalidArgument, with the names that would do.
+Result<const engine::Engine*> find_engine(const DefocusJob& job) {
+    std::string known;
+    for (const engine::Engine& e : engine::engines()) {
+        if (job.engine != e.name) {
+            known += (known.empty() ? "" : ", ") + std::string(e.name);
+            continue;
+        }
+        if (job.holdout && !e.takes_holdout)
+            return invalid("--engine " + job.engine + " takes no holdout; scatter and reference do");
+        return &e;
+    }
+    return invalid("--engine " + job.engine + " is not known; there are: " + known);
+}
+
+class Clock {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// A job as a session makes it: with the settings of the session and the control of the frame.
+DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, const Control& control) {
+    job.threads = s.threads;
+    job.max_memory_bytes = s.max_memory_bytes;
+    job.kernel_cache_folder = s.kernel_cache_folder;
+    job.kernel_cache_bytes = s.kernel_cache_bytes;
+    job.progress = control.progress;
+    return job;
+}
+
+Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& chosen, const Radii& radii,
+                                 MountedLens& lens, const Clock& clock) {
+    const double lens_ready = clock.seconds();
+    Progress progress(job.progress);
+    PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
+    engine::Input& input = frame.input;
+    input.lens_levels = lens.levels;
+    input.kept_kernels = &lens.kernels;
+    input.progress = &progress;
+    const std::unique_ptr<views::PlanView> view = views::plan_view(job.scatter.view);
+    if (view) {
+        const std::string name = std::string("--view ") + views::name_of(job.scatter.view);
+        if (const Status fits = engine::fits_memory(input, views::kBytesPerPixel, name); !fits)
+            return fits.error();
+        input.plan_reader = view.get();
+    }
+    const double prepared = clock.seconds();
+
+    Result<engine::Output> output = chosen.run(input);
+    if (!output) return output.error();
+    DefocusReport report;
+    report.image = std::move(output->image);
+    if (view) {
+        views::Shown shown = view->take();
+        report.image = std::move(shown.image);
+        report.panels = std::move(shown.panels);
+        output->warnings = std::move(shown.warnings);
+    }
+    if (job.lens.distortion != 0 && report.panels.empty())
+        report.image = distorted(
+            report.image, {input.field_centre_x, input.field_centre_y, input.field_per_px, job.pixel_aspect},
+            job.lens.distortion, job.threads);
+    report.engine = chosen.name;
+    report.device = "cpu";
+    report.lens = lens.levels.front()->description();
+    report.kernels_from_cache = lens.store ? lens.store->kernels_found() : 0;
+    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
+    report.stages = {{"kernels", lens_ready},
+                     {"prepare", prepared - lens_ready, pixels * (sizeof(Rgba) + 2 * sizeof(float))}};
+    report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
+    report.warnings = std::move(frame.warnings);
+    report.warnings.insert(report.warnings.end(), output->warnings.begin(), output->warnings.end());
+    report.largest_radius_px = double(input.farthest_coc_px);
+    report.smallest_radius_px = double(input.nearest_coc_px);
+    return report;
+}
+
+}  // namespace
+
+// Lenses that frames used, the last one first. Frames hold what they use, so that it may be let go of any
+// time.
+struct Session::Contents {
+    explicit Contents(SessionSettings s) : settings(std::move(s)) {}
+
+    SessionSettings settings;
+    std::mutex mutex;  // of all below
+    std::list<std::pair<std::string, std::shared_ptr<MountedLens>>> lenses;
+
+    // Errors: those of the lens.
+    Result<std::shared_ptr<MountedLens>> lens_for(const DefocusJob& job) {
+        constexpr std::size_t kMostLenses = 4;
+        const std::string key = MountedLens::key_of(job);
+        if (!key.empty()) {
+            const std::lock_guard lock(mutex);
+            for (auto i = lenses.begin(); i != lenses.end(); ++i) {
+                if (i->first != key) continue;
+                lenses.splice(lenses.begin(), lenses, i);
+                return i->second;
+            }
+        }
+        auto made = MountedLens::make(job);
+        if (!made || key.empty()) return made;
+        const std::lock_guard lock(mutex);
+        lenses.emplace_front(key, *made);
+        while (lenses.size() > kMostLenses) lenses.pop_back();
+        return made;
+    }
+};
+
+Session::Session(SessionSettings settings) : contents_(std::make_unique<Contents>(std::move(settings))) {}
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+Result<DefocusReport> Session::defocus(const DefocusJob& asked, const Control& control) {
+    const Clock clock;
+    const DefocusJob job = job_of_session(asked, contents_->settings, control);
+    if (const Status status = check_job(job); !status) return status.error();
+    const auto engine = find_engine(job);
+    if (!engine) return engine.error();
+    const auto radii = Radii::make(job);
+    if (!radii) return radii.error();
+    if (const Status status = check_distortion(job); !status) return status.error();
+    auto lens = contents_->lens_for(job);
+    if (!lens) return lens.error();
+    return made_frame(job, **engine, *radii, **lens, clock);
+}
+
+std::vector<std::string> engine_names() {
+    std::vector<std::string> names;
+    for (const engine::Engine& e : engine::engines()) names.emplace_back(e.name);
+    return names;
+}
+
+Result<Plane> circle_of_confusion(const DefocusJob& job) {
+    if (const Status status = check_job(job); !status) return status.error();
+    const auto radii = Radii::make(job);
+    if (!radii) return radii.error();
+    return radii->of(job.depth_m, job.threads);
+}
+
+Result<DefocusReport> defocus(const DefocusJob& job) {
+    Session session({job.threads, job.max_memory_bytes, job.kernel_cache_folder, job.kernel_cache_bytes});
+    return session.defocus(job, {.progress = job.progress});
+}
+
+}  // namespace petzval

@@ -1,0 +1,76 @@
+// What outlives a frame never shows in one: sessions against frames made alone, for every engine.
+#include "petzval/session.h"
+
+#include "shots.h"
+
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace petzval::conformance {
+namespace {
+
+DefocusJob with_lens(const Shot& shot, const std::string& engine, const char* lens) {
+    DefocusJob job = shot.job(engine);
+    job.lens.name = lens;
+    job.camera = {50, 36, 2, 3};
+    job.pupil_points = 16;
+    return job;
+}
+
+Picture through(Session& session, const DefocusJob& job) {
+    auto report = session.defocus(job);
+    EXPECT_TRUE(report) << report.error().message;
+    return report ? std::move(report->image) : Picture();
+}
+
+// Two frames of noise and a lamp, at different radii.
+struct TwoFrames {
+    Shot first = flat(90, 70, {}, 6), second = flat(90, 70, {}, -11);
+    TwoFrames() {
+        paint_noise(first.colour, 5);
+        paint_noise(second.colour, 6);
+        second.colour(40, 30) = {900, 60, 20, 1};
+    }
+};
+
+class EverySession : public testing::TestWithParam<std::string> {};
+
+TEST_P(EverySession, GivesTheBitsOfFramesMadeAlone) {
+    const TwoFrames frames;
+    Session session;
+    for (const char* lens : {"doublet", "uncorrected", "ideal"})
+        for (const Shot* shot : {&frames.first, &frames.second, &frames.first}) {
+            const DefocusJob job = with_lens(*shot, GetParam(), lens);
+            EXPECT_EQ(largest_difference(through(session, job), rendered(job)), 0) << lens;
+        }
+    // Another quality, and a lens stopped down, are other kernels.
+    DefocusJob job = with_lens(frames.second, GetParam(), "doublet");
+    job.quality = Quality::Draft;
+    EXPECT_EQ(largest_difference(through(session, job), rendered(job)), 0);
+    job.camera.f_number = 4;
+    EXPECT_EQ(largest_difference(through(session, job), rendered(job)), 0);
+}
+
+TEST_P(EverySession, MakesTwoFramesAtOnce) {
+    const TwoFrames frames;
+    Session session;
+    const DefocusJob first = with_lens(frames.first, GetParam(), "doublet"),
+                     second = with_lens(frames.second, GetParam(), "doublet");
+    Picture made_first, made_second;
+    {
+        std::thread beside([&] { made_first = through(session, first); });
+        made_second = through(session, second);
+        beside.join();
+    }
+    EXPECT_EQ(largest_difference(made_first, rendered(first)), 0);
+    EXPECT_EQ(largest_difference(made_second, rendered(second)), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, EverySession, testing::ValuesIn(engine_names()),
+                         [](const auto& engine) { return engine.param; });
+
+}  // namespace
+}  // namespace petzval::conformance
