@@ -27,6 +27,17 @@ Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width) {
     return mesh;
 }
 
+Mesh bush(Vec3 centre, Vec3 radii, float rough) {
+    Mesh mesh = sphere(centre, radii, 30, 18);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Vec3 from = mesh.positions[i] - centre;
+        const Vec3 on_sphere{from.x / radii.x, from.y / radii.y, from.z / radii.z};
+        const float bulge = fractal_noise(3.1f * on_sphere + 1.7f * centre, 3);
+        mesh.positions[i] = centre + from * (1 + rough * bulge);
+    }
+    return mesh;
+}
+
 void add_twig(World& world, Vec3 from, Vec3 to, int leaves, const Foliage& foliage, std::uint32_t seed) {
     const auto on_branch = [&](float t) {
         const Vec3 sway{0.01f * std::sin(9 * t), 0.06f * t * (1 - t), 0.012f * std::sin(7 * t)};

@@ -10,6 +10,9 @@ namespace petzval::scene {
 // A leaf from its stalk to `tip`, bent and a little folded along its middle; u runs across, v along.
 Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width);
 
+// A crown or a bush: a closed body with dents and bulges `rough` of its size.
+Mesh bush(Vec3 centre, Vec3 radii, float rough);
+
 struct Foliage {
     Vec3 stem, leaf_at_stalk, leaf_at_tip;  // albedos
     float leaf_length_m = 0.04f;

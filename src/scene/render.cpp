@@ -12,8 +12,8 @@ namespace scene {
 namespace {
 
 const std::vector<BuiltInScene>& built_in_scenes() {
-    static const std::vector<BuiltInScene> scenes{night(), fence(),         table(),   slant(),
-                                                  bars(),  dynamic_range(), lanterns()};
+    static const std::vector<BuiltInScene> scenes{night(),         fence(),    table(), slant(), bars(),
+                                                  dynamic_range(), lanterns(), hair(),  post(),  meadow()};
     return scenes;
 }
 

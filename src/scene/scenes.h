@@ -20,6 +20,9 @@ BuiltInScene slant();
 BuiltInScene bars();
 BuiltInScene dynamic_range();
 BuiltInScene lanterns();
+BuiltInScene hair();
+BuiltInScene post();
+BuiltInScene meadow();
 
 // The three passes over a world that was committed.
 Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings);
