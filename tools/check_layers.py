@@ -31,7 +31,7 @@ ALLOWED = {
     "engine/gather": WAIST,
     "engine/gaussian": WAIST,
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
-    "engine/reference": WAIST | {"engine/lights"},
+    "engine/reference": LENS | {"engine/waist"},
     "views": WAIST | {"engine/lights", "engine/scatter"},
     "glare": LENS,
     "names": {"base", "optics", "depth", "colour", "engine/waist", "glare"},

@@ -11,7 +11,7 @@
 #include "engine/reference/reference.h"
 
 #include "base/parallel.h"
-#include "engine/lights/highlights.h"
+#include "engine/reference/bright_points.h"
 #include "engine/reference/lens_ray.h"
 #include "engine/reference/surfaces.h"
 #include "engine/waist/holdout.h"
@@ -26,10 +26,6 @@ namespace {
 
 constexpr int kTile = 128;
 constexpr int kTileFieldVaries = 32;  // one set of rays for so many pixels on a side
-// Light above 1.5 x its surroundings and a quarter of white is spread exactly; the rest is smooth enough for
-// rays.
-constexpr HighlightRule kHighlights{
-    .factor = 1.5f, .least_floor = 0.25f, .floor_at_1px = 0, .contested_floor = 0.25f};
 constexpr double kShareOfRays = 0.8, kShareOfHighlights = 0.2;  // of the progress bar
 
 double fraction(double x) { return x - std::floor(x); }
@@ -233,33 +229,33 @@ void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
     });
 }
 
-void spread_highlights(const Input& input, const Surfaces& surfaces, const std::vector<Highlight>& highlights,
-                       View<Rgba> out) {
+void spread_points(const Input& input, const Surfaces& surfaces, const std::vector<BrightPoint>& points,
+                   View<Rgba> out) {
     // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
     // threads.
     constexpr int kBatch = 512;
-    const int count = int(highlights.size());
+    const int count = int(points.size());
     for (int begin = 0; begin < count && !input.progress->cancelled(); begin += kBatch) {
         const int size = std::min(kBatch, count - begin);
         std::vector<kernel::PointSpread> spreads(static_cast<std::size_t>(size));
         parallel_for(size, input.threads, [&](int i) {
-            const Highlight& h = highlights[std::size_t(begin + i)];
+            const BrightPoint& p = points[std::size_t(begin + i)];
             spreads[std::size_t(i)] =
-                visible_point_spread(surfaces, input.lens(0), input.field_at(h.x, h.y), h.x, h.y, h.coc_px,
+                visible_point_spread(surfaces, input.lens(0), input.field_at(p.x, p.y), p.x, p.y, p.coc_px,
                                      std::max(1.0, input.pixel_aspect));
         });
         constexpr int kBand = 32;
         parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
             const Rect rows = Rect{0, band * kBand, out.width(), (band + 1) * kBand}.intersected(out.rect());
             for (int i = 0; i < size; ++i) {
-                const Highlight& h = highlights[std::size_t(begin + i)];
+                const BrightPoint& p = points[std::size_t(begin + i)];
                 const kernel::PointSpread& spread = spreads[std::size_t(i)];
                 const Rect e = spread.extent;
-                const Rect place = Rect{h.x + e.x0, h.y + e.y0, h.x + e.x1, h.y + e.y1}.intersected(rows);
+                const Rect place = Rect{p.x + e.x0, p.y + e.y0, p.x + e.x1, p.y + e.y1}.intersected(rows);
                 for (int y = place.y0; y < place.y1; ++y)
                     for (int x = place.x0; x < place.x1; ++x)
-                        out(x, y) += spread.weights(x - h.x - e.x0, y - h.y - e.y0) * h.colour *
-                                     let_through(input.holdout, x, y, h.coc_px);
+                        out(x, y) += spread.weights(x - p.x - e.x0, y - p.y - e.y0) * p.light *
+                                     let_through(input.holdout, x, y, p.coc_px);
             }
         });
         input.progress->advance(kShareOfHighlights * size / count);
@@ -302,8 +298,7 @@ Result<Output> run_reference(const Input& input) {
     };
 
     CocSamples samples = stated_samples(input);
-    const HighlightSplit split(input.colour, input.coc_px, kHighlights, input.threads);
-    const std::vector<Highlight> highlights = take_highlights(samples, split, 0, 1, input.threads);
+    const std::vector<BrightPoint> points = take_bright_points(samples, input.colour, input.threads);
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
     if (const Status fits = surfaces_fit(input, samples, margin); !fits) return fits.error();
@@ -315,7 +310,7 @@ Result<Output> run_reference(const Input& input) {
     output.image = Picture(input.width(), input.height());
     trace_base(input, surfaces, output.image);
     const double traced = seconds();
-    spread_highlights(input, surfaces, highlights, output.image);
+    spread_points(input, surfaces, points, output.image);
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {{"surfaces", prepared}, {"rays", traced - prepared}, {"highlights", seconds() - traced}};
     return output;

@@ -1,7 +1,6 @@
 #include "engine/reference/surfaces.h"
 
 #include "base/parallel.h"
-#include "engine/samples/connectivity.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,15 @@ namespace {
 
 constexpr float kAlwaysConnectedPx = 1.0f;
 constexpr float kLeastCoverage = 1e-4f;
+
+// Whether samples of neighbouring pixels are one surface. On a plane the radius changes by the same amount
+// from pixel to pixel, so a step that nearly equals the one before it or the one after it (signed changes of
+// radius) goes on a slope. One of up to a pixel of radius hides nothing wider than that, and always does.
+bool is_one_surface(float step_px, float step_before_px, float step_after_px) {
+    const float most_off = 0.5f * std::abs(step_px);
+    return std::abs(step_px) <= kAlwaysConnectedPx || std::abs(step_px - step_before_px) <= most_off ||
+           std::abs(step_px - step_after_px) <= most_off;
+}
 
 Facet facet_of(Rgba colour, float coc_px) {
     const float coverage = std::clamp(colour.a, 0.0f, 1.0f);
@@ -118,7 +126,8 @@ void Surfaces::connect_around_corner(int x, int y) {
             for (Member& b : members)
                 if (b.place == next && (!best || std::abs(b.coc - a.coc) < std::abs(best->coc - a.coc)))
                     best = &b;
-            if (!best || !same_surface(a.coc, best->coc, -slope_beyond(a, next), slope_beyond(*best, place)))
+            if (!best ||
+                !is_one_surface(best->coc - a.coc, -slope_beyond(a, next), slope_beyond(*best, place)))
                 continue;
             bool mutual = true;
             for (const Member& other : members)

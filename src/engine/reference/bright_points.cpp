@@ -1,0 +1,90 @@
+#include "engine/reference/bright_points.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kLeastCoverage = 1e-4f;
+constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything that is compared with it
+constexpr float kWidestPx = 1024;
+constexpr float kOverSurroundings = 1.5f, kOverWhite = 0.25f;
+
+// The mean over the square of `reach` pixels to every side of each pixel, as much of it as lies in the
+// picture.
+Plane square_means(View<const float> values, int reach, int threads) {
+    const int width = values.width(), height = values.height();
+    Plane across(width, height), means(width, height);
+    parallel_for(height, threads, [&](int y) {
+        for (int x = 0; x < width; ++x) {
+            const int begin = std::max(0, x - reach), end = std::min(width, x + reach + 1);
+            for (int u = begin; u < end; ++u) across(x, y) += values(u, y) / float(end - begin);
+        }
+    });
+    parallel_for(height, threads, [&](int y) {
+        const int begin = std::max(0, y - reach), end = std::min(height, y + reach + 1);
+        for (int v = begin; v < end; ++v)
+            for (int x = 0; x < width; ++x) means(x, y) += across(x, v) / float(end - begin);
+    });
+    return means;
+}
+
+float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
+
+// Harmonic means follow what most of a square shows and hardly move for a few bright pixels.
+Plane surroundings_of(View<const Rgba> picture, int threads) {
+    Plane reciprocal(picture.width(), picture.height());
+    parallel_for(picture.height(), threads, [&](int y) {
+        for (int x = 0; x < picture.width(); ++x) reciprocal(x, y) = 1 / (light_of(picture(x, y)) + kDark);
+    });
+    Plane surroundings = square_means(reciprocal, 6, threads);
+    const Plane wide = square_means(reciprocal, 14, threads);
+    for (std::size_t i = 0; i < surroundings.size(); ++i) {
+        const float mean = std::min(1 / surroundings.pixels()[i], 2 / wide.pixels()[i]);
+        surroundings.pixels()[i] = std::max(0.0f, mean - kDark);
+    }
+    return surroundings;
+}
+
+float white_of(View<const Rgba> picture) {
+    double sum = 0;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) sum += double(light_of(picture(x, y)));
+    return float(4 * sum / (double(picture.width()) * picture.height()));
+}
+
+// How much of a sample's luminance stays, as a share of it.
+float share_that_stays(const CocSample& s, float surroundings, float white) {
+    if (s.colour.a <= kLeastCoverage) return 0;
+    const float light = luminance(s.colour);
+    const float bound = s.colour.a * (kOverSurroundings * surroundings + kOverWhite * white);
+    if (std::abs(s.coc_px) > kWidestPx || light - bound <= kOverWhite * white) return 1;
+    return bound / light;
+}
+
+}  // namespace
+
+std::vector<BrightPoint> take_bright_points(CocSamples& samples, View<const Rgba> picture, int threads) {
+    const Plane surroundings = surroundings_of(picture, threads);
+    const float white = white_of(picture);
+    std::vector<BrightPoint> points;
+    for (int y = 0; y < samples.height(); ++y)
+        for (int x = 0; x < samples.width; ++x) {
+            const bool outermost = x == 0 || y == 0 || x == samples.width - 1 || y == samples.height() - 1;
+            const std::size_t pixel = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
+            for (std::size_t k = samples.first[pixel]; k < samples.first[pixel + 1]; ++k) {
+                CocSample& s = samples.samples[k];
+                const float share = share_that_stays(s, (outermost ? 2 : 1) * surroundings(x, y), white);
+                if (share >= 1) continue;
+                const Rgba stays{s.colour.r * share, s.colour.g * share, s.colour.b * share, s.colour.a};
+                points.push_back({x, y, std::clamp(s.coc_px, -kWidestPx, kWidestPx), s.colour - stays});
+                s.colour = stays;
+            }
+        }
+    return points;
+}
+
+}  // namespace petzval::engine
