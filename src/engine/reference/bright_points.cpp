@@ -8,7 +8,6 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kLeastCoverage = 1e-4f;
 constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything that is compared with it
 constexpr float kWidestPx = 1024;
 constexpr float kOverSurroundings = 1.5f, kOverWhite = 0.25f;
@@ -75,12 +74,15 @@ std::vector<BrightPoint> take_bright_points(CocSamples& samples, View<const Rgba
         for (int x = 0; x < samples.width; ++x) {
             const bool outermost = x == 0 || y == 0 || x == samples.width - 1 || y == samples.height() - 1;
             const std::size_t pixel = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
+            int facets = 0;
             for (std::size_t k = samples.first[pixel]; k < samples.first[pixel + 1]; ++k) {
                 CocSample& s = samples.samples[k];
                 const float share = share_that_stays(s, (outermost ? 2 : 1) * surroundings(x, y), white);
+                const int in_front = s.colour.a > kLeastCoverage ? facets++ : facets;
                 if (share >= 1) continue;
                 const Rgba stays{s.colour.r * share, s.colour.g * share, s.colour.b * share, s.colour.a};
-                points.push_back({x, y, std::clamp(s.coc_px, -kWidestPx, kWidestPx), s.colour - stays});
+                points.push_back(
+                    {x, y, std::clamp(s.coc_px, -kWidestPx, kWidestPx), s.colour - stays, in_front});
                 s.colour = stays;
             }
         }

@@ -22,8 +22,8 @@ Slope slope_of(const Facet& f) {
     return {0.5 * (c[1] + c[3] - c[0] - c[2]), 0.5 * (c[2] + c[3] - c[0] - c[1])};
 }
 
-// Does the ray cross the facet inside its pixel, nearer than the source?
-bool crosses(const Facet& facet, int px, int py, const RaySource& s, double u, double v) {
+// Does the ray cross the facet inside its pixel, at a radius of at most farthest_px?
+bool crosses(const Facet& facet, int px, int py, const RaySource& s, double u, double v, double farthest_px) {
     const Slope g = slope_of(facet);
     const double speed = 1 + g.x * u + g.y * v;
     if (std::abs(speed) < 1e-6) return false;
@@ -31,11 +31,27 @@ bool crosses(const Facet& facet, int px, int py, const RaySource& s, double u, d
     const double c =
         (facet.coc_px + g.x * (s.x + s.coc_px * u - px - 0.5) + g.y * (s.y + s.coc_px * v - py - 0.5)) /
         speed;
-    if (c > s.coc_px - kOwnSurfacePx) return false;
+    if (c > farthest_px) return false;
     const double qx = s.x + (s.coc_px - c) * u - px, qy = s.y + (s.coc_px - c) * v - py;
     // A hair wider than the pixel, so that no ray slips between two.
     constexpr double kHair = 1e-9;
     return qx >= -kHair && qx <= 1 + kHair && qy >= -kHair && qy <= 1 + kHair;
+}
+
+// The share of a ray that gets past the facets of pixel (x, y). The first `in_front` of them lie in front of
+// the source whatever their radii say: they come before it in its own pixel.
+float share_let_through(const Surfaces& surfaces, int x, int y, const RaySource& source, int in_front,
+                        double u, double v, float chance) {
+    float open = 1;
+    int k = 0;
+    for (const Facet& facet : surfaces.at(x, y)) {
+        if (facet.coc_px > source.coc_px) break;  // nearest first: the rest lies behind the source
+        const double farthest_px = k++ < in_front ? 1e30 : source.coc_px - kOwnSurfacePx;
+        if (!crosses(facet, x, y, source, u, v, farthest_px)) continue;
+        if (!surfaces.dims_itself() && facet.takes(double(chance))) return 0;
+        if (surfaces.dims_itself()) open *= 1 - facet.coverage;
+    }
+    return open;
 }
 
 // A fixed sequence of chances that differ from ray to ray: multiples of the golden ratio.
@@ -53,7 +69,7 @@ kernel::PointSpread by_counting_rays(const Surfaces& surfaces, const kernel::Len
         const int x = std::clamp(int(std::floor(dx)) - extent.x0, 0, extent.width() - 1);
         const int y = std::clamp(int(std::floor(dy)) - extent.y0, 0, extent.height() - 1);
         all(x, y) += 1;
-        if (lens_sees(surfaces, source, ray.x, ray.y, chance_of(ray_index++))) seen(x, y) += 1;
+        seen(x, y) += share_seen(surfaces, source, ray.x, ray.y, chance_of(ray_index++));
     }
     double seen_total = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) seen_total += double(seen.pixels()[i]);
@@ -71,14 +87,14 @@ kernel::PointSpread by_probing_taps(const Surfaces& surfaces, const RaySource& s
         for (int x = extent.x0; x < extent.x1; ++x) {
             Rgba& weight = spread.weights(x - extent.x0, y - extent.y0);
             if (weight == Rgba{}) continue;
-            int seen = 0;
+            float seen = 0;
             for (int j = 0; j < kProbes; ++j)
                 for (int i = 0; i < kProbes; ++i) {
                     double u = (x - 0.5 + (i + 0.5) / kProbes) / source.coc_px;
                     double v = (y - 0.5 + (j + 0.5) / kProbes) / source.coc_px;
-                    seen += lens_sees(surfaces, source, u, v, chance_of(probe_index++));
+                    seen += share_seen(surfaces, source, u, v, chance_of(probe_index++));
                 }
-            weight *= float(seen) / float(kProbes * kProbes);
+            weight *= seen / float(kProbes * kProbes);
         }
     return spread;
 }
@@ -101,11 +117,11 @@ RaySource ray_source(const Surfaces& surfaces, int x, int y, double coc_px, doub
     return source;
 }
 
-bool lens_sees(const Surfaces& surfaces, const RaySource& source, double u, double v, float chance) {
+float share_seen(const Surfaces& surfaces, const RaySource& source, double u, double v, float chance) {
     // Walk the pixels under the ray's path (Amanatides and Woo, "A fast voxel traversal algorithm", 1987);
     // the path parameter is the radius given up, 0 at the source.
+    if (source.is_free()) return 1;
     const double end = source.coc_px - source.nearest_coc_px;
-    if (end <= 0) return true;
     const Rect area = surfaces.area();
     int px = int(std::floor(source.x)), py = int(std::floor(source.y));
     const int step_x = u > 0 ? 1 : -1, step_y = v > 0 ? 1 : -1;
@@ -115,31 +131,26 @@ bool lens_sees(const Surfaces& surfaces, const RaySource& source, double u, doub
     double next_y = v != 0 ? (v > 0 ? py + 1 - source.y : source.y - py) * per_y : never;
     float open = 1;  // share of the ray that translucent facets let through
     for (double along = 0; along <= end;) {
-        if (!area.contains(px, py)) return true;
-        for (const Facet& facet : surfaces.at(px, py)) {
-            if (facet.coc_px > source.coc_px) break;  // nearest first: the rest lies behind the source
-            if (!crosses(facet, px, py, source, u, v)) continue;
-            if (surfaces.dims_itself()) {
-                open *= 1 - facet.coverage;
-                if (open <= 1 - chance) return false;
-            } else if (facet.takes(chance)) {
-                return false;
-            }
-        }
+        if (!area.contains(px, py)) return open;
+        const bool own_pixel = along == 0;
+        open *= share_let_through(surfaces, px, py, source, own_pixel ? source.in_front : 0, u, v, chance);
+        if (open <= 0) return 0;
         if (next_x < next_y)
             along = next_x, next_x += per_x, px += step_x;
         else
             along = next_y, next_y += per_y, py += step_y;
     }
-    return true;
+    return open;
 }
 
 kernel::PointSpread visible_point_spread(const Surfaces& surfaces, const kernel::LensModel& lens,
-                                         kernel::FieldPosition field, int x, int y, double coc_px,
+                                         kernel::FieldPosition field, const BrightPoint& point,
                                          double pupil_reach) {
+    const double coc_px = double(point.coc_px);
     kernel::PointSpread spread = lens.point_spread(coc_px, field);
-    const RaySource source = ray_source(surfaces, x, y, coc_px, pupil_reach);
-    if (source.nearest_coc_px >= coc_px) return spread;
+    RaySource source = ray_source(surfaces, point.x, point.y, coc_px, pupil_reach);
+    if (surfaces.dims_itself()) source.in_front = point.in_front;
+    if (source.is_free()) return spread;
     if (std::abs(coc_px) < kFewTapsPx)
         return by_counting_rays(surfaces, lens, field, source, std::move(spread));
     return by_probing_taps(surfaces, source, std::move(spread));

@@ -4,7 +4,8 @@
 // surface it meets. Instead of walking every ray, all rays of one pupil point are answered at once: seen
 // through u, a facet at signed radius c stands at its place + c u, so the facets of a tile are drawn there,
 // nearest in front, and every pixel looks up what covers its centre. Facets are a pixel wide: that is the box
-// filter, once. A facet that covers only part of its pixel is there for that share of the pupil points.
+// filter, once. A facet that covers only part of its pixel is there for that share of the pupil points; in a
+// deep picture it lets the rest of every ray through to what the ray meets next.
 //
 // Bright points would be hit by few pupil points and come out dotted; they are taken out first and spread
 // with the lens's exact kernel, each tap dimmed by the share of its rays that a nearer surface stops.
@@ -37,40 +38,6 @@ double radical_inverse(int k, int base) {
     return value;
 }
 
-std::uint32_t mirrored(std::uint32_t bits) {
-    std::uint32_t result = 0;
-    for (int i = 0; i < 32; ++i, bits >>= 1) result = result << 1 | (bits & 1u);
-    return result;
-}
-
-// Mixes every bit into those above it (Laine and Karras 2011, constants of Vegdahl, psychopath.io 2021).
-std::uint32_t mixed_upwards(std::uint32_t bits, std::uint32_t seed) {
-    bits ^= bits * 0x3d20adeau;
-    bits += seed;
-    bits *= (seed >> 16) | 1u;
-    bits ^= bits * 0x05526c56u;
-    return bits ^ bits * 0x53a22864u;
-}
-
-// MurmurHash3's last step (A. Appleby, public domain).
-std::uint32_t hashed(std::uint32_t h) {
-    h = (h ^ (h >> 16)) * 0x85ebca6bu;
-    h = (h ^ (h >> 13)) * 0xc2b2ae35u;
-    return h ^ (h >> 16);
-}
-
-// A number in 0…1 for ray k: evenly spread over the rays, in an order of its own for each seed. Van der
-// Corput points, shuffled and scrambled (B. Burley, "Practical hash-based Owen scrambling", 2020).
-double scrambled(std::uint32_t k, std::uint32_t seed) {
-    const std::uint32_t place = mirrored(mixed_upwards(mirrored(k), hashed(seed)));
-    return mirrored(mixed_upwards(place, seed)) * 0x1p-32;
-}
-
-// A facet that dims what is behind it is there for its share of the rays, whatever others are.
-bool is_there_by_itself(const Facet& facet, std::uint32_t index, int k) {
-    return facet.coverage >= 1 || scrambled(std::uint32_t(k), hashed(index + 1)) < double(facet.coverage);
-}
-
 // One tile of the output, drawn once per pupil point.
 class Tile {
 public:
@@ -81,7 +48,8 @@ public:
           nearest_(area.width(), area.height()),
           hit_(area.width(), area.height()),
           recent_(area.width(), area.height()),
-          sum_(area.width(), area.height()) {}
+          sum_(area.width(), area.height()),
+          thin_(surfaces.dims_itself() ? sum_.size() : 0) {}
 
     void add(const kernel::PupilRay& ray, int k) {
         clear();
@@ -89,9 +57,7 @@ public:
             for (int bx = 0; bx < surfaces_.blocks_x(); ++bx)
                 if (reaches(bx, by, ray)) draw_block(surfaces_.block_area(bx, by), ray, k);
         for (int y = 0; y < area_.height(); ++y)
-            for (int x = 0; x < area_.width(); ++x)
-                if (const std::uint32_t hit = hit_(x, y); hit != kNothing)
-                    recent_(x, y) += arriving(surfaces_.facets()[hit], x, y) * ray.weight;
+            for (int x = 0; x < area_.width(); ++x) recent_(x, y) += arriving(x, y) * ray.weight;
         if (k % kRecent == kRecent - 1) settle();
     }
 
@@ -112,13 +78,43 @@ private:
         }
     }
 
-    Rgba arriving(const Facet& facet, int x, int y) const {
+    // A facet that a ray met.
+    struct Met {
+        float coc_px;
+        std::uint32_t facet;
+        bool operator<(const Met& other) const {
+            return coc_px != other.coc_px ? coc_px < other.coc_px : facet < other.facet;
+        }
+    };
+
+    // All that the ray under way brings to pixel (x, y): of each facet that dims what is behind it, its
+    // share.
+    Rgba arriving(int x, int y) {
+        Rgba light;
+        float open = 1;
+        const Met stopped{nearest_(x, y), hit_(x, y)};
+        if (surfaces_.dims_itself()) {
+            std::vector<Met>& thin = thin_[std::size_t(y) * std::size_t(area_.width()) + std::size_t(x)];
+            std::sort(thin.begin(), thin.end());
+            for (const Met& m : thin) {
+                if (!(m < stopped)) break;
+                const float coverage = surfaces_.facets()[m.facet].coverage;
+                light += open * coverage * held_back(m.facet, x, y);
+                open *= 1 - coverage;
+            }
+        }
+        if (stopped.facet != kNothing) light += open * held_back(stopped.facet, x, y);
+        return light;
+    }
+    Rgba held_back(std::uint32_t index, int x, int y) const {
+        const Facet& facet = surfaces_.facets()[index];
         return facet.colour * let_through(holdout_, area_.x0 + x, area_.y0 + y, facet.coc_px);
     }
 
     void clear() {
         std::fill_n(nearest_.pixels(), nearest_.size(), 1e30f);
         std::fill_n(hit_.pixels(), hit_.size(), kNothing);
+        for (std::vector<Met>& thin : thin_) thin.clear();
     }
 
     bool reaches(int bx, int by, const kernel::PupilRay& ray) const {
@@ -143,8 +139,7 @@ private:
                 std::uint32_t index = surfaces_.first(x, y);
                 const double place = fraction(index * 0.7320508075688772);
                 for (const Facet& facet : surfaces_.at(x, y)) {
-                    if (surfaces_.dims_itself() ? is_there_by_itself(facet, index, k)
-                                                : facet.takes(chance + place))
+                    if (surfaces_.dims_itself() || facet.takes(chance + place))
                         draw(facet, index, float(x) + shift_x, float(y) + shift_y, ray);
                     ++index;
                 }
@@ -187,6 +182,9 @@ private:
 
     void put(int x, int y, float coc_px, std::uint32_t index) {
         if (coc_px >= nearest_(x, y)) return;
+        if (surfaces_.dims_itself() && surfaces_.facets()[index].coverage < 1)
+            return thin_[std::size_t(y) * std::size_t(area_.width()) + std::size_t(x)].push_back(
+                {coc_px, index});
         nearest_(x, y) = coc_px;
         hit_(x, y) = index;
     }
@@ -197,6 +195,7 @@ private:
     Plane nearest_;
     Image<std::uint32_t> hit_;
     Picture recent_, sum_;
+    std::vector<std::vector<Met>> thin_;  // of each pixel, where facets dim what is behind them
 };
 
 std::vector<Rect> tiles_of(const Rect& area, int size) {
@@ -240,9 +239,8 @@ void spread_points(const Input& input, const Surfaces& surfaces, const std::vect
         std::vector<kernel::PointSpread> spreads(static_cast<std::size_t>(size));
         parallel_for(size, input.threads, [&](int i) {
             const BrightPoint& p = points[std::size_t(begin + i)];
-            spreads[std::size_t(i)] =
-                visible_point_spread(surfaces, input.lens(0), input.field_at(p.x, p.y), p.x, p.y, p.coc_px,
-                                     std::max(1.0, input.pixel_aspect));
+            spreads[std::size_t(i)] = visible_point_spread(surfaces, input.lens(0), input.field_at(p.x, p.y),
+                                                           p, std::max(1.0, input.pixel_aspect));
         });
         constexpr int kBand = 32;
         parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {

@@ -1,6 +1,7 @@
 #include "engine/reference/surfaces.h"
 
 #include "base/parallel.h"
+#include "engine/reference/bright_points.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kAlwaysConnectedPx = 1.0f;
-constexpr float kLeastCoverage = 1e-4f;
 
 // Whether samples of neighbouring pixels are one surface. On a plane the radius changes by the same amount
 // from pixel to pixel, so a step that nearly equals the one before it or the one after it (signed changes of
