@@ -63,6 +63,36 @@ TEST(Deep, InFocusAPictureLooksAsItDoesFromTheFront) {
     EXPECT_GE(psnr_inside(rendered(shot.job("reference")), shot.colour, 0), 40);  // rays that hit or miss
 }
 
+// Ragged objects of any coverage beside emptiness, bright and dark, a few hundredths of a pixel of radius
+// apart as things far behind focus are: what each ray meets is what lies in its own pixel.
+TEST(Deep, WhereNothingIsBlurredAPictureIsItsFlattening) {
+    std::mt19937 random(5);
+    const auto value = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    const float coverages[] = {0.02f, 0.3f, 0.7f, 0.98f, 1, 1};
+    const DeepShot shot = DeepShot::make(60, 40, [&](int x, int y) {
+        Samples samples;
+        const bool inside = (x / 9 + y / 7) % 2 == 0;
+        for (int i = 0, n = inside ? 1 + int(random() % 4) : 0; i < n; ++i) {
+            const float a = coverages[random() % 6], light = a * (random() % 20 == 0 ? 30.0f : 1.0f);
+            samples.push_back(surface({light * value(0, 1), light * value(0, 1), light * value(0, 1), a},
+                                      0.012f * float(i) + value(0, 0.01f)));
+        }
+        return samples;
+    });
+    for (const char* engine : kExact) {
+        const Picture image = rendered(shot.job(engine));
+        double largest = 0;  // relative: one of the lights is 30
+        for (std::size_t i = 0; i < image.size(); ++i) {
+            const Rgba a = image.pixels()[i], b = shot.colour.pixels()[i], d = a - b;
+            for (const float v : {d.r, d.g, d.b, d.a})
+                largest = std::max(largest, double(std::abs(v)) / (1 + double(luminance(b))));
+        }
+        EXPECT_LT(largest, 1e-4) << engine;
+    }
+}
+
 TEST(Deep, ConstantFogBeforeAConstantWallStaysWhatItIsAtAnyBlur) {
     const Rgba fog{0.3f, 0.32f, 0.35f, 0.6f}, wall{0.8f, 0.4f, 0.1f, 1}, expected = fog + 0.4f * wall;
     const auto constant = [&](int width, int height, float nearest, float farthest) {

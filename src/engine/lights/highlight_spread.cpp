@@ -137,6 +137,7 @@ public:
           kernels_(kernels),
           casters_(samples, input.threads),
           stretch_(float(std::max(1.0, input.pixel_aspect))),
+          same_pixel_px_(input.deep_dims_itself ? same_pixel_px(input.pixel_aspect) : 0),
           bright_disc_(white * (input.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)) {}
 
     std::shared_ptr<const PointSpread> kernel(const Highlight& h) const {
@@ -146,7 +147,8 @@ public:
         return kernels_.of(h, input_.field_at(h.x, h.y), on_disc > bright_disc_);
     }
     // Null: nothing is in the way.
-    std::unique_ptr<const PupilShadow> shadow(const Viewpoint& view) const {
+    std::unique_ptr<const PupilShadow> shadow(Viewpoint view) const {
+        view.own_surface_px = std::max(view.own_surface_px, same_pixel_px_);
         if (casters_.nearest_coc_px() >= view.coc_px - view.own_surface_px) return nullptr;
         auto shadow = std::make_unique<PupilShadow>(view.coc_px, view.size % 2 == 0);
         if (!collect(view, *shadow)) return nullptr;
@@ -214,7 +216,8 @@ private:
     const Input& input_;
     const HighlightKernels& kernels_;
     ShadowCasters casters_;
-    float stretch_;  // of the pupil, vertically, by pixels that are not square
+    float stretch_;        // of the pupil, vertically, by pixels that are not square
+    float same_pixel_px_;  // what is nearer by less has dimmed the light where it was taken; 0: nothing has
     float bright_disc_;
 };
 

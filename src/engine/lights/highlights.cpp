@@ -124,6 +124,7 @@ constexpr float kSameRadius = 0.01f;  // pixels of a square differ by less than 
 struct Taken {
     Rgba colour;
     std::size_t sample = 0;
+    float leaves = 1;  // share of it that leaves the pixel
 };
 
 // The front-most bright samples of a block of kLargestSquare pixels on a side, to be taken apart into
@@ -144,10 +145,11 @@ public:
         for (int y = 0; y < kLargestSquare; y += size)
             for (int x = 0; x < kLargestSquare; x += size) {
                 Rgba common = cell(x, y).taken.colour;
-                const float coc = cell(x, y).coc_px;
+                const float coc = cell(x, y).coc_px, leaves = cell(x, y).taken.leaves;
                 bool all = true;
                 for_square(x, y, size, [&](const Cell& c) {
-                    all = all && c.lit && std::abs(c.coc_px - coc) <= kSameRadius * std::abs(coc) + 0.02f;
+                    all = all && c.lit && c.taken.leaves == leaves &&
+                          std::abs(c.coc_px - coc) <= kSameRadius * std::abs(coc) + 0.02f;
                     common = {std::min(common.r, c.taken.colour.r), std::min(common.g, c.taken.colour.g),
                               std::min(common.b, c.taken.colour.b), 0};
                 });
@@ -156,7 +158,7 @@ public:
                 if (!all || !narrow || split.may_stay(x_ + x, first_row_ + y_ + y, coc, luminance(common)))
                     continue;
                 for_square(x, y, size, [&](Cell& c) { c.taken.colour -= common; });
-                out.push_back({x_ + x, y_ + y, size, coc, common});
+                out.push_back({x_ + x, y_ + y, size, coc, leaves * common});
             }
     }
     // What is left: pixel by pixel, or back to the base.
@@ -169,7 +171,7 @@ public:
                     samples.samples[c.taken.sample].colour.a > kLeastAlpha)
                     samples.samples[c.taken.sample].colour += c.taken.colour;
                 else
-                    out.push_back({x_ + x, y_ + y, 1, c.coc_px, c.taken.colour});
+                    out.push_back({x_ + x, y_ + y, 1, c.coc_px, c.taken.leaves * c.taken.colour});
             }
     }
 
@@ -189,6 +191,16 @@ private:
     bool empty_ = true;
     Cell cells_[kLargestSquare * kLargestSquare];
 };
+
+// What the samples in front of the last of these, nearest first, let through of its light before it leaves
+// the pixel.
+float share_that_leaves(std::span<const CocSample> samples, float same_pixel_px) {
+    float open = 1;
+    const float own = samples.back().coc_px;
+    for (const CocSample& s : samples.first(samples.size() - 1))
+        if (own - s.coc_px <= same_pixel_px) open *= 1 - s.colour.a;
+    return open;
+}
 
 }  // namespace
 
@@ -211,12 +223,18 @@ std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit
                         const Rgba base = split.base(x, first_row + y, sample.coc_px, sample.colour);
                         if (base == sample.colour) continue;
                         const Rgba taken = sample.colour - base;
+                        const float leaves =
+                            split.rule().same_pixel_px > 0
+                                ? share_that_leaves(std::span(samples.samples)
+                                                        .subspan(samples.first[i], k + 1 - samples.first[i]),
+                                                    split.rule().same_pixel_px)
+                                : 1;
                         const float coc = std::clamp(sample.coc_px, -kWidestHighlightPx, kWidestHighlightPx);
                         sample.colour = base;
                         if (in_block)
-                            out.push_back({x, y, 1, coc, taken});
+                            out.push_back({x, y, 1, coc, leaves * taken});
                         else
-                            block.put(x, y, coc, {taken, k}), in_block = true;
+                            block.put(x, y, coc, {taken, k, leaves}), in_block = true;
                     }
                 }
             if (block.empty()) continue;

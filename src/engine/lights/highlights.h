@@ -30,7 +30,14 @@ struct HighlightRule {
     // The least floor where nearer things stand in the way of the lens: their shadows are exact in highlights
     // only.
     float contested_floor = 0.15f;
+    // Of pixels whose samples dim each other: a ray from the middle of a pixel meets all that is nearer by up
+    // to this radius before it leaves the pixel, so what is taken is dimmed by that. 0: nothing is.
+    float same_pixel_px = 0;
 };
+// The same_pixel_px of a deep picture; pixels may be narrower than they are high.
+constexpr float same_pixel_px(double pixel_aspect) {
+    return pixel_aspect > 1 ? float(0.5 / pixel_aspect) : 0.5f;
+}
 
 // Splits light where it stands out of its surroundings:  base + highlight = light. The surroundings are the
 // smaller of two harmonic means of the picture's luminance, over 12 x 12 pixels and twice that over 28 x 28:
@@ -43,6 +50,7 @@ public:
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
     float white() const { return white_; }
+    const HighlightRule& rule() const { return rule_; }
     // Whether light so bright, left over at this place and radius, may stay whatever surrounds it.
     bool may_stay(int x, int y, float coc_px, float brightness) const {
         return brightness <= floor_at(x, y, coc_px);

@@ -61,7 +61,13 @@ CocSamples deep_completed(const Input& input) {
             largest = std::max(largest, std::abs(stated.samples[k].coc_px));
         }
         const bool looks_past = double(distance.pixels()[i]) <= stretch * double(largest) + 1;
-        if (distance.pixels()[i] == 0 || looks_past) all.samples.push_back(emptiness_behind_everything());
+        const float open = 1 - input.colour.row(int(i) / stated.width)[int(i) % stated.width].a;
+        if (distance.pixels()[i] == 0 || looks_past) {
+            all.samples.push_back(emptiness_behind_everything());
+        } else if (open > 1e-6f) {  // too little to tell others of it
+            all.samples.push_back(emptiness_behind_everything());
+            all.samples.back().empty = open;
+        }
     }
     all.first.push_back(all.samples.size());
     return all;
@@ -118,14 +124,19 @@ void share_lens_area(CocSamples& samples, int threads) {
         const std::size_t row = std::size_t(y) * std::size_t(samples.width);
         for (std::size_t i = row; i < row + std::size_t(samples.width); ++i) {
             float free = 1;
-            bool dimmed_in_layer = false;
+            bool dimmed_in_layer = false, full_in_layer = false;
             int layer = std::numeric_limits<int>::min();
             for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {
                 CocSample& s = samples.samples[k];
-                if (const int own = layer_of(s.coc_px); own != layer) layer = own, dimmed_in_layer = false;
+                if (const int own = layer_of(s.coc_px); own != layer) {
+                    layer = own;
+                    dimmed_in_layer = full_in_layer = false;
+                }
                 const float alpha = s.colour.a;
                 const bool opaque = alpha > 1 - kLeastShare;
-                if (!opaque || dimmed_in_layer) s.colour *= free;
+                if (!opaque || dimmed_in_layer) s.colour *= full_in_layer ? 0 : free;
+                // One that was dimmed no longer tells by its coverage that it hides what follows.
+                if (opaque && dimmed_in_layer) full_in_layer = true;
                 if (!opaque) free *= 1 - alpha, dimmed_in_layer = true;
             }
         }

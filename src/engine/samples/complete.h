@@ -16,7 +16,8 @@ CocSamples completed(const Input& input, View<const unsigned char> connected);
 // through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front
 // of them. An opaque one takes what is left of the lens anyway, and rays that come past what is in front of
 // it see all of it; only translucent samples composited with it in one layer (engine/scatter/sources.h) dim
-// it. For what is left once highlights are taken: they look for what is in front of them themselves.
+// it, and it hides what else is in that layer. For what is left once highlights are taken: they look for what
+// is in front of them themselves.
 void share_lens_area(CocSamples& samples, int threads);
 
 }  // namespace petzval::engine

@@ -110,6 +110,10 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     return plan;
 }
 
+HighlightRule bright_rule(const Input& frame) {
+    return {.same_pixel_px = frame.deep_dims_itself ? same_pixel_px(frame.pixel_aspect) : 0};
+}
+
 // A run over the strips of a frame: each is completed, split, planned and drawn.
 class ScatterRun {
 public:
@@ -118,7 +122,7 @@ public:
           rule_(rule),
           kernels_(kernels),
           watch_(watch),
-          split_(frame.colour, frame.coc_px, {}, frame.threads) {
+          split_(frame.colour, frame.coc_px, bright_rule(frame), frame.threads) {
         watch_.lap("split", {bytes_of(frame.colour) + bytes_of(frame.coc_px)});
     }
 
