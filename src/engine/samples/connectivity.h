@@ -10,11 +10,11 @@
 
 namespace petzval::engine {
 
-// True if two neighbouring samples belong to one surface. A step of up to one pixel of radius cannot hide
-// anything wider than that, so it always connects; a larger one only where it continues the slope on one of
+// True if two neighbouring samples belong to one surface. A step of less than a pixel of radius hides hardly
+// anything, so it always connects; a larger one only where it continues the slope on one of
 // its sides (signed change of radius from the sample before a to a, and from b to the sample after b).
 inline bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px, float slope_after_b_px) {
-    constexpr float kAlwaysConnectedPx = 1.0f, kSlopeTolerance = 0.5f;
+    constexpr float kAlwaysConnectedPx = 0.9f, kSlopeTolerance = 0.5f;
     const float step = coc_b_px - coc_a_px;
     if (std::abs(step) <= kAlwaysConnectedPx) return true;
     const float tolerance = kSlopeTolerance * std::abs(step);

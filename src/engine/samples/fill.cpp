@@ -9,7 +9,7 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kDirections = 16;      // even: opposite directions are paired
-constexpr float kBehindPx = 1.0f;    // farther by less than this in radius is not worth filling
+constexpr float kBehindPx = 0.9f;    // farther by less than this in radius is not worth filling
 constexpr float kPastEdgePx = 2.0f;  // how far beyond the reach of the blur to look
 constexpr float kLikeEnough =
     0.1f;                       // squared relative difference below which two patches are as good as the same
@@ -401,6 +401,7 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
                     const std::size_t begin = here.size();
                     filler.fill(x, y, here);
                     ranges(x, y) = {std::uint32_t(begin), std::uint32_t(here.size() - begin)};
+                    if (here.size() == begin) continue;  // its neighbours may lie closer to the silhouette
                     answers.add(x, y, coc(x, y),
                                 shared_square(std::span(here).subspan(begin), shared_from_px), ranges(x, y));
                 }

@@ -84,7 +84,8 @@ void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const Hidd
 // fall with distance a little faster than those of the mean-value interpolant (M. Floater, "Mean value
 // coordinates", 2003), 1/distance: its power of 1.5 comes closer on the path-traced fence.
 // Neighbours share what was found where it is blurred by shared_from_px or more: squares of 2,
-// of 4 at twice, of 8 at six times that.
+// of 4 at twice, of 8 at six times that. Where nothing was found nothing is shared: that is the pixel's own
+// distance from the silhouette.
 HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc_px,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
                          float nearest_coc_px, float farthest_coc_px, float shared_from_px, int threads);
