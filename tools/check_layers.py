@@ -41,7 +41,7 @@ ALLOWED = {
     "files": PIXELS | {"colour", "optics", "depth", "names"},
     "ocio": PIXELS,
     "lens_facts": LENS,
-    "session": WAIST | ENGINES | {"views"},
+    "session": WAIST | ENGINES | {"views", "look", "glare"},
 }
 # What tests beside the code may see as well.
 TESTS = {"kernel/draw": {"kernel/lenses"}, "kernel/keep": {"kernel/lenses"}, "session": {"lens_facts"}}
@@ -70,6 +70,7 @@ PUBLIC = {
     "names": "names",
     "ocio": "ocio",
     "petzval": "session",
+    "pixel_view": "image",
     "result": "base",
     "scene": "scene",
     "session": "session",
