@@ -23,4 +23,9 @@ PETZVAL_API std::string look_to_json(const Look& look);
 // said by check().
 PETZVAL_API Result<Look> look_from_json(const std::string& text);
 
+// The look with one field changed: its path as in the JSON ("engine", "lens.blades"), its value as JSON,
+// where a name or a file needs no quotes. Errors: InvalidArgument for an unknown path or a value of the wrong
+// type.
+PETZVAL_API Result<Look> look_with(Look look, const std::string& path, const std::string& value);
+
 }  // namespace petzval

@@ -4,6 +4,7 @@
 
 #include "petzval/defocus.h"
 #include "petzval/export.h"
+#include "petzval/look.h"
 #include "petzval/result.h"
 
 #include <cstddef>
@@ -22,6 +23,9 @@ struct SessionSettings {
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
 };
 
+// The job with all that a look chooses of a defocus.
+PETZVAL_API DefocusJob with_look(DefocusJob job, const Look& look);
+
 // How one frame is made.
 struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
@@ -38,6 +42,11 @@ public:
 
     // The settings of the session stand in place of the job's own. Errors: those of petzval::defocus().
     Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
+    // A whole frame, in the order of physics: a plate's highlights given back, blur, light lost towards the
+    // corners, glare, and back into the plate's range. `rendered` says what there is (pictures, place,
+    // camera); all that is chosen is the look's. Errors: also those of add_falloff(), add_glare() and
+    // expand_highlights().
+    Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
 
 private:
     struct Contents;

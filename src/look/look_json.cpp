@@ -107,4 +107,15 @@ Result<Look> look_from_json(const std::string& text) {
     return look;
 }
 
+Result<Look> look_with(Look look, const std::string& path, const std::string& value) {
+    const auto refused = [](const std::string& why) { return Error{ErrorCode::InvalidArgument, why}; };
+    const Field* const field = look::find_field(path);
+    if (!field) return refused(unknown(path).message);
+    const Json json = Json::parse(value, nullptr, false);
+    if (!json.is_discarded() && field->set(look, json)) return look;
+    const Status as_word = field->set(look, Json(value));
+    if (as_word) return look;
+    return refused(path + ": " + as_word.error().message);
+}
+
 }  // namespace petzval

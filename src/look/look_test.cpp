@@ -194,5 +194,26 @@ TEST(LookJson, DeepNestingIsRefusedAndNotFollowed) {
     EXPECT_NE(refusal(deep), "");
 }
 
+TEST(LookWith, SetsOneFieldByItsPath) {
+    const auto with = [](const char* path, const char* value) { return look_with({}, path, value); };
+    EXPECT_EQ(with("engine", "gather")->engine, "gather");
+    EXPECT_EQ(with("lens.name", "\"doublet\"")->lens.name, "doublet");
+    EXPECT_EQ(with("lens.blades", "5")->lens.aperture.blades, 5);
+    EXPECT_EQ(with("quality", "final")->quality, Quality::Final);
+    EXPECT_EQ(with("lens.wave", "true")->lens.wave, true);
+    // A file may be called like a number.
+    EXPECT_EQ(with("lens.name", "50")->lens.name, "50");
+}
+
+TEST(LookWith, RefusesWhatItDoesNotKnow) {
+    const auto refusal = [](const char* path, const char* value) {
+        const auto look = look_with({}, path, value);
+        return look ? std::string("taken") : look.error().message;
+    };
+    EXPECT_NE(refusal("lens.blade", "5").find("lens.blades"), std::string::npos);
+    EXPECT_NE(refusal("lens.blades", "many").find("lens.blades"), std::string::npos);
+    EXPECT_NE(refusal("quality", "best").find("best"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace petzval

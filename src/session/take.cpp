@@ -1,0 +1,81 @@
+// The order of a frame: highlights given back to a plate, blur, light lost towards the corners, glare, and
+// back into the plate's range.
+#include "petzval/dynamic_range.h"
+#include "petzval/glare.h"
+#include "petzval/session.h"
+
+#include <utility>
+
+namespace petzval {
+namespace {
+
+// 550 nm times the f-number, in pixels; 0 if a number is missing.
+double diffraction_px(const Camera& camera, int width_px) {
+    if (!(camera.sensor_width_mm > 0) || !(camera.f_number > 0) || !(camera.f_number < 1e6)) return 0;
+    return 550e-6 * camera.f_number * width_px / camera.sensor_width_mm;
+}
+
+bool has_glare(const GlareAmounts& glare) {
+    return glare.bloom > 0 || glare.star > 0 || glare.ghosts > 0 || glare.veil > 0;
+}
+
+Result<Picture> with_falloff(Picture picture, const DefocusJob& job, const Look& look) {
+    if (!look.vignetting) return picture;
+    return add_falloff(
+        picture, {job.camera, job.lens, job.display_window, job.data_window, job.pixel_aspect, job.threads});
+}
+
+Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look) {
+    if (!has_glare(look.glare)) return picture;
+    GlareSettings settings;
+    static_cast<GlareAmounts&>(settings) = look.glare;
+    settings.diffraction_px = diffraction_px(job.camera, job.display_window.width());
+    settings.camera = job.camera;
+    settings.lens = job.lens;
+    settings.display_window = job.display_window;
+    settings.data_window = job.data_window;
+    settings.pixel_aspect = job.pixel_aspect;
+    settings.threads = job.threads;
+    return add_glare(picture, settings);
+}
+
+}  // namespace
+
+DefocusJob with_look(DefocusJob job, const Look& look) {
+    job.engine = look.engine;
+    job.quality = look.quality;
+    job.seed = look.seed;
+    job.pupil_points = look.pupil_points;
+    job.coc = look.coc;
+    job.lens = look.lens;
+    job.gather = look.gather;
+    job.gaussian = look.gaussian;
+    job.sprites = look.sprites;
+    return job;
+}
+
+Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look, const Control& control) {
+    DefocusJob job = with_look(rendered, look);
+    Picture expanded;
+    if (look.expand_highlights) {
+        if (job.deep && !job.deep->empty())
+            return Error{ErrorCode::InvalidArgument,
+                         "--expand-highlights is for flat plates, not for deep pictures"};
+        auto given_back = expand_highlights(job.colour, look.expansion);
+        if (!given_back) return given_back.error();
+        expanded = std::move(*given_back);
+        job.colour = expanded;
+    }
+    auto report = defocus(job, control);
+    if (!report || !report->panels.empty()) return report;
+    auto dimmed = with_falloff(std::move(report->image), job, look);
+    if (!dimmed) return dimmed.error();
+    auto glared = with_glare(std::move(*dimmed), job, look);
+    if (!glared) return glared.error();
+    report->image = std::move(*glared);
+    if (look.expand_highlights)
+        report->image = compress_highlights(report->image, expanded, rendered.colour, look.expansion);
+    return report;
+}
+
+}  // namespace petzval

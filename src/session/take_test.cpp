@@ -1,0 +1,82 @@
+#include "petzval/dynamic_range.h"
+#include "petzval/glare.h"
+#include "petzval/session.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+constexpr int kWidth = 64, kHeight = 48;
+
+// A lamp on grey, five pixels out of focus.
+struct Rendered {
+    Picture colour{kWidth, kHeight, {0.2f, 0.2f, 0.2f, 1}};
+    Plane radii{kWidth, kHeight, 5};
+    DefocusJob job;
+    Rendered() {
+        colour(20, 20) = {1, 0.9f, 0.8f, 1};
+        job.colour = colour;
+        job.depth_m = radii;
+        job.depth_is_coc = true;
+        job.display_window = job.data_window = colour.rect();
+        job.camera = {50, 36, 2, 3};
+    }
+};
+
+bool same(const Picture& a, const Picture& b) {
+    return a.size() == b.size() && std::equal(a.pixels(), a.pixels() + a.size(), b.pixels());
+}
+
+TEST(Take, ALookWithoutLightIsADefocus) {
+    const Rendered r;
+    Session session;
+    const auto taken = session.take(r.job, {}), defocused = session.defocus(r.job);
+    ASSERT_TRUE(taken && defocused);
+    EXPECT_TRUE(same(taken->image, defocused->image));
+}
+
+TEST(Take, CornersDarkenBeforeGlareAddsItsLight) {
+    const Rendered r;
+    Session session;
+    Look look;
+    look.vignetting = true;
+    look.glare.bloom = 0.3;
+    const auto taken = session.take(r.job, look), blurred = session.defocus(r.job);
+    ASSERT_TRUE(taken && blurred);
+    const auto dimmed = add_falloff(blurred->image, {.camera = r.job.camera});
+    ASSERT_TRUE(dimmed);
+    GlareSettings glare;
+    static_cast<GlareAmounts&>(glare) = look.glare;
+    glare.camera = r.job.camera;
+    glare.diffraction_px = 550e-6 * 2 * kWidth / 36;
+    const auto expected = add_glare(*dimmed, glare);
+    ASSERT_TRUE(expected);
+    EXPECT_TRUE(same(taken->image, *expected));
+}
+
+TEST(Take, APlateIsBlurredWithItsHighlightsAndComesBackToItsRange) {
+    const Rendered r;
+    Session session;
+    Look look;
+    look.expand_highlights = true;
+    const auto taken = session.take(r.job, look), plain = session.take(r.job, {});
+    ASSERT_TRUE(taken && plain);
+    EXPECT_GT(taken->image(18, 20).r, plain->image(18, 20).r);  // within the lamp's disc
+    for (std::size_t i = 0; i < taken->image.size(); ++i) EXPECT_LE(taken->image.pixels()[i].r, 1);
+}
+
+TEST(Take, SaysWhatItCannotTake) {
+    const Rendered r;
+    Session session;
+    Look look;
+    look.engine = "brush";
+    const auto taken = session.take(r.job, look);
+    ASSERT_FALSE(taken);
+    EXPECT_NE(taken.error().message.find("brush"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace petzval
