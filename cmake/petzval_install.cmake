@@ -1,6 +1,6 @@
 # What `cmake --install` leaves: the program, the archives, their headers, and how others find them, by
-# find_package(petzval CONFIG COMPONENTS files scenes) and by pkg-config (petzval, petzval-files,
-# petzval-scenes).
+# find_package(petzval CONFIG COMPONENTS files scenes c) and by pkg-config (petzval, petzval-files,
+# petzval-scenes, petzval-c).
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/petzval)
@@ -14,7 +14,7 @@ function(petzval_component target)
   if(NOT TARGET ${target})
     return()
   endif()
-  install(TARGETS ${target} EXPORT ${PC_PACKAGE} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS ${target} EXPORT ${PC_PACKAGE} DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT ${PC_PACKAGE} NAMESPACE petzval:: FILE ${PC_PACKAGE}-targets.cmake DESTINATION ${package_dir})
   install(FILES ${PC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petzval)
   list(JOIN PC_REQUIRES " " PC_REQUIRES)
@@ -28,6 +28,7 @@ endfunction()
 
 file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
 list(FILTER core_headers EXCLUDE REGEX "/(files|lens_report|ocio|scene)\\.h$")
+list(FILTER core_headers EXCLUDE REGEX "/petzval_c\\.h$")
 petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES tbb libhwy
                   DESCRIPTION "The depth of field of a real lens, for rendered pictures")
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
@@ -36,6 +37,8 @@ petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/s
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h
                   REQUIRES petzval OpenColorIO DESCRIPTION "OpenColorIO displays for petzval")
+petzval_component(petzval_shared PACKAGE petzval-c HEADERS ${headers}/petzval_c.h
+                  DESCRIPTION "petzval for C: libpetzval.so")
 if(TARGET petzval_cli)
   install(TARGETS petzval_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

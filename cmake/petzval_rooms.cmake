@@ -88,7 +88,10 @@ function(petzval_library name)
   # In a folder of their own: the room `files` and the library `petzval_files` have one archive name.
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX
                         ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
-  if(NOT name STREQUAL petzval)
+  if(name STREQUAL petzval)
+    # -lpetzval is the shared library (cmake/petzval_shared.cmake).
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME petzval_core)
+  else()
     set_target_properties(${target} PROPERTIES OUTPUT_NAME petzval_${name})
     target_link_libraries(${target} PUBLIC petzval)
   endif()
@@ -96,5 +99,9 @@ function(petzval_library name)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(REMOVE_DUPLICATES links)
+  if(name STREQUAL petzval)
+    set_property(GLOBAL PROPERTY PETZVAL_CORE_OBJECTS ${objects})
+    set_property(GLOBAL PROPERTY PETZVAL_CORE_LINKS ${links})
+  endif()
   target_link_libraries(${target} PRIVATE ${links})
 endfunction()

@@ -41,6 +41,7 @@ ALLOWED = {
     "files": PIXELS | {"colour", "optics", "depth", "names"},
     "ocio": PIXELS,
     "lens_facts": LENS,
+    "c": PIXELS | {"lens_facts", "look", "session"},
     "session": WAIST | ENGINES | {"views", "look", "glare"},
 }
 # What tests beside the code may see as well.
@@ -70,6 +71,7 @@ PUBLIC = {
     "names": "names",
     "ocio": "ocio",
     "petzval": "session",
+    "petzval_c": "c",
     "pixel_view": "image",
     "result": "base",
     "scene": "scene",
@@ -84,7 +86,7 @@ THIRD_PARTY = {
     r"png\.h": r"src/files/",
     r"OpenColorIO/": r"src/ocio/",
     r"embree": r"src/scene/",
-    r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look)/",
+    r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look|src/c)/",
     r"CLI/": r"apps/cli/",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]')

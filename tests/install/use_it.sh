@@ -36,3 +36,16 @@ for consumer in consumer $(echo "$components" | tr ';' '\n' | sed 's/./consumer_
     echo "$consumer found by pkg-config:"
     "$stage/$consumer"
 done
+
+# Every block of code of the page about the library, as its readers would compile it.
+python3 "$here/../docs/library_blocks.py" "$here/../../docs/library.md" "$stage/blocks"
+for block in "$stage"/blocks/*.cpp; do
+    # shellcheck disable=SC2046
+    "$compiler" -std=c++20 -Wall -Wextra -Werror "$block" -o "${block%.cpp}" $(pkg-config --cflags --libs petzval)
+    "${block%.cpp}"
+done
+for block in "$stage"/blocks/*.c; do
+    # shellcheck disable=SC2046
+    cc -std=c99 -Wall -Werror "$block" -o "${block%.c}_c" $(pkg-config --cflags --libs petzval-c)
+    LD_LIBRARY_PATH=$(pkg-config --variable=libdir petzval-c) "${block%.c}_c"
+done

@@ -1,0 +1,159 @@
+/* petzval for C, and for every language that speaks C: sessions, lenses, looks; a sharp picture with depth
+ * in, the picture that a lens would have taken out. docs/library.md shows it in use.
+ *
+ * - C99. Nothing else is exported by libpetzval.so.
+ * - Handles are opaque. What is opened is closed by its own function; null is closed without harm.
+ * - Structs begin with their size: set it to sizeof(struct) and everything else to zero first. A program
+ * built against an older header keeps working: what its struct lacks takes its default.
+ * - Choices are made by name ("gather", "final"), as on the command line; no enum of a look has a number.
+ * - Functions that can fail return a petzval_status; petzval_error_text() then has one sentence.
+ * - Strings are UTF-8, given and lent; a lent string lives as long as the handle it came from, or as said.
+ * - A session may be used by many threads at once. Other handles are constant once made, and so may be, too;
+ * a look that is being changed by one thread at a time. */
+#ifndef PETZVAL_C_H
+#define PETZVAL_C_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__) && defined(PETZVAL_BUILDS_C)
+#define PETZVAL_C_API __attribute__((visibility("default")))
+#else
+#define PETZVAL_C_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum petzval_status {
+    PETZVAL_OK = 0,
+    PETZVAL_INVALID_ARGUMENT = 1, /* an argument, a field of a struct or of a look is wrong or missing */
+    PETZVAL_INVALID_FILE = 2,     /* a lens file is missing, damaged or no lens */
+    PETZVAL_UNSUPPORTED = 3,      /* understood, but this build or engine cannot do it */
+    PETZVAL_OUTPUT_FAILED = 4,
+    PETZVAL_OUT_OF_MEMORY = 5, /* of the machine, or more than the session may take */
+    PETZVAL_CANCELLED = 6,     /* the progress callback asked to stop */
+    PETZVAL_INTERNAL = 7       /* a fault of ours */
+} petzval_status;
+
+/* Why the last call of this thread that failed did; "" if none did. Lives until this thread's next failing
+ * call. */
+PETZVAL_C_API const char* petzval_error_text(void);
+/* "invalid_argument", …; "unknown" for other numbers. Lives for ever. */
+PETZVAL_C_API const char* petzval_status_name(petzval_status status);
+/* Of the library that is loaded: "0.1.0". Lives for ever. */
+PETZVAL_C_API const char* petzval_version(void);
+
+/* --- Sessions: what outlives a frame
+ * ------------------------------------------------------------------------ */
+
+typedef struct petzval_session petzval_session;
+
+typedef struct petzval_session_settings {
+    size_t size;
+    int threads;               /* 0: all that this process may use */
+    uint64_t max_memory_bytes; /* for everything, what is kept between frames included; 0: no limit */
+    const char* kernel_folder; /* kernels that take long are kept here between runs; null: nowhere */
+} petzval_session_settings;
+
+/* settings may be null: all threads, no limits. */
+PETZVAL_C_API petzval_status petzval_session_open(const petzval_session_settings* settings,
+                                                  petzval_session** session);
+PETZVAL_C_API void petzval_session_close(petzval_session* session); /* no call may be under way */
+
+/* --- Names
+ * ---------------------------------------------------------------------------------------------------- */
+
+/* The engines and the lenses that ship, from 0 on; null behind the last. Live for ever. */
+PETZVAL_C_API const char* petzval_engine_name(int index);
+PETZVAL_C_API const char* petzval_lens_name(int index);
+
+/* --- Looks: all that an artist chooses
+ * ------------------------------------------------------------------------ */
+
+typedef struct petzval_look petzval_look;
+
+PETZVAL_C_API petzval_status petzval_look_new(petzval_look** look); /* the defaults */
+/* A look as `petzval defocus --save-look` writes it. */
+PETZVAL_C_API petzval_status petzval_look_from_json(const char* json, petzval_look** look);
+/* Sets one field, as in the JSON: petzval_look_set(look, "engine", "gather"), (look, "lens.aperture.blades",
+ * "5"). The value is JSON, or a plain word where a name is wanted. The look is unchanged if it is refused. */
+PETZVAL_C_API petzval_status petzval_look_set(petzval_look* look, const char* field, const char* value);
+/* Lives until the look is changed or closed. */
+PETZVAL_C_API petzval_status petzval_look_json(const petzval_look* look, const char** json);
+PETZVAL_C_API void petzval_look_close(petzval_look* look);
+
+/* --- Pictures, in the host's memory
+ * --------------------------------------------------------------------------- */
+
+typedef enum petzval_sample { PETZVAL_FLOAT = 0, PETZVAL_HALF = 1 } petzval_sample;
+
+/* Pixel (x, y) of a channel lies at base + y * row_stride + x * pixel_stride bytes; strides may be negative
+ * (rows bottom-up). Interleaved pictures have one base per channel, a sample apart. Row 0 is the top one. */
+typedef struct petzval_pixels {
+    size_t size;
+    int width, height;
+    petzval_sample sample;
+    void *r, *g, *b;
+    void* a; /* null: 1 everywhere, and not written */
+    ptrdiff_t pixel_stride, row_stride;
+} petzval_pixels;
+
+typedef struct petzval_plane {
+    size_t size;
+    int width, height;
+    petzval_sample sample;
+    void* data;
+    ptrdiff_t pixel_stride, row_stride;
+} petzval_plane;
+
+typedef struct petzval_rect {
+    int x0, y0, x1, y1; /* half-open; y down */
+} petzval_rect;
+
+typedef struct petzval_camera {
+    size_t size;
+    double focal_length_mm, sensor_width_mm, f_number, focus_distance_m;
+    int thin_lens; /* 0: the picture's sensor stands one focal length behind the pinhole, as renderers do */
+} petzval_camera;
+
+/* What was rendered. Only read. */
+typedef struct petzval_shot {
+    size_t size;
+    const petzval_pixels* colour; /* scene-linear, premultiplied */
+    const petzval_plane* depth_m; /* planar metres, +infinity for a miss; or */
+    const petzval_plane*
+        radii_px; /* signed radii of the circle of confusion, + behind focus. One of both, not both */
+    const petzval_camera* camera;             /* may be null with radii_px and an ideal lens */
+    petzval_rect display_window, data_window; /* both empty: the picture is the frame */
+    double pixel_aspect;                      /* width / height of a pixel; 0: 1 */
+} petzval_shot;
+
+/* --- A frame
+ * ------------------------------------------------------------------------------------------------- */
+
+typedef struct petzval_control {
+    size_t size;
+    void* host;
+    /* Share done, 0…1, never falling, one call at a time, from any thread; 0 returned cancels. May be null.
+     */
+    int (*progress)(void* host, double done);
+} petzval_control;
+
+typedef struct petzval_report petzval_report;
+
+/* look null: the defaults; control and report may be null. `out` is of the size of the picture, or of the
+ * region, and may be the memory of the input. Nothing is written to `out` unless PETZVAL_OK is returned. */
+PETZVAL_C_API petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot,
+                                             const petzval_look* look, const petzval_control* control,
+                                             const petzval_pixels* out, petzval_report** report);
+/* Engine, lens, device, radii, seconds by stage, warnings. Lives as long as the report. */
+PETZVAL_C_API const char* petzval_report_json(const petzval_report* report);
+PETZVAL_C_API void petzval_report_close(petzval_report* report);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,101 @@
+#include "c/lent.h"
+
+#include <string>
+
+namespace petzval::c {
+namespace {
+
+Error refused(const std::string& why) { return {ErrorCode::InvalidArgument, why}; }
+
+constexpr int kLargestSide = 1 << 20;  // pixels; keeps sizes and addresses far from overflow
+
+Status check_size(int width, int height, const char* name) {
+    if (width > 0 && height > 0 && width <= kLargestSide && height <= kLargestSide) return Done{};
+    return refused(std::string(name) + " is " + std::to_string(width) + "x" + std::to_string(height) +
+                   " pixels; 1 to " + std::to_string(kLargestSide) + " a side");
+}
+
+Status check_sample(petzval_sample sample, const char* name) {
+    if (sample == PETZVAL_FLOAT || sample == PETZVAL_HALF) return Done{};
+    return refused(std::string(name) + ": sample is neither PETZVAL_FLOAT nor PETZVAL_HALF");
+}
+
+SampleType type_of(petzval_sample sample) {
+    return sample == PETZVAL_HALF ? SampleType::Half : SampleType::Float;
+}
+
+Rect rect_of(const petzval_rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
+
+Camera camera_of(const petzval_camera& c) {
+    return {.focal_length_mm = c.focal_length_mm,
+            .sensor_width_mm = c.sensor_width_mm,
+            .f_number = c.f_number,
+            .focus_distance_m = c.focus_distance_m,
+            .image_scale = c.thin_lens != 0 ? ImageScale::ThinLens : ImageScale::Rendered};
+}
+
+// Depth or radii, whichever was given.
+Status take_depth(const petzval_shot& shot, TakenShot& into) {
+    if ((shot.depth_m != nullptr) == (shot.radii_px != nullptr))
+        return refused("shot: one of depth_m and radii_px, and not both");
+    const bool radii = shot.radii_px != nullptr;
+    const petzval_plane* const given = radii ? shot.radii_px : shot.depth_m;
+    const int width = into.colour.width(), height = into.colour.height();
+    if (Status ok = check_plane(given, width, height, radii ? "radii_px" : "depth_m"); !ok) return ok;
+    const petzval_plane plane = taken(given);
+    into.depth = Plane::uninitialised(width, height);
+    read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
+                          plane.row_stride},
+                into.depth);
+    into.job.depth_m = into.depth;
+    into.job.depth_is_coc = radii;
+    return Done{};
+}
+
+}  // namespace
+
+Result<ColourView> colour_view(const petzval_pixels* given, const char* name) {
+    if (!given) return refused(std::string(name) + " is null");
+    const petzval_pixels p = taken(given);
+    if (Status ok = check_size(p.width, p.height, name); !ok) return ok.error();
+    if (Status ok = check_sample(p.sample, name); !ok) return ok.error();
+    if (!p.r || !p.g || !p.b) return refused(std::string(name) + ": r, g or b is null");
+    ColourView view{p.width, p.height, {}};
+    void* const bases[4] = {p.r, p.g, p.b, p.a};
+    for (std::size_t c = 0; c < 4; ++c)
+        view.channels[c] = {type_of(p.sample), static_cast<std::byte*>(bases[c]), p.pixel_stride,
+                            p.row_stride};
+    return view;
+}
+
+Status check_plane(const petzval_plane* given, int width, int height, const char* name) {
+    const petzval_plane p = taken(given);
+    if (Status ok = check_sample(p.sample, name); !ok) return ok;
+    if (!p.data) return refused(std::string(name) + ": data is null");
+    if (p.width == width && p.height == height) return Done{};
+    return refused(std::string(name) + " is " + std::to_string(p.width) + "x" + std::to_string(p.height) +
+                   " and colour " + std::to_string(width) + "x" + std::to_string(height) +
+                   "; they must be of one size");
+}
+
+Status TakenShot::take(const petzval_shot* given, TakenShot& into) {
+    if (!given) return refused("shot is null");
+    const petzval_shot shot = taken(given);
+    const auto colour = colour_view(shot.colour, "colour");
+    if (!colour) return colour.error();
+    into.colour = Picture::uninitialised(colour->width, colour->height);
+    read_pixels(*colour, into.colour);
+    into.job.colour = into.colour;
+    if (Status ok = take_depth(shot, into); !ok) return ok;
+    const Rect display = rect_of(shot.display_window), data = rect_of(shot.data_window);
+    into.job.data_window = data.empty() ? into.colour.rect() : data;
+    into.job.display_window = display.empty() ? into.job.data_window : display;
+    if (into.job.data_window.width() != into.colour.width() ||
+        into.job.data_window.height() != into.colour.height())
+        return refused("data_window is not of the picture's size");
+    if (shot.pixel_aspect != 0) into.job.pixel_aspect = shot.pixel_aspect;
+    if (shot.camera) into.job.camera = camera_of(taken(shot.camera));
+    return Done{};
+}
+
+}  // namespace petzval::c

@@ -1,0 +1,39 @@
+// What a C host lends, as the library takes it: pictures.
+#pragma once
+
+#include "petzval/petzval_c.h"
+#include "petzval/pixel_view.h"
+#include "petzval/result.h"
+#include "petzval/session.h"
+
+#include <cstddef>
+#include <cstring>
+
+namespace petzval::c {
+
+// A struct of a host that may be older or newer than we are: what it lacks is zero, what we do not know is
+// left. Requires: it begins with its size.
+template <typename Struct>
+Struct taken(const Struct* given) {
+    Struct own{};
+    if (!given) return own;
+    std::size_t size = 0;
+    std::memcpy(&size, given, sizeof size);
+    std::memcpy(&own, given, size < sizeof own ? size : sizeof own);
+    return own;
+}
+
+// Errors: InvalidArgument naming the field that is missing or out of range; `name` is that of the picture.
+Result<ColourView> colour_view(const petzval_pixels* pixels, const char* name);
+Status check_plane(const petzval_plane* plane, int width, int height, const char* name);
+
+// The pictures of a shot, read into ours.
+struct TakenShot {
+    Picture colour;
+    Plane depth;
+    DefocusJob job;  // of `colour` and `depth`
+    // Errors: InvalidArgument naming the field.
+    static Status take(const petzval_shot* given, TakenShot& into);
+};
+
+}  // namespace petzval::c

@@ -1,0 +1,236 @@
+// The library behind its C door: handles, structs of any age, errors as a code and a sentence. The one place
+// that catches.
+#include "petzval/petzval_c.h"
+
+#include "petzval/lens_facts.h"
+#include "petzval/look_json.h"
+#include "petzval/session.h"
+#include "petzval/version.h"
+
+#include "c/lent.h"
+#include "c/report_text.h"
+
+#include <exception>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct petzval_session {
+    petzval::Session session;
+};
+
+struct petzval_look {
+    petzval::Look look;
+    mutable std::string json;
+};
+
+struct petzval_report {
+    std::string json;
+};
+
+namespace {
+
+using namespace petzval;
+
+// Of this thread's last failure.
+std::string& error_text() {
+    thread_local std::string text;
+    return text;
+}
+
+petzval_status fail(petzval_status status, std::string text) {
+    error_text() = std::move(text);
+    return status;
+}
+
+petzval_status status_of(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::InvalidArgument:
+            return PETZVAL_INVALID_ARGUMENT;
+        case ErrorCode::InvalidFile:
+            return PETZVAL_INVALID_FILE;
+        case ErrorCode::Unsupported:
+            return PETZVAL_UNSUPPORTED;
+        case ErrorCode::OutputFailed:
+            return PETZVAL_OUTPUT_FAILED;
+        case ErrorCode::OutOfMemory:
+            return PETZVAL_OUT_OF_MEMORY;
+        case ErrorCode::Cancelled:
+            return PETZVAL_CANCELLED;
+    }
+    return PETZVAL_INTERNAL;
+}
+
+petzval_status fail(const Error& error) { return fail(status_of(error.code), error.message); }
+
+petzval_status missing(const char* argument) {
+    return fail(PETZVAL_INVALID_ARGUMENT, std::string(argument) + " is null");
+}
+
+// Runs what may throw on behalf of somebody who cannot catch.
+template <typename Body>
+petzval_status guarded(const Body& body) noexcept {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(PETZVAL_OUT_OF_MEMORY, "out of memory");
+    } catch (const std::exception& e) {
+        return fail(PETZVAL_INTERNAL, std::string("a fault of petzval: ") + e.what());
+    } catch (...) {
+        return fail(PETZVAL_INTERNAL, "a fault of petzval");
+    }
+}
+
+SessionSettings settings_of(const petzval_session_settings* given) {
+    const petzval_session_settings s = c::taken(given);
+    SessionSettings settings;
+    settings.threads = s.threads;
+    settings.max_memory_bytes = std::size_t(s.max_memory_bytes);
+    if (s.kernel_folder) settings.kernel_cache_folder = s.kernel_folder;
+    return settings;
+}
+
+Control control_of(const petzval_control* given) {
+    const petzval_control c = c::taken(given);
+    Control control;
+    if (c.progress) control.progress = [c](double done) { return c.progress(c.host, done) != 0; };
+    return control;
+}
+
+// A look names its pictures by file, and files are not the core's to read.
+Status check_pictures(const Look& look) {
+    for (const auto& [field, file] : {std::pair("lens.aperture_image", &look.aperture_image),
+                                      std::pair("lens.kernel_image", &look.kernel_image_far)})
+        if (!file->empty())
+            return Error{ErrorCode::Unsupported,
+                         std::string(field) + " names a file, which this library does not read: " + *file};
+    return Done{};
+}
+
+petzval_status take_frame(petzval_session* session, const petzval_shot* given, const petzval_look* look,
+                          const petzval_control* control, const petzval_pixels* out,
+                          petzval_report** report) {
+    const auto into = c::colour_view(out, "out");
+    if (!into) return fail(into.error());
+    c::TakenShot shot;
+    if (const Status taken = c::TakenShot::take(given, shot); !taken) return fail(taken.error());
+    if (into->width != shot.colour.width() || into->height != shot.colour.height())
+        return fail(PETZVAL_INVALID_ARGUMENT, "out and the shot's colour must be of one size");
+    const Look chosen = look ? look->look : Look{};
+    if (const Status ok = check_pictures(chosen); !ok) return fail(ok.error());
+    const auto frame = session->session.take(shot.job, chosen, control_of(control));
+    if (!frame) return fail(frame.error());
+    if (report) {
+        auto made = std::make_unique<petzval_report>();
+        made->json = c::report_text(*frame);
+        *report = made.release();
+    }
+    write_pixels(frame->image, *into);
+    return PETZVAL_OK;
+}
+
+const std::vector<std::string>& lens_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const LensSummary& lens : lens_list()) all.push_back(lens.name);
+        return all;
+    }();
+    return names;
+}
+
+const char* name_at(const std::vector<std::string>& names, int index) {
+    return index >= 0 && std::size_t(index) < names.size() ? names[std::size_t(index)].c_str() : nullptr;
+}
+
+}  // namespace
+
+const char* petzval_error_text(void) { return error_text().c_str(); }
+
+const char* petzval_status_name(petzval_status status) {
+    static const char* const names[] = {"ok",          "invalid_argument", "invalid_file",
+                                        "unsupported", "output_failed",    "out_of_memory",
+                                        "cancelled",   "internal"};
+    const auto index = unsigned(status);
+    return index < std::size(names) ? names[index] : "unknown";
+}
+
+const char* petzval_version(void) { return PETZVAL_VERSION; }
+
+petzval_status petzval_session_open(const petzval_session_settings* settings, petzval_session** session) {
+    if (!session) return missing("session");
+    *session = nullptr;
+    return guarded([&] {
+        *session = new petzval_session{Session(settings_of(settings))};
+        return PETZVAL_OK;
+    });
+}
+
+void petzval_session_close(petzval_session* session) { delete session; }
+
+const char* petzval_engine_name(int index) {
+    static const std::vector<std::string> names = engine_names();
+    return name_at(names, index);
+}
+
+const char* petzval_lens_name(int index) { return name_at(lens_names(), index); }
+
+petzval_status petzval_look_new(petzval_look** look) {
+    if (!look) return missing("look");
+    *look = nullptr;
+    return guarded([&] {
+        *look = new petzval_look;
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_from_json(const char* json, petzval_look** look) {
+    if (!look) return missing("look");
+    *look = nullptr;
+    if (!json) return missing("json");
+    return guarded([&] {
+        auto read = look_from_json(json);
+        if (!read) return fail(read.error());
+        *look = new petzval_look{std::move(*read), {}};
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_set(petzval_look* look, const char* field, const char* value) {
+    if (!look) return missing("look");
+    if (!field) return missing("field");
+    if (!value) return missing("value");
+    return guarded([&] {
+        auto changed = look_with(look->look, field, value);
+        if (!changed) return fail(changed.error());
+        look->look = std::move(*changed);
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_json(const petzval_look* look, const char** json) {
+    if (!json) return missing("json");
+    *json = nullptr;
+    if (!look) return missing("look");
+    return guarded([&] {
+        look->json = look_to_json(look->look);
+        *json = look->json.c_str();
+        return PETZVAL_OK;
+    });
+}
+
+void petzval_look_close(petzval_look* look) { delete look; }
+
+petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot, const petzval_look* look,
+                               const petzval_control* control, const petzval_pixels* out,
+                               petzval_report** report) {
+    if (report) *report = nullptr;
+    if (!session) return missing("session");
+    return guarded([&] { return take_frame(session, shot, look, control, out, report); });
+}
+
+const char* petzval_report_json(const petzval_report* report) { return report ? report->json.c_str() : ""; }
+
+void petzval_report_close(petzval_report* report) { delete report; }

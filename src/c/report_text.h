@@ -1,0 +1,12 @@
+// What a frame's report says, as JSON.
+#pragma once
+
+#include "petzval/defocus.h"
+
+#include <string>
+
+namespace petzval::c {
+
+std::string report_text(const DefocusReport& report);
+
+}  // namespace petzval::c

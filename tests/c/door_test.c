@@ -1,0 +1,218 @@
+/* The C door, used as a C host uses it: every function, pictures in a host's own layout, errors, old structs.
+ */
+#include <math.h>
+#include <petzval/petzval_c.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 48, HEIGHT = 32 };
+
+static int failures = 0;
+
+static void expect(int holds, const char* what) {
+    if (holds) return;
+    printf("failed: %s (last error: %s)\n", what, petzval_error_text());
+    ++failures;
+}
+
+/* A lamp at (20, 16) on black, RGBA, rows top-down or bottom-up. */
+typedef struct picture {
+    float rgba[HEIGHT][WIDTH][4];
+} picture;
+
+static petzval_pixels pixels_of(picture* p, int bottom_up) {
+    petzval_pixels view = {0};
+    float* first = bottom_up ? p->rgba[HEIGHT - 1][0] : p->rgba[0][0];
+    view.size = sizeof view;
+    view.width = WIDTH;
+    view.height = HEIGHT;
+    view.sample = PETZVAL_FLOAT;
+    view.r = first;
+    view.g = first + 1;
+    view.b = first + 2;
+    view.a = first + 3;
+    view.pixel_stride = 4 * sizeof(float);
+    view.row_stride = (bottom_up ? -1 : 1) * (ptrdiff_t)sizeof p->rgba[0];
+    return view;
+}
+
+static float* at(picture* p, int x, int y, int bottom_up) {
+    return p->rgba[bottom_up ? HEIGHT - 1 - y : y][x];
+}
+
+static void paint(picture* p, int bottom_up) {
+    int x, y;
+    for (y = 0; y < HEIGHT; ++y)
+        for (x = 0; x < WIDTH; ++x) {
+            float* pixel = at(p, x, y, bottom_up);
+            pixel[0] = pixel[1] = pixel[2] = x == 20 && y == 16 ? 100.0f : 0.0f;
+            pixel[3] = 1;
+        }
+}
+
+/* All of it lies 5 px behind focus. */
+static float radii[HEIGHT][WIDTH];
+static petzval_plane radii_plane(void) {
+    petzval_plane plane = {0};
+    plane.size = sizeof plane;
+    plane.width = WIDTH;
+    plane.height = HEIGHT;
+    plane.sample = PETZVAL_FLOAT;
+    plane.data = radii;
+    plane.pixel_stride = sizeof(float);
+    plane.row_stride = sizeof radii[0];
+    return plane;
+}
+
+static int ask_and_cancel(void* host, double done) {
+    (void)done;
+    ++*(int*)host;
+    return 0;
+}
+
+static petzval_status defocus(petzval_session* session, const petzval_look* look, picture* from, picture* to,
+                              int bottom_up, const petzval_control* control, petzval_report** report) {
+    const petzval_pixels colour = pixels_of(from, bottom_up), out = pixels_of(to, bottom_up);
+    const petzval_plane plane = radii_plane();
+    petzval_shot shot = {0};
+    shot.size = sizeof shot;
+    shot.colour = &colour;
+    shot.radii_px = &plane;
+    return petzval_defocus(session, &shot, look, control, &out, report);
+}
+
+static void test_a_lamp_becomes_a_disc_of_the_same_light(petzval_session* session) {
+    static picture in, out;
+    petzval_report* report = NULL;
+    double light = 0;
+    int x, y;
+    paint(&in, 0);
+    expect(defocus(session, NULL, &in, &out, 0, NULL, &report) == PETZVAL_OK, "a frame");
+    for (y = 0; y < HEIGHT; ++y)
+        for (x = 0; x < WIDTH; ++x) light += out.rgba[y][x][0];
+    expect(fabs(light - 100) < 0.1, "a disc has the light of its lamp");
+    expect(out.rgba[16][20][0] > 0.5f && out.rgba[16][20][0] < 5, "spread over some 80 pixels");
+    expect(strstr(petzval_report_json(report), "\"engine\": \"scatter\"") != NULL,
+           "the report names the engine");
+    petzval_report_close(report);
+}
+
+static void test_rows_may_lie_bottom_up(petzval_session* session) {
+    static picture down_in, down_out, up_in, up_out;
+    int x, y, same = 1;
+    paint(&down_in, 0);
+    paint(&up_in, 1);
+    expect(defocus(session, NULL, &down_in, &down_out, 0, NULL, NULL) == PETZVAL_OK, "top-down");
+    expect(defocus(session, NULL, &up_in, &up_out, 1, NULL, NULL) == PETZVAL_OK, "bottom-up");
+    for (y = 0; y < HEIGHT; ++y)
+        for (x = 0; x < WIDTH; ++x)
+            same = same && memcmp(at(&down_out, x, y, 0), at(&up_out, x, y, 1), 4 * sizeof(float)) == 0;
+    expect(same, "the same picture either way up, bit for bit");
+}
+
+static void test_a_frame_may_be_made_in_place(petzval_session* session) {
+    static picture in, out, both;
+    paint(&in, 0);
+    paint(&both, 0);
+    expect(defocus(session, NULL, &in, &out, 0, NULL, NULL) == PETZVAL_OK, "elsewhere");
+    expect(defocus(session, NULL, &both, &both, 0, NULL, NULL) == PETZVAL_OK, "in place");
+    expect(memcmp(&out, &both, sizeof out) == 0, "in place is the same");
+}
+
+static void test_looks(petzval_session* session) {
+    static picture in, round, pentagon;
+    petzval_look *look = NULL, *again = NULL;
+    const char* json = NULL;
+    char* kept;
+    paint(&in, 0);
+    expect(petzval_look_new(&look) == PETZVAL_OK, "a look");
+    expect(defocus(session, look, &in, &round, 0, NULL, NULL) == PETZVAL_OK, "a round disc");
+    expect(petzval_look_set(look, "lens.blades", "5") == PETZVAL_OK, "blades");
+    expect(petzval_look_set(look, "engine", "gather") == PETZVAL_OK, "an engine by its name");
+    expect(defocus(session, look, &in, &pentagon, 0, NULL, NULL) == PETZVAL_OK, "a pentagon");
+    expect(memcmp(&round, &pentagon, sizeof round) != 0, "a look changes the picture");
+    expect(petzval_look_set(look, "lens.blade", "5") == PETZVAL_INVALID_ARGUMENT,
+           "an unknown field is refused");
+    expect(strstr(petzval_error_text(), "lens.blades") != NULL, "with the field that was meant");
+    expect(petzval_look_json(look, &json) == PETZVAL_OK, "as JSON");
+    kept = malloc(strlen(json) + 1);
+    strcpy(kept, json);
+    expect(petzval_look_from_json(kept, &again) == PETZVAL_OK, "and back");
+    expect(petzval_look_json(again, &json) == PETZVAL_OK && strcmp(json, kept) == 0, "the same");
+    free(kept);
+    expect(petzval_look_from_json("{", &again) == PETZVAL_INVALID_FILE && again == NULL, "no JSON");
+    petzval_look_close(look);
+}
+
+static void test_what_is_wrong_is_said_and_nothing_is_written(petzval_session* session) {
+    static picture in, out, before;
+    petzval_look* look = NULL;
+    petzval_control control = {0};
+    int asked = 0;
+    paint(&in, 0);
+    memset(&out, 7, sizeof out);
+    before = out;
+    expect(petzval_look_new(&look) == PETZVAL_OK &&
+               petzval_look_set(look, "lens.name", "no such lens") == PETZVAL_OK,
+           "a name is taken as it is");
+    expect(defocus(session, look, &in, &out, 0, NULL, NULL) == PETZVAL_INVALID_ARGUMENT, "until it is used");
+    expect(strstr(petzval_error_text(), "no such lens") != NULL, "the message names it");
+    control.size = sizeof control;
+    control.host = &asked;
+    control.progress = ask_and_cancel;
+    expect(defocus(session, NULL, &in, &out, 0, &control, NULL) == PETZVAL_CANCELLED && asked > 0,
+           "cancelled");
+    expect(petzval_defocus(session, NULL, NULL, NULL, NULL, NULL) == PETZVAL_INVALID_ARGUMENT, "no shot");
+    expect(petzval_defocus(NULL, NULL, NULL, NULL, NULL, NULL) == PETZVAL_INVALID_ARGUMENT, "no session");
+    expect(memcmp(&out, &before, sizeof out) == 0, "nothing was written");
+    petzval_look_close(look);
+    petzval_look_close(NULL);
+    petzval_session_close(NULL);
+}
+
+/* A host that was built when settings held a size and nothing else. */
+static void test_structs_of_older_hosts(void) {
+    struct {
+        size_t size;
+        unsigned char beyond[256];
+    } old;
+    petzval_session* session = NULL;
+    memset(&old, 0xff, sizeof old);
+    old.size = sizeof old.size;
+    expect(petzval_session_open((const petzval_session_settings*)&old, &session) == PETZVAL_OK,
+           "what an old struct lacks is not read");
+    petzval_session_close(session);
+}
+
+static void test_names(void) {
+    int engines = 0, lenses = 0;
+    while (petzval_engine_name(engines) != NULL) ++engines;
+    while (petzval_lens_name(lenses) != NULL) ++lenses;
+    expect(engines >= 5 && lenses >= 40, "engines and lenses are listed");
+    expect(petzval_engine_name(-1) == NULL && petzval_lens_name(lenses + 1) == NULL, "and end");
+    expect(strcmp(petzval_status_name(PETZVAL_CANCELLED), "cancelled") == 0, "statuses have names");
+    expect(strcmp(petzval_status_name((petzval_status)99), "unknown") == 0, "others have none");
+    expect(strlen(petzval_version()) >= 5, "a version");
+}
+
+int main(void) {
+    petzval_session_settings settings = {0};
+    petzval_session* session = NULL;
+    int x, y;
+    for (y = 0; y < HEIGHT; ++y)
+        for (x = 0; x < WIDTH; ++x) radii[y][x] = 5;
+    settings.size = sizeof settings;
+    settings.threads = 2;
+    expect(petzval_session_open(&settings, &session) == PETZVAL_OK, "a session");
+    test_a_lamp_becomes_a_disc_of_the_same_light(session);
+    test_rows_may_lie_bottom_up(session);
+    test_a_frame_may_be_made_in_place(session);
+    test_looks(session);
+    test_what_is_wrong_is_said_and_nothing_is_written(session);
+    petzval_session_close(session);
+    test_structs_of_older_hosts();
+    test_names();
+    printf("petzval %s: %d failures\n", petzval_version(), failures);
+    return failures > 0;
+}
