@@ -139,10 +139,12 @@ def lint(*words):
 
 
 def check(*_):
-    """the house holds together: formatting, layers, sizes, headers alone, lint of what changed"""
+    """the house holds together: formatting, layers, sizes, headers alone, C door as it was, lint of what changed"""
+    make("release", "petzval_shared")
     failed = []
     for command in (["./dev", "format", "--check"], [sys.executable, "tools/check_layers.py"],
                     [sys.executable, "tools/check_sizes.py"], [sys.executable, "tools/check_headers.py"],
+                    [sys.executable, "tools/check_abi.py", "build/release"],
                     ["./dev", "lint"]):
         start = time.monotonic()
         print("+ " + shlex.join(command), file=sys.stderr, flush=True)
