@@ -4,7 +4,7 @@
 
 #include "petzval/defocus.h"
 
-#include "engine/waist/engine.h"
+#include "device/memory.h"
 #include "kernel/keep/kernel_store.h"
 #include "kernel/model/lens_model.h"
 
@@ -30,7 +30,8 @@ struct MountedLens {
 
     std::shared_ptr<kernel::KernelStore> store;  // on disk; null: none
     std::vector<std::unique_ptr<const kernel::LensModel>> levels;
-    engine::KernelSlot kernels;  // of `levels`
+    static constexpr std::size_t kKeptBytes = std::size_t(512) << 20;
+    device::Memory kernels{kKeptBytes};  // of `levels`, and what engines know of them
 };
 
 }  // namespace petzval

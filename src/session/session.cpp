@@ -1,6 +1,7 @@
 // What outlives a frame, and the order of one: lens, samples, engine, distortion, report.
 #include "petzval/session.h"
 
+#include "device/cpu/cpu_device.h"
 #include "engine/waist/memory.h"
 #include "session/distort.h"
 #include "session/engines.h"
@@ -60,7 +61,8 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
     engine::Input& input = frame.input;
     input.lens_levels = lens.levels;
-    input.kept_kernels = &lens.kernels;
+    input.device = &device::cpu_device();
+    input.memory = &lens.kernels;
     input.progress = &progress;
     const std::unique_ptr<views::PlanView> view = views::plan_view(job.scatter.view);
     if (view) {
@@ -72,6 +74,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
     const double prepared = clock.seconds();
 
     Result<engine::Output> output = chosen.run(input);
+    lens.kernels.trim();
     if (!output) return output.error();
     DefocusReport report;
     report.image = std::move(output->image);
@@ -86,7 +89,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
             report.image, {input.field_centre_x, input.field_centre_y, input.field_per_px, job.pixel_aspect},
             job.lens.distortion, job.threads);
     report.engine = chosen.name;
-    report.device = "cpu";
+    report.device = input.device->name();
     report.lens = lens.levels.front()->description();
     report.kernels_from_cache = lens.store ? lens.store->kernels_found() : 0;
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());

@@ -4,21 +4,21 @@ namespace petzval::views {
 
 using engine::Highlight;
 
-void HighlightsView::read(const engine::Input& input, const engine::ScatterPlan& plan,
-                          const engine::HighlightSplit& split, const engine::ScatterKernels& kernels) {
+void HighlightsView::read(const engine::PlannedStrip& strip) {
+    const engine::Input& input = strip.input;
     const int width = input.width(), height = input.height();
     shown_.image = Picture(2 * width, height);
     const Rect drawn{0, 0, width, height}, taken{width, 0, 2 * width, height};
     shown_.panels = {{"HIGHLIGHTS  EACH DRAWN WITH ITS WHOLE KERNEL", drawn, {}, ""},
                      {"TAKEN  FROM THE SHARP PICTURE", taken, {}, "taken"}};
-    for (const Highlight& h : plan.highlights)
+    for (const Highlight& h : strip.highlights)
         for (int y = h.y; y < h.y + h.size; ++y)
             for (int x = h.x; x < h.x + h.size; ++x) {
                 Rgba& pixel = shown_.image(width + x, y);
                 pixel += h.colour, pixel.a = 1;
             }
-    spread_highlights(input, kernels.highlights, plan.base, plan.highlights, split.white(), plan.rows,
-                      shown_.image.view().part(drawn));
+    spread_highlights(input, strip.highlight_kernels, strip.base, strip.highlights, strip.white,
+                      strip.scatter.rows, shown_.image.view().part(drawn));
     input.progress->advance(1);
 }
 

@@ -1,10 +1,11 @@
 #include "base/parallel.h"
-#include "device/cpu/stamp.h"
+#include "device/cpu/atlas.h"
 #include "views/plan_view.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace petzval::views {
 
@@ -55,24 +56,43 @@ struct Layout {
     }
 };
 
+// Visits the kernels that a source is spread with: visit(zone's ask, share).
+template <typename Visit>
+void for_kernels(const ScatterKernels& kernels, const Source& s, int level, const Visit& visit) {
+    for (const auto& [zone, share] : kernels.zones_for(level, s.x, s.y(), s.radius))
+        if (share > 0) visit(kernels.ask(level, zone, s.radius, s.skirt_of(), false), share);
+}
+
+device::KernelSet kernels_of(const ScatterKernels& kernels, const SourceArray& sources, int level) {
+    std::set<device::KernelAsk> asks;
+    for (const Source& s : sources.sources)
+        if (!is_emptiness(s.layer))
+            for_kernels(kernels, s, level, [&](const device::KernelAsk& ask, float) { asks.insert(ask); });
+    return {{asks.begin(), asks.end()}};
+}
+
 // All that the sources of one level send, over all depths.
-void accumulate(const Input& input, const SourceLevel& sources, int level, const StampTable& table,
-                View<Rgba> out) {
+void accumulate(const PlannedStrip& strip, int level, View<Rgba> out) {
+    const Input& input = strip.input;
+    const SourceArray& sources = strip.scatter.levels[std::size_t(level)];
+    const device::KernelSet set = kernels_of(strip.kernels, sources, level);
+    const device::StampAtlas atlas(strip.kernels, set, *input.memory, {input.threads, *input.progress});
     parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
         if (input.progress->cancelled()) return;
         const Rect rows{0, band * kBand, out.width(), std::min(out.height(), (band + 1) * kBand)};
-        Accumulator cells;
-        cells.reset(rows);
-        const int reach = table.reach(level);
+        std::array<Accumulator, 1> cells;
+        cells[0].reset(rows);
+        const int reach = strip.kernels.reach(level);
         for (int y = rows.y0 - reach; y < rows.y1 + reach; ++y)
             for (const Source& s : sources.row(y)) {
                 if (is_emptiness(s.layer)) continue;
-                for (const auto& [part, share] : table.parts_for(level, s.x, y, s.radius))
-                    if (share > 0)
-                        stamp(table.at(level, part, s.radius, s.skirt_of), s.x, y, s.light * share, s.tilt_x,
-                              s.tilt_y, {&cells, 1});
+                for_kernels(strip.kernels, s, level, [&](const device::KernelAsk& ask, float share) {
+                    const auto place = std::lower_bound(set.asks.begin(), set.asks.end(), ask);
+                    stamp(atlas[std::uint32_t(place - set.asks.begin())].kernels, s.x, s.y(), s.light * share,
+                          s.tilt_x, s.tilt_y, cells);
+                });
             }
-        for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells.row(y), out.width(), out.row(y));
+        for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells[0].row(y), out.width(), out.row(y));
     });
 }
 
@@ -101,19 +121,20 @@ void draw_map(const Input& input, View<const Rgba> atlas, const Layout& layout, 
 
 }  // namespace
 
-void LevelsView::read(const Input& input, const ScatterPlan& plan, const HighlightSplit& split,
-                      const ScatterKernels& kernels) {
-    const std::vector<SourceLevel>& levels = plan.levels;
-    const Layout layout(input.width(), input.height(), int(levels.size()));
+void LevelsView::read(const PlannedStrip& strip) {
+    const Input& input = strip.input;
+    const std::size_t levels = strip.scatter.levels.size();
+    const Layout layout(input.width(), input.height(), int(levels));
     shown_.image = Picture(layout.all.width(), layout.all.height(), Rgba{0, 0, 0, 1});
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-        accumulate(input, levels[l], int(l), kernels.table, shown_.image.view().part(layout.levels[l]));
-        shown_.panels.push_back({name_of_level(int(l), plan.rule), layout.levels[l], colour_of(int(l))});
-        if (!input.progress->advance(0.8 / double(levels.size()))) return;
+    for (std::size_t l = 0; l < levels; ++l) {
+        accumulate(strip, int(l), shown_.image.view().part(layout.levels[l]));
+        shown_.panels.push_back(
+            {name_of_level(int(l), strip.scatter.rule), layout.levels[l], colour_of(int(l))});
+        if (!input.progress->advance(0.8 / double(levels))) return;
     }
     const View<Rgba> bright = shown_.image.view().part(layout.highlights);
-    spread_highlights(input, kernels.highlights, plan.base, plan.highlights, split.white(), plan.rows,
-                      bright);
+    spread_highlights(input, strip.highlight_kernels, strip.base, strip.highlights, strip.white,
+                      strip.scatter.rows, bright);
     shown_.panels.push_back({"HIGHLIGHTS  EACH WITH ITS WHOLE KERNEL", layout.highlights, kHighlightColour});
     draw_map(input, shown_.image, layout, shown_.image.view().part(layout.map));
     shown_.panels.push_back({"WHICH LEVEL DREW WHAT", layout.map, {}});

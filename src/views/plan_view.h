@@ -4,7 +4,7 @@
 #include "petzval/engine_options.h"
 #include "petzval/engine_report.h"
 
-#include "engine/scatter/plan.h"
+#include "engine/scatter/plan_reader.h"
 
 #include <memory>
 #include <string>
@@ -25,8 +25,7 @@ constexpr std::size_t kBytesPerPixel = 260;
 class PlanView : public engine::PlanReader {
 public:
     bool read(const engine::Input&, const engine::SampleSet&) override { return true; }
-    void read(const engine::Input&, const engine::ScatterPlan&, const engine::HighlightSplit&,
-              const engine::ScatterKernels&) override {}
+    void read(const engine::PlannedStrip&) override {}
     Shown take() { return std::move(shown_); }
 
 protected:
@@ -56,8 +55,7 @@ public:
 class LevelsView final : public PlanView {
 public:
     using PlanView::read;
-    void read(const engine::Input& strip, const engine::ScatterPlan& plan,
-              const engine::HighlightSplit& split, const engine::ScatterKernels& kernels) override;
+    void read(const engine::PlannedStrip& strip) override;
 };
 
 // Left the highlights as they are drawn, each with its whole kernel: the result less these is what the levels
@@ -65,8 +63,7 @@ public:
 class HighlightsView final : public PlanView {
 public:
     using PlanView::read;
-    void read(const engine::Input& strip, const engine::ScatterPlan& plan,
-              const engine::HighlightSplit& split, const engine::ScatterKernels& kernels) override;
+    void read(const engine::PlannedStrip& strip) override;
 };
 
 }  // namespace petzval::views

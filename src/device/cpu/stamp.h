@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <utility>
+#include <vector>
 
 namespace petzval::engine {
 
@@ -58,16 +58,12 @@ public:
     // Rows that may hold light.
     Rows touched() const { return touched_; }
     void touch(Rows rows) { touched_ = touched_.with(rows); }
-    // Pixels of kernels added since this was last asked for.
-    void count_taps(std::size_t taps) { taps_ += taps; }
-    std::size_t take_taps() { return std::exchange(taps_, 0); }
     Rgba* row(int y) { return pixels_.row(y - area_.y0) + kSpill; }
     const Rgba* row(int y) const { return pixels_.row(y - area_.y0) + kSpill; }
 
 private:
     Rect area_;
     Rows touched_;
-    std::size_t taps_ = 0;
     Picture pixels_;
 };
 
@@ -90,8 +86,8 @@ void stamp_dimmed(const StampKernel& kernel, int x, int y, Rgba light, const Dim
 void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float> shares, Rgba* sums);
 
 // Adds `coarse`, whose cells are 2^level pixels wide, to `fine`: Catmull-Rom.
-// Requires: coarse covers the cells of fine's area and two more on every side.
-void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine);
+// Requires: coarse covers the cells of fine's area and two more on every side. `scratch` may hold anything.
+void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch);
 
 // The lens-area budget, pixel by pixel: a layer takes the lens area it arrives with (its a), or what is left
 // in `free` if that is less; its light comes in proportion. n pixels.

@@ -41,17 +41,14 @@ struct Overlap {
     }
     // visit(row, first group, weights from there, sums, floats) for every row with weights.
     template <typename Visit>
-    HWY_INLINE void for_rows(const Visit& visit, int passes = 1) const {
-        std::size_t groups = 0;
+    HWY_INLINE void for_rows(const Visit& visit) const {
         for (int y = y0; y < y1; ++y) {
             const int k = y - top;
             const int g0 = std::max(kernel.first_group(k), least), g1 = std::min(kernel.last_group(k), most);
             if (g0 >= g1) continue;
             visit(y, g0, kernel.row(k) + std::ptrdiff_t(g0) * kGroupFloats,
                   &into.row(y)[left - into.area().x0 + g0 * StampKernel::kGroup].r, (g1 - g0) * kGroupFloats);
-            groups += std::size_t(g1 - g0);
         }
-        into.count_taps(groups * StampKernel::kGroup / std::size_t(passes));
     }
     const StampKernel& kernel;
     Accumulator& into;
@@ -72,8 +69,7 @@ void StampPlain(const StampKernel& kernel, int x, int y, const Rgba& light, Accu
                     for (int i = part; i < n; i += step)
                         hn::StoreU(hn::MulAdd(hn::Load(d, weights + i), own, hn::LoadU(d, sums + i)), d,
                                    sums + i);
-                },
-                passes);
+                });
     }
 }
 
@@ -185,7 +181,7 @@ void AddShares(const Rgba* HWY_RESTRICT weights, const Rgba& light, const float*
     }
 }
 
-void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
+void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& wide) {
     const Floats d;
     const OnePixel one;
     const int lanes = int(hn::Lanes(d));
@@ -204,7 +200,6 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine) {
     fine.touch(rows);
     // Rows are enlarged first, each coarse row once; then columns.
     const std::size_t stride = 4 * std::size_t((to.width() + 3) / 4 * 4);
-    thread_local std::vector<float> wide;
     wide.resize(stride * std::size_t(from.height()));
     for (int x = to.x0; x < to.x1; ++x) {
         int cell = 0;
@@ -270,8 +265,8 @@ void stamp_dimmed(const StampKernel& kernel, int x, int y, Rgba light, const Dim
 void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float> shares, Rgba* sums) {
     HWY_DYNAMIC_DISPATCH(AddShares)(weights.data(), light, shares.data(), sums, weights.size());
 }
-void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine) {
-    HWY_DYNAMIC_DISPATCH(AddEnlarged)(coarse, level, fine);
+void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch) {
+    HWY_DYNAMIC_DISPATCH(AddEnlarged)(coarse, level, fine, scratch);
 }
 void take_budget(const Rgba* layer, Rgba* sum, float* free, int n) {
     HWY_DYNAMIC_DISPATCH(TakeBudget)(layer, sum, free, n);

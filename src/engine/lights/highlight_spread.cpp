@@ -89,6 +89,13 @@ HighlightKernels::HighlightKernels(const Input& input) {
 
 HighlightKernels::~HighlightKernels() = default;
 
+std::size_t HighlightKernels::bytes() const {
+    std::size_t sum = sizeof(*this);
+    for (const auto* banks : {&banks_, &fine_banks_})
+        for (const auto& bank : *banks) sum += bank->bytes_held();
+    return sum;
+}
+
 std::shared_ptr<const PointSpread> HighlightKernels::of(const Highlight& h, kernel::FieldPosition field,
                                                         bool fine) const {
     std::size_t bank = 0;

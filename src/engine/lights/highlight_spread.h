@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include "device/memory.h"
 #include "engine/lights/highlights.h"
 #include "engine/waist/engine.h"
 #include "engine/waist/work.h"
@@ -15,13 +16,14 @@ namespace petzval::engine {
 class SquareLens;
 
 // Complete kernels of pixels and of squares of them.
-class HighlightKernels {
+class HighlightKernels final : public device::Memory::Thing {
 public:
     explicit HighlightKernels(const Input& input);
-    ~HighlightKernels();
+    ~HighlightKernels() override;
     // fine: radius and place of the kernel as near to the highlight's as anybody can tell.
     std::shared_ptr<const kernel::PointSpread> of(const Highlight& h, kernel::FieldPosition field,
                                                   bool fine) const;
+    std::size_t bytes() const override;
 
 private:
     std::vector<std::unique_ptr<const SquareLens>> lenses_;

@@ -1,47 +1,146 @@
-// What the scatter engine decides before it draws: what goes where.
+// What the scatter engine decides before anything is drawn: flat data, no pixels of the result.
 //
 // A plan is of a strip: rows of the frame with those around them that can influence them. Rows in a plan
-// count from the strip's first.
+// count from the strip's first. Lists that belong to an element of another list lie one after the other: the
+// element says where its own begin, the next element where they end, and one more closes the list.
 #pragma once
 
-#include "engine/lights/highlight_spread.h"
-#include "engine/lights/highlights.h"
+#include "device/kernels.h"
+#include "engine/samples/layers.h"
 #include "engine/samples/sample_set.h"
-#include "engine/scatter/sources.h"
-#include "engine/scatter/stamp_table.h"
 #include "engine/waist/engine.h"
+#include "image/big_vector.h"
 
+#include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace petzval::engine {
 
+// How finely sources are spread.
+struct LevelRule {
+    float largest_cells = 8;  // no source covers more than this radius, in cells of its level…
+    float fade = 0.15f;       // …but for the fade: across this share of a level it is spread on two
+    // One budget for the whole lens does not know which part of it each of three surfaces takes: where at
+    // least this many reach a tile, sectors of the pupil are composited each on its own.
+    int surfaces_for_sectors = 3;
+    // Layers up to this one, on either side of focus, count as so narrow that they come alike through all of
+    // the pupil. Where what lies behind them is known, it would show through where wider ones begin.
+    int narrow_layer = kNextLayer;
+    // Sectors of equal light that the pupil is taken in: in the middle, and around that.
+    int inner_sectors = 0, outer_sectors = 4;
+    int sectors() const { return inner_sectors + outer_sectors; }
+    static constexpr int kMostSectors = 6;
+    // The first levels follow each other this closely: what levels cost falls with the radius, so that wider
+    // discs do with fewer cells. From kHalved levels on they do with half as many, and no fewer.
+    static constexpr int kHalved = 5;
+    static constexpr float kOctavesPerLevel = 1 - 1.0f / kHalved;
+    // Place of a radius on the scale of levels: 0 up to largest_cells, n where level n ends.
+    float position(float coc_px) const;
+    float end_of_level(int level) const;  // the radius in pixels whose position is `level`
+    // Largest radius any source can have on its level.
+    float largest_radius() const;
+};
+
 LevelRule level_rule(const Input& input);
 
-// Made when first asked for; the same for every picture of this lens, size and quality.
-struct ScatterKernels final : KeptKernels {
-    ScatterKernels(const Input& input, const LevelRule& rule)
-        : table(input, input.width(), input.height(), rule), highlights(input) {}
-    StampTable table;
-    HighlightKernels highlights;
+// The signed radius in pixels of a source whose radius is given in cells of its level.
+inline float radius_in_pixels(float radius, int level) {
+    const float size = float(1 << level), square = radius * radius * size * size;
+    return level == 0 ? radius : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);
+}
+// And back: the radius of a disc that, averaged over cells of its level, is as wide as one of coc_px over a
+// pixel. (A square of side a adds a^2/12 to the mean square along each axis, a disc of radius r has r^2/4.)
+inline float radius_in_cells(float coc_px, int level) {
+    const float size = float(1 << level), square = coc_px * coc_px - (size * size - 1) / 3;
+    return level == 0 ? coc_px : std::copysign(std::sqrt(std::max(0.0f, square)) / size, coc_px);
+}
+
+// A small square of one surface that spreads its light. There are about as many as pixels.
+struct Source {
+    Rgba light;        // r, g, b: premultiplied colour; a: share of its cell's lens area it takes up, 0…1
+    float radius = 0;  // signed, in cells of its level
+    float tilt_x = 0, tilt_y = 0;  // change of the weight per cell away from the source: slope / radius
+    // Where in its cell the middle of what it gathers lies, -0.5…0.5: 0 where the cell is evenly filled.
+    float off_x = 0, off_y = 0;
+    int layer = 0;  // its place in the order of compositing
+    int x = 0;      // cell on the level's grid, may lie outside the picture; its row: y()
+    int y() const { return row_and_skirt >> kSkirtBits; }
+    // n: it sends the skirt of the kernel n levels finer.
+    int skirt_of() const { return row_and_skirt & ((1 << kSkirtBits) - 1); }
+
+    static constexpr int kSkirtBits = 2;
+    int row_and_skirt = 0;
+    static int packed(int y, int skirt_of) { return y * (1 << kSkirtBits) + skirt_of; }
+};
+static_assert(sizeof(Source) == 48);
+
+// The sources on one grid, 0: pixels.
+struct SourceArray {
+    Rect area;                         // cells covered, outside ones included
+    BigVector<Source> sources;         // row by row, ascending x
+    std::vector<std::uint32_t> first;  // of row y - area.y0; and the end
+    std::span<const Source> row(int y) const {
+        if (y < area.y0 || y >= area.y1) return {};
+        const std::size_t i = std::size_t(y - area.y0);
+        return {sources.data() + first[i], sources.data() + first[i + 1]};
+    }
+};
+
+// A source that reaches a tile, and the kernel it comes with: places in its level's sources and in the plan's
+// kernels.
+struct Arrival {
+    std::uint32_t source, kernel;
+};
+// Arrivals of one level within a layer, in the order in which they are added.
+struct LevelRun {
+    std::uint32_t first_arrival;
+    int level;
+};
+// What is composited as one: light, and after it the emptiness at its depth.
+struct TileLayer {
+    std::uint32_t first_run, first_empty_run;
+    int sectors;  // 1: all of the pupil at once
+};
+// Pixels of the result that are drawn together. Its layers come nearest first; each takes the lens area it
+// arrives with, or what is left.
+struct Tile {
+    Rect pixels;
+    std::uint32_t first_layer;
+    int sectors;  // of the pupil, each with a budget of its own
 };
 
 struct ScatterPlan {
+    static constexpr int kTile = 64;
+    static constexpr int kBorder = 2;  // cells around a tile that enlarging reads
+    // The cells of a level that a tile needs.
+    static Rect cells_of(const Rect& tile, int level) {
+        if (level == 0) return tile;
+        return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
+                    ((tile.y1 - 1) >> level) + 1}
+            .grown(kBorder);
+    }
+
     Rect rows;          // pixels to be drawn
     int first_row = 0;  // row of the frame that is row 0
     LevelRule rule;
-    CocSamples base;  // what was seen, less the highlights
-    std::vector<Highlight> highlights;
-    std::vector<SourceLevel> levels;
+    std::vector<SourceArray> levels;
+    std::vector<Tile> tiles;
+    std::vector<TileLayer> layers;
+    std::vector<LevelRun> runs;
+    BigVector<Arrival> arrivals;
+    std::vector<float> shares;  // of each arrival's light that it sends; empty: all of it
+    device::KernelSet kernels;
+    // Light that lands in a pixel is dimmed by these (Input::holdout).
+    CocSamplesView holdout;
 };
 
-// Looks at what a run makes on its way, in place of its result. The frame is then done as one strip.
-class PlanReader {
-public:
-    virtual ~PlanReader() = default;
-    // `strip` is what the plan is made from. False: nothing that follows is wanted.
-    virtual bool read(const Input& strip, const SampleSet& set) = 0;
-    virtual void read(const Input& strip, const ScatterPlan& plan, const HighlightSplit& split,
-                      const ScatterKernels& kernels) = 0;
-};
+class ScatterKernels;
+
+// The plan of a strip: its sources, and what of them reaches which tile. `strip` is what the samples were
+// made from; rows: the pixels of it to be drawn; first_row: the frame's row that is its row 0.
+ScatterPlan make_plan(const Input& strip, const CocSamples& samples, View<const unsigned char> connected,
+                      const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels);
 
 }  // namespace petzval::engine

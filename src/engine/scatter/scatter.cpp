@@ -1,32 +1,25 @@
 // The final-frame engine: complete, split, spread by levels, composite by lens area (docs/design/scatter.md).
 #include "engine/scatter/scatter.h"
 
-#include "base/parallel.h"
+#include "device/device.h"
 #include "engine/lights/highlight_spread.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
-#include "engine/samples/sample_set.h"
-#include "engine/scatter/plan.h"
-#include "engine/scatter/tile_spread.h"
-#include "engine/waist/work.h"
+#include "engine/scatter/plan_reader.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <string>
 
 namespace petzval::engine {
 namespace {
 
-constexpr int kTile = 64;
-
 // Times the stages of a run; a stage that comes again adds to its time.
 class Stopwatch {
 public:
     explicit Stopwatch(std::vector<StageTime>& stages) : stages_(stages) {}
-    void lap(const char* stage, Work work) {
+    void lap(const char* stage, device::Work work = {}) {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();
         last_ = now;
@@ -54,11 +47,10 @@ std::size_t bytes_of(const CocSamples& samples) {
     return samples.first.size() * sizeof(std::size_t) + samples.samples.size() * sizeof(CocSample);
 }
 
-std::size_t bytes_of(const std::vector<SourceLevel>& levels) {
-    std::size_t sources = 0;
-    for (const SourceLevel& level : levels)
-        for (const std::vector<Source>& row : level.rows) sources += row.size();
-    return sources * sizeof(Source);
+std::size_t bytes_of(const ScatterPlan& plan) {
+    std::size_t bytes = plan.arrivals.size() * sizeof(Arrival) + plan.shares.size() * sizeof(float);
+    for (const SourceArray& level : plan.levels) bytes += level.sources.size() * sizeof(Source);
+    return bytes;
 }
 
 // Frames are done in strips of rows, each with as many rows around it as can influence it, so that memory is
@@ -73,10 +65,10 @@ constexpr std::size_t kBytesPerPixel = 20, kBytesPerSample = 90;
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 constexpr std::size_t kFixedWorkingBytes = std::size_t(100) << 20;  // kernels, tables, code
 
-Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const StampTable& table) {
+Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const ScatterKernels& kernels) {
     const double largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
-    const int coarsest = table.coarsest_for(int(std::ceil(rule.position(float(largest)))));
-    const int unit = std::max(kTile, 1 << coarsest);
+    const int coarsest = kernels.coarsest_for(int(std::ceil(rule.position(float(largest)))));
+    const int unit = std::max(ScatterPlan::kTile, 1 << coarsest);
     const auto whole_units = [unit](double rows) {
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
     };
@@ -117,27 +109,31 @@ HighlightRule bright_rule(const Input& frame) {
 // A run over the strips of a frame: each is completed, split, planned and drawn.
 class ScatterRun {
 public:
-    ScatterRun(const Input& frame, const LevelRule& rule, const ScatterKernels& kernels, Stopwatch& watch)
+    ScatterRun(const Input& frame, Stopwatch& watch)
         : frame_(frame),
-          rule_(rule),
-          kernels_(kernels),
           watch_(watch),
+          rule_(level_rule(frame)),
+          kernels_(frame.memory->get<ScatterKernels>(
+              "scatter",
+              [&] { return std::make_shared<ScatterKernels>(frame, frame.width(), frame.height(), rule_); })),
+          highlight_kernels_(frame.memory->get<HighlightKernels>(
+              "highlights", [&] { return std::make_shared<HighlightKernels>(frame); })),
           split_(frame.colour, frame.coc_px, bright_rule(frame), frame.threads) {
         watch_.lap("split", {bytes_of(frame.colour) + bytes_of(frame.coc_px)});
     }
+    Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_); }
 
     // Draws `rows` of the frame. `share`: of the progress.
     void draw(const Rect& rows, int halo, double share, View<Rgba> out) {
         const int first = std::max(0, rows.y0 - halo);
         const Input strip = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
-        SampleSet set = complete(strip);
-        const ScatterPlan plan = planned(strip, std::move(set), rows, first);
-        draw(strip, plan, share, out);
+        planned(strip, complete(strip), rows, first, [&](const PlannedStrip& p) { draw(p, share, out); });
     }
     void show(PlanReader& reader) {
         SampleSet set = complete(frame_);
         if (!reader.read(frame_, set)) return;
-        reader.read(frame_, planned(frame_, std::move(set), frame_.colour.rect(), 0), split_, kernels_);
+        planned(frame_, std::move(set), frame_.colour.rect(), 0,
+                [&](const PlannedStrip& p) { reader.read(p); });
     }
 
 private:
@@ -147,80 +143,59 @@ private:
         return set;
     }
 
-    ScatterPlan planned(const Input& strip, SampleSet set, const Rect& rows, int first_row) {
-        ScatterPlan plan;
-        plan.first_row = first_row, plan.rule = rule_;
-        plan.rows = {0, rows.y0 - first_row, rows.width(), rows.y1 - first_row};
-        plan.base = std::move(set.samples);
-        plan.highlights = take_highlights(plan.base, split_, first_row, kLargestSquare, strip.threads);
-        if (strip.deep_dims_itself) share_lens_area(plan.base, strip.threads);
-        watch_.lap("split", {2 * bytes_of(plan.base) + plan.highlights.size() * sizeof(Highlight)});
-        plan.levels = make_sources(plan.base, strip.coc_px, set.connected, strip.open_edges, rule_,
-                                   kernels_.table, strip.threads);
-        watch_.lap("sources", {bytes_of(plan.base) + bytes_of(strip.coc_px) + set.connected.bytes() +
-                               bytes_of(plan.levels)});
-        return plan;
+    // use(the strip, planned).
+    template <typename Use>
+    void planned(const Input& strip, SampleSet set, const Rect& rows, int first_row, const Use& use) {
+        CocSamples& base = set.samples;
+        const std::vector<Highlight> highlights =
+            take_highlights(base, split_, first_row, kLargestSquare, strip.threads);
+        if (strip.deep_dims_itself) share_lens_area(base, strip.threads);
+        watch_.lap("split", {2 * bytes_of(base) + highlights.size() * sizeof(Highlight)});
+        const Rect here{0, rows.y0 - first_row, rows.width(), rows.y1 - first_row};
+        const ScatterPlan plan = make_plan(strip, base, set.connected, here, first_row, rule_, *kernels_);
+        watch_.lap("sources",
+                   {bytes_of(base) + bytes_of(strip.coc_px) + set.connected.bytes() + bytes_of(plan)});
+        use({strip, plan, *kernels_, base, highlights, *highlight_kernels_, split_.white()});
     }
 
-    void draw(const Input& strip, const ScatterPlan& plan, double share, View<Rgba> out) {
-        const Rect& rows = plan.rows;
-        const int tiles_x = (rows.width() + kTile - 1) / kTile, tiles_y = (rows.height() + kTile - 1) / kTile;
-        WorkCount spread;
-        parallel_for(tiles_x * tiles_y, strip.threads, [&](int i) {
-            if (strip.progress->cancelled()) return;
-            const int x = i % tiles_x * kTile, y = rows.y0 + i / tiles_x * kTile;
-            spread.add(spread_tile(plan.levels, kernels_.table, strip.holdout,
-                                   Rect{x, y, x + kTile, y + kTile}.intersected(rows), plan.first_row, rule_,
-                                   out));
-            strip.progress->advance(0.9 * share / (tiles_x * tiles_y));
-        });
-        watch_.lap("spread", spread.sum());
-        const Rect in_frame{0, plan.first_row + rows.y0, rows.width(), plan.first_row + rows.y1};
-        watch_.lap("highlights", spread_highlights(strip, kernels_.highlights, plan.base, plan.highlights,
-                                                   split_.white(), rows, out.part(in_frame)));
+    void draw(const PlannedStrip& p, double share, View<Rgba> out) {
+        const Input& strip = p.input;
+        const device::Device& device = *strip.device;
+        const device::Control control{strip.threads, *strip.progress, 0.9 * share};
+        const auto atlas = device.atlas(*kernels_, p.scatter.kernels, *strip.memory, control);
+        watch_.lap("atlas");
+        if (!strip.progress->cancelled())
+            watch_.lap("spread", device.composite(p.scatter, *atlas, out, control));
+        const Rect& rows = p.scatter.rows;
+        const int first_row = p.scatter.first_row;
+        const Rect in_frame{0, first_row + rows.y0, rows.width(), first_row + rows.y1};
+        const Work work = spread_highlights(strip, *highlight_kernels_, p.base, p.highlights, p.white, rows,
+                                            out.part(in_frame));
+        watch_.lap("highlights", {work.bytes, work.multiply_adds});
         strip.progress->advance(0.1 * share);
     }
 
     const Input& frame_;
-    const LevelRule& rule_;
-    const ScatterKernels& kernels_;
     Stopwatch& watch_;
+    LevelRule rule_;
+    std::shared_ptr<const ScatterKernels> kernels_;
+    std::shared_ptr<const HighlightKernels> highlight_kernels_;
     HighlightSplit split_;
 };
 
 }  // namespace
 
-LevelRule level_rule(const Input& input) {
-    LevelRule rule;
-    switch (input.quality) {
-        case Quality::Draft:
-            rule = {.largest_cells = 5, .surfaces_for_cells = std::numeric_limits<int>::max()};
-            break;
-        case Quality::Standard:
-            rule = {.largest_cells = 8, .surfaces_for_cells = 2};
-            break;
-        case Quality::Final:
-            rule = {.largest_cells = 24, .surfaces_for_cells = 2, .inner_cells = 1, .outer_cells = 5};
-            break;
-    }
-    if (!input.deep.empty()) rule.narrow_layer = 0;
-    return rule;
-}
-
 Result<Output> run_scatter(const Input& input) {
     Output output;
     Stopwatch watch(output.stages);
-    const LevelRule rule = level_rule(input);
-    const auto& kernels = input.kept_kernels->get<ScatterKernels>(
-        [&] { return std::make_unique<ScatterKernels>(input, rule); });
+    ScatterRun run(input, watch);
     if (input.plan_reader) {
-        ScatterRun(input, rule, kernels, watch).show(*input.plan_reader);
+        run.show(*input.plan_reader);
         if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
         return output;
     }
-    const Result<StripPlan> strips = plan_strips(input, rule, kernels.table);
+    const Result<StripPlan> strips = run.strips();
     if (!strips) return strips.error();
-    ScatterRun run(input, rule, kernels, watch);
     output.image = Picture::uninitialised(input.width(), input.height());
     for (int y = 0; y < input.height() && !input.progress->cancelled(); y += strips->rows) {
         const Rect rows = Rect{0, y, input.width(), y + strips->rows}.intersected(output.image.rect());

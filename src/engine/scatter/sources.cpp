@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/samples/connectivity.h"
-#include "engine/scatter/stamp_table.h"
+#include "engine/scatter/scatter_kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ struct Gathered {
         return moved;
     }
     // As a source at cell cell_x of a row of a level.
-    Source source(int cell_x, int level) const {
+    Source source(int cell_x, int cell_y, int level) const {
         const float mean = 1 / light.a, size = float(1 << level);
         const auto off = [&](float sum) {
             constexpr float kLeast = 0.03f;  // less shows nowhere
@@ -56,11 +56,11 @@ struct Gathered {
                 radius_in_cells(coc * mean, level),
                 tilt_x * mean * size,
                 tilt_y * mean * size,
-                cell_x,
-                layer,
                 level > 0 ? off(x) : 0,
                 level > 0 ? off(y) : 0,
-                skirt_of};
+                layer,
+                cell_x,
+                Source::packed(cell_y, skirt_of)};
     }
 };
 
@@ -133,55 +133,112 @@ private:
     LevelRule rule_;
 };
 
-// A source of an outermost cell, repeated at cell x beyond an edge: beyond an open one the picture goes on,
-// beyond a closed one there is emptiness.
-Source beyond_edge(Source s, int x, bool open) {
-    s.x = x, s.off_x = s.off_y = 0;
-    if (!open) s.light = {0, 0, 0, s.light.a}, s.layer = kEmptyLayer, s.tilt_x = s.tilt_y = 0;
-    return s;
-}
+// Rows of cells of one level, as a band leaves them.
+struct Rows {
+    std::vector<Source> sources;
+    std::vector<std::uint32_t> ends;  // of each row
+    void end_row() { ends.push_back(std::uint32_t(sources.size())); }
+};
 
-// A row of cells 0…width-1 with `margin` more at either end.
-std::vector<Source> with_margins(std::span<const Source> row, int width, int margin, const OpenEdges& open) {
-    std::size_t head = 0, tail = 0;  // sources in the first and the last cell: rows ascend in x
-    while (head < row.size() && row[head].x == 0) ++head;
-    while (tail < row.size() && row[row.size() - 1 - tail].x == width - 1) ++tail;
-    std::vector<Source> whole;
-    whole.reserve(row.size() + std::size_t(margin) * (head + tail));
-    for (int x = -margin; x < 0; ++x)
-        for (const Source& s : row.first(head)) whole.push_back(beyond_edge(s, x, open.left));
-    whole.insert(whole.end(), row.begin(), row.end());
-    for (int x = width; x < width + margin; ++x)
-        for (const Source& s : row.last(tail)) whole.push_back(beyond_edge(s, x, open.right));
-    return whole;
-}
+// One level: the rows of all bands, with `margin` cells more around the picture. A source of an outermost
+// cell is repeated there: beyond an open edge the picture goes on, beyond a closed one there is emptiness.
+class LevelBuilder {
+public:
+    LevelBuilder(int width, int height, int margin, const OpenEdges& open)
+        : width_(width), height_(height), margin_(margin), open_(open) {
+        array_.area = Rect{0, 0, width, height}.grown(margin);
+    }
+    int height() const { return height_; }
 
-// Rows above and below the picture.
-void add_margin_rows(SourceLevel& level, int margin, const OpenEdges& open) {
-    const auto repeat = [&](std::size_t from, std::size_t to, bool is_open) {
-        for (const Source& s : level.rows[from]) level.rows[to].push_back(beyond_edge(s, s.x, is_open));
-    };
-    const std::size_t top = std::size_t(margin), bottom = level.rows.size() - 1 - top;
-    for (std::size_t k = 0; k < top; ++k)
-        repeat(top, k, open.top), repeat(bottom, bottom + 1 + k, open.bottom);
-}
+    // Rows of cells first…first+n-1, where all rows before are known.
+    void place(const Rows& rows) {
+        std::uint32_t begin = 0;
+        for (const std::uint32_t end : rows.ends) {
+            const std::span<const Source> row(rows.sources.data() + begin, end - begin);
+            counts_.push_back(std::uint32_t(row.size() + std::size_t(margin_) * (head(row) + tail(row))));
+            begin = end;
+        }
+    }
+    void allocate() {
+        const int rows = array_.area.height();
+        array_.first.assign(std::size_t(rows) + 1, 0);
+        for (int i = 0; i < rows; ++i)
+            array_.first[std::size_t(i) + 1] =
+                array_.first[std::size_t(i)] + counts_[std::size_t(std::clamp(i - margin_, 0, height_ - 1))];
+        array_.sources.resize(array_.first.back());
+    }
+    // From row `first` of the picture on.
+    void fill(const Rows& rows, int first) {
+        std::uint32_t begin = 0;
+        for (std::size_t i = 0; i < rows.ends.size(); ++i) {
+            fill_row({rows.sources.data() + begin, rows.ends[i] - begin}, first + int(i));
+            begin = rows.ends[i];
+        }
+    }
+    // The rows above and below the picture, once those in it are there.
+    SourceArray finish() {
+        for (int k = 0; k < margin_; ++k) {
+            repeat(0, k - margin_, open_.top);
+            repeat(height_ - 1, height_ + k, open_.bottom);
+        }
+        return std::move(array_);
+    }
+
+private:
+    // Sources in the first and in the last cell: rows ascend in x.
+    static std::size_t head(std::span<const Source> row) {
+        std::size_t n = 0;
+        while (n < row.size() && row[n].x == 0) ++n;
+        return n;
+    }
+    std::size_t tail(std::span<const Source> row) const {
+        std::size_t n = 0;
+        while (n < row.size() && row[row.size() - 1 - n].x == width_ - 1) ++n;
+        return n;
+    }
+    Source* at_row(int y) { return array_.sources.data() + array_.first[std::size_t(y + margin_)]; }
+    static Source beyond_edge(Source s, int x, int y, bool open) {
+        s.x = x, s.row_and_skirt = Source::packed(y, s.skirt_of()), s.off_x = s.off_y = 0;
+        if (!open) s.light = {0, 0, 0, s.light.a}, s.layer = kEmptyLayer, s.tilt_x = s.tilt_y = 0;
+        return s;
+    }
+    void fill_row(std::span<const Source> row, int y) {
+        Source* out = at_row(y);
+        const auto first = row.first(head(row)), last = row.last(tail(row));
+        for (int x = -margin_; x < 0; ++x)
+            for (const Source& s : first) *out++ = beyond_edge(s, x, y, open_.left);
+        out = std::copy(row.begin(), row.end(), out);
+        for (int x = width_; x < width_ + margin_; ++x)
+            for (const Source& s : last) *out++ = beyond_edge(s, x, y, open_.right);
+    }
+    void repeat(int from, int to, bool open) {
+        Source* out = at_row(to);
+        for (const Source *s = at_row(from), *end = at_row(from + 1); s != end; ++s)
+            *out++ = beyond_edge(*s, s->x, to, open);
+    }
+
+    int width_, height_, margin_;
+    OpenEdges open_;
+    std::vector<std::uint32_t> counts_;  // of the picture's rows
+    SourceArray array_;
+};
 
 // Fills the rows of all levels, from top to bottom; a band begins and ends on whole cells of every level.
 class Band {
 public:
-    Band(std::vector<SourceLevel>& levels, const StampTable& table, int width, std::span<const int> margins,
-         const OpenEdges& open)
+    Band(std::span<const LevelBuilder> levels, const ScatterKernels& kernels, int width)
         : levels_(levels),
-          table_(table),
+          kernels_(kernels),
           width_(width),
-          margins_(margins),
-          open_(open),
+          rows_(levels.size()),
           cells_(levels.size()),
           of_row_(levels.size()) {
         // As many cells as the coarsest level spans: those beyond the picture give to larger ones.
         const int coarsest = int(levels.size()) - 1;
         for (int l = 1; l <= coarsest; ++l)
             cells_[std::size_t(l)].resize(std::size_t(cells_across(coarsest)) << (coarsest - l));
+        for (int l = 0; l <= coarsest; ++l)  // mostly one of a cell
+            rows_[std::size_t(l)].sources.reserve(std::size_t(cells_across(l)) << (coarsest - l));
         for (int l = kWideLevel; l <= coarsest; ++l)
             of_row_[std::size_t(l)].resize(cells_[std::size_t(l)].size());
     }
@@ -189,29 +246,28 @@ public:
     // cells.
     void put(int level, int x, int y, const Gathered& g) {
         if (level > 0) return add_to_cell(level, x, y, g);
-        const Source source = g.source(x, 0);
-        if (x < width_) fine_.push_back(source);
+        const Source source = g.source(x, y, 0);
+        if (x < width_) rows_[0].sources.push_back(source);
         send_skirt(source, 0, x, y, g);
     }
     // Ends row y of pixels, and the rows of cells that end there.
     void finish_row(int y) {
-        store(0, y, fine_);
+        end_row(0, y);
         for (int l = 1; l < int(levels_.size()); ++l) {
             for (std::size_t x = 0; x < of_row_[std::size_t(l)].size(); ++x)
                 of_row_[std::size_t(l)][x].take([&](const Gathered& g) { cells_[std::size_t(l)][x].add(g); });
             if ((y + 1) % (1 << l) != 0) continue;
-            row_.clear();
             for (int x = 0; x < int(cells_[std::size_t(l)].size()); ++x) {
                 cells_[std::size_t(l)][std::size_t(x)].take([&](const Gathered& g) {
-                    const Source source = g.source(x, l);
-                    if (x < cells_across(l)) row_.push_back(source);
+                    const Source source = g.source(x, y >> l, l);
+                    if (x < cells_across(l)) rows_[std::size_t(l)].sources.push_back(source);
                     send_skirt(source, l, x << l, y >> l << l, g);
                 });
             }
-            store(l, y >> l, row_);
+            end_row(l, y >> l);
         }
-        fine_.clear();
     }
+    std::vector<Rows> take() { return std::move(rows_); }
 
 private:
     int cells_across(int level) const { return ((width_ - 1) >> level) + 1; }
@@ -223,22 +279,22 @@ private:
     }
     void send_skirt(const Source& source, int level, int x, int y, Gathered g) {
         if (g.skirt_of > 0) return;
-        g.skirt_of = std::min(table_.skirt_levels(level, source.radius), int(levels_.size()) - 1 - level);
+        g.skirt_of = std::min(kernels_.skirt_levels(level, source.radius), int(levels_.size()) - 1 - level);
         if (g.skirt_of > 0) add_to_cell(level + g.skirt_of, x, y, g);
     }
-    void store(int level, int y, std::span<const Source> row) {
-        const int margin = margins_[std::size_t(level)];
-        auto& rows = levels_[std::size_t(level)].rows;
-        if (std::size_t(y + 2 * margin) < rows.size())
-            rows[std::size_t(y + margin)] = with_margins(row, cells_across(level), margin, open_);
+    // Rows beyond the picture only fill its last cells.
+    void end_row(int level, int y) {
+        Rows& rows = rows_[std::size_t(level)];
+        if (y < levels_[std::size_t(level)].height())
+            rows.end_row();
+        else
+            rows.sources.resize(rows.ends.empty() ? 0 : rows.ends.back());
     }
 
-    std::vector<SourceLevel>& levels_;
-    const StampTable& table_;
+    std::span<const LevelBuilder> levels_;
+    const ScatterKernels& kernels_;
     int width_;
-    std::span<const int> margins_;
-    const OpenEdges& open_;
-    std::vector<Source> fine_, row_;        // of the row of pixels under way; of a row of cells
+    std::vector<Rows> rows_;                // per level
     std::vector<std::vector<Cell>> cells_;  // per coarse level, of the row of cells under way
     // Of wide cells, what the row of pixels under way gives: one sum of millions in single precision would
     // lose some of them.
@@ -248,58 +304,43 @@ private:
 
 }  // namespace
 
-// A square of side a adds a^2/12 to the mean square along each axis, a disc of radius r has r^2/4.
-float radius_in_cells(float coc_px, int level) {
-    const float size = float(1 << level), square = coc_px * coc_px - (size * size - 1) / 3;
-    return level == 0 ? coc_px : std::copysign(std::sqrt(std::max(0.0f, square)) / size, coc_px);
-}
-
-float radius_in_pixels(float radius, int level) {
-    const float size = float(1 << level), square = radius * radius * size * size;
-    return level == 0 ? radius : std::copysign(std::sqrt(square + (size * size - 1) / 3), radius);
-}
-
-float LevelRule::position(float coc_px) const {
-    const float octaves = std::log2(std::max(1.0f, std::abs(coc_px) / largest_cells));
-    return std::min(octaves / kOctavesPerLevel, octaves + 1);
-}
-
-float LevelRule::end_of_level(int level) const {
-    return largest_cells * std::exp2(std::max(kOctavesPerLevel * float(level), float(level) - 1));
-}
-
-float LevelRule::largest_radius() const { return largest_cells * std::exp2(kOctavesPerLevel * fade); }
-
-std::vector<SourceLevel> make_sources(const CocSamples& samples, View<const float> coc_px,
+std::vector<SourceArray> make_sources(const CocSamples& samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
-                                      const LevelRule& rule, const StampTable& table, int threads) {
+                                      const LevelRule& rule, const ScatterKernels& kernels, int threads) {
     float largest = 0;
     for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
     const Maker maker(samples, coc_px, connected, rule);
-    const int coarsest = table.coarsest_for(int(std::ceil(rule.position(largest))));
+    const int coarsest = kernels.coarsest_for(int(std::ceil(rule.position(largest))));
     const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
-    std::vector<SourceLevel> levels(std::size_t(coarsest) + 1);
-    std::vector<int> margins;
+    std::vector<LevelBuilder> levels;
     constexpr int kAround = 4;  // cells read around a tile, and sources that lie off their cell's middle
-    for (int l = 0; l <= coarsest; ++l) {
-        const int margin = table.reach(l) + kAround;
-        margins.push_back(margin);
-        levels[std::size_t(l)].area =
-            Rect{0, 0, cells(coc_px.width(), l), cells(coc_px.height(), l)}.grown(margin);
-        levels[std::size_t(l)].rows.resize(std::size_t(levels[std::size_t(l)].area.height()));
-    }
+    for (int l = 0; l <= coarsest; ++l)
+        levels.emplace_back(cells(coc_px.width(), l), cells(coc_px.height(), l), kernels.reach(l) + kAround,
+                            open);
     // A band of rows as tall as the largest cell is done by one thread.
-    const int band_height = 1 << coarsest;
-    parallel_for(cells(coc_px.height(), coarsest), threads, [&](int band) {
-        Band rows(levels, table, coc_px.width(), margins, open);
-        for (int y = band * band_height; y < (band + 1) * band_height; ++y) {
+    const int band_height = 1 << coarsest, bands = cells(coc_px.height(), coarsest);
+    std::vector<std::vector<Rows>> rows(static_cast<std::size_t>(bands));
+    parallel_for(bands, threads, [&](int i) {
+        Band band(levels, kernels, coc_px.width());
+        for (int y = i * band_height; y < (i + 1) * band_height; ++y) {
             for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
-                maker.visit(x, y, [&](int level, const Gathered& g) { rows.put(level, x, y, g); });
-            rows.finish_row(y);
+                maker.visit(x, y, [&](int level, const Gathered& g) { band.put(level, x, y, g); });
+            band.finish_row(y);
         }
+        rows[std::size_t(i)] = band.take();
     });
-    for (std::size_t l = 0; l < levels.size(); ++l) add_margin_rows(levels[l], margins[l], open);
-    return levels;
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        for (const std::vector<Rows>& band : rows) levels[l].place(band[l]);
+        levels[l].allocate();
+    }
+    parallel_for(bands, threads, [&](int i) {
+        for (int l = 0; l <= coarsest; ++l)
+            levels[std::size_t(l)].fill(rows[std::size_t(i)][std::size_t(l)], i << (coarsest - l));
+        rows[std::size_t(i)] = {};
+    });
+    std::vector<SourceArray> arrays;
+    for (LevelBuilder& level : levels) arrays.push_back(level.finish());
+    return arrays;
 }
 
 }  // namespace petzval::engine

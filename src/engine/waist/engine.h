@@ -20,10 +20,14 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
+
+namespace petzval::device {
+class Device;
+class Memory;
+}  // namespace petzval::device
 
 namespace petzval::engine {
 
@@ -101,27 +105,6 @@ struct LensOnPicture {
 
 class PlanReader;  // engine/scatter/plan.h
 
-// What an engine keeps from one picture for the next of the same lens, size and quality.
-struct KeptKernels {
-    virtual ~KeptKernels() = default;
-};
-
-// Where it keeps that. Pictures that are made at the same time share it; what is in it is safe for that.
-class KernelSlot {
-public:
-    // What an engine left here before, or make(), a std::unique_ptr<Kernels>. One engine per slot.
-    template <typename Kernels, typename Make>
-    const Kernels& get(const Make& make) {
-        const std::lock_guard lock(mutex_);
-        if (!kernels_) kernels_ = make();
-        return dynamic_cast<const Kernels&>(*kernels_);
-    }
-
-private:
-    std::mutex mutex_;
-    std::unique_ptr<KeptKernels> kernels_;
-};
-
 struct Input : LensOnPicture {
     View<const Rgba> colour;   // premultiplied; the front view of `deep` where that is given
     View<const float> coc_px;  // signed radius, + behind focus
@@ -140,7 +123,9 @@ struct Input : LensOnPicture {
     float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
     // The whole frame's height and the row of it that is row 0 here, when an engine works on part of a frame.
     int frame_height = 0, first_row = 0;
-    KernelSlot* kept_kernels = nullptr;  // of this lens, size and quality
+    const device::Device* device = nullptr;  // what draws; never null
+    // What may outlive this frame, of this lens, size and quality alone; never null.
+    device::Memory* memory = nullptr;
     // What looks at scatter's plan in place of a result; null: nobody.
     PlanReader* plan_reader = nullptr;
     Quality quality = Quality::Standard;

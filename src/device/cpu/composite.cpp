@@ -1,0 +1,233 @@
+#include "device/cpu/composite.h"
+
+#include "base/parallel.h"
+#include "device/cpu/workspaces.h"
+#include "engine/waist/holdout.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+
+namespace petzval::device {
+
+using namespace engine;
+
+namespace {
+
+// What one sector of the pupil, or all of it, has given to each pixel of a tile so far.
+struct Budget {
+    Picture sum;
+    Plane free, empty;    // lens area that nothing took yet, and that emptiness took
+    Picture let_through;  // what a holdout leaves of `sum`
+
+    void start(const Rect& tile, bool held) {
+        sum = Picture(tile.width(), tile.height());
+        free = Plane(tile.width(), tile.height(), 1.0f);
+        empty = Plane(tile.width(), tile.height(), 0.0f);
+        if (held) let_through = Picture(tile.width(), tile.height());
+    }
+};
+
+// Memory one worker keeps from tile to tile.
+struct Workspace {
+    using Accumulators = std::array<Accumulator, LevelRule::kMostSectors>;
+    Accumulators light, emptiness;
+    std::vector<Accumulators> coarse;  // per level
+    std::array<Budget, LevelRule::kMostSectors> budgets;
+    std::vector<Rgba> added;
+    std::vector<float> enlarging;
+};
+
+// A source that lies off the middle of its cell is shared with its neighbours.
+void stamp_off_middle(std::span<const StampKernel> kernels, const Source& s, Rgba light,
+                      std::span<Accumulator> into) {
+    if (s.off_x == 0 && s.off_y == 0) return stamp(kernels, s.x, s.y(), light, s.tilt_x, s.tilt_y, into);
+    const int to_x = s.off_x < 0 ? -1 : 1, to_y = s.off_y < 0 ? -1 : 1;
+    const float share_x = std::abs(s.off_x), share_y = std::abs(s.off_y);
+    const auto add = [&](int dx, int dy, float share) {
+        if (share > 0) stamp(kernels, s.x + dx, s.y() + dy, share * light, s.tilt_x, s.tilt_y, into);
+    };
+    add(0, 0, (1 - share_x) * (1 - share_y));
+    add(to_x, 0, share_x * (1 - share_y));
+    add(0, to_y, (1 - share_x) * share_y);
+    add(to_x, to_y, share_x * share_y);
+}
+
+// A layer that is partly empty takes its lens area as one: light and emptiness in proportion.
+void take_budget_with_emptiness(const Rgba* light, const Rgba* emptiness, Rgba* sum, float* free,
+                                float* empty, int n) {
+    for (int i = 0; i < n; ++i) {
+        const float arrives = light[i].a + emptiness[i].a;
+        if (arrives <= 0) continue;
+        const float taken = std::min(arrives, free[i]);
+        sum[i] += light[i] * (taken / arrives);
+        empty[i] += emptiness[i].a * (taken / arrives);
+        free[i] -= taken;
+    }
+}
+
+struct Interval {
+    float low = 1e30f, high = -1e30f;
+};
+
+// Adds what a layer gave to row y of the tile, and what the holdout lets through of it.
+void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, int y,
+              std::span<const Rgba> row, Budget& budget) {
+    for (int x = 0; x < tile.width(); ++x) {
+        const Rgba added = row[std::size_t(x)];
+        if (added == Rgba{}) continue;
+        budget.sum(x, y) += added;
+        budget.let_through(x, y) +=
+            added * let_through(holdout.at(tile.x0 + x, tile.y0 + y), radii.low, radii.high);
+    }
+}
+
+// Runs of a plan, one after the other.
+struct RunRange {
+    std::size_t begin = 0, end = 0;
+};
+
+// Composites what arrives at one tile, layer by layer.
+class TileCompositor {
+public:
+    TileCompositor(const ScatterPlan& plan, const StampAtlas& atlas, std::size_t tile, Workspace& w)
+        : plan_(plan),
+          atlas_(atlas),
+          tile_(plan.tiles[tile].pixels),
+          sectors_(plan.tiles[tile].sectors),
+          first_layer_(plan.tiles[tile].first_layer),
+          last_layer_(plan.tiles[tile + 1].first_layer),
+          w_(w) {
+        for (int c = 0; c < sectors_; ++c) w.budgets[std::size_t(c)].start(tile_, held());
+        w.added.resize(std::size_t(tile_.width()));
+        w.coarse.resize(plan.levels.size());
+    }
+    // Returns the taps of what was stamped.
+    std::size_t run(View<Rgba> out) {
+        for (std::size_t layer = first_layer_; layer < last_layer_ && !is_spent(); ++layer) add_layer(layer);
+        write(out);
+        return taps_;
+    }
+
+private:
+    bool held() const { return !plan_.holdout.empty(); }
+    void add_layer(std::size_t i) {
+        const TileLayer &layer = plan_.layers[i], &next = plan_.layers[i + 1];
+        const RunRange light{layer.first_run, layer.first_empty_run},
+            emptiness{layer.first_empty_run, next.first_run};
+        const bool partly_empty = emptiness.begin < emptiness.end;
+        const Interval radii = held() ? radii_of(light) : Interval{};
+        accumulate(light, layer.sectors, w_.light);
+        if (partly_empty) accumulate(emptiness, layer.sectors, w_.emptiness);
+        for (int c = 0; c < sectors_; ++c)
+            take(w_.budgets[std::size_t(c)], std::size_t(std::min(c, layer.sectors - 1)), partly_empty,
+                 radii);
+    }
+    // Whether no pixel has any lens area left for what is yet to come.
+    bool is_spent() const {
+        constexpr float kSpent = 0.002f;  // what an opaque surface's discrete sources leave
+        return std::all_of(w_.budgets.begin(), w_.budgets.begin() + sectors_, [](const Budget& b) {
+            return std::all_of(b.free.pixels(), b.free.pixels() + b.free.size(),
+                               [](float free) { return free < kSpent; });
+        });
+    }
+    // Signed radii in pixels.
+    Interval radii_of(const RunRange& runs) const {
+        Interval radii;
+        for (std::size_t r = runs.begin; r < runs.end; ++r) {
+            const int level = plan_.runs[r].level;
+            const BigVector<Source>& sources = plan_.levels[std::size_t(level)].sources;
+            for (std::size_t i = plan_.runs[r].first_arrival; i < plan_.runs[r + 1].first_arrival; ++i) {
+                const float coc_px = radius_in_pixels(sources[plan_.arrivals[i].source].radius, level);
+                radii = {std::min(radii.low, coc_px), std::max(radii.high, coc_px)};
+            }
+        }
+        return radii;
+    }
+    // Stamps runs into one accumulator, or one for each sector of the pupil.
+    void accumulate(const RunRange& runs, int sectors, Workspace::Accumulators& into) {
+        const std::span<Accumulator> fine = std::span(into).first(std::size_t(sectors));
+        for (Accumulator& a : fine) a.reset(tile_);
+        for (std::size_t r = runs.begin; r < runs.end; ++r) {
+            const int level = plan_.runs[r].level;
+            const std::span<Accumulator> target =
+                level == 0 ? fine : std::span(w_.coarse[std::size_t(level)]).first(fine.size());
+            if (level > 0)
+                for (Accumulator& a : target) a.reset(ScatterPlan::cells_of(tile_, level));
+            stamp_run(r, target);
+            for (std::size_t c = 0; level > 0 && c < fine.size(); ++c)
+                add_enlarged(target[c], level, fine[c], w_.enlarging);
+        }
+    }
+    void stamp_run(std::size_t run, std::span<Accumulator> target) {
+        const BigVector<Source>& sources = plan_.levels[std::size_t(plan_.runs[run].level)].sources;
+        const bool shared = !plan_.shares.empty();
+        for (std::size_t i = plan_.runs[run].first_arrival; i < plan_.runs[run + 1].first_arrival; ++i) {
+            const Arrival& arrival = plan_.arrivals[i];
+            const Source& s = sources[arrival.source];
+            const StampSet& set = atlas_[arrival.kernel];
+            stamp_off_middle(set.kernels, s, shared ? s.light * plan_.shares[i] : s.light, target);
+            taps_ += set.taps;
+        }
+    }
+    // From what arrived through one sector of the pupil.
+    void take(Budget& budget, std::size_t sector, bool partly_empty, const Interval& radii) {
+        const Accumulator &light = w_.light[sector], &emptiness = w_.emptiness[sector];
+        Rows rows = light.touched();
+        if (partly_empty) rows = rows.with(emptiness.touched());
+        for (int y = rows.begin - tile_.y0; y < rows.end - tile_.y0; ++y) {
+            Rgba* const sum = held() ? w_.added.data() : budget.sum.row(y);
+            if (held()) std::fill(w_.added.begin(), w_.added.end(), Rgba{});
+            if (partly_empty)
+                take_budget_with_emptiness(light.row(tile_.y0 + y), emptiness.row(tile_.y0 + y), sum,
+                                           budget.free.row(y), budget.empty.row(y), tile_.width());
+            else
+                take_budget(light.row(tile_.y0 + y), sum, budget.free.row(y), tile_.width());
+            if (held()) add_held(plan_.holdout, radii, tile_, y, w_.added, budget);
+        }
+    }
+    // Discrete sources leave a little of the lens free; it goes to those that did arrive.
+    void write(View<Rgba> out) const {
+        for (int y = 0; y < tile_.height(); ++y)
+            for (int x = 0; x < tile_.width(); ++x) {
+                Rgba light;
+                float taken = 0;
+                for (int c = 0; c < sectors_; ++c) {
+                    const Budget& budget = w_.budgets[std::size_t(c)];
+                    taken += budget.sum(x, y).a + budget.empty(x, y);
+                    light += held() ? budget.let_through(x, y) : budget.sum(x, y);
+                }
+                out(tile_.x0 + x, plan_.first_row + tile_.y0 + y) = taken > 0 ? light * (1 / taken) : Rgba{};
+            }
+    }
+
+    const ScatterPlan& plan_;
+    const StampAtlas& atlas_;
+    Rect tile_;
+    int sectors_;
+    std::size_t first_layer_, last_layer_;
+    Workspace& w_;
+    std::size_t taps_ = 0;
+};
+
+}  // namespace
+
+Work composite_tiles(const ScatterPlan& plan, const StampAtlas& atlas, View<Rgba> out,
+                     const Control& control) {
+    Workspaces<Workspace> workspaces;
+    std::atomic<std::size_t> taps = 0;
+    const std::size_t tiles = plan.tiles.size() - 1;
+    parallel_for(int(tiles), control.threads, [&](int i) {
+        if (control.progress.cancelled()) return;
+        const auto workspace = workspaces.take();
+        taps += TileCompositor(plan, atlas, std::size_t(i), *workspace).run(out);
+        control.progress.advance(control.share / double(tiles));
+    });
+    Work work = Work::of_taps(taps);
+    work.bytes += plan.arrivals.size() * (sizeof(Arrival) + sizeof(Source));
+    return work;
+}
+
+}  // namespace petzval::device

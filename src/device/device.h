@@ -1,0 +1,62 @@
+// A device draws what engines plan: one verb per plan. A second device is a folder with the same file names.
+#pragma once
+
+#include "petzval/image.h"
+
+#include "base/progress.h"
+#include "device/kernels.h"
+#include "device/memory.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace petzval::engine {
+struct ScatterPlan;
+}
+
+namespace petzval::device {
+
+// Kernels of one set, ready for one device. They stay alive with it.
+class Atlas {
+public:
+    Atlas() = default;
+    virtual ~Atlas() = default;
+    Atlas(const Atlas&) = delete;
+    Atlas& operator=(const Atlas&) = delete;
+};
+
+// How a piece of work is done.
+struct Control {
+    int threads = 0;
+    Progress& progress;
+    double share = 0;  // of the whole progress
+};
+
+// What drawing took, as plan and kernels tell it: what is clipped at the edges of tiles counts as if it were
+// not. docs/command-line.md ("The report") says what is counted.
+struct Work {
+    std::uint64_t bytes = 0, multiply_adds = 0;
+    // Kernels of `taps` pixels in all, added to sums: RGBA weights and sums read, sums written.
+    static Work of_taps(std::size_t taps) { return {48 * taps, 4 * taps}; }
+};
+
+class Device {
+public:
+    Device() = default;
+    virtual ~Device() = default;
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    virtual const char* name() const = 0;
+
+    // Makes what is missing of a set, in parallel, before anything is drawn with it. Kernels are kept in
+    // `memory`, under the name of their source. Incomplete once cancelled.
+    virtual std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set,
+                                               Memory& memory, const Control& control) const = 0;
+
+    // Writes the plan's rows of `out`, the whole frame. `atlas` is that of the plan's kernels.
+    virtual Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
+                           const Control& control) const = 0;
+};
+
+}  // namespace petzval::device

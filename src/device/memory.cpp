@@ -1,0 +1,24 @@
+#include "device/memory.h"
+
+namespace petzval::device {
+
+// What was not asked for longest first: it shrinks to what the others leave it, and goes where that is
+// nothing.
+void Memory::trim(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t most = std::min(bytes, max_bytes_);
+    std::size_t held = 0;
+    for (auto at = things_.begin(); at != things_.end();) {
+        const std::size_t left = most - std::min(most, held);
+        Thing& thing = *at->second;
+        if (thing.bytes() > left) thing.trim(left);
+        if (thing.bytes() > left) {
+            at = things_.erase(at);
+            continue;
+        }
+        held += thing.bytes();
+        ++at;
+    }
+}
+
+}  // namespace petzval::device

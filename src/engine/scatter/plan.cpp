@@ -1,0 +1,264 @@
+#include "engine/scatter/plan.h"
+
+#include "base/parallel.h"
+#include "engine/scatter/scatter_kernels.h"
+#include "engine/scatter/sources.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <utility>
+
+namespace petzval::engine {
+namespace {
+
+// What one tile takes, found on its own: kernels by their number in ScatterKernels, places from 0.
+struct TileDraft {
+    int sectors = 1;
+    std::vector<TileLayer> layers;
+    std::vector<LevelRun> runs;
+    std::vector<Arrival> arrivals;
+    std::vector<float> shares;
+};
+
+// Which of all kernels there can be are asked for.
+class AskMarks {
+public:
+    explicit AskMarks(std::size_t count) : asked_(count) {}
+    void mark(std::size_t number) {
+        std::atomic<bool>& asked = asked_[number];
+        if (!asked.load(std::memory_order_relaxed)) asked.store(true, std::memory_order_relaxed);
+    }
+    // The asks, and the place among them of every number that is one.
+    std::vector<std::uint32_t> places(const ScatterKernels& kernels, device::KernelSet& set) const {
+        std::vector<std::uint32_t> place(asked_.size());
+        for (std::size_t number = 0; number < asked_.size(); ++number) {
+            if (!asked_[number].load(std::memory_order_relaxed)) continue;
+            place[number] = std::uint32_t(set.asks.size());
+            set.asks.push_back(kernels.ask_of(number));
+        }
+        return place;
+    }
+
+private:
+    std::vector<std::atomic<bool>> asked_;
+};
+
+// How many surfaces, one behind the other, reach a tile.
+class SurfaceCount {
+public:
+    void add(int layer) {
+        constexpr int kApart = 4 * kNextLayer;  // layers; surfaces nearer to each other are one that slopes
+        // (Emptiness behind everything wraps where what is before it lies in front of focus.)
+        if (count_ == 0 || int(unsigned(layer) - unsigned(last_)) >= kApart) ++count_;
+        last_ = layer;
+    }
+    int count() const { return count_; }
+
+private:
+    int count_ = 0, last_ = 0;
+};
+
+// Finds what reaches a tile.
+class TileFinder {
+public:
+    TileFinder(const ScatterPlan& plan, const ScatterKernels& kernels, AskMarks& marks)
+        : plan_(plan), kernels_(kernels), marks_(marks) {}
+
+    TileDraft find(const Rect& tile) {
+        find_sources(tile);
+        TileDraft draft;
+        SurfaceCount surfaces;
+        for (const std::uint64_t key : keys_) surfaces.add(layer_of_key(key));
+        if (surfaces.count() >= plan_.rule.surfaces_for_sectors) draft.sectors = plan_.rule.sectors();
+        draft.arrivals.reserve(keys_.size());
+        for (std::size_t begin = 0; begin < keys_.size();) begin = add_layer(begin, draft);
+        return draft;
+    }
+
+private:
+    struct Found {
+        std::uint32_t source;
+        int level;
+    };
+    // Keys are ordered by layer, then in the order found: by level, row and column.
+    static std::uint64_t key_of(int layer, std::size_t found) {
+        return (std::uint64_t(std::uint32_t(layer) ^ 0x80000000u) << 32) | found;
+    }
+    static int layer_of_key(std::uint64_t key) { return int(std::uint32_t(key >> 32) ^ 0x80000000u); }
+    const Found& found_of_key(std::uint64_t key) const { return found_[std::size_t(key & 0xffffffffu)]; }
+
+    void find_sources(const Rect& tile) {
+        found_.clear(), keys_.clear();
+        for (int l = 0; l < int(plan_.levels.size()); ++l) {
+            const SourceArray& sources = plan_.levels[std::size_t(l)];
+            constexpr int kOffMiddle = 1;  // a source may send from the cell beside its own
+            const Rect cells = ScatterPlan::cells_of(tile, l),
+                       reached = cells.grown(kernels_.reach(l) + kOffMiddle);
+            for (int y = reached.y0; y < reached.y1; ++y) {
+                const std::span<const Source> row = sources.row(y);
+                const auto before = [](const Source& s, int x) { return s.x < x; };
+                auto source = std::lower_bound(row.begin(), row.end(), reached.x0, before);
+                const int dy = std::max(cells.y0 - y, y - cells.y1 + 1);
+                for (; source != row.end() && source->x < reached.x1; ++source) {
+                    const int away = std::max({cells.x0 - source->x, source->x - cells.x1 + 1, dy});
+                    if (away > kernels_.reach(l, source->radius) + kOffMiddle) continue;
+                    keys_.push_back(key_of(source->layer, found_.size()));
+                    found_.push_back({std::uint32_t(&*source - sources.sources.data()), l});
+                }
+            }
+        }
+        std::sort(keys_.begin(), keys_.end());
+    }
+    std::size_t end_of_layer(std::size_t begin) const {
+        std::size_t end = begin;
+        while (end < keys_.size() && keys_[end] >> 32 == keys_[begin] >> 32) ++end;
+        return end;
+    }
+    // The layer that begins there, with the emptiness at its depth; returns where the next one begins.
+    std::size_t add_layer(std::size_t begin, TileDraft& draft) {
+        const int layer = layer_of_key(keys_[begin]);
+        const std::size_t middle = is_emptiness(layer) ? begin : end_of_layer(begin);
+        std::size_t end = middle;
+        if (is_emptiness(layer) ||
+            (middle < keys_.size() && layer_of_key(keys_[middle]) == layer + kEmptinessAfter))
+            end = end_of_layer(middle);
+        const int sectors = std::abs(layer) <= plan_.rule.narrow_layer ? 1 : draft.sectors;
+        const auto first_run = std::uint32_t(draft.runs.size());
+        add_runs(begin, middle, sectors > 1, draft);
+        const auto first_empty_run = std::uint32_t(draft.runs.size());
+        add_runs(middle, end, sectors > 1, draft);
+        draft.layers.push_back({first_run, first_empty_run, sectors});
+        return end;
+    }
+    void add_runs(std::size_t begin, std::size_t end, bool by_sector, TileDraft& draft) {
+        int level = -1;
+        for (; begin < end; ++begin) {
+            const Found& found = found_of_key(keys_[begin]);
+            if (found.level != level) {
+                level = found.level;
+                draft.runs.push_back({std::uint32_t(draft.arrivals.size()), level});
+            }
+            add_arrivals(found, by_sector, draft);
+        }
+    }
+    void add_arrivals(const Found& found, bool by_sector, TileDraft& draft) {
+        const Source& s = plan_.levels[std::size_t(found.level)].sources[found.source];
+        const int y = s.y() + (plan_.first_row >> found.level);
+        for (const auto& [zone, share] : kernels_.zones_for(found.level, s.x, y, s.radius)) {
+            if (share <= 0) continue;
+            const std::size_t number =
+                kernels_.number_of(kernels_.ask(found.level, zone, s.radius, s.skirt_of(), by_sector));
+            marks_.mark(number);
+            draft.arrivals.push_back({found.source, std::uint32_t(number)});
+            if (kernels_.has_zones()) draft.shares.push_back(share);
+        }
+    }
+
+    const ScatterPlan& plan_;
+    const ScatterKernels& kernels_;
+    AskMarks& marks_;
+    std::vector<Found> found_;
+    std::vector<std::uint64_t> keys_;
+};
+
+// Where the drafts of tiles go in the plan's lists; the last entry is the end.
+struct TilePlace {
+    std::uint32_t layer = 0, run = 0, arrival = 0;
+};
+
+void write_tile(const TileDraft& draft, const TilePlace& at, const std::vector<std::uint32_t>& places,
+                ScatterPlan& plan) {
+    for (std::size_t i = 0; i < draft.layers.size(); ++i) {
+        const TileLayer& layer = draft.layers[i];
+        plan.layers[at.layer + i] = {at.run + layer.first_run, at.run + layer.first_empty_run, layer.sectors};
+    }
+    for (std::size_t i = 0; i < draft.runs.size(); ++i)
+        plan.runs[at.run + i] = {at.arrival + draft.runs[i].first_arrival, draft.runs[i].level};
+    for (std::size_t i = 0; i < draft.arrivals.size(); ++i)
+        plan.arrivals[at.arrival + i] = {draft.arrivals[i].source, places[draft.arrivals[i].kernel]};
+    std::copy(draft.shares.begin(), draft.shares.end(),
+              plan.shares.begin() + (plan.shares.empty() ? 0 : std::ptrdiff_t(at.arrival)));
+}
+
+void list_tiles(ScatterPlan& plan) {
+    const Rect& rows = plan.rows;
+    constexpr int kTile = ScatterPlan::kTile;
+    for (int y = rows.y0; y < rows.y1; y += kTile)
+        for (int x = rows.x0; x < rows.x1; x += kTile)
+            plan.tiles.push_back({Rect{x, y, x + kTile, y + kTile}.intersected(rows), 0, 1});
+}
+
+void fill_tiles(const ScatterKernels& kernels, Progress& progress, int threads, ScatterPlan& plan) {
+    list_tiles(plan);
+    AskMarks marks(kernels.asks());
+    std::vector<TileDraft> drafts(plan.tiles.size());
+    constexpr int kBatch = 8;  // tiles that share their scratch
+    parallel_for((int(drafts.size()) + kBatch - 1) / kBatch, threads, [&](int batch) {
+        TileFinder finder(plan, kernels, marks);
+        for (std::size_t i = std::size_t(batch) * kBatch;
+             i < std::min(drafts.size(), std::size_t(batch + 1) * kBatch) && !progress.cancelled(); ++i)
+            drafts[i] = finder.find(plan.tiles[i].pixels);
+    });
+    const std::vector<std::uint32_t> places = marks.places(kernels, plan.kernels);
+    std::vector<TilePlace> at(1);
+    for (std::size_t i = 0; i < drafts.size(); ++i) {
+        const TileDraft& d = drafts[i];
+        plan.tiles[i].first_layer = at.back().layer, plan.tiles[i].sectors = d.sectors;
+        at.push_back({at.back().layer + std::uint32_t(d.layers.size()),
+                      at.back().run + std::uint32_t(d.runs.size()),
+                      at.back().arrival + std::uint32_t(d.arrivals.size())});
+    }
+    const TilePlace end = at.back();
+    plan.tiles.push_back({{}, end.layer, 1});
+    plan.layers.resize(end.layer + 1), plan.layers.back() = {end.run, end.run, 1};
+    plan.runs.resize(end.run + 1), plan.runs.back() = {end.arrival, 0};
+    plan.arrivals.resize(end.arrival);
+    if (kernels.has_zones()) plan.shares.resize(end.arrival);
+    parallel_for(int(drafts.size()), threads, [&](int i) {
+        write_tile(drafts[std::size_t(i)], at[std::size_t(i)], places, plan);
+        drafts[std::size_t(i)] = {};
+    });
+}
+
+}  // namespace
+
+float LevelRule::position(float coc_px) const {
+    const float octaves = std::log2(std::max(1.0f, std::abs(coc_px) / largest_cells));
+    return std::min(octaves / kOctavesPerLevel, octaves + 1);
+}
+
+float LevelRule::end_of_level(int level) const {
+    return largest_cells * std::exp2(std::max(kOctavesPerLevel * float(level), float(level) - 1));
+}
+
+float LevelRule::largest_radius() const { return largest_cells * std::exp2(kOctavesPerLevel * fade); }
+
+LevelRule level_rule(const Input& input) {
+    LevelRule rule;
+    switch (input.quality) {
+        case Quality::Draft:
+            rule = {.largest_cells = 5, .surfaces_for_sectors = std::numeric_limits<int>::max()};
+            break;
+        case Quality::Standard:
+            rule = {.largest_cells = 8, .surfaces_for_sectors = 2};
+            break;
+        case Quality::Final:
+            rule = {.largest_cells = 24, .surfaces_for_sectors = 2, .inner_sectors = 1, .outer_sectors = 5};
+            break;
+    }
+    if (!input.deep.empty()) rule.narrow_layer = 0;
+    return rule;
+}
+
+ScatterPlan make_plan(const Input& strip, const CocSamples& samples, View<const unsigned char> connected,
+                      const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels) {
+    ScatterPlan plan;
+    plan.rows = rows, plan.first_row = first_row, plan.rule = rule, plan.holdout = strip.holdout;
+    plan.levels =
+        make_sources(samples, strip.coc_px, connected, strip.open_edges, rule, kernels, strip.threads);
+    fill_tiles(kernels, *strip.progress, strip.threads, plan);
+    return plan;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,33 @@
+// Looks at what a run of the scatter engine makes on its way, in place of its result.
+#pragma once
+
+#include "engine/lights/highlight_spread.h"
+#include "engine/lights/highlights.h"
+#include "engine/scatter/plan.h"
+#include "engine/scatter/scatter_kernels.h"
+
+#include <vector>
+
+namespace petzval::engine {
+
+// All that a strip is drawn from.
+struct PlannedStrip {
+    const Input& input;
+    const ScatterPlan& scatter;
+    const ScatterKernels& kernels;
+    const CocSamples& base;  // what was seen, less the highlights
+    const std::vector<Highlight>& highlights;
+    const HighlightKernels& highlight_kernels;
+    float white;
+};
+
+// The frame is done as one strip.
+class PlanReader {
+public:
+    virtual ~PlanReader() = default;
+    // `strip` is what the plan is made from. False: nothing that follows is wanted.
+    virtual bool read(const Input& strip, const SampleSet& set) = 0;
+    virtual void read(const PlannedStrip& strip) = 0;
+};
+
+}  // namespace petzval::engine

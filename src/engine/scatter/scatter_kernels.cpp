@@ -1,0 +1,297 @@
+#include "engine/scatter/scatter_kernels.h"
+
+#include "engine/scatter/sectors.h"
+#include "kernel/model/spread.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kStepsPerCell = 16;
+// What a narrow disc leaves in its own pixel changes fast: coarse steps would make one row of a slope cover
+// 2 % too little, and let what is hidden show through. Below kNarrowCells steps are finer.
+constexpr float kNarrowCells = 2, kNarrowSteps = 64;
+constexpr float kMadePerCell = 4;  // of lenses that take long; rims a quarter cell apart blend
+constexpr int kZonesX = 9, kZonesY = 6;
+constexpr float kCoreEnd = 1.5f;       // times the radius a level is made for
+constexpr float kTrace = 0.004f;       // share of light outside that is not worth a skirt
+constexpr float kNegligible = 0.001f;  // share of light in all that is cut away from a piece
+
+// Of a radius >= 0, on the scale of steps; and back.
+float place_of(float radius) {
+    return radius < kNarrowCells ? radius * kNarrowSteps
+                                 : kNarrowCells * kNarrowSteps + (radius - kNarrowCells) * kStepsPerCell;
+}
+float radius_at(float place) {
+    constexpr float kFine = kNarrowCells * kNarrowSteps;
+    return place < kFine ? place / kNarrowSteps : kNarrowCells + (place - kFine) / kStepsPerCell;
+}
+
+// The light of a kernel from each whole distance outwards.
+std::vector<float> light_beyond(const kernel::PointSpread& spread) {
+    const Rect e = spread.extent;
+    const int farthest = int(std::hypot(std::max(-e.x0, e.x1), std::max(-e.y0, e.y1))) + 2;
+    std::vector<float> beyond(std::size_t(farthest), 0);
+    for (int y = e.y0; y < e.y1; ++y)
+        for (int x = e.x0; x < e.x1; ++x)
+            beyond[std::size_t(std::hypot(x, y))] += spread.weights(x - e.x0, y - e.y0).a;
+    for (std::size_t i = beyond.size() - 1; i > 0; --i) beyond[i - 1] += beyond[i];
+    return beyond;
+}
+
+// The distance outside of which there is at most this share of the light.
+int radius_but_for(const std::vector<float>& beyond, float share) {
+    int radius = int(beyond.size());
+    while (radius > 0 && beyond[std::size_t(radius - 1)] <= share * beyond[0]) --radius;
+    return radius;
+}
+
+// 1 up to `begin`, 0 from `end` on: smoothstep.
+float fade(float distance, float begin, float end) {
+    const float t = std::clamp((end - distance) / (end - begin), 0.0f, 1.0f);
+    return t * t * (3 - 2 * t);
+}
+
+// The part of a kernel within `radius` of its middle, each weight times factor(distance).
+template <typename Factor>
+kernel::PointSpread cut(const kernel::PointSpread& spread, int radius, const Factor& factor) {
+    const Rect from = spread.extent, e = from.intersected({-radius, -radius, radius + 1, radius + 1});
+    kernel::PointSpread piece{e, Picture(e.width(), e.height()), spread.neutral};
+    for (int y = e.y0; y < e.y1; ++y)
+        for (int x = e.x0; x < e.x1; ++x) {
+            const float distance = float(std::hypot(x, y));
+            if (distance <= float(radius))
+                piece.weights(x - e.x0, y - e.y0) =
+                    spread.weights(x - from.x0, y - from.y0) * factor(distance);
+        }
+    return piece;
+}
+
+Rgba sum_of(const kernel::PointSpread& spread) {
+    Rgba sum;
+    for (std::size_t i = 0; i < spread.weights.size(); ++i) sum += spread.weights.pixels()[i];
+    return sum;
+}
+
+void scale(kernel::PointSpread& spread, Rgba by) {
+    for (std::size_t i = 0; i < spread.weights.size(); ++i) {
+        Rgba& w = spread.weights.pixels()[i];
+        w = {w.r * by.r, w.g * by.g, w.b * by.b, w.a * by.a};
+    }
+}
+
+}  // namespace
+
+ScatterKernels::ScatterKernels(const LensOnPicture& lens, int width, int height, const LevelRule& rule)
+    : KernelSource("scatter"),
+      lens_(lens),
+      width_(width),
+      height_(height),
+      levels_(int(lens.lens_levels.size())),
+      steps_(int(std::ceil(place_of(rule.largest_radius()))) + 2),
+      inner_sectors_(rule.inner_sectors),
+      outer_sectors_(rule.outer_sectors),
+      core_begin_(rule.largest_cells),
+      core_end_(kCoreEnd * rule.largest_cells) {
+    if (lens.lens(0).varies_over_field()) zones_x_ = kZonesX, zones_y_ = kZonesY;
+    const int longest = int(std::ceil(core_end_));
+    for (int l = 0; l < levels_; ++l) {
+        const int reach = int(std::ceil(lens.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
+        has_skirts_ = has_skirts_ || reach > longest;
+        reach_.push_back(std::min(reach, longest));
+        int farthest = reach;
+        for (int step = 0; step < steps_; ++step) {
+            const double radius = double(radius_at(float(step) + 0.5f));
+            const int own = int(std::ceil(lens.lens(l).reach_px(radius) + 0.5));
+            reach_of_radius_.push_back(short(std::min(own, reach_.back())));
+            farthest = std::max(farthest, own);
+        }
+        most_skirt_levels_.push_back(farthest > longest ? skirt_levels_for(float(farthest) + 1) : 0);
+    }
+    skirt_levels_ = std::vector<std::atomic<short>>(has_skirts_ ? std::size_t(levels_ * 2 * steps_) : 0);
+    for (auto& levels : skirt_levels_) levels = -1;
+}
+
+std::array<ScatterKernels::ZoneShare, 4> ScatterKernels::zones_for(int level, int x, int y,
+                                                                   float radius) const {
+    if (zones_x_ * zones_y_ == 1) return {{{0, 1}}};
+    constexpr float kHidesTheChoice = 3;  // cells of radius
+    constexpr int kNarrow = 2;            // cells beyond the radius
+    const bool nearly_sharp = std::abs(radius) < kHidesTheChoice;
+    const double px = std::ldexp(x + 0.5, level) / width_ * zones_x_ - 0.5;
+    const double py = std::ldexp(y + 0.5, level) / height_ * zones_y_ - 0.5;
+    const auto zone = [&](double row, double column) {
+        return std::clamp(int(std::floor(row)), 0, zones_y_ - 1) * zones_x_ +
+               std::clamp(int(std::floor(column)), 0, zones_x_ - 1);
+    };
+    if (nearly_sharp && reach(level, radius) > int(std::abs(radius)) + kNarrow) {
+        const float right = float(px - std::floor(px)), down = float(py - std::floor(py));
+        return {{{zone(py, px), (1 - down) * (1 - right)},
+                 {zone(py, px + 1), (1 - down) * right},
+                 {zone(py + 1, px), down * (1 - right)},
+                 {zone(py + 1, px + 1), down * right}}};
+    }
+    // Numbers 0…1 that fill every neighbourhood evenly: multiples of powers of the roots of x^3 = x + 1 and
+    // x^4 = x + 1 (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+    const auto even = [&](double per_x, double per_y) {
+        if (nearly_sharp) return 0.5;
+        const double sum = x * per_x + y * per_y;
+        return sum - std::floor(sum);
+    };
+    return {{{zone(py + even(0.8191725134, 0.6710436067), px + even(0.7548776662, 0.5698402910)), 1}}};
+}
+
+int ScatterKernels::step_of(float radius) const {
+    return std::min(int(place_of(std::abs(radius)) + 0.5f), steps_ - 1);
+}
+
+int ScatterKernels::reach(int level, float radius) const {
+    return reach_of_radius_[std::size_t(std::min(level, levels_ - 1) * steps_ + step_of(radius))];
+}
+
+device::KernelAsk ScatterKernels::ask_of(std::size_t number) const {
+    device::KernelAsk ask;
+    const auto take = [&](int count) {
+        const auto digit = int(number % std::size_t(count));
+        number /= std::size_t(count);
+        return digit;
+    };
+    ask.by_sector = take(2) == 1;
+    ask.piece = take(pieces());
+    ask.step = take(2 * steps_) - steps_;
+    ask.zone = take(zones_x_ * zones_y_);
+    ask.level = int(number);
+    return ask;
+}
+
+float ScatterKernels::radius_of(int step) const {
+    return step < 0 ? -radius_at(float(~step)) : radius_at(float(step));
+}
+
+kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
+    const int column = at_place.zone % zones_x_, row = at_place.zone / zones_x_;
+    const double x = (column + 0.5) * width_ / zones_x_ - 0.5;
+    const double y = (row + 0.5) * height_ / zones_y_ - 0.5;
+    const kernel::LensModel& lens = lens_.lens(at_place.level);
+    const auto made = [&](float r) { return lens.point_spread(double(r), lens_.field_at(x, y)); };
+    const float asked = radius_of(at_place.step), side = at_place.step < 0 ? -1 : 1;
+    const float place = std::abs(asked) * kMadePerCell, first = std::floor(place);
+    if (lens.is_quick() || place == first) return made(asked);
+    // What takes long is made at some radii and mixed between them.
+    const auto at = [&](float step) {
+        return std::make_shared<const kernel::PointSpread>(made(side * step / kMadePerCell));
+    };
+    const kernel::Share shares[] = {{at(first), 1 - (place - first)}, {at(first + 1), place - first}};
+    return kernel::mixed(shares);
+}
+
+kernel::PointSpread ScatterKernels::core(const kernel::PointSpread& whole, const Place& place) const {
+    const int longest = int(std::ceil(core_end_));
+    if (skirt_levels(place.level, radius_of(place.step)) > 0)
+        return cut(whole, longest, [&](float distance) { return fade(distance, core_begin_, core_end_); });
+    // What little is cut away is made up for.
+    kernel::PointSpread rest = cut(whole, longest, [](float) { return 1.0f; });
+    const Rgba sum = sum_of(rest);
+    scale(rest, {1 / sum.r, 1 / sum.g, 1 / sum.b, 1 / sum.a});
+    return rest;
+}
+
+Rgba ScatterKernels::light_of_core(const Place& place) const {
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto known = light_of_core_.find(place); known != light_of_core_.end())
+            return known->second;
+    }
+    const Rgba sum = sum_of(core(whole(place), place));
+    const std::lock_guard lock(mutex_);
+    return light_of_core_[place] = sum;
+}
+
+// A skirt with just the light that its core lacks.
+kernel::PointSpread ScatterKernels::skirt(const kernel::PointSpread& whole, const Place& place,
+                                          int skirt_of) const {
+    const float share = 1 / float(1 << skirt_of);
+    kernel::PointSpread cut_out = cut(whole, int(std::ceil(core_end_)), [&](float distance) {
+        return 1 - fade(distance, core_begin_ * share, core_end_ * share);
+    });
+    const int finer = place.level - skirt_of;
+    const float radius = radius_in_cells(radius_in_pixels(radius_of(place.step), place.level), finer);
+    const Rgba in_core = light_of_core({finer, place.zone, ask(finer, 0, radius, 0, false).step});
+    const Rgba sum = sum_of(cut_out);
+    const auto factor = [](float has, float asked) {
+        return has > 0 ? std::max(0.0f, 1 - asked) / has : 0.0f;
+    };
+    scale(cut_out, {factor(sum.r, in_core.r), factor(sum.g, in_core.g), factor(sum.b, in_core.b),
+                    factor(sum.a, in_core.a)});
+    return cut_out;
+}
+
+std::vector<std::vector<kernel::PointSpread>> ScatterKernels::make(
+    std::span<const device::KernelAsk> asks) const {
+    std::vector<std::vector<kernel::PointSpread>> made;
+    const Place place{asks.front().level, asks.front().zone, asks.front().step};
+    const kernel::PointSpread all = whole(place);
+    for (const device::KernelAsk& ask : asks) {
+        kernel::PointSpread piece;
+        if (ask.piece > 0)
+            piece = skirt(all, place, ask.piece);
+        else if (has_skirts_)
+            piece = core(all, place);
+        else
+            piece = {all.extent, all.weights.clone(), all.neutral};
+        if (ask.piece == 0 && has_skirts_) {
+            const std::lock_guard lock(mutex_);
+            light_of_core_.try_emplace(place, sum_of(piece));
+        }
+        made.emplace_back();
+        if (ask.by_sector)
+            made.back() = sectors_of(piece, inner_sectors_, outer_sectors_, place.step < 0);
+        else
+            made.back().push_back(std::move(piece));
+    }
+    return made;
+}
+
+std::size_t ScatterKernels::bytes() const {
+    constexpr std::size_t kNode = 96;
+    const std::lock_guard lock(mutex_);
+    return sizeof(*this) + light_of_core_.size() * kNode + skirt_levels_.size() * sizeof(short) +
+           reach_of_radius_.size() * sizeof(short);
+}
+
+int ScatterKernels::skirt_levels(int level, float radius) const {
+    if (!has_skirts_) return 0;
+    level = std::min(level, levels_ - 1);
+    const int step = ask(level, 0, radius, 0, false).step;
+    std::atomic<short>& known = skirt_levels_[std::size_t(level * 2 * steps_ + step + steps_)];
+    if (known.load(std::memory_order_relaxed) < 0) known = short(find_skirt_levels(level, step));
+    return known;
+}
+
+int ScatterKernels::skirt_levels_for(float farthest) const {
+    return std::clamp(int(std::ceil(std::log2(farthest / core_end_))), 1, kMostSkirtLevels);
+}
+
+int ScatterKernels::coarsest_for(int level) const {
+    int coarsest = level;
+    for (int l = 0; l <= level; ++l)
+        coarsest = std::max(coarsest, l + most_skirt_levels_[std::size_t(std::min(l, levels_ - 1))]);
+    return coarsest;
+}
+
+// As many as make the skirt as small as a core, wherever in the picture it is largest.
+int ScatterKernels::find_skirt_levels(int level, int step) const {
+    int levels = 0;
+    const int centre = zones_y_ / 2 * zones_x_ + zones_x_ / 2, corner = 0;
+    for (const int zone : {centre, corner}) {
+        const std::vector<float> beyond = light_beyond(whole({level, zone, step}));
+        if (radius_but_for(beyond, kTrace) > int(core_end_))
+            levels = std::max(levels, skirt_levels_for(float(radius_but_for(beyond, kNegligible))));
+        if (centre == corner) break;
+    }
+    return std::min(levels, most_skirt_levels_[std::size_t(level)]);
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,104 @@
+// The kernels that the scatter engine spreads with: at finely stepped radii, for every level and zone.
+//
+// A kernel with more than a trace of light far outside its level's reach (aberrations spread light wide that
+// defocus alone would not) is stamped in two pieces: its core here, its skirt on a coarser level, where it is
+// as small. Both fade into each other and add up to the kernel.
+#pragma once
+
+#include "device/kernels.h"
+#include "device/memory.h"
+#include "engine/scatter/plan.h"
+#include "engine/waist/engine.h"
+
+#include <array>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace petzval::engine {
+
+// Radii are stepped by 1/16 cell, narrow ones more finely. Lenses that vary over the field have one set of
+// kernels for each of 9 x 6 zones of the picture. Safe to use from many threads: which thread makes a kernel
+// does not change it.
+class ScatterKernels final : public device::KernelSource, public device::Memory::Thing {
+public:
+    // Of a picture of this size; places are in its pixels.
+    ScatterKernels(const LensOnPicture& lens, int width, int height, const LevelRule& rule);
+
+    // The zones whose kernels the source in cell (x, y) of a level takes, so that nothing steps where zones
+    // meet: one of the four whose middles are nearest, each as often as bilinear interpolation weighs it.
+    // Among nearly sharp sources that choice would be seen: where aberrations make the kernels of those wide,
+    // they take their share of each; where not, the nearest.
+    struct ZoneShare {
+        int zone = 0;
+        float share = 0;  // 0: not taken
+    };
+    std::array<ZoneShare, 4> zones_for(int level, int x, int y, float radius) const;
+    bool has_zones() const { return zones_x_ * zones_y_ > 1; }
+    // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
+    // a skirt; n: the skirt of the kernel n levels finer.
+    device::KernelAsk ask(int level, int zone, float radius, int skirt_of, bool by_sector) const {
+        const int step = step_of(radius);
+        return {std::min(level, levels_ - 1), zone, radius < 0 ? ~step : step, skirt_of, by_sector};
+    }
+    // Asks that there can be are numbered, in their order.
+    std::size_t number_of(const device::KernelAsk& ask) const {
+        std::size_t number = std::size_t(ask.level * zones_x_ * zones_y_ + ask.zone);
+        number = number * std::size_t(2 * steps_) + std::size_t(ask.step + steps_);
+        return (number * std::size_t(pieces()) + std::size_t(ask.piece)) * 2 + (ask.by_sector ? 1 : 0);
+    }
+    device::KernelAsk ask_of(std::size_t number) const;
+    std::size_t asks() const {
+        return std::size_t(levels_ * zones_x_ * zones_y_ * 2 * steps_ * pieces() * 2);
+    }
+
+    std::vector<std::vector<kernel::PointSpread>> make(
+        std::span<const device::KernelAsk> asks) const override;
+
+    // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
+    int skirt_levels(int level, float radius) const;
+    static constexpr int kMostSkirtLevels = 3;
+    // The coarsest level that sources of levels 0…level are stamped on, skirts included.
+    int coarsest_for(int level) const;
+    // Largest offset of any weight of a kernel of this level, in cells.
+    int reach(int level) const { return reach_[std::min(std::size_t(level), reach_.size() - 1)]; }
+    // The same, of kernels for this radius.
+    int reach(int level, float radius) const;
+
+    std::size_t bytes() const override;
+
+private:
+    int pieces() const { return has_skirts_ ? 1 + kMostSkirtLevels : 1; }
+    int step_of(float radius) const;
+    // Of a level, a zone and a signed step (steps in front of focus are ~n).
+    struct Place {
+        int level = 0, zone = 0, step = 0;
+        friend auto operator<=>(const Place&, const Place&) = default;  // NOLINT(modernize-use-nullptr)
+    };
+    float radius_of(int step) const;  // signed, in cells
+    kernel::PointSpread whole(const Place& place) const;
+    kernel::PointSpread core(const kernel::PointSpread& whole, const Place& place) const;
+    kernel::PointSpread skirt(const kernel::PointSpread& whole, const Place& place, int skirt_of) const;
+    Rgba light_of_core(const Place& place) const;
+    int find_skirt_levels(int level, int step) const;
+    int skirt_levels_for(float farthest) const;  // of light that reaches so many cells
+
+    LensOnPicture lens_;
+    int width_, height_;
+    int levels_, zones_x_ = 1, zones_y_ = 1, steps_ = 0;  // steps_: kernels on either side of focus
+    int inner_sectors_, outer_sectors_;
+    float core_begin_, core_end_;  // cells from the middle where cores fade out
+    bool has_skirts_ = false;
+    std::vector<int> most_skirt_levels_;  // of any kernel of a level
+    std::vector<int> reach_;
+    std::vector<short> reach_of_radius_;                    // per level and step
+    mutable std::vector<std::atomic<short>> skirt_levels_;  // per level and signed step; -1: not known yet
+    mutable std::mutex mutex_;                              // of what follows
+    mutable std::map<Place, Rgba> light_of_core_;
+};
+
+}  // namespace petzval::engine
