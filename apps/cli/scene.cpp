@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace petzval::cli {
@@ -19,6 +20,7 @@ namespace {
 
 struct MakeFlags {
     std::string name, output, truth, layers;
+    std::optional<Place> camera_at, look_at;
     SceneSettings scene;
     CameraFlags camera;
     OverwriteFlags overwrite;
@@ -58,7 +60,18 @@ void MakeFlags::add_to(Verb& verb) {
                scene.truth_samples)
         .value("--pinhole-samples", "N", "samples per pixel of the sharp picture (default 64)", parse_count,
                scene.samples)
-        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, scene.seed);
+        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, scene.seed)
+        .value("--camera-at", "X,Y,Z",
+               "where the camera stands in the scene's world, m (default: the scene's)", parse_place,
+               camera_at)
+        .value("--look-at", "X,Y,Z",
+               "the point of the world in the middle of the picture (default: the scene's)", parse_place,
+               look_at)
+        .value("--depth-blur", "PX",
+               "depth as networks guess it: 1/depth blurred by a Gaussian of this standard deviation; truth "
+               "and layers stay exact",
+               parse_not_negative, scene.depth_blur_px)
+        .value("--depth-bits", "N", "1/depth in 2^N even steps, 8 or 16", parse_bits, scene.depth_bits);
     camera.add_to(verb, "scene");
     FlagGroup(verb, "Output")
         .value("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", parse_text,
@@ -97,6 +110,8 @@ void MakeFlags::check(const Verb& verb) {
     std::sort(files.begin(), files.end());
     if (std::adjacent_find(files.begin(), files.end()) != files.end())
         throw UsageError("-o, --truth and --layers must be different files");
+    if (camera_at) scene.camera_at = ScenePoint{camera_at->x, camera_at->y, camera_at->z};
+    if (look_at) scene.look_at = ScenePoint{look_at->x, look_at->y, look_at->z};
     scene.want_truth = !truth.empty();
     scene.want_layers = !layers.empty();
     scene.threads = run.threads;
@@ -123,6 +138,7 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
     WriteOptions options;
     options.overwrite = !flags.overwrite.no_clobber;
     options.camera = camera;
+    options.camera.camera_from_world = scene.camera_from_world;
     const Rect display{0, 0, flags.scene.width, flags.scene.height};
     Frame sharp = frame_of(display, scene.data_window, std::move(scene.colour));
     sharp.depth = std::move(scene.depth_m);
@@ -152,7 +168,13 @@ Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale imag
                             {"frame", flags.scene.frame},
                             {"samples", flags.scene.truth_samples},
                             {"pinhole_samples", flags.scene.samples},
-                            {"seed", flags.scene.seed}};
+                            {"seed", flags.scene.seed},
+                            {"depth_blur_px", flags.scene.depth_blur_px},
+                            {"depth_bits", flags.scene.depth_bits}};
+    if (flags.camera_at)
+        report["parameters"]["camera_at"] = {flags.camera_at->x, flags.camera_at->y, flags.camera_at->z};
+    if (flags.look_at)
+        report["parameters"]["look_at"] = {flags.look_at->x, flags.look_at->y, flags.look_at->z};
     report["seconds"]["compute"] = compute_s;
     report["seconds"]["write"] = total.seconds() - compute_s;
     report["seconds"]["total"] = total.seconds();

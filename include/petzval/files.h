@@ -104,7 +104,7 @@ struct WriteOptions {
     bool overwrite = true;  // false: an existing file is an OutputFailed error
     // Extra attributes, e.g. {"petzval:coc", "signed radius, px, + is far"}.
     std::vector<std::pair<std::string, std::string>> attributes;
-    // Camera numbers as typed attributes (focal length, sensor, aperture, focus), where known.
+    // Camera numbers as typed attributes (focal length, sensor, aperture, focus, worldToCamera), where known.
     FoundCamera camera;
     WriteReport* report = nullptr;  // filled when given
 };

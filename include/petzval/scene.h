@@ -9,6 +9,7 @@
 #include "petzval/light_point.h"
 #include "petzval/result.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -25,6 +26,11 @@ struct SceneSummary {
 
 PETZVAL_API const std::vector<SceneSummary>& scene_list();
 
+// A point of a scene's world: +x right, +y up, +z away from the scene's own camera, metres.
+struct ScenePoint {
+    double x = 0, y = 0, z = 0;
+};
+
 struct SceneSettings {
     int width = 960, height = 540;
     int overscan_px = 0;       // beyond the frame on every side, for all but the truth
@@ -33,6 +39,13 @@ struct SceneSettings {
     std::uint64_t seed = 1;
     int frame = 0;
     std::optional<Camera> camera;  // default: the scene's own
+    // Where the camera stands and the point that lies in the middle of its picture; upright. Default: as the
+    // scene has it at that frame. With camera_at alone it looks the same way from elsewhere.
+    std::optional<ScenePoint> camera_at, look_at;
+    // Depth as a network guesses it from a photograph: 1/depth blurred by a Gaussian of so many pixels'
+    // standard deviation, and in 2^bits even steps. 0: exact. Truth and layers keep the exact depth.
+    double depth_blur_px = 0;
+    int depth_bits = 0;
     bool want_truth = false, want_layers = false;
     int threads = 0;                       // 0: all
     std::function<bool(double)> progress;  // share done; false cancels
@@ -40,6 +53,9 @@ struct SceneSettings {
 
 struct RenderedScene {
     Camera camera;
+    // From the world to the camera, rows one after the other, for points as row vectors (x, y, z, 1), as
+    // OpenEXR's worldToCamera; the camera looks along its +z, +x is right and +y up in the picture.
+    std::array<double, 16> camera_from_world{};
     Rect data_window;  // of all but the truth; the frame is {0, 0, width, height}
     Picture colour;    // pinhole, box-filtered
     Plane depth_m;     // planar, one unfiltered sample at the pixel centre; +infinity for a miss

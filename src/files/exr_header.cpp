@@ -10,6 +10,7 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTileDescription.h>
@@ -128,6 +129,12 @@ Status apply(const WriteOptions& options, const Rect& display_window, Imf::Heade
         const double height =
             width * display_window.height() / display_window.width() / header.pixelAspectRatio();
         put(header, "sensorOverallDimensions", Imf::V2fAttribute(Imath::V2f(float(width), float(height))));
+    }
+    if (camera.camera_from_world) {
+        Imath::M44f matrix;
+        for (std::size_t i = 0; i < 16; ++i)
+            matrix[int(i / 4)][int(i % 4)] = float((*camera.camera_from_world)[i]);
+        put(header, "worldToCamera", Imf::M44fAttribute(matrix));
     }
     return Done{};
 }

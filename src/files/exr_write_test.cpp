@@ -36,9 +36,11 @@ TEST(WriteExr, APictureOfOurOwnComesBackWithItsDepthAndCamera) {
     WriteOptions options;
     options.camera = {
         FoundNumber{85, ""}, FoundNumber{36, ""}, FoundNumber{1.8, ""}, FoundNumber{4.25, ""}, {}};
+    options.camera.camera_from_world = {1, 0, 0, 0, 0, 0.5, 2, 0, 0, -2, 0.5, 0, 3, 4, 5, 1};
     ASSERT_TRUE(write_exr(folder / "a.exr", frame, options));
     const Result<Frame> back = read_frame(folder / "a.exr");
     ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->camera.camera_from_world, options.camera.camera_from_world);
     EXPECT_EQ(back->data_window, frame.data_window);
     EXPECT_EQ(back->display_window, frame.display_window);
     EXPECT_EQ(back->colour(3, 4), frame.colour(3, 4));

@@ -132,7 +132,7 @@ void add_person(World& world) {
     Tubes neck;
     neck.path({kSkull + Vec3{0.004f, -0.05f, 0.01f}, kSkull + Vec3{0.006f, -0.19f, 0.02f}}, 0.046f, 0.052f);
     world.add(std::move(neck), [=](const SurfacePoint&) { return Matter{skin, {}}; });
-    world.add(sphere(kSkull + Vec3{0.01f, -0.36f, 0.03f}, {0.215f, 0.185f, 0.12f}, 96, 48), knit,
+    world.add(sphere(kSkull + Vec3{0.01f, -0.36f, 0.03f}, {0.215f, 0.185f, 0.12f}, 48, 24), knit,
               Sides::Solid);
 }
 

@@ -75,7 +75,7 @@ void ring(Mesh& mesh, Vec3 at, int petals, float length, float cup, float half_w
     for (int k = 0; k < petals; ++k) {
         const float a = turn + 2 * kPi * float(k) / float(petals);
         const Vec3 out{std::cos(a), 0, std::sin(a)};
-        mesh.append(leaf(at, at + length * (out + Vec3{0, cup, 0}), {0, 1, 0}, half_width));
+        mesh.append(leaf(at, at + length * (out + Vec3{0, cup, 0}), {0, 1, 0}, half_width, 4));
     }
 }
 
@@ -179,7 +179,7 @@ void build(World& world, float time) {
     };
     world.ambient_above = {1.2f, 1.35f, 1.55f}, world.ambient_below = {0.30f, 0.34f, 0.16f};
     world.lights.push_back({{0.75f, 0.80f, 0.30f}, {2.9f, 2.6f, 2.1f}, 0.02f, true});
-    world.add(patch({-80, 0, 0.2f}, {160, 0, 0}, {0, 0, 165}, 40, 120), ground, Sides::Sheet);
+    world.add(patch({-80, 0, 0.2f}, {160, 0, 0}, {0, 0, 165}, 24, 80), ground, Sides::Sheet);
     add_grass(world);
     add_flowers(world);
     add_distance(world);

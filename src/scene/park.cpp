@@ -139,7 +139,7 @@ void add_park(World& world) {
         return mix(mix(Vec3{1.5f, 1.5f, 1.4f}, Vec3{0.45f, 0.75f, 1.35f}, smoothstep(0, 0.35f, d.y)),
                    Vec3{2.1f, 2.05f, 1.95f}, cloud);
     };
-    world.add(patch({-25, 0, 1}, {50, 0, 0}, {0, 0, 60}, 50, 70), lawn_and_path, Sides::Sheet);
+    world.add(patch({-25, 0, 1}, {50, 0, 0}, {0, 0, 60}, 30, 40), lawn_and_path, Sides::Sheet);
     world.add(
         patch({-16, 0, 38}, {32, 0, 0}, {0, 7.5f, 0}, 24, 10),
         [](const SurfacePoint& p) {

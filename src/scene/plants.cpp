@@ -4,13 +4,12 @@
 
 namespace petzval::scene {
 
-Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width) {
+Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width, int pieces) {
     const Vec3 along = tip - stalk, across = normalised(cross(along, facing));
     const Vec3 out = normalised(cross(across, along));
     Mesh mesh;
-    constexpr int kPieces = 8;
-    for (int j = 0; j <= kPieces; ++j) {
-        const float t = float(j) / kPieces, width = half_width * std::sin(kPi * std::pow(t, 0.8f));
+    for (int j = 0; j <= pieces; ++j) {
+        const float t = float(j) / float(pieces), width = half_width * std::sin(kPi * std::pow(t, 0.8f));
         for (int i = -1; i <= 1; ++i) {
             const float bend = 0.18f * length(along) * t * t - 0.3f * width * float(i * i);
             mesh.positions.push_back(stalk + t * along + float(i) * width * across - bend * out);
@@ -18,7 +17,7 @@ Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width) {
             mesh.uv.push_back({0.5f * float(i + 1), t});
         }
     }
-    for (std::uint32_t j = 0; j < kPieces; ++j)
+    for (std::uint32_t j = 0; j < std::uint32_t(pieces); ++j)
         for (std::uint32_t i = 0; i < 2; ++i) {
             const std::uint32_t a = 3 * j + i;
             mesh.triangles.push_back({a, a + 1, a + 3});
@@ -28,7 +27,7 @@ Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width) {
 }
 
 Mesh bush(Vec3 centre, Vec3 radii, float rough) {
-    Mesh mesh = sphere(centre, radii, 30, 18);
+    Mesh mesh = sphere(centre, radii, 24, 14);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Vec3 from = mesh.positions[i] - centre;
         const Vec3 on_sphere{from.x / radii.x, from.y / radii.y, from.z / radii.z};

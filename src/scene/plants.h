@@ -8,7 +8,7 @@
 namespace petzval::scene {
 
 // A leaf from its stalk to `tip`, bent and a little folded along its middle; u runs across, v along.
-Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width);
+Mesh leaf(Vec3 stalk, Vec3 tip, Vec3 facing, float half_width, int pieces = 8);
 
 // A crown or a bush: a closed body with dents and bulges `rough` of its size.
 Mesh bush(Vec3 centre, Vec3 radii, float rough);

@@ -2,8 +2,10 @@
 #include "petzval/scene.h"
 
 #include "scene/scenes.h"
+#include "scene/soft_depth.h"
 #include "scene/tracing.h"
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -12,8 +14,9 @@ namespace scene {
 namespace {
 
 const std::vector<BuiltInScene>& built_in_scenes() {
-    static const std::vector<BuiltInScene> scenes{night(),         fence(),    table(), slant(), bars(),
-                                                  dynamic_range(), lanterns(), hair(),  post(),  meadow()};
+    static const std::vector<BuiltInScene> scenes{night(),         fence(),    table(), slant(),  bars(),
+                                                  dynamic_range(), lanterns(), hair(),  post(),   meadow(),
+                                                  tori(),          cubes(),    rows(),  cutouts()};
     return scenes;
 }
 
@@ -41,6 +44,10 @@ Status check(const SceneSettings& s, int frames) {
         return invalid("pinhole samples per pixel", s.samples, samples);
     if (s.truth_samples < 1 || s.truth_samples > kMaxSamples)
         return invalid("lens samples per pixel (--samples)", s.truth_samples, samples);
+    if (!(s.depth_blur_px >= 0 && s.depth_blur_px <= 1000))
+        return invalid("depth blur (--depth-blur)", std::int64_t(s.depth_blur_px), "0 to 1000 pixels");
+    if (s.depth_bits < 0 || s.depth_bits > 16)
+        return invalid("depth bits (--depth-bits)", s.depth_bits, "1 to 16, or 0 for exact depth");
     // Rays that leave the pinhole almost along the sensor are too long for single precision.
     const double width = s.camera ? s.camera->sensor_width_mm / s.camera->focal_length_mm : 1;
     if (!(width > 1e-4 && width < 100))
@@ -67,6 +74,30 @@ Error unknown(const std::string& name) {
     return {ErrorCode::InvalidArgument, text};
 }
 
+Vec3 single(const ScenePoint& p) { return {float(p.x), float(p.y), float(p.z)}; }
+
+// The scene's own view, moved and turned as asked for. Upright, so it cannot look straight up or down.
+Result<Viewpoint> moved(Viewpoint view, const SceneSettings& s) {
+    if (s.camera_at) view.position = single(*s.camera_at);
+    if (!s.look_at) return view;
+    const Vec3 towards = single(*s.look_at) - view.position;
+    if (!(std::hypot(towards.x, towards.z) > 1e-4f * std::max(1.0f, std::abs(towards.y))))
+        return Error{ErrorCode::InvalidArgument,
+                     "the camera would look straight up or down, or at itself (--camera-at, --look-at)"};
+    return Viewpoint::looking(view.position, single(*s.look_at));
+}
+
+std::array<double, 16> camera_from_world(const Viewpoint& view) {
+    const Vec3 axes[] = {view.right, view.up, view.forward};
+    std::array<double, 16> m{};
+    m[15] = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        m[k] = double(axes[k].x), m[4 + k] = double(axes[k].y), m[8 + k] = double(axes[k].z);
+        m[12 + k] = -double(dot(view.position, axes[k]));
+    }
+    return m;
+}
+
 }  // namespace
 
 Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings) {
@@ -86,9 +117,11 @@ Result<RenderedScene> render(const World& world, const Camera& camera, const Sce
     const Error cancelled{ErrorCode::Cancelled, "rendering of the scene was cancelled"};
     RenderedScene result;
     result.camera = camera;
+    result.camera_from_world = camera_from_world(world.view);
     result.data_window = pass.area;
     if (!render_pinhole(pass, result.colour, result.depth_m, settings.want_layers ? &result.layers : nullptr))
         return cancelled;
+    soften_depth(result.depth_m, settings.depth_blur_px, settings.depth_bits);
     if (settings.want_truth) {
         pass.area = {0, 0, settings.width, settings.height};
         pass.samples = settings.truth_samples, pass.share = truth_share;
@@ -115,6 +148,9 @@ Result<RenderedScene> render_scene(const std::string& name, const SceneSettings&
     if (const Status status = scene::check(settings, frames); !status) return status.error();
     scene::World world;
     found->build(world, frames > 1 ? float(settings.frame) / float(frames - 1) : 0);
+    const auto view = scene::moved(world.view, settings);
+    if (!view) return view.error();
+    world.view = *view;
     if (const Status status = world.commit(settings.threads); !status) return status.error();
     return scene::render(world, settings.camera.value_or(found->summary.camera), settings);
 }

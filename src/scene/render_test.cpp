@@ -153,6 +153,32 @@ TEST(SceneLayers, TheBackOfASolidIsNotASurfaceButWhatItHidesIs) {
     EXPECT_NEAR(r.layers.at(16, 9)[0].depth_m, 5, 1e-5);
 }
 
+TEST(SceneLayers, ThroughTheHolesOfACutOutTheRestIsSeen) {
+    World world;
+    world.add(facing_sheet(-1, 1, -1, 1, 2), glowing({0.5f, 0, 0}), Sides::Sheet,
+              [](float u, float) { return u < 0.5f; });
+    world.add(facing_sheet(-3, 3, -3, 3, 5), glowing({0, 0.25f, 0}), Sides::Sheet);
+    SceneSettings s = settings(32, 18);
+    s.want_layers = true;
+    const RenderedScene r = rendered(world, s);
+    EXPECT_EQ(r.depth_m(8, 9), 2);
+    EXPECT_EQ(r.depth_m(24, 9), 5);
+    EXPECT_EQ(r.truth(31, 9), (Rgba{0, 0.25f, 0, 1}));
+    EXPECT_EQ(r.layers.at(24, 9).size(), 1u);  // the sky behind the wall
+}
+
+TEST(SceneRays, ACutOutThrowsNoShadowWhereItHasAHole) {
+    for (const bool hole : {false, true}) {
+        World world;
+        world.lights.push_back({{0, 0, -1}, {1, 1, 1}, 0, true});
+        const Cutout cut = [hole](float, float) { return !hole; };
+        world.add(facing_sheet(-3, 3, -3, 3, -1), glowing({}), Sides::Sheet, cut);  // behind the camera
+        const Paint white = [](const SurfacePoint&) { return Matter{{1, 1, 1}, {}}; };
+        world.add(facing_sheet(-3, 3, -3, 3, 5), white, Sides::Sheet);
+        EXPECT_NEAR(rendered(world, settings(4, 4)).colour(2, 2).g, hole ? 1 / kPi : 0, 1e-4);
+    }
+}
+
 // Layers front to back, behind the visible picture where they do not hold it.
 Rgba composed(const RenderedScene& r, int x, int y) {
     const auto samples = r.layers.at(x, y);

@@ -2,6 +2,8 @@
 
 #include "petzval/compare.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -68,6 +70,10 @@ TEST(BuiltInScenes, NumbersOutOfRangeAreNamed) {
     EXPECT_NE(message(s).find("--samples"), std::string::npos);
     s = small(), s.frame = 1;
     EXPECT_NE(message(s).find("--frame"), std::string::npos);
+    s = small(), s.depth_blur_px = -1;
+    EXPECT_NE(message(s).find("--depth-blur"), std::string::npos);
+    s = small(), s.depth_bits = 17;
+    EXPECT_NE(message(s).find("--depth-bits"), std::string::npos);
     s = small(), s.camera = Camera{};
     EXPECT_NE(message(s).find("--focal-length"), std::string::npos);
 }
@@ -91,6 +97,54 @@ TEST(BuiltInScenes, APinholeLensRecordsThePinholePicture) {
     const auto r = render_scene("bars", s);
     ASSERT_TRUE(r);
     EXPECT_GT(compare(r->colour.view(), r->truth.view())->psnr_lin, 46);
+}
+
+float farthest(const Plane& depth_m) {
+    float far = 0;
+    for (int y = 0; y < depth_m.height(); ++y)
+        for (int x = 0; x < depth_m.width(); ++x)
+            if (std::isfinite(depth_m(x, y))) far = std::max(far, depth_m(x, y));
+    return far;
+}
+
+TEST(BuiltInScenes, TheCameraStandsWhereItIsToldAndLooksWhereItIsTold) {
+    SceneSettings s = small();
+    s.want_truth = true;
+    const auto own = render_scene("bars", s);
+    EXPECT_EQ(own->camera_from_world,
+              (std::array<double, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+    s.camera_at = ScenePoint{0, 0, 0};
+    EXPECT_TRUE(same_bits(*own, *render_scene("bars", s)));
+    s.camera_at = ScenePoint{0, 0, -2};
+    EXPECT_NEAR(farthest(render_scene("bars", s)->depth_m) - farthest(own->depth_m), 2, 1e-4);
+    s.camera_at = ScenePoint{1, 2, -2}, s.look_at = ScenePoint{-0.5, 1, 6};
+    const auto m = render_scene("bars", s)->camera_from_world;
+    const auto seen = [&](std::size_t k) { return -0.5 * m[k] + m[4 + k] + 6 * m[8 + k] + m[12 + k]; };
+    EXPECT_NEAR(seen(0), 0, 1e-5);
+    EXPECT_NEAR(seen(1), 0, 1e-5);
+    EXPECT_NEAR(seen(2), std::sqrt(1.5 * 1.5 + 1 + 64), 1e-5);
+    EXPECT_GT(m[5], 0.9);  // upright
+}
+
+TEST(BuiltInScenes, ACameraThatLooksStraightUpIsRefused) {
+    SceneSettings s = small();
+    s.look_at = ScenePoint{0, 3, 0};
+    const auto refused = render_scene("bars", s);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("--look-at"), std::string::npos);
+}
+
+TEST(BuiltInScenes, SoftDepthChangesTheDepthAlone) {
+    SceneSettings s = small();
+    s.want_layers = s.want_truth = true;
+    const auto exact = render_scene("bars", s);
+    s.depth_blur_px = 2, s.depth_bits = 8;
+    const auto soft = render_scene("bars", s);
+    EXPECT_EQ(compare(exact->colour.view(), soft->colour.view())->psnr_lin,
+              std::numeric_limits<double>::infinity());
+    EXPECT_EQ(exact->layers.sample_count(), soft->layers.sample_count());
+    EXPECT_FALSE(same_bits(*exact, *soft));
+    EXPECT_LE(farthest(soft->depth_m), farthest(exact->depth_m) * 1.001f);
 }
 
 bool is_light(const Picture& p) {

@@ -23,6 +23,10 @@ BuiltInScene lanterns();
 BuiltInScene hair();
 BuiltInScene post();
 BuiltInScene meadow();
+BuiltInScene tori();
+BuiltInScene cubes();
+BuiltInScene rows();
+BuiltInScene cutouts();
 
 // The three passes over a world that was committed.
 Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings);

@@ -80,6 +80,22 @@ Mesh sphere(Vec3 centre, Vec3 radii, int around, int up) {
     return mesh;
 }
 
+Mesh torus(Vec3 centre, Vec3 axis, float ring_radius, float tube_radius, int along, int around) {
+    Mesh mesh;
+    const Vec3 across = normalised(cross(axis, {0.31f, 0.87f, 0.38f})), other = cross(axis, across);
+    for (int j = 0; j <= around; ++j)
+        for (int i = 0; i <= along; ++i) {
+            const float u = float(i) / float(along), v = float(j) / float(around);
+            const Vec3 out = std::cos(2 * kPi * u) * across + std::sin(2 * kPi * u) * other;
+            const Vec3 normal = std::cos(2 * kPi * v) * out + std::sin(2 * kPi * v) * axis;
+            mesh.positions.push_back(centre + ring_radius * out + tube_radius * normal);
+            mesh.normals.push_back(normal);
+            mesh.uv.push_back({u, v});
+        }
+    connect_grid(mesh, along, around);
+    return mesh;
+}
+
 Mesh lathe(Vec3 base, const std::vector<std::array<float, 2>>& outline, int around) {
     Mesh mesh;
     const int up = int(outline.size()) - 1;

@@ -26,6 +26,9 @@ Mesh box(Vec3 centre, Vec3 half_size, int cells);
 // u runs around, v from the bottom pole to the top.
 Mesh sphere(Vec3 centre, Vec3 radii, int around, int up);
 
+// A ring around `centre`, its hole seen along the unit vector `axis`. u runs along the ring, v around it.
+Mesh torus(Vec3 centre, Vec3 axis, float ring_radius, float tube_radius, int along, int around);
+
 // A turned body standing at `base`; its outline is radius and height from the bottom upwards. u runs around,
 // v up.
 Mesh lathe(Vec3 base, const std::vector<std::array<float, 2>>& outline, int around);

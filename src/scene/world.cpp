@@ -48,6 +48,7 @@ struct World::Object {
     std::vector<Vec3> irradiance;
     Paint paint;
     Sides sides = Sides::Solid;
+    Cutout cutout;  // empty: whole
 };
 
 Viewpoint Viewpoint::looking(Vec3 from, Vec3 at) {
@@ -68,7 +69,22 @@ World::~World() {
     rtcReleaseDevice(device_);
 }
 
-void World::add(Mesh mesh, Paint paint, Sides sides) {
+// Embree asks before it takes a hit.
+void World::open_holes(const RTCFilterFunctionNArguments* hits) {
+    const Object& object = *static_cast<const Object*>(hits->geometryUserPtr);
+    for (unsigned i = 0; i < hits->N; ++i) {
+        if (hits->valid[i] != -1) continue;
+        const auto& t = object.mesh.triangles[RTCHitN_primID(hits->hit, hits->N, i)];
+        const float b = RTCHitN_u(hits->hit, hits->N, i), c = RTCHitN_v(hits->hit, hits->N, i);
+        const auto& uv = object.mesh.uv;
+        const auto at = [&](std::size_t k) {
+            return (1 - b - c) * uv[t[0]][k] + b * uv[t[1]][k] + c * uv[t[2]][k];
+        };
+        if (!object.cutout(at(0), at(1))) hits->valid[i] = 0;
+    }
+}
+
+void World::add(Mesh mesh, Paint paint, Sides sides, Cutout cutout) {
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<Vec3*>(
         buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size()));
@@ -76,10 +92,17 @@ void World::add(Mesh mesh, Paint paint, Sides sides) {
     auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(
         buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
     std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+    auto object =
+        std::make_unique<Object>(Object{std::move(mesh), {}, std::move(paint), sides, std::move(cutout)});
+    if (object->cutout) {
+        rtcSetGeometryUserData(geometry, object.get());
+        rtcSetGeometryIntersectFilterFunction(geometry, open_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, open_holes);
+    }
     rtcCommitGeometry(geometry);
     PETZVAL_CHECK(rtcAttachGeometry(rays_, geometry) == objects_.size());
     rtcReleaseGeometry(geometry);
-    objects_.push_back(std::make_unique<Object>(Object{std::move(mesh), {}, std::move(paint), sides}));
+    objects_.push_back(std::move(object));
 }
 
 void World::add(Tubes tubes, Paint paint) {
@@ -93,7 +116,7 @@ void World::add(Tubes tubes, Paint paint) {
     rtcCommitGeometry(geometry);
     PETZVAL_CHECK(rtcAttachGeometry(rays_, geometry) == objects_.size());
     rtcReleaseGeometry(geometry);
-    objects_.push_back(std::make_unique<Object>(Object{{}, {}, std::move(paint), Sides::Solid}));
+    objects_.push_back(std::make_unique<Object>(Object{{}, {}, std::move(paint), Sides::Solid, {}}));
 }
 
 void World::add_lamp(Vec3 centre, float radius_m, Vec3 radiance) {

@@ -29,6 +29,9 @@ struct Matter {
 };
 using Paint = std::function<Matter(const SurfacePoint&)>;
 
+// Whether a mesh has matter at its texture coordinates; holes are seen through and cast no shadow.
+using Cutout = std::function<bool(float u, float v)>;
+
 enum class Sides {
     Solid,  // closed and opaque: its inside is never seen
     Sheet,  // seen and lit from the side of its normal
@@ -77,7 +80,7 @@ public:
     // it matters (a window), a Light stands for it.
     float brightest_bounce = 20;
     std::vector<Light> lights;
-    void add(Mesh mesh, Paint paint, Sides sides);
+    void add(Mesh mesh, Paint paint, Sides sides, Cutout cutout = nullptr);
     void add(Tubes tubes, Paint paint);
     void add_lamp(Vec3 centre, float radius_m, Vec3 radiance);
 
@@ -100,6 +103,7 @@ public:
 
 private:
     struct Object;
+    static void open_holes(const RTCFilterFunctionNArguments* hits);
     void attach_lamps();
     void bake(int threads);
     template <typename Irradiance>

@@ -153,6 +153,24 @@ class Scene(CommandLineTest):
         self.assertAlmostEqual(camera["f_number"], 5.6, places=5)
         self.assertAlmostEqual(camera["focus_distance_m"], 1.5, places=5)
 
+    def test_a_scene_can_be_focused_on_a_point_of_its_world(self):
+        self.succeed("scene", "make", "table", "-o", "table.exr", *self.SMALL)
+        # The chequered ball's middle, from 0,0.26,0 looking at 0,0.06,1.2.
+        report = self.report("defocus", "table.exr", "-o", "out.exr", "--focus-point", "0.03,0.052,1.2")
+        self.assertAlmostEqual(report["camera"]["focus_distance_m"], (0.208 * 0.2 + 1.2 * 1.2) / math.hypot(0.2, 1.2), 4)
+        self.assertEqual(report["warnings"], [])
+        self.succeed("scene", "make", "table", "-o", "moved.exr", "--camera-at", "0.3,0.3,0.2", "--look-at",
+                     "0.03,0.052,1.2", *self.SMALL)
+        report = self.report("defocus", "moved.exr", "-o", "out.exr", "--focus-point", "0.03,0.052,1.2")
+        self.assertAlmostEqual(report["camera"]["focus_distance_m"], math.hypot(0.27, 0.248, 1), 4)
+        self.refuse(2, "scene", "make", "table", "-o", "no.exr", "--look-at", "0,9,0", *self.SMALL, says=["--look-at"])
+
+    def test_depth_can_be_soft_and_coarse(self):
+        self.succeed("scene", "make", "bars", "-o", "bars.exr", "--depth-blur", "2", "--depth-bits", "8", *self.SMALL)
+        depth = read_exr(self.path("bars.exr"))[0]["Z"]
+        self.assertLessEqual(len({value for row in depth for value in row}), 256)
+        self.refuse(2, "scene", "make", "bars", "-o", "no.exr", "--depth-bits", "9", *self.SMALL, says=["--depth-bits"])
+
     def test_a_camera_that_sees_nothing_or_everything_is_refused(self):
         for flags in (["--focal-length", "1e-30"], ["--sensor-width", "1e30"], ["--sensor-width", "1e-9"]):
             self.refuse(2, "scene", "make", "slant", "-o", "no.exr", "--width", "8", "--height", "8", *flags,
