@@ -15,8 +15,10 @@
 namespace petzval {
 
 struct SessionSettings {
-    int threads = 0;                   // 0: all this process may use
-    std::size_t max_memory_bytes = 0;  // 0: no limit
+    int threads = 0;  // 0: all this process may use
+    // For everything: what a frame takes while it is made, and what is kept between frames (at most an eighth
+    // of it; a gibibyte where there is no limit). 0: no limit.
+    std::size_t max_memory_bytes = 0;
     // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those
     // not used longest go first; empty: none.
     std::string kernel_cache_folder = {};
@@ -29,6 +31,11 @@ PETZVAL_API DefocusJob with_look(DefocusJob job, const Look& look);
 // How one frame is made.
 struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
+};
+
+struct SessionUsage {
+    std::size_t kept_bytes = 0;  // kernels kept between frames
+    int lenses = 0;              // mounted on cameras, and kept
 };
 
 // Used by any number of threads at once; frames that are made at the same time share what is kept. Results
@@ -47,6 +54,10 @@ public:
     // camera); all that is chosen is the look's. Errors: also those of add_falloff(), add_glare() and
     // expand_highlights().
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
+
+    SessionUsage usage() const;
+    // Lets go of what was not used longest until at most so many bytes are kept.
+    void trim(std::size_t bytes);
 
 private:
     struct Contents;

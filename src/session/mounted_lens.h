@@ -8,6 +8,7 @@
 #include "kernel/keep/kernel_store.h"
 #include "kernel/model/lens_model.h"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,8 +31,8 @@ struct MountedLens {
 
     std::shared_ptr<kernel::KernelStore> store;  // on disk; null: none
     std::vector<std::unique_ptr<const kernel::LensModel>> levels;
-    static constexpr std::size_t kKeptBytes = std::size_t(512) << 20;
-    device::Memory kernels{kKeptBytes};  // of `levels`, and what engines know of them
+    device::Memory kernels{
+        std::numeric_limits<std::size_t>::max()};  // of `levels`, and what engines know of them
 };
 
 }  // namespace petzval

@@ -9,6 +9,7 @@
 #include "session/mounted_lens.h"
 #include "views/plan_view.h"
 
+#include <algorithm>
 #include <chrono>
 #include <list>
 #include <mutex>
@@ -74,7 +75,6 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
     const double prepared = clock.seconds();
 
     Result<engine::Output> output = chosen.run(input);
-    lens.kernels.trim();
     if (!output) return output.error();
     DefocusReport report;
     report.image = std::move(output->image);
@@ -111,12 +111,16 @@ struct Session::Contents {
     explicit Contents(SessionSettings s) : settings(std::move(s)) {}
 
     SessionSettings settings;
-    std::mutex mutex;  // of all below
+    mutable std::mutex mutex;  // of all below
     std::list<std::pair<std::string, std::shared_ptr<MountedLens>>> lenses;
+
+    std::size_t most_kept_bytes() const {
+        constexpr std::size_t kUnlimited = std::size_t(1) << 30;
+        return settings.max_memory_bytes > 0 ? settings.max_memory_bytes / 8 : kUnlimited;
+    }
 
     // Errors: those of the lens.
     Result<std::shared_ptr<MountedLens>> lens_for(const DefocusJob& job) {
-        constexpr std::size_t kMostLenses = 4;
         const std::string key = MountedLens::key_of(job);
         if (!key.empty()) {
             const std::lock_guard lock(mutex);
@@ -130,8 +134,27 @@ struct Session::Contents {
         if (!made || key.empty()) return made;
         const std::lock_guard lock(mutex);
         lenses.emplace_front(key, *made);
-        while (lenses.size() > kMostLenses) lenses.pop_back();
         return made;
+    }
+
+    // Of lenses that hold more than the others leave them: first their kernels go, then they.
+    void trim(std::size_t bytes) {
+        constexpr std::size_t kMostLenses = 8;  // each holds tables besides its kernels
+        const std::lock_guard lock(mutex);
+        std::size_t held = 0;
+        for (auto& [key, lens] : lenses) {
+            lens->kernels.trim(bytes - std::min(bytes, held));
+            held += lens->kernels.bytes();
+        }
+        while (lenses.size() > (bytes > 0 ? kMostLenses : 0)) lenses.pop_back();
+    }
+
+    SessionUsage usage() const {
+        const std::lock_guard lock(mutex);
+        SessionUsage usage;
+        for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->kernels.bytes();
+        usage.lenses = int(lenses.size());
+        return usage;
     }
 };
 
@@ -142,7 +165,9 @@ Session& Session::operator=(Session&&) noexcept = default;
 
 Result<DefocusReport> Session::defocus(const DefocusJob& asked, const Control& control) {
     const Clock clock;
-    const DefocusJob job = job_of_session(asked, contents_->settings, control);
+    DefocusJob job = job_of_session(asked, contents_->settings, control);
+    // What is kept is there while the frame is made.
+    if (job.max_memory_bytes > 0) job.max_memory_bytes -= contents_->usage().kept_bytes;
     if (const Status status = check_job(job); !status) return status.error();
     const auto engine = find_engine(job);
     if (!engine) return engine.error();
@@ -151,8 +176,13 @@ Result<DefocusReport> Session::defocus(const DefocusJob& asked, const Control& c
     if (const Status status = check_distortion(job); !status) return status.error();
     auto lens = contents_->lens_for(job);
     if (!lens) return lens.error();
-    return made_frame(job, **engine, *radii, **lens, clock);
+    auto report = made_frame(job, **engine, *radii, **lens, clock);
+    contents_->trim(contents_->most_kept_bytes());
+    return report;
 }
+
+SessionUsage Session::usage() const { return contents_->usage(); }
+void Session::trim(std::size_t bytes) { contents_->trim(bytes); }
 
 std::vector<std::string> engine_names() {
     std::vector<std::string> names;

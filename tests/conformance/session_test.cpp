@@ -69,6 +69,31 @@ TEST_P(EverySession, MakesTwoFramesAtOnce) {
     EXPECT_EQ(largest_difference(made_second, rendered(second)), 0);
 }
 
+TEST(Session, KeepsNoMoreThanItMayAndLosesNoBitByIt) {
+    const TwoFrames frames;
+    const DefocusJob job = with_lens(frames.second, "scatter", "doublet");
+    Session session;
+    const Picture first = through(session, job);
+    EXPECT_GT(session.usage().kept_bytes, 0u);
+    EXPECT_EQ(session.usage().lenses, 1);
+    session.trim(1000);
+    EXPECT_LE(session.usage().kept_bytes, 1000u);
+    EXPECT_EQ(largest_difference(through(session, job), first), 0);
+    session.trim(0);
+    EXPECT_EQ(session.usage().lenses, 0);
+    EXPECT_EQ(largest_difference(through(session, job), first), 0);
+}
+
+TEST(Session, CountsWhatItKeepsAgainstItsMemory) {
+    const TwoFrames frames;
+    constexpr std::size_t kLimit = std::size_t(200) << 20;
+    Session session({.threads = 0, .max_memory_bytes = kLimit});
+    for (const char* lens : {"doublet", "uncorrected", "triplet", "asphere"})
+        through(session, with_lens(frames.second, "scatter", lens));
+    EXPECT_LE(session.usage().kept_bytes, kLimit / 8);
+    EXPECT_EQ(session.usage().lenses, 4);
+}
+
 INSTANTIATE_TEST_SUITE_P(Engines, EverySession, testing::ValuesIn(engine_names()),
                          [](const auto& engine) { return engine.param; });
 
