@@ -84,10 +84,11 @@ PUBLIC = {
     "scene": "scene",
     "session": "session",
     "version": "base",
+    "workers": "base",
 }
 # Headers of other people and the only files that may see them.
 THIRD_PARTY = {
-    r"(oneapi/)?tbb/": r"src/base/parallel\.cpp",
+    r"(oneapi/)?tbb/": r"src/base/workers\.cpp",
     r"hwy/": r"src/[\w/]+/\w+_simd(_test)?\.(cpp|h)",
     r"(OpenEXR|Imath)/": r"src/files/",
     r"png\.h": r"src/files/",

@@ -75,7 +75,7 @@ Status Run::read() {
     const Stopwatch watch;
     detail("petzval " PETZVAL_VERSION ", " + (flags_.run.threads > 0 ? plain(flags_.run.threads) : "all") +
            " threads, seed " + std::to_string(flags_.seed) + ", " + name_of(flags_.quality) + " quality");
-    if (Status done = flags_.lens.load(); !done) return done;
+    if (Status done = flags_.lens.load(flags_.run.threads); !done) return done;
     auto loaded = load_input(flags_.input, flags_.camera);
     if (!loaded) return loaded.error();
     input_ = std::move(*loaded);

@@ -93,6 +93,7 @@ void DefocusFlags::check(const Verb& verb) {
     require_argument(verb, input.path, "an input picture");
     require_argument(verb, output, "-o OUT");
     run.apply();
+    input.read.threads = run.threads;
     overwrite.check();
     input.check();
     lens.check();

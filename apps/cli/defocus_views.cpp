@@ -21,6 +21,7 @@ WriteOptions exr_options(const ViewSettings& settings) {
     WriteOptions options;
     options.overwrite = settings.overwrite;
     options.attributes = settings.attributes;
+    options.threads = settings.develop.threads;
     return options;
 }
 

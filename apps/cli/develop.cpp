@@ -89,6 +89,7 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     require_argument(verb, flags.input.path, "an input picture");
     require_argument(verb, flags.output, "-o OUT.png");
     flags.run.apply();
+    flags.input.read.threads = flags.run.threads;
     flags.overwrite.check();
     flags.lens.check();
     flags.glare.check(flags.lens.choice());

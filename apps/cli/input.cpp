@@ -12,6 +12,7 @@ namespace {
 DepthSettings depth_settings(const InputFlags& flags, const FoundCamera& camera) {
     DepthSettings settings;
     settings.kind = flags.depth_kind.value_or(DepthKind::Planar);
+    settings.threads = flags.read.threads;
     settings.unit_scale_m = flags.unit_scale_m.value_or(1);
     if (flags.depth_range)
         settings.range_near = flags.depth_range->low, settings.range_far = flags.depth_range->high;
@@ -59,7 +60,9 @@ std::string window_text(const Rect& r) {
 // Another file of the same shot, its depth made like that of the input. `what` names its part in messages.
 Result<Frame> load_other(Input& input, const std::string& what, const std::string& path,
                          const InputFlags& flags, const DepthSettings& settings, DepthReport& report) {
-    auto read = read_frame(path);
+    ReadOptions options;
+    options.threads = flags.read.threads;
+    auto read = read_frame(path, options);
     if (!read) return read;
     if (flags.depth_is_coc()) {
         report = check_radii(read->depth.view());
@@ -143,7 +146,7 @@ Status merge_files(Input& input, const InputFlags& flags, const DepthSettings& s
     frame.deep = merge_deep(parts, all);
     frame.data_window = all;
     frame.has_alpha = true;
-    flatten(frame.deep, frame.colour, frame.depth);
+    flatten(frame.deep, frame.colour, frame.depth, flags.read.threads);
     return Done{};
 }
 

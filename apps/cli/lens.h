@@ -26,7 +26,7 @@ struct LensFlags {
     // Files that are read: a lens file, images.
     std::vector<std::string> input_files() const;
     // Reads images; before choice() where there are any.
-    Status load() { return character.load(); }
+    Status load(int threads) { return character.load(threads); }
     LensChoice choice() const;
 };
 

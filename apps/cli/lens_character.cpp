@@ -67,8 +67,9 @@ bool is_exr(const std::string& path) {
     return dot != std::string::npos && (path.substr(dot) == ".exr" || path.substr(dot) == ".EXR");
 }
 
-Result<Picture> read_picture(const std::string& path) {
+Result<Picture> read_picture(const std::string& path, int threads) {
     ReadOptions options;
+    options.threads = threads;
     options.need_depth = false;
     auto frame = read_frame(path, options);
     if (!frame) return frame.error();
@@ -76,9 +77,9 @@ Result<Picture> read_picture(const std::string& path) {
 }
 
 // Transmission: a PNG as stored, 0 to white; an EXR's luminance.
-Result<Plane> read_transmission(const std::string& path) {
+Result<Plane> read_transmission(const std::string& path, int threads) {
     if (is_exr(path)) {
-        const auto picture = read_picture(path);
+        const auto picture = read_picture(path, threads);
         if (!picture) return picture.error();
         Plane plane(picture->width(), picture->height());
         for (std::size_t i = 0; i < plane.size(); ++i) plane.pixels()[i] = luminance(picture->pixels()[i]);
@@ -180,14 +181,14 @@ std::vector<std::string> LensCharacterFlags::input_files() const {
     return files;
 }
 
-Status LensCharacterFlags::load() {
+Status LensCharacterFlags::load(int threads) {
     if (!aperture_image.empty()) {
-        auto plane = read_transmission(aperture_image);
+        auto plane = read_transmission(aperture_image, threads);
         if (!plane) return from_flag("--aperture-image", plane.error());
         aperture_ = std::make_shared<const Plane>(std::move(*plane));
     }
     for (std::size_t i = 0; i < kernel_images.size(); ++i) {
-        auto picture = read_picture(kernel_images[i]);
+        auto picture = read_picture(kernel_images[i], threads);
         if (!picture) return from_flag("--kernel-image", picture.error());
         (i == 0 ? kernels_.far : kernels_.near) = std::make_shared<const Picture>(std::move(*picture));
     }

@@ -33,7 +33,7 @@ struct LensCharacterFlags {
     // Files that are read.
     std::vector<std::string> input_files() const;
     // Reads the images. Errors: those of read_png and read_frame.
-    Status load();
+    Status load(int threads);
     // Requires: load() has been called if there are images.
     void apply_to(LensChoice& lens) const;
 

@@ -174,7 +174,7 @@ Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
     for (const std::string& path : {flags.output, flags.run.json})
         if (!path.empty() && path != "-")
             if (Status fine = check_output(path, flags.lens.input_files()); !fine) return fine.error();
-    if (Status done = flags.lens.load(); !done) return done.error();
+    if (Status done = flags.lens.load(0); !done) return done.error();
     const auto mount = mount_of(flags);
     if (!mount) return mount.error();
     return std::optional<Mounted>({*mount, flags.lens.choice()});

@@ -139,6 +139,7 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
     options.overwrite = !flags.overwrite.no_clobber;
     options.camera = camera;
     options.camera.camera_from_world = scene.camera_from_world;
+    options.threads = flags.scene.threads;
     const Rect display{0, 0, flags.scene.width, flags.scene.height};
     Frame sharp = frame_of(display, scene.data_window, std::move(scene.colour));
     sharp.depth = std::move(scene.depth_m);

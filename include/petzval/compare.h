@@ -4,12 +4,15 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 namespace petzval {
 
 struct CompareSettings {
     double exposure = 1;          // linear factor before clipping
     View<const float> mask = {};  // where > 0.5 counts; empty: everywhere
+    int threads = 0;              // 0: all this process may use; the result never depends on it
+    Workers* workers = nullptr;   // those of a host, in place of `threads`; null: our own
 };
 
 // dB for psnr_*, peak 1; identical pictures give +infinity.

@@ -5,6 +5,7 @@
 
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -66,6 +67,8 @@ PETZVAL_API DeepPicture deep_from_flat(View<const Rgba> colour, View<const float
 // first reaches half of what the pixel has in the end. So thin fog in front does not claim a pixel that shows
 // the wall behind it. A pixel of samples without any coverage (pure glow) has the depth of its nearest
 // sample; a pixel without samples is a miss. Volumes that overlap are taken apart first (image/deep_pixel.h).
-PETZVAL_API void flatten(const DeepPicture& deep, Picture& colour, Plane& depth);
+// By `workers`, those of a host, or by our own `threads` (0: all); the same for any number.
+PETZVAL_API void flatten(const DeepPicture& deep, Picture& colour, Plane& depth, int threads = 0,
+                         Workers* workers = nullptr);
 
 }  // namespace petzval

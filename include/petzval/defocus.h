@@ -9,6 +9,7 @@
 #include "petzval/image.h"
 #include "petzval/lens.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -50,6 +51,7 @@ struct DefocusJob {
     // (not finite, negative, out of sight) are left out, counted and reported.
     const std::vector<LightPoint>* points = nullptr;
     int threads = 0;                   // 0: all this process may use; the result never depends on it
+    Workers* workers = nullptr;        // those of a host, in place of `threads`; null: our own
     std::size_t max_memory_bytes = 0;  // 0: no limit
     std::uint64_t seed = 1;
     // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those

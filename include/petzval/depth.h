@@ -5,6 +5,7 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <cstdint>
 #include <optional>
@@ -28,6 +29,8 @@ struct DepthSettings {
     double unit_scale_m = 1;                      // metres per unit of the channel, > 0
     std::optional<double> range_near, range_far;  // in units of the channel; Normalized and Device need both
     std::optional<double> focal_length_mm, sensor_width_mm;  // Ray needs both: the angle of each pixel
+    int threads = 0;             // 0: all this process may use; the result never depends on it
+    Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
 struct DepthReport {

@@ -4,6 +4,7 @@
 
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include <cstdint>
 #include <vector>
@@ -39,9 +40,10 @@ struct DevelopSettings {
     double contrast = 1;
     ToneCurve tone = ToneCurve::Filmic;
     Transfer transfer = Transfer::Srgb;
-    bool dither = true;  // triangular, one code value wide on either side, fixed pattern
-    int bits = 8;        // 8 or 16
-    int threads = 0;     // 0: all this process may use; the result never depends on it
+    bool dither = true;          // triangular, one code value wide on either side, fixed pattern
+    int bits = 8;                // 8 or 16
+    int threads = 0;             // 0: all this process may use; the result never depends on it
+    Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
 // Interleaved RGB codes, 3 per pixel, row by row. The picture is shown over black: premultiplied colour as it

@@ -7,6 +7,7 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <array>
 #include <memory>
@@ -25,6 +26,9 @@ struct ReadOptions {
     Transfer transfer = Transfer::Srgb;  // how PNG colour is decoded; EXR is linear by definition
     bool need_depth = true;              // false: a file without depth is fine, depth stays empty
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
+    int threads = 0;  // 0: all this process may use; the result never depends on it.
+                      // OpenEXR decodes on its own pool, of as many threads; for 1 that stays empty
+    Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
 // A camera number found in a file, in petzval's unit, and where it came from ("Redshift rs/camera/FStop").
@@ -107,6 +111,8 @@ struct WriteOptions {
     // Camera numbers as typed attributes (focal length, sensor, aperture, focus, worldToCamera), where known.
     FoundCamera camera;
     WriteReport* report = nullptr;  // filled when given
+    int threads = 0;                // as in ReadOptions
+    Workers* workers = nullptr;
 };
 
 // Removes every output of this process that is not finished; for a signal handler, which may call it at any

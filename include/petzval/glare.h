@@ -11,6 +11,7 @@
 #include "petzval/image.h"
 #include "petzval/lens.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <string>
 
@@ -65,7 +66,8 @@ struct GlareSettings : GlareAmounts {
     // window's, ghosts mirror about its centre.
     Rect display_window, data_window;
     double pixel_aspect = 1;
-    int threads = 0;  // 0: all this process may use; the result never depends on it
+    int threads = 0;             // 0: all this process may use; the result never depends on it
+    Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
 // Alpha is kept: glare is light over the picture, not something that covers. Negative and non-finite colour
@@ -82,6 +84,7 @@ struct FalloffSettings {
     Rect display_window = {}, data_window = {};  // as above
     double pixel_aspect = 1;
     int threads = 0;
+    Workers* workers = nullptr;
 };
 
 // The one function here that loses light. Colour only; alpha is kept.

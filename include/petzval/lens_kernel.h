@@ -6,6 +6,7 @@
 #include "petzval/image.h"
 #include "petzval/lens.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ struct BokehTextureSettings {
     bool dense_near_focus = true;  // radii grow with the square of the distance from the middle column
     int rows_per_px = 4;           // 1…16
     bool raw = false;
+    int threads = 0;             // 0: all this process may use; the result never depends on it
+    Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
 // The talk's bokeh texture (M. Kawase, CEDEC 2008): each column is the radial profile of a disc, from its

@@ -4,6 +4,7 @@
 
 #include "petzval/export.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <string>
 #include <vector>
@@ -12,8 +13,9 @@ namespace petzval {
 
 // A page with its figures inside (SVG, PNG as data: URIs, CSS; no scripts), XHTML so that any XML reader
 // takes it; the same bytes every time. Errors: those of lens_facts() and of mounting the lens at its own
-// aperture.
-PETZVAL_API Result<std::string> lens_report(const std::string& name_or_file);
+// aperture. Drawn by `workers`, those of a host, or by our own `threads` (0: all).
+PETZVAL_API Result<std::string> lens_report(const std::string& name_or_file, int threads = 0,
+                                            Workers* workers = nullptr);
 
 // What stands for a lens on sheets of many.
 struct LensCard {
@@ -24,7 +26,8 @@ struct LensCard {
     std::string rays;                          // SVG: rays near the focus
     std::string texture;                       // SVG: the bokeh texture
 };
-PETZVAL_API Result<LensCard> lens_card(const std::string& name_or_file);
+PETZVAL_API Result<LensCard> lens_card(const std::string& name_or_file, int threads = 0,
+                                       Workers* workers = nullptr);
 
 // HTML pages that link to NAME.html for each card: the contact sheet; and one row per lens with its curve,
 // rays, texture, discs and numbers.

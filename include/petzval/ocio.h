@@ -5,6 +5,7 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <string>
 #include <vector>
@@ -25,9 +26,10 @@ struct OcioPicture {
 };
 
 // `picture`: scene-linear Rec.709, premultiplied, shown over black; NaN counts as 0, infinite light as 65504.
-// The same for any thread count. Errors: InvalidArgument ($OCIO is not set; the config has no such display,
-// view or space: the message lists those it has), InvalidFile (the config cannot be used).
+// Drawn by `workers`, those of a host, or by our own `threads` (0: all); the same for any number. Errors:
+// InvalidArgument ($OCIO is not set; the config has no such display, view or space: the message lists those
+// it has), InvalidFile (the config cannot be used).
 PETZVAL_API Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view = {},
-                                           int threads = 0);
+                                           int threads = 0, Workers* workers = nullptr);
 
 }  // namespace petzval

@@ -8,6 +8,7 @@
 #include "petzval/image.h"
 #include "petzval/light_point.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <array>
 #include <cstdint>
@@ -48,6 +49,7 @@ struct SceneSettings {
     int depth_bits = 0;
     bool want_truth = false, want_layers = false;
     int threads = 0;                       // 0: all
+    Workers* workers = nullptr;            // those of a host, in place of `threads`; null: our own
     std::function<bool(double)> progress;  // share done; false cancels
 };
 

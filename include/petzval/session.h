@@ -6,6 +6,7 @@
 #include "petzval/export.h"
 #include "petzval/look.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <cstddef>
 #include <functional>
@@ -23,6 +24,7 @@ struct SessionSettings {
     // not used longest go first; empty: none.
     std::string kernel_cache_folder = {};
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
+    std::shared_ptr<Workers> workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
 // The job with all that a look chooses of a defocus.
@@ -60,6 +62,8 @@ public:
     void trim(std::size_t bytes);
 
 private:
+    Workers& workers() const;
+
     struct Contents;
     std::unique_ptr<Contents> contents_;
 };

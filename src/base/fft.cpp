@@ -50,13 +50,13 @@ void Fft::transform(float* re, float* im, bool inverse) const {
     }
 }
 
-void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, int threads) {
+void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, Workers& workers) {
     const int n = fft.size();
     PETZVAL_CHECK(n % kLanes == 0 && field.size() == std::size_t(n) * std::size_t(n));
     const float scale = inverse ? 1.0f / float(n) : 1.0f;
     // Once along rows, once along columns; `along` and `across` are the steps in memory.
     const auto pass = [&](std::size_t along, std::size_t across) {
-        parallel_for(n / kLanes, threads, [&](int group) {
+        parallel_for(n / kLanes, workers, [&](int group) {
             std::vector<float> re(std::size_t(n) * kLanes), im(re.size());
             std::complex<float>* first = field.data() + std::size_t(group) * kLanes * across;
             for (std::size_t i = 0; i < std::size_t(n); ++i)

@@ -3,6 +3,8 @@
 // Sixteen rows or columns are transformed side by side, which the compiler turns into SIMD.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include <complex>
 #include <functional>
 #include <vector>
@@ -29,6 +31,6 @@ private:
 
 // In place, `side` x `side` complex numbers, row by row. Inverse is divided by side^2. Requires: side is a
 // power of two and a multiple of kLanes.
-void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, int threads);
+void fft_square(std::vector<std::complex<float>>& field, const Fft& fft, bool inverse, Workers& workers);
 
 }  // namespace petzval

@@ -1,37 +1,77 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <new>
-#include <stdexcept>
-#include <string_view>
-
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/partitioner.h>
-#include <oneapi/tbb/task_arena.h>
+#include <atomic>
+#include <exception>
+#include <mutex>
 
 namespace petzval {
+namespace {
 
-int usable_threads() { return std::max(1, oneapi::tbb::info::default_concurrency()); }
+// Whether this thread runs a body: then a loop stays on it. Hosts need not nest, and a thread that waits for
+// an inner loop never picks up another body half way through its own.
+thread_local bool t_inside_a_body = false;
 
-void parallel_for(int count, int threads, const std::function<void(int)>& body) {
+struct InsideABody {
+    InsideABody() { t_inside_a_body = true; }
+    ~InsideABody() { t_inside_a_body = false; }
+};
+
+class FirstError {
+public:
+    bool any() const { return any_.load(std::memory_order_relaxed); }
+    void keep(std::exception_ptr error) {
+        const std::lock_guard lock(mutex_);
+        if (!first_) first_ = std::move(error);
+        any_ = true;
+    }
+    void rethrow() {
+        if (first_) std::rethrow_exception(first_);
+    }
+
+private:
+    std::atomic<bool> any_{false};
+    std::mutex mutex_;
+    std::exception_ptr first_;
+};
+
+class OneThread : public Workers {
+public:
+    int width() const override { return 1; }
+    void run(int count, FunctionRef<void(int)> body) override {
+        for (int i = 0; i < count; ++i) body(i);
+    }
+};
+
+}  // namespace
+
+Workers& one_thread() {
+    static OneThread one;
+    return one;
+}
+
+std::shared_ptr<Workers> workers_of(int threads, Workers* lent) {
+    if (lent) return {std::shared_ptr<Workers>(), lent};
+    return own_workers(threads > 0 ? std::min(threads, usable_threads()) : 0);
+}
+
+void parallel_for(int count, Workers& workers, FunctionRef<void(int)> body) {
     if (count <= 0) return;
-    // More threads than there are places for them would only make oneTBB warn on standard error.
-    const int wanted = threads > 0 ? std::min(threads, usable_threads()) : usable_threads();
-    if (wanted == 1 || count == 1) {
+    if (count == 1 || t_inside_a_body || workers.width() <= 1) {
         for (int i = 0; i < count; ++i) body(i);
         return;
     }
-    // An arena of our own, so that a host's global scheduler settings neither limit us nor are changed.
-    oneapi::tbb::task_arena arena(wanted);
-    try {
-        arena.execute(
-            [&] { oneapi::tbb::parallel_for(0, count, 1, body, oneapi::tbb::simple_partitioner()); });
-    } catch (const std::runtime_error& error) {
-        // What oneTBB throws when a thread's stack does not fit into memory has no type of its own.
-        if (std::string_view(error.what()).starts_with("pthread_create")) throw std::bad_alloc();
-        throw;
-    }
+    FirstError error;
+    workers.run(count, [&](int i) {
+        if (error.any()) return;
+        const InsideABody inside;
+        try {
+            body(i);
+        } catch (...) {
+            error.keep(std::current_exception());
+        }
+    });
+    error.rethrow();
 }
 
 }  // namespace petzval

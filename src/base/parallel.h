@@ -1,17 +1,27 @@
-// Loops over independent pieces of work on all cores. The one place that knows the threading library.
+// Loops over independent pieces of work on all cores.
 //
 // Results must not depend on how pieces are spread: a piece owns what it writes.
 #pragma once
 
-#include <functional>
+#include "petzval/workers.h"
+
+#include <memory>
 
 namespace petzval {
 
 // Threads this process may use: CPU affinity, not the number of cores in the box. At least 1.
 int usable_threads();
 
-// Calls body(i) once for each i in 0…count-1, on up to `threads` threads (0: usable_threads()), in any order.
-// Blocks until all are done. Exceptions of a body are rethrown here.
-void parallel_for(int count, int threads, const std::function<void(int)>& body);
+// The workers of a public entry: `lent` where a host gave some, else our own, `threads` of them but never
+// more than usable_threads() (0: all).
+std::shared_ptr<Workers> workers_of(int threads, Workers* lent);
+
+// The thread that calls, alone.
+Workers& one_thread();
+
+// Calls body(i) once for each i in 0…count-1 on these workers, in any order, and blocks until all are done.
+// A loop inside a body runs on that body's thread. The first exception of a body is rethrown here; bodies
+// that had not begun by then are left out.
+void parallel_for(int count, Workers& workers, FunctionRef<void(int)> body);
 
 }  // namespace petzval

@@ -15,7 +15,7 @@ TEST(Progress, NeverFallsAndEndsAtOne) {
         seen.push_back(share);
         return true;
     });
-    parallel_for(100, 2, [&](int) { progress.advance(0.01); });
+    parallel_for(100, *own_workers(2), [&](int) { progress.advance(0.01); });
     ASSERT_EQ(seen.size(), 100u);
     for (std::size_t i = 1; i < seen.size(); ++i) EXPECT_GE(seen[i], seen[i - 1]);
     EXPECT_NEAR(seen.back(), 1.0, 1e-9);

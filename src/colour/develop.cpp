@@ -64,7 +64,7 @@ std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopSettin
         const double u = settings.dither ? colour::dither_pattern(x, y, channel) : 0.5;
         return colour::dithered(encoded * largest, largest, u);
     };
-    parallel_for(picture.height(), settings.threads, [&](int y) {
+    parallel_for(picture.height(), *workers_of(settings.threads, settings.workers), [&](int y) {
         std::uint16_t* out = codes.data() + std::size_t(y) * std::size_t(picture.width()) * 3;
         for (int x = 0; x < picture.width(); ++x) {
             Rgba c = exposure * picture(x, y);

@@ -132,9 +132,9 @@ struct Tally {
 };
 
 template <typename Body>  // body(y, tally)
-Tally tally_rows(int rows, const Body& body) {
+Tally tally_rows(int rows, Workers& workers, const Body& body) {
     std::vector<Tally> of_row(std::size_t(std::max(rows, 0)));
-    parallel_for(rows, 0, [&](int y) { body(y, of_row[std::size_t(y)]); });
+    parallel_for(rows, workers, [&](int y) { body(y, of_row[std::size_t(y)]); });
     Tally sum;
     for (const Tally& t : of_row) sum.add(t);
     return sum;
@@ -183,12 +183,13 @@ Result<DepthReport> depth_to_planar_metres(View<float> depth, const Rect& displa
     if (Status s = check_windows(depth.width(), depth.height(), display, data, pixel_aspect); !s)
         return s.error();
     const DepthKind kind = settings.kind;
-    const Tally before = tally_rows(depth.height(), [&](int y, Tally& tally) {
+    const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
+    const Tally before = tally_rows(depth.height(), *workers, [&](int y, Tally& tally) {
         for (int x = 0; x < depth.width(); ++x) tally.look_at(depth(x, y), kind);
     });
     const float sign = before.negative > 0 && before.positive == 0 ? -1.f : 1.f;
     const Converter to(display, pixel_aspect, settings);
-    const Tally after = tally_rows(depth.height(), [&](int y, Tally& tally) {
+    const Tally after = tally_rows(depth.height(), *workers, [&](int y, Tally& tally) {
         for (int x = 0; x < depth.width(); ++x) {
             float& d = depth(x, y);
             d = converted(to, d, kind, sign, data.x0 + x, data.y0 + y);
@@ -204,18 +205,19 @@ Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Rect& display
     if (Status s = check_windows(deep.width(), deep.height(), display, data, pixel_aspect); !s)
         return s.error();
     const DepthKind kind = settings.kind;
+    const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
     const auto row = [&](int y) {
         const std::size_t first = std::size_t(y) * std::size_t(deep.width());
         const std::size_t from = deep.first()[first], to = deep.first()[first + std::size_t(deep.width())];
         return deep.samples().subspan(from, to - from);
     };
-    const Tally before = tally_rows(deep.height(), [&](int y, Tally& tally) {
+    const Tally before = tally_rows(deep.height(), *workers, [&](int y, Tally& tally) {
         for (const DeepSample& s : row(y)) tally.look_at(s.depth_m, kind);
     });
     const float sign = before.negative > 0 && before.positive == 0 ? -1.f : 1.f;
     const Converter to(display, pixel_aspect, settings);
     const bool reorder = to.reverses_order() || sign < 0;
-    const Tally after = tally_rows(deep.height(), [&](int y, Tally& tally) {
+    const Tally after = tally_rows(deep.height(), *workers, [&](int y, Tally& tally) {
         for (int x = 0; x < deep.width(); ++x) {
             const std::size_t i = std::size_t(y) * std::size_t(deep.width()) + std::size_t(x);
             const auto pixel = deep.samples().subspan(deep.first()[i], deep.first()[i + 1] - deep.first()[i]);

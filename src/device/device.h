@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include "base/progress.h"
 #include "device/kernels.h"
@@ -27,7 +28,7 @@ public:
 
 // How a piece of work is done.
 struct Control {
-    int threads = 0;
+    Workers& workers;
     Progress& progress;
     double share = 0;  // of the whole progress
 };

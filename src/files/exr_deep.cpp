@@ -202,7 +202,7 @@ Result<DeepPicture> read_deep(const ExrFile& exr, const ColourChoice& colour, co
     });
     if (!read) return read.error();
     std::vector<std::size_t> replaced(std::size_t(deep.height()));
-    parallel_for(deep.height(), 0, [&](int y) {
+    parallel_for(deep.height(), *exr.workers, [&](int y) {
         for (int x = 0; x < deep.width(); ++x) {
             const std::size_t i = std::size_t(y) * std::size_t(deep.width()) + std::size_t(x);
             const auto pixel = deep.samples().subspan(deep.first()[i], deep.first()[i + 1] - deep.first()[i]);

@@ -1,5 +1,7 @@
 #include "petzval/files.h"
 
+#include "base/parallel.h"
+#include "files/exr_file.h"
 #include "files/exr_header.h"
 #include "files/exr_output.h"
 #include "files/wording.h"
@@ -118,7 +120,8 @@ Status write_deep_exr(const std::string& path, const Rect& display_window, const
         chosen.compression = compression;
         if (Status s = apply(chosen, display_window, header); !s) return s;
         WriteReport report;
-        Imf::MultiPartOutputFile output(stream, &header, 1);
+        Imf::MultiPartOutputFile output(stream, &header, 1, false,
+                                        exr_threads(*workers_of(options.threads, options.workers)));
         if (wide)
             write_samples<float>(output, deep, data_window, has_back, report);
         else

@@ -4,6 +4,7 @@
 #include "files/exr_prescan.h"
 #include "files/wording.h"
 
+#include <algorithm>
 #include <array>
 #include <mutex>
 #include <system_error>
@@ -131,24 +132,29 @@ Status guarded(const std::string& path, const std::function<Status()>& body) {
     }
 }
 
-void start_exr_threads() {
-    static std::once_flag once;
-    std::call_once(once, [] {
-        if (Imf::globalThreadCount() == 0) Imf::setGlobalThreadCount(usable_threads());
-    });
+int exr_threads(const Workers& workers) {
+    static std::mutex mutex;
+    static int given = 0;
+    if (workers.width() <= 1) return 0;
+    const std::lock_guard lock(mutex);
+    const int there = Imf::globalThreadCount();
+    if (there == given && there < workers.width())
+        Imf::setGlobalThreadCount(given = std::min(workers.width(), usable_threads()));
+    return std::min(workers.width(), Imf::globalThreadCount());
 }
 
-Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t max_pixels) {
+Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t max_pixels,
+                              Workers& workers) {
     const std::string path = file->path();
     if (const auto reason = refuse_exr(*file, max_pixels)) return invalid_file(path, *reason);
-    start_exr_threads();
     ExrFile exr;
+    exr.workers = &workers;
     exr.file = file;
     const Status opened = guarded(path, [&]() -> Status {
         exr.stream = std::make_unique<ExrInputStream>(file);
         // A file whose table of chunks is unfinished is still being written or was cut off: no
         // reconstruction.
-        exr.parts = std::make_unique<Imf::MultiPartInputFile>(*exr.stream, Imf::globalThreadCount(), false);
+        exr.parts = std::make_unique<Imf::MultiPartInputFile>(*exr.stream, exr_threads(workers), false);
         exr.layout = layout_of(*exr.parts);
         return Done{};
     });

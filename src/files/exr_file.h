@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include "files/camera_dialects.h"
 #include "files/exr_stream.h"
@@ -19,9 +20,11 @@ struct ExrFile {
     std::unique_ptr<ExrInputStream> stream;
     std::unique_ptr<Imf::MultiPartInputFile> parts;
     Layout layout;
+    Workers* workers = nullptr;  // for what is done with its pixels; outlive the file
 
     // Errors: InvalidFile for anything that is not a sound header.
-    static Result<ExrFile> open(std::shared_ptr<const InputFile> file, std::size_t max_pixels);
+    static Result<ExrFile> open(std::shared_ptr<const InputFile> file, std::size_t max_pixels,
+                                Workers& workers);
     // Errors: InvalidFile if the part's table of chunks has gaps.
     Status check_complete(std::size_t part) const;
 };
@@ -32,8 +35,9 @@ std::string compression_name(int compression);
 // Runs `body`, turning everything OpenEXR may throw into InvalidFile for `path`.
 Status guarded(const std::string& path, const std::function<Status()>& body);
 
-// OpenEXR's thread pool is one per process and starts empty: gives it this process's threads, unless the
-// program around us has set it already.
-void start_exr_threads();
+// How many threads of OpenEXR may work on one file beside as many workers; 0: it is read or written on the
+// thread that calls. OpenEXR's pool is one per process and starts empty: it is given as many threads as the
+// widest workers have had so far, none for a width of 1, unless the program around us has set it.
+int exr_threads(const Workers& workers);
 
 }  // namespace petzval

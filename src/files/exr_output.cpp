@@ -11,7 +11,6 @@ Status write_exr_file(const std::string& path, bool overwrite,
                       const std::function<Status(Imf::OStream&)>& body) {
     Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path, overwrite);
     if (!file) return file.error();
-    start_exr_threads();
     Status written = Done{};
     try {
         ExrOutputStream stream(**file);

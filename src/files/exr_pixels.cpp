@@ -105,7 +105,7 @@ Status read_colour(const ExrFile& exr, const ColourChoice& choice, Picture& colo
     if (!targets.empty())
         if (Status s = read_floats(exr, choice.part, targets); !s) return s;
     if (chroma) return Done{};
-    parallel_for(colour.height(), 0, [&](int y) {
+    parallel_for(colour.height(), *exr.workers, [&](int y) {
         Rgba* p = colour.row(y);
         for (int x = 0; x < colour.width(); ++x) {
             if (choice.is_luminance()) p[x].g = p[x].b = p[x].r;

@@ -95,8 +95,8 @@ std::optional<PrimariesConversion> primaries_of(const ExrFile& exr, std::size_t 
     return conversion;
 }
 
-void convert(Picture& colour, const Matrix3& matrix) {
-    parallel_for(colour.height(), 0, [&](int y) {
+void convert(Picture& colour, const Matrix3& matrix, Workers& workers) {
+    parallel_for(colour.height(), workers, [&](int y) {
         Rgba* p = colour.row(y);
         for (int x = 0; x < colour.width(); ++x) p[x] = transformed(matrix, p[x]);
     });
@@ -198,9 +198,9 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
     return Done{};
 }
 
-std::size_t replace_non_finite(Picture& colour) {
+std::size_t replace_non_finite(Picture& colour, Workers& workers) {
     std::vector<std::size_t> of_row(std::size_t(colour.height()));
-    parallel_for(colour.height(), 0, [&](int y) {
+    parallel_for(colour.height(), workers, [&](int y) {
         Rgba* p = colour.row(y);
         for (int x = 0; x < colour.width(); ++x)
             for (float* v : {&p[x].r, &p[x].g, &p[x].b, &p[x].a}) of_row[std::size_t(y)] += made_finite(*v);
@@ -214,7 +214,7 @@ std::size_t replace_non_finite(Picture& colour) {
 
 Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                              bool pixels) {
-    Result<ExrFile> opened = ExrFile::open(file, options.max_pixels);
+    Result<ExrFile> opened = ExrFile::open(file, options.max_pixels, *options.workers);
     if (!opened) return opened.error();
     const ExrFile& exr = *opened;
     Frame frame;
@@ -252,11 +252,11 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
         if (Status s = read_deep_pixels(exr, choices, options, frame); !s) return s.error();
         if (primaries)
             for (DeepSample& s : frame.deep.samples()) s.colour = transformed(primaries->to_rec709, s.colour);
-        flatten(frame.deep, frame.colour, frame.depth);
+        flatten(frame.deep, frame.colour, frame.depth, 0, options.workers);
     } else {
         if (Status s = read_pixels(exr, choices, options, frame); !s) return s.error();
-        frame.non_finite_colour = replace_non_finite(frame.colour);
-        if (primaries) convert(frame.colour, primaries->to_rec709);
+        frame.non_finite_colour = replace_non_finite(frame.colour, *options.workers);
+        if (primaries) convert(frame.colour, primaries->to_rec709, *options.workers);
     }
     const bool own_depth = choices.depth && choices.depth->part == colour->part;
     frame.carried = std::make_shared<CarriedContent>(CarriedContent{

@@ -10,7 +10,7 @@
 namespace petzval {
 
 // As read_frame() and read_frame_header() promise, for a file that starts like an EXR. `pixels` false: header
-// only.
+// only. Of options.threads and workers the latter alone are asked: never null from here on.
 Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                              bool pixels);
 

@@ -31,12 +31,12 @@ namespace {
 // Colour as it is stored: in the file's primaries, finite, inside half's range. Counts what had to change.
 class ColourSource {
 public:
-    ColourSource(const Frame& frame, const std::optional<PrimariesConversion>& primaries)
-        : frame_(frame), primaries_(primaries) {}
+    ColourSource(const Frame& frame, const std::optional<PrimariesConversion>& primaries, Workers& workers)
+        : frame_(frame), primaries_(primaries), workers_(workers) {}
 
     // `part_of_colour` 0 … 3: red, green, blue, alpha.
     void fill(BandChannel& to, int part_of_colour, int y0, int y1) {
-        parallel_for(y1 - y0, 0, [&](int row) {
+        parallel_for(y1 - y0, workers_, [&](int row) {
             const Rgba* from = frame_.colour.row(y0 + row - frame_.data_window.y0);
             if (to.channel.type == SampleType::Half)
                 fill_row(reinterpret_cast<Imath::half*>(to.row(row)), from, part_of_colour, kLargestHalf);
@@ -65,6 +65,7 @@ private:
 
     const Frame& frame_;
     const std::optional<PrimariesConversion>& primaries_;
+    Workers& workers_;
     std::atomic<std::size_t> clamped_{0}, non_finite_{0};
 };
 
@@ -89,7 +90,7 @@ void copy_floats(BandChannel& to, View<const float> plane, int first_row) {
     for (int y = 0; y < rows; ++y) std::memcpy(to.row(y), plane.row(first_row + y), to.row_bytes);
 }
 
-Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& options) {
+Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& options, Workers& workers) {
     const SampleType type = options.type == PixelType::Float ? SampleType::Float : SampleType::Half;
     std::vector<Channel> channels;
     for (const char* name : {"R", "G", "B"}) channels.push_back(plain_channel(name, type));
@@ -98,8 +99,8 @@ Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& o
     Imf::Header header = new_header(frame.display_window, frame.data_window, frame.pixel_aspect, channels);
     if (Status s = apply(options, frame.display_window, header); !s) return s;
     const std::optional<PrimariesConversion> rec709;
-    ColourSource colour(frame, rec709);
-    Imf::MultiPartOutputFile output(stream, &header, 1);
+    ColourSource colour(frame, rec709, workers);
+    Imf::MultiPartOutputFile output(stream, &header, 1, false, exr_threads(workers));
     write_bands(output, 0, channels, [&](std::vector<BandChannel>& band, int y0, int y1) {
         const int colours = frame.has_alpha ? 4 : 3;
         for (int c = 0; c < colours; ++c) colour.fill(band[std::size_t(c)], c, y0, y1);
@@ -229,9 +230,10 @@ OutputChannels channels_of(const CarriedContent& carried, const Frame& frame, Pi
     return out;
 }
 
-Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOptions& options) {
+Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOptions& options,
+                     Workers& workers) {
     const CarriedContent& carried = *frame.carried;
-    Result<ExrFile> opened = ExrFile::open(carried.file, carried.max_pixels);
+    Result<ExrFile> opened = ExrFile::open(carried.file, carried.max_pixels, workers);
     if (!opened) return opened.error();
     ExrFile& exr = *opened;
     const std::size_t part = carried.colour.part;
@@ -259,8 +261,8 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
     }
     if (Status s = apply(options, frame.display_window, headers[colour_out]); !s) return s;
 
-    ColourSource colour(frame, carried.primaries);
-    Imf::MultiPartOutputFile output(stream, headers.data(), int(headers.size()));
+    ColourSource colour(frame, carried.primaries, workers);
+    Imf::MultiPartOutputFile output(stream, headers.data(), int(headers.size()), false, exr_threads(workers));
     std::optional<CarriedSource> others;
     if (!exr.layout.parts[part].deep)
         others.emplace(
@@ -285,8 +287,10 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
 
 Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options) {
     if (Status s = check_size(frame); !s) return s;
+    const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) {
-        return frame.carried ? write_carried(stream, frame, options) : write_new(stream, frame, options);
+        return frame.carried ? write_carried(stream, frame, options, *workers)
+                             : write_new(stream, frame, options, *workers);
     });
 }
 
@@ -302,10 +306,11 @@ Status write_exr_planes(const std::string& path, const Rect& display_window, con
                          "plane '" + printable(p.channel) + "' needs a name and the size of the data window"};
         channels.push_back(plain_channel(p.channel, SampleType::Float));
     }
+    const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {
         Imf::Header header = new_header(display_window, data_window, 1, channels);
         if (Status s = apply(options, display_window, header); !s) return s;
-        Imf::MultiPartOutputFile output(stream, &header, 1);
+        Imf::MultiPartOutputFile output(stream, &header, 1, false, exr_threads(*workers));
         write_bands(output, 0, channels, [&](std::vector<BandChannel>& band, int y0, int) {
             for (std::size_t i = 0; i < planes.size(); ++i)
                 copy_floats(band[i], planes[i].plane, y0 - data_window.y0);

@@ -2,6 +2,7 @@
 #include "petzval/files.h"
 #include "petzval/names.h"
 
+#include "base/parallel.h"
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
 #include "files/exr_read.h"
@@ -17,9 +18,11 @@ Error neither(const InputFile& file) {
     return invalid_file(file.path(), "is neither an OpenEXR nor a PNG file, whatever its name says");
 }
 
-Result<Frame> read(const std::string& path, const ReadOptions& options, bool pixels) {
+Result<Frame> read(const std::string& path, ReadOptions options, bool pixels) {
     const auto file = InputFile::open(path);
     if (!file) return file.error();
+    const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
+    options.workers = workers.get();
     std::optional<Result<Frame>> frame;
     // The room's door: whatever libraries threw and nobody caught further in stops here.
     const Status sound = guarded(path, [&]() -> Status {
@@ -67,7 +70,7 @@ Result<Plane> depth_of_png(const InputFile& file, std::size_t max_pixels, const 
 
 Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                            const Rect& display, const Rect& data, std::vector<std::string>& detected) {
-    Result<ExrFile> exr = ExrFile::open(file, options.max_pixels);
+    Result<ExrFile> exr = ExrFile::open(file, options.max_pixels, *options.workers);
     if (!exr) return exr.error();
     const Rect theirs = exr->layout.display_window;
     if (theirs.width() != display.width() || theirs.height() != display.height())

@@ -58,10 +58,7 @@ private:
 // OpenEXR without its thread pool: thousands of tiny files would spend their time on waking threads.
 class WithoutExrThreads {
 public:
-    WithoutExrThreads() {
-        start_exr_threads();
-        Imf::setGlobalThreadCount(0);
-    }
+    WithoutExrThreads() { Imf::setGlobalThreadCount(0); }
     ~WithoutExrThreads() { Imf::setGlobalThreadCount(usable_threads()); }
     WithoutExrThreads(const WithoutExrThreads&) = delete;
     WithoutExrThreads& operator=(const WithoutExrThreads&) = delete;

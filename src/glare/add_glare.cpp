@@ -55,19 +55,20 @@ Status check(const GlareSettings& s) {
     return Done{};
 }
 
-Picture without_alpha(View<const Rgba> picture, int threads) {
+Picture without_alpha(View<const Rgba> picture, Workers& workers) {
     Picture light = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(light.height(), threads, [&](int y) {
+    parallel_for(light.height(), workers, [&](int y) {
         for (int x = 0; x < light.width(); ++x) light(x, y) = usable(picture(x, y));
     });
     return light;
 }
 
 // What stays: finite colour, less what the parts take.
-Picture remaining(View<const Rgba> picture, View<const Rgba> highlights, const GlareSettings& s) {
+Picture remaining(View<const Rgba> picture, View<const Rgba> highlights, const GlareSettings& s,
+                  Workers& workers) {
     const float of_all = float(s.bloom + s.veil), of_highlights = float(s.star + s.ghosts);
     Picture out = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(out.height(), s.threads, [&](int y) {
+    parallel_for(out.height(), workers, [&](int y) {
         for (int x = 0; x < out.width(); ++x) {
             const Rgba c = picture(x, y);
             const auto finite = [](float v) { return std::isfinite(v) ? v : 0.0f; };
@@ -80,8 +81,8 @@ Picture remaining(View<const Rgba> picture, View<const Rgba> highlights, const G
 }
 
 // Adds to colour; alpha stays.
-void add(Picture& out, const Picture& light, float amount, int threads) {
-    parallel_for(out.height(), threads, [&](int y) {
+void add(Picture& out, const Picture& light, float amount, Workers& workers) {
+    parallel_for(out.height(), workers, [&](int y) {
         for (int x = 0; x < out.width(); ++x) {
             const Rgba c = amount * light(x, y);
             out(x, y) += Rgba{c.r, c.g, c.b, 0};
@@ -125,28 +126,29 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& s) {
             ghosts = std::move(*traced);
         }
     }
-    const Picture light = without_alpha(picture, s.threads);
+    const std::shared_ptr<Workers> workers = workers_of(s.threads, s.workers);
+    const Picture light = without_alpha(picture, *workers);
     Picture bright;
     if (s.star > 0 || s.ghosts > 0) {
         bright = Picture::uninitialised(light.width(), light.height());
         for (std::size_t i = 0; i < light.size(); ++i)
             bright.pixels()[i] = highlight(light.pixels()[i], float(s.threshold));
     }
-    Picture out = remaining(picture, bright, s);
+    Picture out = remaining(picture, bright, s, *workers);
     if (s.bloom > 0)
-        add(out, bloom(light, s.bloom_radius * height, s.pixel_aspect, s.threads), float(s.bloom), s.threads);
+        add(out, bloom(light, s.bloom_radius * height, s.pixel_aspect, *workers), float(s.bloom), *workers);
     if (s.star > 0 && s.star_quality == StarQuality::Draft)
         add_streaks(out, bright, s.lens.aperture, s.star_radius * height, s.pixel_aspect, float(s.star),
-                    s.threads);
+                    *workers);
     if (s.star > 0 && s.star_quality == StarQuality::Final)
         add_convolved(out, bright,
                       star_kernel(s.lens.aperture, std::max(2.0, s.star_radius * height), s.diffraction_px,
-                                  s.pixel_aspect, s.threads),
-                      float(s.star), s.threads);
+                                  s.pixel_aspect, *workers),
+                      float(s.star), *workers);
     if (s.ghosts > 0) {
         const kernel::Point middle{display.x0 - data.x0 + 0.5 * display.width(),
                                    display.y0 - data.y0 + 0.5 * display.height()};
-        add_ghosts(out, bright, ghosts, middle, float(s.ghosts), s.threads);
+        add_ghosts(out, bright, ghosts, middle, float(s.ghosts), *workers);
     }
     if (s.veil > 0) add_veil(out, light, float(s.veil));
     return out;

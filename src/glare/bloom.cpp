@@ -23,10 +23,10 @@ int mirrored(int i, int n) {
     return i < n ? i : period - 1 - i;
 }
 
-Picture halved(const Picture& fine, int threads) {
+Picture halved(const Picture& fine, Workers& workers) {
     constexpr float kWeight[4] = {0.125f, 0.375f, 0.375f, 0.125f};
     Picture coarse(fine.width() / 2, fine.height() / 2);
-    parallel_for(coarse.height(), threads, [&](int y) {
+    parallel_for(coarse.height(), workers, [&](int y) {
         const Rgba* rows[4];
         for (int k = 0; k < 4; ++k) rows[k] = fine.row(mirrored(2 * y - 1 + k, fine.height()));
         for (int x = 0; x < coarse.width(); ++x) {
@@ -44,8 +44,8 @@ Picture halved(const Picture& fine, int threads) {
 }
 
 // fine += coarse, interpolated.
-void add_doubled(Picture& fine, const Picture& coarse, int threads) {
-    parallel_for(fine.height(), threads, [&](int y) {
+void add_doubled(Picture& fine, const Picture& coarse, Workers& workers) {
+    parallel_for(fine.height(), workers, [&](int y) {
         const int j = y / 2;
         const Rgba* near_row = coarse.row(j);
         const Rgba* far_row = coarse.row(mirrored(y % 2 ? j + 1 : j - 1, coarse.height()));
@@ -67,11 +67,11 @@ std::vector<float> gaussian(double sigma_px) {
     return weights;
 }
 
-Picture blurred(const Picture& in, double sigma_x, double sigma_y, int threads) {
+Picture blurred(const Picture& in, double sigma_x, double sigma_y, Workers& workers) {
     Picture across(in.width(), in.height()), out(in.width(), in.height());
     const std::vector<float> wx = gaussian(sigma_x), wy = gaussian(sigma_y);
     const int rx = int(wx.size()) / 2, ry = int(wy.size()) / 2;
-    parallel_for(in.height(), threads, [&](int y) {
+    parallel_for(in.height(), workers, [&](int y) {
         for (int x = 0; x < in.width(); ++x) {
             Rgba sum;
             for (int k = -rx; k <= rx; ++k)
@@ -79,7 +79,7 @@ Picture blurred(const Picture& in, double sigma_x, double sigma_y, int threads) 
             across(x, y) = sum;
         }
     });
-    parallel_for(in.height(), threads, [&](int y) {
+    parallel_for(in.height(), workers, [&](int y) {
         for (int k = -ry; k <= ry; ++k) {
             const Rgba* row = across.row(mirrored(y + k, in.height()));
             const float weight = wy[std::size_t(k + ry)];
@@ -116,23 +116,23 @@ Picture padded(const Picture& light, int levels) {
 
 }  // namespace
 
-Picture bloom(const Picture& light, double widest_px, double pixel_aspect, int threads) {
+Picture bloom(const Picture& light, double widest_px, double pixel_aspect, Workers& workers) {
     std::vector<double> sigmas;
     for (double sigma = widest_px; sigmas.empty() || sigma >= 0.8; sigma /= 2) sigmas.push_back(sigma);
     const int coarsest = level_for(std::min(1.0, pixel_aspect) * widest_px, 30);
     std::vector<Picture> levels, layers;
     levels.push_back(padded(light, coarsest));
-    for (int l = 0; l < coarsest; ++l) levels.push_back(halved(levels.back(), threads));
+    for (int l = 0; l < coarsest; ++l) levels.push_back(halved(levels.back(), workers));
     for (const Picture& level : levels) layers.emplace_back(level.width(), level.height());
     const float share = 1 / float(sigmas.size());
     for (const double sigma : sigmas) {
         const int l = level_for(std::min(1.0, pixel_aspect) * sigma, coarsest);
         const Picture layer = blurred(levels[std::size_t(l)], sigma_on_level(sigma, l),
-                                      sigma_on_level(sigma * pixel_aspect, l), threads);
+                                      sigma_on_level(sigma * pixel_aspect, l), workers);
         Picture& sum = layers[std::size_t(l)];
         for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels()[i] += share * layer.pixels()[i];
     }
-    for (std::size_t l = layers.size(); l-- > 1;) add_doubled(layers[l - 1], layers[l], threads);
+    for (std::size_t l = layers.size(); l-- > 1;) add_doubled(layers[l - 1], layers[l], workers);
     Picture out(light.width(), light.height());
     for (int y = 0; y < out.height(); ++y)
         std::copy_n(layers[0].row(y), std::size_t(out.width()), out.row(y));

@@ -13,14 +13,14 @@ using Field = std::vector<std::complex<float>>;
 
 // The transform of one channel of the kernel around pixel (0, 0); real, because the kernel is symmetric.
 std::vector<float> spectrum(const kernel::PointSpread& kernel, float Rgba::*channel, const Fft& fft,
-                            int threads) {
+                            Workers& workers) {
     const int n = fft.size();
     Field field(std::size_t(n) * std::size_t(n));
     for (int y = kernel.extent.y0; y < kernel.extent.y1; ++y)
         for (int x = kernel.extent.x0; x < kernel.extent.x1; ++x)
             field[std::size_t((y + n) % n) * std::size_t(n) + std::size_t((x + n) % n)] =
                 kernel.weights(x - kernel.extent.x0, y - kernel.extent.y0).*channel;
-    fft_square(field, fft, false, threads);
+    fft_square(field, fft, false, workers);
     std::vector<float> real;
     real.reserve(field.size());
     for (const auto& value : field) real.push_back(value.real());
@@ -30,9 +30,10 @@ std::vector<float> spectrum(const kernel::PointSpread& kernel, float Rgba::*chan
 // Two real pictures travel as one complex one, a + i b. With X its transform, that of a is (X(k) + X*(-k))/2
 // and that of i b is (X(k) - X*(-k))/2, so a filtered by A and b by B together become
 // (A + B)/2 X(k) + (A - B)/2 X*(-k).
-void filter_pair(Field& field, const std::vector<float>& a, const std::vector<float>& b, int n, int threads) {
+void filter_pair(Field& field, const std::vector<float>& a, const std::vector<float>& b, int n,
+                 Workers& workers) {
     const std::size_t points = std::size_t(n);
-    parallel_for(n / 2 + 1, threads, [&](int row) {
+    parallel_for(n / 2 + 1, workers, [&](int row) {
         const std::size_t y = std::size_t(row), opposite = (points - y) % points;
         for (std::size_t x = 0; x < points; ++x) {
             const std::size_t here = y * points + x, there = opposite * points + (points - x) % points;
@@ -57,7 +58,7 @@ bool is_dark(View<const Rgba> tile) {
 }  // namespace
 
 void add_convolved(View<Rgba> out, View<const Rgba> light, const kernel::PointSpread& kernel, float amount,
-                   int threads) {
+                   Workers& workers) {
     const int reach_x = -kernel.extent.x0, reach_y = -kernel.extent.y0;
     const int reach = std::max(reach_x, reach_y);
     int n = kLanes;  // at least as much tile as margin, and no larger than the picture needs
@@ -65,8 +66,8 @@ void add_convolved(View<Rgba> out, View<const Rgba> light, const kernel::PointSp
     while (n <= 2 * reach) n *= 2;
     const int tile = n - 2 * reach;
     const Fft fft(n);
-    const auto kr = spectrum(kernel, &Rgba::r, fft, threads), kg = spectrum(kernel, &Rgba::g, fft, threads),
-               kb = spectrum(kernel, &Rgba::b, fft, threads);
+    const auto kr = spectrum(kernel, &Rgba::r, fft, workers), kg = spectrum(kernel, &Rgba::g, fft, workers),
+               kb = spectrum(kernel, &Rgba::b, fft, workers);
     const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(n) + std::size_t(x); };
     for (int y0 = 0; y0 < light.height(); y0 += tile)
         for (int x0 = 0; x0 < light.width(); x0 += tile) {
@@ -80,10 +81,10 @@ void add_convolved(View<Rgba> out, View<const Rgba> light, const kernel::PointSp
                     red_green[at(x + reach, y + reach)] = {c.r, c.g};
                     blue[at(x + reach, y + reach)] = c.b;
                 }
-            for (Field* field : {&red_green, &blue}) fft_square(*field, fft, false, threads);
-            filter_pair(red_green, kr, kg, n, threads);
+            for (Field* field : {&red_green, &blue}) fft_square(*field, fft, false, workers);
+            filter_pair(red_green, kr, kg, n, workers);
             for (std::size_t i = 0; i < blue.size(); ++i) blue[i] *= kb[i];
-            for (Field* field : {&red_green, &blue}) fft_square(*field, fft, true, threads);
+            for (Field* field : {&red_green, &blue}) fft_square(*field, fft, true, workers);
             const Rect lit = rect.grown(reach).intersected(out.rect());
             for (int y = lit.y0; y < lit.y1; ++y)
                 for (int x = lit.x0; x < lit.x1; ++x) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include "kernel/model/lens_model.h"
 
@@ -11,6 +12,6 @@ namespace petzval::glare {
 // out += amount * (light convolved with kernel), r, g, b only. Tiles without light cost nothing; what falls
 // outside the picture is dropped. Requires: both of one size; kernel(-x) = kernel(x), odd sides around 0.
 void add_convolved(View<Rgba> out, View<const Rgba> light, const kernel::PointSpread& kernel, float amount,
-                   int threads);
+                   Workers& workers);
 
 }  // namespace petzval::glare

@@ -98,13 +98,14 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
         return cos_squared * cos_squared * opening({right / half_diagonal, up / half_diagonal});
     };
 
+    const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
     const double step = std::max(1.0, double(picture.width()) / kGridColumns);
     Plane grid(int(picture.width() / step) + 2, int(picture.height() / step) + 2);
-    parallel_for(grid.height(), settings.threads, [&](int j) {
+    parallel_for(grid.height(), *workers, [&](int j) {
         for (int i = 0; i < grid.width(); ++i) grid(i, j) = float(reaching(i * step, j * step));
     });
     Picture out = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(out.height(), settings.threads, [&](int y) {
+    parallel_for(out.height(), *workers, [&](int y) {
         const double gy = (y + 0.5) / step;
         const int j = int(gy);
         const float t = float(gy - j);

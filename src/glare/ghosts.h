@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petzval/glare.h"
+#include "petzval/workers.h"
 
 #include "kernel/model/coverage.h"
 
@@ -29,6 +30,6 @@ Result<GhostModel> prescription_ghosts(const GlareSettings& settings, int width_
 
 // out += amount * ghosts of `light`. middle: of the frame, in pixels of the view.
 void add_ghosts(View<Rgba> out, View<const Rgba> light, const GhostModel& model, kernel::Point middle,
-                float amount, int threads);
+                float amount, Workers& workers);
 
 }  // namespace petzval::glare

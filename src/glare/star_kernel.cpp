@@ -23,7 +23,7 @@ constexpr double kCore_px = 1.5;  // light nearer than about this stays where it
 // |F|^2 for frequencies i >= 0 (rows) and all j (columns, wrapped), of sum 1 over the whole plane.
 class Pattern {
 public:
-    Pattern(const ApertureShape& aperture, int n, int threads);
+    Pattern(const ApertureShape& aperture, int n, Workers& workers);
     // Any i, j with |i|, |j| < n/2; P(-q) = P(q).
     float operator()(int i, int j) const {
         if (i < 0) i = -i, j = -j;
@@ -51,7 +51,7 @@ std::vector<float> drawn(const ApertureShape& aperture, int side) {
     return pixels;
 }
 
-Pattern::Pattern(const ApertureShape& aperture, int n, int threads)
+Pattern::Pattern(const ApertureShape& aperture, int n, Workers& workers)
     : n_(n), half_(std::size_t(n) * std::size_t(n / 2 + kLanes)) {
     const int side = int(n * kStep);
     const std::vector<float> image = drawn(aperture, side);
@@ -60,7 +60,7 @@ Pattern::Pattern(const ApertureShape& aperture, int n, int threads)
     const int kept = n / 2 + kLanes;  // one more than n/2, in whole groups
     std::vector<std::complex<float>> columns(std::size_t(kept) * std::size_t(side));
     const std::size_t lanes = kLanes, points = std::size_t(n);
-    parallel_for(side / kLanes, threads, [&](int group) {
+    parallel_for(side / kLanes, workers, [&](int group) {
         std::vector<float> re(points * lanes), im(points * lanes);
         const std::size_t first = std::size_t(group) * lanes;
         for (std::size_t x = 0; x < std::size_t(side); ++x)
@@ -74,7 +74,7 @@ Pattern::Pattern(const ApertureShape& aperture, int n, int threads)
     double total = 0;
     for (const float v : image) total += double(v) * double(v);
     const float scale = float(1 / (total * double(n) * double(n)));  // Parseval
-    parallel_for(kept / kLanes, threads, [&](int group) {
+    parallel_for(kept / kLanes, workers, [&](int group) {
         std::vector<float> re(points * lanes), im(points * lanes);
         const std::size_t first = std::size_t(group) * lanes;
         for (std::size_t y = 0; y < std::size_t(side); ++y)
@@ -127,12 +127,12 @@ Geometry geometry(double radius_px, double diffraction_px, double pixel_aspect) 
 
 // Adds one band to the kernel's half x >= 0.
 void add_band(const Pattern& pattern, const Geometry& g, const colour::SpectralBand& band,
-              kernel::PointSpread& star, int threads) {
+              kernel::PointSpread& star, Workers& workers) {
     const double cells_per_px = kReddest_nm / (g.reddest_px * band.wavelength_nm * kStep);
     const int limit = int(g.reach_cells) + 1;  // cells from the middle
     std::vector<Footprint> rows;
     for (int y = -g.reach_y; y <= g.reach_y; ++y) rows.push_back(footprint(y, cells_per_px / g.pixel_aspect));
-    parallel_for(g.reach + 1, threads, [&](int x) {
+    parallel_for(g.reach + 1, workers, [&](int x) {
         const Footprint columns = footprint(x, cells_per_px);
         if (columns.first > limit) return;
         std::vector<float> strip(
@@ -164,15 +164,15 @@ void add_band(const Pattern& pattern, const Geometry& g, const colour::SpectralB
 }  // namespace
 
 kernel::PointSpread star_kernel(const ApertureShape& aperture, double radius_px, double diffraction_px,
-                                double pixel_aspect, int threads) {
+                                double pixel_aspect, Workers& workers) {
     const Geometry g = geometry(radius_px, diffraction_px, pixel_aspect);
-    const Pattern pattern(aperture, g.n, threads);
+    const Pattern pattern(aperture, g.n, workers);
     kernel::PointSpread star;
     star.extent = {-g.reach, -g.reach_y, g.reach + 1, g.reach_y + 1};
     star.weights = Picture(star.extent.width(), star.extent.height());
     star.neutral = false;
     for (const colour::SpectralBand& band : colour::spectral_bands(kBands))
-        add_band(pattern, g, band, star, threads);
+        add_band(pattern, g, band, star, workers);
     const std::size_t last = star.weights.size() - 1;  // the other half: P(-x) = P(x)
     for (int y = 0; y < star.weights.height(); ++y)
         for (int x = g.reach; x < star.weights.width(); ++x) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "petzval/lens.h"
+#include "petzval/workers.h"
 
 #include "kernel/model/lens_model.h"
 
@@ -21,6 +22,6 @@ namespace petzval::glare {
 // radius_px >= 1: where red light (700 nm) ends. diffraction_px: 550 nm times N in pixels; smaller values
 // than the grid can hold count as the smallest it can.
 kernel::PointSpread star_kernel(const ApertureShape& aperture, double radius_px, double diffraction_px,
-                                double pixel_aspect, int threads);
+                                double pixel_aspect, Workers& workers);
 
 }  // namespace petzval::glare

@@ -1,5 +1,6 @@
 // The star is the aperture's diffraction: as many spikes as its edges ask for, as long as the wavelength.
 #include "base/fft.h"
+#include "base/parallel.h"
 #include "glare/convolve.h"
 #include "glare/star_kernel.h"
 #include "glare/streaks.h"
@@ -71,28 +72,28 @@ TEST(Fft, ThereAndBackIsTheSamePicture) {
     std::vector<std::complex<float>> field(std::size_t(n) * n);
     for (std::size_t i = 0; i < field.size(); ++i) field[i] = {float(i % 17), float(i % 5)};
     auto copy = field;
-    fft_square(copy, Fft(n), false, 1);
-    fft_square(copy, Fft(n), true, 1);
+    fft_square(copy, Fft(n), false, one_thread());
+    fft_square(copy, Fft(n), true, one_thread());
     for (std::size_t i = 0; i < field.size(); ++i) EXPECT_NEAR(std::abs(copy[i] - field[i]), 0, 1e-4);
 }
 
 TEST(StarKernel, EvenBladesThrowNSpikesOddOnesTwice) {
     for (const auto& [n, expected] : {std::pair{4, 4}, {5, 10}, {6, 6}, {7, 14}, {8, 8}, {9, 18}}) {
-        const auto star = star_kernel(blades(n, 3), 120, 1, 1, 1);
+        const auto star = star_kernel(blades(n, 3), 120, 1, 1, one_thread());
         EXPECT_EQ(spikes(by_direction(star, 25, 60)).size(), std::size_t(expected)) << n << " blades";
     }
 }
 
 TEST(StarKernel, SpikesStandAcrossTheEdges) {
     // Edges of a square with its first corner at 20 degrees face 65, 155, 245 and 335 degrees.
-    const auto found = spikes(by_direction(star_kernel(blades(4, 20), 120, 1, 1, 1), 25, 60));
+    const auto found = spikes(by_direction(star_kernel(blades(4, 20), 120, 1, 1, one_thread()), 25, 60));
     ASSERT_EQ(found.size(), 4u);
     for (int k = 0; k < 4; ++k) EXPECT_NEAR(found[std::size_t(k)], 65 + 90 * k, 1.5);
 }
 
 TEST(StarKernel, TheQuickStarPointsTheSameWay) {
     for (const int n : {5, 6}) {
-        const auto found = spikes(by_direction(star_kernel(blades(n, 11), 120, 1, 1, 1), 25, 60));
+        const auto found = spikes(by_direction(star_kernel(blades(n, 11), 120, 1, 1, one_thread()), 25, 60));
         const auto directions = spike_directions(blades(n, 11), 1);
         ASSERT_EQ(found.size(), directions.size());
         for (const kernel::Point& d : directions) {
@@ -106,7 +107,7 @@ TEST(StarKernel, TheQuickStarPointsTheSameWay) {
 }
 
 TEST(StarKernel, EachChannelSumsToOneNoneIsNegativeAndItIsSymmetric) {
-    const auto star = star_kernel(blades(5, 8), 90, 0, 1, 1);
+    const auto star = star_kernel(blades(5, 8), 90, 0, 1, one_thread());
     double r = 0, g = 0, b = 0;
     const int w = star.weights.width(), h = star.weights.height();
     for (int y = 0; y < h; ++y)
@@ -122,7 +123,7 @@ TEST(StarKernel, EachChannelSumsToOneNoneIsNegativeAndItIsSymmetric) {
 }
 
 TEST(StarKernel, LongerWavelengthsReachFarther) {
-    const auto star = star_kernel(blades(6), 150, 2, 1, 1);
+    const auto star = star_kernel(blades(6), 150, 2, 1, one_thread());
     double r = 0, g = 0, b = 0;
     for (int y = star.extent.y0; y < star.extent.y1; ++y)
         for (int x = star.extent.x0; x < star.extent.x1; ++x) {
@@ -137,7 +138,7 @@ TEST(StarKernel, LongerWavelengthsReachFarther) {
 TEST(StarKernel, SpikesFallAsOneOverTheSquareOfTheDistance) {
     // A square's spike along +x has constant width, so its light per pixel column falls as 1/x^2. Far inside
     // the fade at the end.
-    const auto star = star_kernel(blades(4, 45), 600, 1, 1, 1);
+    const auto star = star_kernel(blades(4, 45), 600, 1, 1, one_thread());
     const auto column = [&](int x) {
         double sum = 0;
         for (int y = -8; y <= 8; ++y) sum += double(star.weights(x - star.extent.x0, y - star.extent.y0).g);
@@ -154,8 +155,8 @@ TEST(StarKernel, CurvedBladesBlurTheSpikes) {
     const auto highest = [](const std::vector<double>& light) {
         return *std::max_element(light.begin(), light.end());
     };
-    EXPECT_LT(highest(by_direction(star_kernel(curved, 120, 1, 1, 1), 25, 60)),
-              0.5 * highest(by_direction(star_kernel(blades(6), 120, 1, 1, 1), 25, 60)));
+    EXPECT_LT(highest(by_direction(star_kernel(curved, 120, 1, 1, one_thread()), 25, 60)),
+              0.5 * highest(by_direction(star_kernel(blades(6), 120, 1, 1, one_thread()), 25, 60)));
 }
 
 TEST(Convolution, EqualsTheDirectSumAcrossTilesAndAtTheEdges) {
@@ -171,7 +172,7 @@ TEST(Convolution, EqualsTheDirectSumAcrossTilesAndAtTheEdges) {
     for (int y = 0; y < 23; ++y)
         for (int x = 0; x < 41; ++x)
             if ((x * 7 + y * 3) % 5 == 0) light(x, y) = {float(x), float(y), float(x + y), 0};
-    add_convolved(out.view(), light.view(), k, 0.5f, 1);
+    add_convolved(out.view(), light.view(), k, 0.5f, one_thread());
     for (int y = 0; y < 23; ++y)
         for (int x = 0; x < 41; ++x) {
             Rgba sum;

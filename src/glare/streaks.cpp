@@ -18,9 +18,9 @@ constexpr double kFallen = 4.6;                        // e-foldings at the end:
 constexpr double kWavelength_nm[3] = {610, 550, 465};  // of red, green and blue primaries, about
 constexpr double kReddest_nm = 700;                    // as the final star: radius_px is its length there
 
-Picture reduced(View<const Rgba> light, int threads) {
+Picture reduced(View<const Rgba> light, Workers& workers) {
     Picture small((light.width() + kFactor - 1) / kFactor, (light.height() + kFactor - 1) / kFactor);
-    parallel_for(small.height(), threads, [&](int y) {
+    parallel_for(small.height(), workers, [&](int y) {
         for (int j = kFactor * y; j < std::min(kFactor * (y + 1), light.height()); ++j)
             for (int i = 0; i < light.width(); ++i)
                 small(i / kFactor, y) += 1.0f / (kFactor * kFactor) * light(i, j);
@@ -40,9 +40,9 @@ Rgba sample(const Picture& picture, double x, double y) {
 }
 
 // One pass: the picture, shifted by 0…3 strides along the spike, ever weaker.
-Picture spread(const Picture& in, kernel::Point stride, const Rgba weights[kSamples], int threads) {
+Picture spread(const Picture& in, kernel::Point stride, const Rgba weights[kSamples], Workers& workers) {
     Picture out(in.width(), in.height());
-    parallel_for(in.height(), threads, [&](int y) {
+    parallel_for(in.height(), workers, [&](int y) {
         for (int x = 0; x < in.width(); ++x)
             for (int k = 0; k < kSamples; ++k)
                 out(x, y) += weights[k] * sample(in, x - k * stride.x, y - k * stride.y);
@@ -61,19 +61,19 @@ void pass_weights(double stride, double radius, Rgba weights[kSamples]) {
     }
 }
 
-Picture one_streak(const Picture& light, kernel::Point direction, double radius, int threads) {
+Picture one_streak(const Picture& light, kernel::Point direction, double radius, Workers& workers) {
     Picture streak = light.clone();
     for (double stride = 1; stride < radius; stride *= kSamples) {
         Rgba weights[kSamples];
         pass_weights(stride, radius, weights);
-        streak = spread(streak, stride * direction, weights, threads);
+        streak = spread(streak, stride * direction, weights, workers);
     }
     return streak;
 }
 
-void add_enlarged(View<Rgba> out, const Picture& small, float amount, int threads) {
+void add_enlarged(View<Rgba> out, const Picture& small, float amount, Workers& workers) {
     const View<const Rgba> view = small.view();
-    parallel_for(out.height(), threads, [&](int y) {
+    parallel_for(out.height(), workers, [&](int y) {
         const double sy = (y + 0.5) / kFactor - 0.5;
         const int j = int(std::floor(sy));
         const float t = float(sy - j);
@@ -104,8 +104,8 @@ std::vector<kernel::Point> spike_directions(const ApertureShape& aperture, doubl
 }
 
 void add_streaks(View<Rgba> out, View<const Rgba> light, const ApertureShape& aperture, double radius_px,
-                 double pixel_aspect, float amount, int threads) {
-    const Picture small = reduced(light, threads);
+                 double pixel_aspect, float amount, Workers& workers) {
+    const Picture small = reduced(light, workers);
     const auto directions = spike_directions(aperture, pixel_aspect);
     Picture sum(small.width(), small.height());
     double shares = 0;
@@ -113,12 +113,12 @@ void add_streaks(View<Rgba> out, View<const Rgba> light, const ApertureShape& ap
         const double length = std::pow(kSamples, -k), radius = std::max(1.0, radius_px / kFactor * length);
         const float share = float(1 / length);
         for (const kernel::Point& direction : directions) {
-            const Picture streak = one_streak(small, direction, radius, threads);
+            const Picture streak = one_streak(small, direction, radius, workers);
             for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels()[i] += share * streak.pixels()[i];
         }
         shares += 1 / length;
     }
-    add_enlarged(out, sum, amount / float(shares * double(directions.size())), threads);
+    add_enlarged(out, sum, amount / float(shares * double(directions.size())), workers);
 }
 
 }  // namespace petzval::glare

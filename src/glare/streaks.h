@@ -5,6 +5,7 @@
 
 #include "petzval/image.h"
 #include "petzval/lens.h"
+#include "petzval/workers.h"
 
 #include "kernel/model/coverage.h"
 
@@ -20,6 +21,6 @@ std::vector<kernel::Point> spike_directions(const ApertureShape& aperture, doubl
 // about radius_px for 700 nm, nearer in proportion to the wavelength for red, green and blue. r, g, b each
 // keep their sum inside the frame.
 void add_streaks(View<Rgba> out, View<const Rgba> light, const ApertureShape& aperture, double radius_px,
-                 double pixel_aspect, float amount, int threads);
+                 double pixel_aspect, float amount, Workers& workers);
 
 }  // namespace petzval::glare

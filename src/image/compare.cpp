@@ -94,9 +94,9 @@ ChannelSums band_sums(const Input& in, int y0, int y1) {
 
 int band_count(const Input& in) { return (in.height() + kBandRows - 1) / kBandRows; }
 
-ChannelSums channel_sums(const Input& in) {
+ChannelSums channel_sums(const Input& in, Workers& workers) {
     std::vector<ChannelSums> bands(std::size_t(band_count(in)));
-    parallel_for(band_count(in), 0, [&](int i) {
+    parallel_for(band_count(in), workers, [&](int i) {
         bands[std::size_t(i)] = band_sums(in, i * kBandRows, std::min(in.height(), (i + 1) * kBandRows));
     });
     ChannelSums total;
@@ -189,9 +189,9 @@ SsimSums band_ssim(const Input& in, Transfer transfer, int y0, int y1) {
     return sums;
 }
 
-double ssim(const Input& in, Transfer transfer) {
+double ssim(const Input& in, Transfer transfer, Workers& workers) {
     std::vector<SsimSums> bands(std::size_t(band_count(in)));
-    parallel_for(band_count(in), 0, [&](int i) {
+    parallel_for(band_count(in), workers, [&](int i) {
         bands[std::size_t(i)] =
             band_ssim(in, transfer, i * kBandRows, std::min(in.height(), (i + 1) * kBandRows));
     });
@@ -232,14 +232,15 @@ Result<Comparison> compare(View<const Rgba> reference, View<const Rgba> test,
                        "; it must be positive");
 
     const Input in{reference, test, mask, float(settings.exposure)};
-    const ChannelSums sums = channel_sums(in);
+    const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
+    const ChannelSums sums = channel_sums(in, *workers);
     if (sums.pixels == 0) return invalid("compare: no pixel of the mask is above 0.5");
     Comparison result;
     result.psnr_lin = psnr(sums.squares[std::size_t(Transfer::Linear)], sums.pixels);
     result.psnr_srgb = psnr(sums.squares[std::size_t(Transfer::Srgb)], sums.pixels);
     result.psnr_log = psnr(sums.squares[std::size_t(Transfer::Log)], sums.pixels);
-    result.ssim_lin = ssim(in, Transfer::Linear);
-    result.ssim_srgb = ssim(in, Transfer::Srgb);
+    result.ssim_lin = ssim(in, Transfer::Linear, *workers);
+    result.ssim_srgb = ssim(in, Transfer::Srgb, *workers);
     result.max_error = sums.max_error;
     result.max_error_x = sums.max_x;
     result.max_error_y = sums.max_y;

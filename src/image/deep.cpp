@@ -83,10 +83,10 @@ DeepPicture deep_from_flat(View<const Rgba> colour, View<const float> depth_m) {
     return {colour.width(), colour.height(), std::move(first), std::move(samples)};
 }
 
-void flatten(const DeepPicture& deep, Picture& colour, Plane& depth) {
+void flatten(const DeepPicture& deep, Picture& colour, Plane& depth, int threads, Workers* workers) {
     colour = Picture::uninitialised(deep.width(), deep.height());
     depth = Plane::uninitialised(deep.width(), deep.height());
-    parallel_for(deep.height(), 0, [&](int y) {
+    parallel_for(deep.height(), *workers_of(threads, workers), [&](int y) {
         std::vector<DeepSample> apart;
         for (int x = 0; x < deep.width(); ++x) {
             std::span<const DeepSample> samples = deep.at(x, y);

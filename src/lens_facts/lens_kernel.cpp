@@ -124,7 +124,7 @@ Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mo
                                         (settings.dense_near_focus ? t * std::abs(t) : t));
     }
     std::vector<std::vector<Rgba>> profiles(texture.coc_radius_px.size());
-    parallel_for(settings.columns, 0, [&](int i) {
+    parallel_for(settings.columns, *workers_of(settings.threads, settings.workers), [&](int i) {
         const double coc = finer * texture.coc_radius_px[std::size_t(i)];
         const kernel::PointSpread spread =
             settings.raw ? (*lens)->raw_point_spread(coc, {}) : (*lens)->point_spread(coc, {});

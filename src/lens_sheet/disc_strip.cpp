@@ -95,7 +95,7 @@ Figure disc_strip(const Subject& subject) {
     std::vector<Cell> cells;
     for (std::size_t row = 0; row < lenses.size(); ++row)
         for (std::size_t column = 0; column < kColumns.size(); ++column) cells.push_back({column, row, {}});
-    parallel_for(int(cells.size()), 0, [&](int i) {
+    parallel_for(int(cells.size()), subject.workers(), [&](int i) {
         Cell& cell = cells[std::size_t(i)];
         const double blurs = kColumns[cell.column], smaller = subject.f_number() / f_numbers[cell.row];
         cell.disc = lenses[cell.row].disc(blurs * subject.blur_um() * smaller, zoom_of(subject, blurs));

@@ -34,10 +34,10 @@ double reach_um(const kernel::GeometricLens& lens, double coc_um) {
 }
 
 // The discs of a frame, of a round pupil: the quarter at top left stands for all.
-Canvas frame_of(const kernel::LensModel& lens, double coc_px) {
+Canvas frame_of(const kernel::LensModel& lens, double coc_px, Workers& workers) {
     constexpr int kQuarterColumns = (kColumns + 1) / 2, kQuarterRows = (kRows + 1) / 2;
     std::vector<kernel::PointSpread> discs(std::size_t(kQuarterColumns * kQuarterRows));
-    parallel_for(int(discs.size()), 0, [&](int i) {
+    parallel_for(int(discs.size()), workers, [&](int i) {
         discs[std::size_t(i)] = lens.point_spread(coc_px, place_of(i % kQuarterColumns, i / kQuarterColumns));
     });
     const double gain = even_gain(discs.back());  // the middle's for all
@@ -67,7 +67,7 @@ std::optional<Figure> pair_of(const Subject& subject, const std::string& title, 
         svg.text({x, kTop - 9}, title + (side < 0 ? ", in front of focus" : ", behind"), "title");
         svg.text({x + kWide, kTop - 9}, "cell " + significant(um_per_px * kCell, 2) + " µm", "tick",
                  Anchor::End);
-        svg.image({x, kTop}, kWide, kHigh, frame_of(**coarse, coc_um / um_per_px).uri());
+        svg.image({x, kTop}, kWide, kHigh, frame_of(**coarse, coc_um / um_per_px, subject.workers()).uri());
     }
     return Figure{svg.str(),
                   caption + " Circle of confusion: ±" + significant(blurs * subject.blur_um(), 2) +

@@ -113,7 +113,7 @@ Figure stops(const Subject& subject) {
         for (int row = 0; lens && row < int(kScenes.size()); ++row)
             for (const int side : {0, 1}) discs.push_back({column, row, side, {}});
     }
-    parallel_for(int(discs.size()), 0, [&](int i) {
+    parallel_for(int(discs.size()), subject.workers(), [&](int i) {
         Disc& d = discs[std::size_t(i)];
         const Scene& scene = kScenes[std::size_t(d.row)];
         const double share = kStops[std::size_t(d.column)].share;

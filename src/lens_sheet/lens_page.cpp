@@ -1,6 +1,7 @@
 // The page of one lens: which figures, in which order, with which words.
 #include "petzval/lens_report.h"
 
+#include "base/parallel.h"
 #include "lens_sheet/figures.h"
 
 namespace petzval::lens_sheet {
@@ -67,8 +68,9 @@ std::vector<Section> sections_of(const Subject& subject) {
 
 namespace petzval {
 
-Result<std::string> lens_report(const std::string& name_or_file) {
-    const auto subject = lens_sheet::Subject::make(name_or_file);
+Result<std::string> lens_report(const std::string& name_or_file, int threads, Workers* lent) {
+    const std::shared_ptr<Workers> workers = workers_of(threads, lent);
+    const auto subject = lens_sheet::Subject::make(name_or_file, *workers);
     if (!subject) return subject.error();
     return lens_sheet::html_page(subject->name() + ": " + subject->facts().summary.title,
                                  lens_sheet::header_of(*subject), lens_sheet::sections_of(*subject));

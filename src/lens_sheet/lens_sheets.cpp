@@ -1,6 +1,7 @@
 // Many lenses on one sheet.
 #include "petzval/lens_report.h"
 
+#include "base/parallel.h"
 #include "lens_sheet/figures.h"
 #include "lens_sheet/texture.h"
 
@@ -57,8 +58,9 @@ std::string row_of(const LensCard& card) {
 
 }  // namespace
 
-Result<LensCard> lens_card(const std::string& name_or_file) {
-    const auto subject = Subject::make(name_or_file);
+Result<LensCard> lens_card(const std::string& name_or_file, int threads, Workers* lent) {
+    const std::shared_ptr<Workers> workers = workers_of(threads, lent);
+    const auto subject = Subject::make(name_or_file, *workers);
     if (!subject) return subject.error();
     const LensSummary& s = subject->facts().summary;
     LensCard card{s.name, s.title, s.year, s.kind, {}, {}, {}, {}, {}, {}, {}};

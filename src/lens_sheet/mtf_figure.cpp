@@ -83,7 +83,7 @@ std::vector<Figure> mtf_figures(const Subject& subject) {
         const auto lens = subject.mounted(n);
         if (!lens) continue;
         std::array<Mtf, 3> mtf;
-        parallel_for(has_field ? 3 : 1, 0, [&](int i) {
+        parallel_for(has_field ? 3 : 1, subject.workers(), [&](int i) {
             mtf[std::size_t(i)] = mtf_of(**lens, n, fields[std::size_t(i)], most_lp_mm);
         });
         Plot plot(544, 300, "Contrast at f/" + significant(n, 2), {0, most_lp_mm, "line pairs per mm"},

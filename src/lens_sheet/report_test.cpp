@@ -8,6 +8,8 @@
 namespace petzval::lens_sheet {
 namespace {
 
+const std::shared_ptr<Workers> g_workers = own_workers();
+
 std::vector<std::string> lens_names() {
     std::vector<std::string> names;
     for (const LensSummary& lens : lens_list()) names.push_back(lens.name);
@@ -15,7 +17,7 @@ std::vector<std::string> lens_names() {
 }
 
 Subject subject_of(const std::string& name) {
-    auto subject = Subject::make(name);
+    auto subject = Subject::make(name, *g_workers);
     EXPECT_TRUE(subject) << name << ": " << subject.error().message;
     return std::move(*subject);
 }
@@ -133,8 +135,8 @@ TEST(EveryLens, HasAllFiguresWithoutAFault) {
     const std::vector<std::string> names = lens_names();
     ASSERT_GT(names.size(), 35U);
     std::vector<std::string> faults(names.size());
-    parallel_for(int(names.size()), 0, [&](int i) {
-        const auto subject = Subject::make(names[std::size_t(i)]);
+    parallel_for(int(names.size()), *g_workers, [&](int i) {
+        const auto subject = Subject::make(names[std::size_t(i)], *g_workers);
         if (!subject) {
             faults[std::size_t(i)] = subject.error().message;
             return;

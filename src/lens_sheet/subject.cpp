@@ -165,8 +165,9 @@ void Subject::measure() {
     best_focus_mm_ = axis_->height_um(kPrimary_nm, 0)(kNearAxis) / kNearAxis * 2 * f_number_ / 1000;
 }
 
-Result<Subject> Subject::make(const std::string& name_or_file) {
+Result<Subject> Subject::make(const std::string& name_or_file, Workers& workers) {
     Subject subject;
+    subject.workers_ = &workers;
     auto facts = lens_facts(name_or_file);
     if (!facts) return facts.error();
     subject.facts_ = std::move(*facts);

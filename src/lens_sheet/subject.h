@@ -6,6 +6,7 @@
 
 #include "petzval/lens_facts.h"
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include "kernel/lenses/geometric_lens.h"
 #include "lens_sheet/svg.h"
@@ -57,8 +58,10 @@ std::vector<kernel::Light> ring_light(const AxialBands& bands, double coc_um, do
 class Subject {
 public:
     // Errors: those of lens_facts(), and of mounting the lens.
-    static Result<Subject> make(const std::string& name_or_file);
+    // Figures are drawn by `workers`, which outlive the subject.
+    static Result<Subject> make(const std::string& name_or_file, Workers& workers);
 
+    Workers& workers() const { return *workers_; }
     const std::string& name() const { return facts_.summary.name; }
     const std::string& asked() const { return asked_; }  // name or file, as commands take it
     const LensFacts& facts() const { return facts_; }
@@ -92,6 +95,7 @@ private:
     kernel::Mount mount(double f_number, double um_per_px, double scale) const;
     void measure();
 
+    Workers* workers_ = nullptr;
     LensFacts facts_;
     std::string asked_;  // as make_lens takes it
     std::optional<optics::Prescription> lens_;

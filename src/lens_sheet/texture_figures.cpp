@@ -53,7 +53,7 @@ std::string texture_uri(const Subject& subject, double blurs, int wavelengths, i
     const double most_um = blurs * subject.blur_um(), reach = most_um + subject.blur_um();
     const AxialBands bands = subject.axis().bands(wavelengths);
     std::vector<Column> columns(static_cast<std::size_t>(width));
-    parallel_for(width, 0, [&](int x) {
+    parallel_for(width, subject.workers(), [&](int x) {
         const double coc = most_um * (2 * (x + 0.5) / width - 1);
         columns[std::size_t(x)] = column_of(bands, coc, reach, height / 2);
     });

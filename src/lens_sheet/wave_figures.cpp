@@ -69,12 +69,13 @@ void level(WaveMap& map) {
     map.rms = std::sqrt(square / n), map.peak_to_valley = high - low;
 }
 
-WaveMap map_of(const kernel::GeometricLens& lens, double f_number, double field, const std::string& title) {
+WaveMap map_of(const kernel::GeometricLens& lens, double f_number, double field, const std::string& title,
+               Workers& workers) {
     WaveMap map{title, std::vector<double>(std::size_t(kSide * kSide), std::nan("")), 0, 0, {}};
     const kernel::FieldPosition place{0, field};
     const auto outline = lens.pupil_outline(place, 1e-3);
     const auto landing = lens.landing(1000 * kGreen_um, 0, place);
-    parallel_for(kSide, 0, [&](int j) {
+    parallel_for(kSide, workers, [&](int j) {
         for (int i = 0; i < kSide; ++i) {
             const Point u{2.0 * i / (kSide - 1) - 1, 2.0 * j / (kSide - 1) - 1};
             if (inside(outline, u)) map.waves[std::size_t(j * kSide + i)] = wavefront(landing, u, f_number);
@@ -129,13 +130,14 @@ Figure wavefronts(const Subject& subject) {
             const double deg = std::atan(field * std::tan(subject.corner_deg() * std::numbers::pi / 180)) *
                                180 / std::numbers::pi;
             maps.push_back(map_of(*subject.open(), subject.f_number(), field,
-                                  field == 0 ? "axis" : number(deg, 1) + "° off the axis"));
+                                  field == 0 ? "axis" : number(deg, 1) + "° off the axis",
+                                  subject.workers()));
         }
     } else {
         for (const double stops : {0.0, 1.0, 2.0}) {
             const double n = subject.f_number() * std::pow(2, stops / 2);
             if (const auto lens = subject.mounted(n))
-                maps.push_back(map_of(**lens, n, 0, "f/" + significant(n, 2)));
+                maps.push_back(map_of(**lens, n, 0, "f/" + significant(n, 2), subject.workers()));
         }
     }
     constexpr double kCell = 220;
@@ -240,7 +242,7 @@ std::vector<Figure> wave_figures(const Subject& subject) {
     const double um_per_px = subject.axis().reach_um(coc_um / scale) * scale / 52;
     std::vector<WaveCell> focus(4), small(4);
     const double stopped[] = {std::max(n, 8.0), std::max(n, 16.0), std::max(n, 22.0)};
-    parallel_for(8, 0, [&](int i) {
+    parallel_for(8, subject.workers(), [&](int i) {
         if (i < 3) focus[std::size_t(i)] = focus_cell(subject, stopped[i], 0);
         if (i == 3) focus[3] = focus_cell(subject, stopped[1], 6);
         if (i > 3)

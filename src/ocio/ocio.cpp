@@ -120,7 +120,7 @@ Rgba shown_over_black(Rgba c) {
 }
 
 Result<OcioPicture> codes_by(const OCIO::Config& config, View<const Rgba> picture, const OcioView& asked,
-                             int threads) {
+                             Workers& workers) {
     auto view = completed(config, asked);
     if (!view) return view.error();
     auto source = source_of(config, asked.space);
@@ -133,7 +133,7 @@ Result<OcioPicture> codes_by(const OCIO::Config& config, View<const Rgba> pictur
     const auto processor = config.getProcessor(source->before)->getDefaultCPUProcessor();
     OcioPicture result{Picture::uninitialised(picture.width(), picture.height()), view->display, view->view,
                        source->space, source->warnings};
-    parallel_for(picture.height(), threads, [&](int y) {
+    parallel_for(picture.height(), workers, [&](int y) {
         Rgba* const row = result.codes.row(y);
         for (int x = 0; x < picture.width(); ++x) row[x] = shown_over_black(picture(x, y));
         OCIO::PackedImageDesc pixels(row, picture.width(), 1, 4);
@@ -144,13 +144,14 @@ Result<OcioPicture> codes_by(const OCIO::Config& config, View<const Rgba> pictur
 
 }  // namespace
 
-Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view, int threads) {
+Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view, int threads,
+                               Workers* workers) {
     const char* const path = std::getenv("OCIO");
     if (!path || !*path)
         return invalid("--ocio: $OCIO is not set; it names the config, as /shows/one/config.ocio");
     try {
         OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
-        return codes_by(*OCIO::Config::CreateFromFile(path), picture, view, threads);
+        return codes_by(*OCIO::Config::CreateFromFile(path), picture, view, *workers_of(threads, workers));
     } catch (const OCIO::Exception& wrong) {
         return Error{ErrorCode::InvalidFile,
                      "$OCIO " + std::string(path) + ": cannot be used: " + first_line(wrong.what())};

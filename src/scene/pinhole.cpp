@@ -213,7 +213,7 @@ bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPictu
                       lamp_images(pass.world, pinhole, pass.area)};
     std::vector<std::vector<DeepSample>> samples(layers ? std::size_t(height) : 0);
     std::vector<std::vector<std::size_t>> counts(samples.size());
-    parallel_for(height, pass.threads, [&](int y) {
+    parallel_for(height, pass.workers, [&](int y) {
         if (pass.progress.cancelled()) return;
         Row row(pass, tools, pass.area.y0 + y, layers != nullptr);
         row.render(colour.row(y), depth_m.row(y));

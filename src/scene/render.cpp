@@ -1,6 +1,7 @@
 // From the name of a scene to its pictures.
 #include "petzval/scene.h"
 
+#include "base/parallel.h"
 #include "scene/scenes.h"
 #include "scene/soft_depth.h"
 #include "scene/tracing.h"
@@ -100,7 +101,8 @@ std::array<double, 16> camera_from_world(const Viewpoint& view) {
 
 }  // namespace
 
-Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings) {
+Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings,
+                             Workers& workers) {
     // Refuses camera numbers that mean nothing.
     if (const auto coc = CircleOfConfusion::make(camera, settings.width); !coc) return coc.error();
     Progress progress(settings.progress);
@@ -111,7 +113,7 @@ Result<RenderedScene> render(const World& world, const Camera& camera, const Sce
               Rect{0, 0, settings.width, settings.height}.grown(settings.overscan_px),
               settings.samples,
               seed,
-              settings.threads,
+              workers,
               progress,
               1 - truth_share};
     const Error cancelled{ErrorCode::Cancelled, "rendering of the scene was cancelled"};
@@ -146,13 +148,14 @@ Result<RenderedScene> render_scene(const std::string& name, const SceneSettings&
     if (!found) return scene::unknown(name);
     const int frames = found->summary.frames;
     if (const Status status = scene::check(settings, frames); !status) return status.error();
-    scene::World world;
+    const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
+    scene::World world(workers->width() == 1);
     found->build(world, frames > 1 ? float(settings.frame) / float(frames - 1) : 0);
     const auto view = scene::moved(world.view, settings);
     if (!view) return view.error();
     world.view = *view;
-    if (const Status status = world.commit(settings.threads); !status) return status.error();
-    return scene::render(world, settings.camera.value_or(found->summary.camera), settings);
+    if (const Status status = world.commit(*workers); !status) return status.error();
+    return scene::render(world, settings.camera.value_or(found->summary.camera), settings, *workers);
 }
 
 }  // namespace petzval

@@ -2,6 +2,7 @@
 #include "petzval/camera.h"
 #include "petzval/compare.h"
 #include "petzval/scene.h"
+#include "petzval/workers.h"
 
 #include "scene/scenes.h"
 
@@ -24,8 +25,9 @@ Mesh facing_sheet(float x0, float x1, float y0, float y1, float z) {
 }
 
 RenderedScene rendered(World& world, const SceneSettings& s, const Camera& camera = kCamera) {
-    EXPECT_TRUE(world.commit(2));
-    return render(world, camera, s).value();
+    const std::shared_ptr<Workers> workers = own_workers(2);
+    EXPECT_TRUE(world.commit(*workers));
+    return render(world, camera, s, *workers).value();
 }
 
 SceneSettings settings(int width, int height) {

@@ -38,7 +38,8 @@ TEST(BuiltInScenes, AreTheSameBitsForAnyThreadCount) {
     s.want_truth = s.want_layers = true;
     s.threads = 1;
     const auto one = render_scene("bars", s);
-    s.threads = 3;
+    const std::shared_ptr<Workers> workers = own_workers(3);  // even where there are fewer processors
+    s.workers = workers.get();
     const auto three = render_scene("bars", s);
     ASSERT_TRUE(one && three);
     EXPECT_TRUE(same_bits(*one, *three));

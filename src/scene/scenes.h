@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/scene.h"
+#include "petzval/workers.h"
 
 #include "scene/world.h"
 
@@ -29,6 +30,7 @@ BuiltInScene rows();
 BuiltInScene cutouts();
 
 // The three passes over a world that was committed.
-Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings);
+Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings,
+                             Workers& workers);
 
 }  // namespace petzval::scene

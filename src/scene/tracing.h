@@ -3,6 +3,7 @@
 
 #include "petzval/deep.h"
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include "base/progress.h"
 #include "scene/optics.h"
@@ -46,7 +47,7 @@ struct Pass {
     Rect area;  // the pixels to make, in those of the frame; wider than it with overscan
     int samples = 0;
     std::uint32_t seed = 0;
-    int threads = 0;
+    Workers& workers;
     Progress& progress;
     double share = 0;  // of the whole work
 };

@@ -100,7 +100,7 @@ bool render_truth(const Pass& pass, Picture& truth) {
     const std::vector<LampImage> lamps = lamp_images(pass.world, pass.lens, pass.area);
     const LampLight light(pass.world, pass.lens, std::max(kFirstSamples, pass.samples / 2));
     const int columns = (truth.width() + kTile - 1) / kTile, rows = (truth.height() + kTile - 1) / kTile;
-    parallel_for(columns * rows, pass.threads, [&](int index) {
+    parallel_for(columns * rows, pass.workers, [&](int index) {
         if (pass.progress.cancelled()) return;
         const int x = pass.area.x0 + index % columns * kTile, y = pass.area.y0 + index / columns * kTile;
         const Tile tile{Rect{x, y, x + kTile, y + kTile}.intersected(pass.area)};

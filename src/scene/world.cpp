@@ -59,7 +59,8 @@ Viewpoint Viewpoint::looking(Vec3 from, Vec3 at) {
     return v;
 }
 
-World::World() : device_(rtcNewDevice(nullptr)), rays_(rtcNewScene(device_)) {
+World::World(bool one_thread)
+    : device_(rtcNewDevice(one_thread ? "threads=1" : nullptr)), rays_(rtcNewScene(device_)) {
     PETZVAL_CHECK(device_ != nullptr && rays_ != nullptr);
     rtcSetSceneFlags(rays_, RTC_SCENE_FLAG_ROBUST);  // no ray may slip through between two triangles
 }
@@ -139,26 +140,26 @@ void World::attach_lamps() {
     rtcReleaseGeometry(geometry);
 }
 
-Status World::commit(int threads) {
+Status World::commit(Workers& workers) {
     attach_lamps();
     rtcCommitScene(rays_);
     if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
         return Error{ErrorCode::OutOfMemory, "the scene's ray tracing structure does not fit the memory"};
-    bake(threads);
+    bake(workers);
     return Done{};
 }
 
 // Adds irradiance(position, normal, seed) to each vertex once all are known, so that it may look at the
 // others.
 template <typename Irradiance>
-void World::for_each_vertex(int threads, const Irradiance& irradiance) {
+void World::for_each_vertex(Workers& workers, const Irradiance& irradiance) {
     constexpr int kPiece = 64;  // vertices
     std::vector<std::vector<Vec3>> added(objects_.size());
     for (std::size_t o = 0; o < objects_.size(); ++o) {
         const Object& object = *objects_[o];
         const int count = int(object.mesh.positions.size());
         added[o].resize(std::size_t(count));
-        parallel_for((count + kPiece - 1) / kPiece, threads, [&](int piece) {
+        parallel_for((count + kPiece - 1) / kPiece, workers, [&](int piece) {
             for (int v = piece * kPiece; v < std::min(count, (piece + 1) * kPiece); ++v) {
                 const Vec3 p = object.mesh.positions[std::size_t(v)], n = object.mesh.normals[std::size_t(v)];
                 // The same rays for all of an object: their error varies as smoothly as the surface.
@@ -173,11 +174,11 @@ void World::for_each_vertex(int threads, const Irradiance& irradiance) {
         for (std::size_t v = 0; v < added[o].size(); ++v) objects_[o]->irradiance[v] += added[o][v];
 }
 
-void World::bake(int threads) {
+void World::bake(Workers& workers) {
     for (auto& object : objects_) object->irradiance.assign(object->mesh.positions.size(), {});
-    for_each_vertex(threads,
+    for_each_vertex(workers,
                     [&](Vec3 p, Vec3 n, std::uint32_t seed) { return direct_irradiance(p, n, seed); });
-    for_each_vertex(threads,
+    for_each_vertex(workers,
                     [&](Vec3 p, Vec3 n, std::uint32_t seed) { return indirect_irradiance(p, n, seed); });
 }
 

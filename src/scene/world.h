@@ -6,6 +6,7 @@
 #pragma once
 
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include "scene/shapes.h"
 #include "scene/vec3.h"
@@ -67,7 +68,8 @@ struct Viewpoint {
 
 class World {
 public:
-    World();
+    // Embree builds its tree with oneTBB's threads, or with the one that calls.
+    explicit World(bool one_thread = false);
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;
@@ -85,7 +87,7 @@ public:
     void add_lamp(Vec3 centre, float radius_m, Vec3 radiance);
 
     // Builds the ray tracing structure and bakes light. Errors: OutOfMemory.
-    Status commit(int threads);
+    Status commit(Workers& workers);
 
     // Looking, after commit(); thread-safe.
     static constexpr std::uint32_t kSky = RTC_INVALID_GEOMETRY_ID;
@@ -105,9 +107,9 @@ private:
     struct Object;
     static void open_holes(const RTCFilterFunctionNArguments* hits);
     void attach_lamps();
-    void bake(int threads);
+    void bake(Workers& workers);
     template <typename Irradiance>
-    void for_each_vertex(int threads, const Irradiance& irradiance);
+    void for_each_vertex(Workers& workers, const Irradiance& irradiance);
     Vec3 direct_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const;
     Vec3 indirect_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const;
     Vec3 tube_irradiance(Vec3 position, Vec3 normal) const;

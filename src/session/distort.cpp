@@ -53,9 +53,9 @@ Rgba sampled(const Picture& picture, double x, double y) {
 
 }  // namespace
 
-Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, int threads) {
+Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, Workers& workers) {
     Picture result = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(picture.height(), threads, [&](int y) {
+    parallel_for(picture.height(), workers, [&](int y) {
         const double down = (y + 0.5 - field.centre_y_px) / field.pixel_aspect;
         for (int x = 0; x < picture.width(); ++x) {
             const double right = x + 0.5 - field.centre_x_px;

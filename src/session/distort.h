@@ -4,6 +4,7 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 namespace petzval {
 
@@ -16,6 +17,6 @@ struct FieldOfPixels {
 
 // Of the same size. Where something from outside of the picture would be seen, its border is repeated.
 // Requires: -0.3 <= amount <= 0.3.
-Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, int threads);
+Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, Workers& workers);
 
 }  // namespace petzval

@@ -3,6 +3,8 @@
 #include "petzval/defocus.h"
 #include "petzval/lens_kernel.h"
 
+#include "base/parallel.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -36,7 +38,7 @@ TEST(Distorted, WithoutDistortionItIsThePicture) {
     Picture picture(40, 30);
     for (std::size_t i = 0; i < picture.size(); ++i)
         picture.pixels()[i] = {float(i % 7), float(i % 11), float(i % 5), 1};
-    const Picture same = distorted(picture, field_of(40, 30), 0, 1);
+    const Picture same = distorted(picture, field_of(40, 30), 0, one_thread());
     for (std::size_t i = 0; i < picture.size(); ++i)
         EXPECT_LT(std::abs(same.pixels()[i].g - picture.pixels()[i].g), 1e-5f);
 }
@@ -48,7 +50,7 @@ TEST(Distorted, APointMovesByTheCubeOfItsRadius) {
             for (int x = 298; x < 303; ++x) picture(x, y).g = 1;
         const FieldOfPixels field = field_of(400, 300);
         const double right = 300.5 - 200, down = 200.5 - 150, r = field.per_px * std::hypot(right, down);
-        const Blob blob = blob_of(distorted(picture, field, amount, 2));
+        const Blob blob = blob_of(distorted(picture, field, amount, *own_workers(2)));
         // The square is not a point: its far side moves more.
         EXPECT_NEAR(blob.x, 200 + right * (1 + amount * r * r), 0.15);
         EXPECT_NEAR(blob.y, 150 + down * (1 + amount * r * r), 0.15);
@@ -58,7 +60,7 @@ TEST(Distorted, APointMovesByTheCubeOfItsRadius) {
 TEST(Distorted, NothingGrowsBrighterOrDarkerThanWhatIsThere) {
     Picture picture(64, 64, Rgba{0, 0, 0, 1});
     picture(40, 20) = {1000, 1000, 1000, 1};
-    const Picture moved = distorted(picture, field_of(64, 64), 0.2, 1);
+    const Picture moved = distorted(picture, field_of(64, 64), 0.2, one_thread());
     for (std::size_t i = 0; i < moved.size(); ++i) {
         EXPECT_GE(moved.pixels()[i].g, 0);
         EXPECT_LE(moved.pixels()[i].g, 1000);

@@ -24,9 +24,9 @@ float finite_radius(double radius_px) {
     return float(std::clamp(radius_px, double(-kLargestRadiusPx), double(kLargestRadiusPx)));
 }
 
-bool is_finite(View<const Rgba> colour, int threads) {
+bool is_finite(View<const Rgba> colour, Workers& workers) {
     std::atomic<bool> finite{true};
-    parallel_for(colour.height(), threads, [&](int y) {
+    parallel_for(colour.height(), workers, [&](int y) {
         bool row_finite = true;
         for (int x = 0; x < colour.width(); ++x)
             row_finite = row_finite && engine::finite_colour(colour(x, y)) == colour(x, y);
@@ -35,9 +35,9 @@ bool is_finite(View<const Rgba> colour, int threads) {
     return finite;
 }
 
-Picture finite_picture(View<const Rgba> colour, int threads) {
+Picture finite_picture(View<const Rgba> colour, Workers& workers) {
     Picture picture = Picture::uninitialised(colour.width(), colour.height());
-    parallel_for(colour.height(), threads, [&](int y) {
+    parallel_for(colour.height(), workers, [&](int y) {
         for (int x = 0; x < colour.width(); ++x) picture(x, y) = engine::finite_colour(colour(x, y));
     });
     return picture;
@@ -68,9 +68,9 @@ float Radii::operator()(float depth) const {
 
 float Radii::at_infinity_px() const { return coc_ ? finite_radius(coc_->radius_at_infinity_px()) : 0; }
 
-Plane Radii::of(View<const float> depth, int threads) const {
+Plane Radii::of(View<const float> depth, Workers& workers) const {
     Plane plane = Plane::uninitialised(depth.width(), depth.height());
-    parallel_for(depth.height(), threads, [&](int y) {
+    parallel_for(depth.height(), workers, [&](int y) {
         for (int x = 0; x < depth.width(); ++x) plane(x, y) = (*this)(depth(x, y));
     });
     return plane;
@@ -102,10 +102,10 @@ Status check_job(const DefocusJob& job) {
 }
 
 PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double lens_reach_px)
-    : coc_px_(radii.of(job.depth_m, job.threads)) {
+    : coc_px_(radii.of(job.depth_m, *job.workers)) {
     input.colour = job.colour;
-    if (!is_finite(job.colour, job.threads))
-        input.colour = repaired_ = finite_picture(job.colour, job.threads);
+    if (!is_finite(job.colour, *job.workers))
+        input.colour = repaired_ = finite_picture(job.colour, *job.workers);
     input.coc_px = coc_px_;
     take_samples(job, radii, lens_reach_px);
     note_radii();
@@ -125,20 +125,20 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
         input.focus_distance_m = job.camera.focus_distance_m;
     }
     input.radius_at_infinity_px = radii.at_infinity_px();
-    input.threads = job.threads;
+    input.workers = job.workers;
     input.max_memory_bytes = job.max_memory_bytes;
     input.seed = job.seed;
 }
 
 void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, double lens_reach_px) {
     samples_ = engine::all_samples({input.colour, job.depth_m, job.depth_is_coc, job.deep, job.behind, radii},
-                                   job.threads);
+                                   *job.workers);
     if (job.scatter.view != ScatterView::Layers)  // shows them all
-        engine::drop_out_of_sight(samples_, lens_reach_px, job.threads);
+        engine::drop_out_of_sight(samples_, lens_reach_px, *job.workers);
     if (!samples_.first.empty()) input.deep = samples_;
     input.deep_dims_itself = job.deep && !job.deep->empty();
     if (job.holdout && !job.holdout->empty())
-        input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, job.depth_is_coc, job.threads);
+        input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, job.depth_is_coc, *job.workers);
 }
 
 void PreparedFrame::note_radii() {

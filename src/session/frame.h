@@ -20,7 +20,7 @@ public:
     static Result<Radii> make(const DefocusJob& job);
     float operator()(float depth) const;
     float at_infinity_px() const;  // 0 where radii are given
-    Plane of(View<const float> depth, int threads) const;
+    Plane of(View<const float> depth, Workers& workers) const;
 
 private:
     std::optional<CircleOfConfusion> coc_;
@@ -32,7 +32,8 @@ Status check_job(const DefocusJob& job);
 // The input of an engine with everything that it looks at. Stays where it was made: the input points into it.
 class PreparedFrame {
 public:
-    // lens_reach_px: how far light of a point with a radius of one pixel lands. Requires: check_job(job).
+    // lens_reach_px: how far light of a point with a radius of one pixel lands. Requires: check_job(job),
+    // job.workers.
     PreparedFrame(const DefocusJob& job, const Radii& radii, double lens_reach_px);
     PreparedFrame(const PreparedFrame&) = delete;
     PreparedFrame& operator=(const PreparedFrame&) = delete;

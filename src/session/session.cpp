@@ -1,6 +1,7 @@
 // What outlives a frame, and the order of one: lens, samples, engine, distortion, report.
 #include "petzval/session.h"
 
+#include "base/parallel.h"
 #include "device/cpu/cpu_device.h"
 #include "engine/waist/memory.h"
 #include "session/distort.h"
@@ -48,6 +49,7 @@ private:
 // A job as a session makes it: with the settings of the session and the control of the frame.
 DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, const Control& control) {
     job.threads = s.threads;
+    job.workers = s.workers.get();
     job.max_memory_bytes = s.max_memory_bytes;
     job.kernel_cache_folder = s.kernel_cache_folder;
     job.kernel_cache_bytes = s.kernel_cache_bytes;
@@ -87,7 +89,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
     if (job.lens.distortion != 0 && report.panels.empty())
         report.image = distorted(
             report.image, {input.field_centre_x, input.field_centre_y, input.field_per_px, job.pixel_aspect},
-            job.lens.distortion, job.threads);
+            job.lens.distortion, *job.workers);
     report.engine = chosen.name;
     report.device = input.device->name();
     report.lens = lens.levels.front()->description();
@@ -108,7 +110,9 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
 // Lenses that frames used, the last one first. Frames hold what they use, so that it may be let go of any
 // time.
 struct Session::Contents {
-    explicit Contents(SessionSettings s) : settings(std::move(s)) {}
+    explicit Contents(SessionSettings s) : settings(std::move(s)) {
+        if (!settings.workers) settings.workers = workers_of(settings.threads, nullptr);
+    }
 
     SessionSettings settings;
     mutable std::mutex mutex;  // of all below
@@ -163,6 +167,8 @@ Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
+Workers& Session::workers() const { return *contents_->settings.workers; }
+
 Result<DefocusReport> Session::defocus(const DefocusJob& asked, const Control& control) {
     const Clock clock;
     DefocusJob job = job_of_session(asked, contents_->settings, control);
@@ -194,11 +200,12 @@ Result<Plane> circle_of_confusion(const DefocusJob& job) {
     if (const Status status = check_job(job); !status) return status.error();
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
-    return radii->of(job.depth_m, job.threads);
+    return radii->of(job.depth_m, *workers_of(job.threads, job.workers));
 }
 
 Result<DefocusReport> defocus(const DefocusJob& job) {
-    Session session({job.threads, job.max_memory_bytes, job.kernel_cache_folder, job.kernel_cache_bytes});
+    Session session({job.threads, job.max_memory_bytes, job.kernel_cache_folder, job.kernel_cache_bytes,
+                     workers_of(job.threads, job.workers)});
     return session.defocus(job, {.progress = job.progress});
 }
 

@@ -21,8 +21,8 @@ bool has_glare(const GlareAmounts& glare) {
 
 Result<Picture> with_falloff(Picture picture, const DefocusJob& job, const Look& look) {
     if (!look.vignetting) return picture;
-    return add_falloff(
-        picture, {job.camera, job.lens, job.display_window, job.data_window, job.pixel_aspect, job.threads});
+    return add_falloff(picture, {job.camera, job.lens, job.display_window, job.data_window, job.pixel_aspect,
+                                 job.threads, job.workers});
 }
 
 Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look) {
@@ -35,7 +35,7 @@ Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& l
     settings.display_window = job.display_window;
     settings.data_window = job.data_window;
     settings.pixel_aspect = job.pixel_aspect;
-    settings.threads = job.threads;
+    settings.workers = job.workers;
     return add_glare(picture, settings);
 }
 
@@ -56,6 +56,7 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
 
 Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look, const Control& control) {
     DefocusJob job = with_look(rendered, look);
+    job.workers = &workers();
     Picture expanded;
     if (look.expand_highlights) {
         if (job.deep && !job.deep->empty())

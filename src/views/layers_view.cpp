@@ -57,7 +57,7 @@ bool LayersView::read(const Input& input, const engine::SampleSet& set) {
                                  layer + (n > 0 ? ".depth_layer" : "depth_layer"),
                                  true});
     }
-    parallel_for(height, input.threads, [&](int y) {
+    parallel_for(height, *input.workers, [&](int y) {
         for (int x = 0; x < width; ++x) {
             for (int n = 0; n < int(ranks); ++n) atlas(width + x, n * height + y) = {kNoNumber, 0, 0, 1};
             engine::LayersOfPixel layers;

@@ -251,7 +251,7 @@ TEST(Deep, EnginesWithoutHoldoutsSaySo) {
 TEST(Deep, StripsThreadsAndHoldoutsTogetherGiveTheSameBits) {
     DeepShot shot = held_shot(3);
     DefocusJob one = shot.job("scatter"), two = shot.job("scatter");
-    one.threads = 1, two.threads = 2;
+    one.threads = 1, two.workers = &three_threads();
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 

@@ -52,7 +52,7 @@ TEST_P(EveryEngine, GivesTheSameBitsForAnyThreadCount) {
     for (int y = 10; y < 30; ++y)
         for (int x = 8; x < 20; ++x) shot.coc_px(x, y) = -7;
     DefocusJob one = job(shot), three = job(shot);
-    one.threads = 1, three.threads = 3;
+    one.threads = 1, three.workers = &three_threads();
     one.pupil_points = three.pupil_points = 256;
     EXPECT_EQ(largest_difference(rendered(one), rendered(three)), 0);
 }

@@ -149,7 +149,7 @@ TEST(Gather, HiddenLayersThatAreKnownAreUsed) {
 TEST(Gather, TheSameBitsForAnyThreadCount) {
     const Shot shot = noise_at_several_depths();
     DefocusJob one = shot.job("gather"), two = shot.job("gather");
-    one.threads = 1, two.threads = 2;
+    one.threads = 1, two.workers = &three_threads();
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 

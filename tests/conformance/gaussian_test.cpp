@@ -161,7 +161,7 @@ TEST(Gaussian, TheSameBitsForAnyThreadCount) {
     const Shot shot = noise_at_several_depths();
     for (const GaussianStyle style : kStyles) {
         DefocusJob one = job_of(shot, style), two = job_of(shot, style);
-        one.threads = 1, two.threads = 2;
+        one.threads = 1, two.workers = &three_threads();
         EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0) << int(style);
     }
 }

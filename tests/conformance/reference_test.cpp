@@ -147,7 +147,7 @@ TEST(Reference, TheSameBitsForAnyThreadCount) {
     paint_noise(shot.colour, 2);
     shot.colour(30, 20) = {90, 60, 20, 1};
     DefocusJob one = shot.job("reference"), two = shot.job("reference");
-    one.threads = 1, two.threads = 2;
+    one.threads = 1, two.workers = &three_threads();
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 

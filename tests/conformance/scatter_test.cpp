@@ -177,7 +177,7 @@ TEST(Scatter, TheSameBitsForAnyThreadCount) {
     shot.colour(30, 20) = {90, 60, 20, 1};
     shot.colour(95, 100) = {9000, 60, 20, 1};
     DefocusJob one = shot.job("scatter"), two = shot.job("scatter");
-    one.threads = 1, two.threads = 2;
+    one.threads = 1, two.workers = &three_threads();
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 
@@ -211,7 +211,7 @@ TEST(Scatter, StagesCountWhatTheyTouch) {
     EXPECT_LT(taps, 81 * 1.5 + 2);
     EXPECT_GE(count(shot, "spread").bytes, 12 * count(shot, "spread").multiply_adds);
     DefocusJob one = shot.job("scatter"), two = shot.job("scatter");
-    one.threads = 1, two.threads = 2;
+    one.threads = 1, two.workers = &three_threads();
     EXPECT_EQ(stage_of(one, "spread").bytes, stage_of(two, "spread").bytes);
     // One lamp: a disc of radius 9 in the highlights' own stage.
     Shot lamp = flat(64, 64, {0, 0, 0, 1}, 9);

@@ -3,9 +3,11 @@
 
 #include "petzval/compare.h"
 #include "petzval/defocus.h"
+#include "petzval/workers.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -101,6 +103,12 @@ void put_behind(Shot& shot, const Colour& colour, const Coc& coc) {
     first.push_back(samples.size());
     shot.behind =
         DeepPicture(shot.colour.width(), shot.colour.height(), std::move(first), std::move(samples));
+}
+
+// Three threads also where there are fewer processors; `threads` is never more than those.
+inline Workers& three_threads() {
+    static const std::shared_ptr<Workers> three = own_workers(3);
+    return *three;
 }
 
 inline Picture rendered(const DefocusJob& job) {

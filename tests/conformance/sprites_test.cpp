@@ -279,7 +279,7 @@ TEST(Sprites, TheSameBitsForAnyThreadCount) {
         lights.add(float(random() % 30000) / 100, float(random() % 28000) / 100,
                    float(random() % 1000) / 10 - 40, float(random() % 100));
     DefocusJob one = lights.job(), two = lights.job();
-    one.threads = 1, two.threads = 2;
+    one.threads = 1, two.workers = &three_threads();
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 

@@ -62,7 +62,7 @@ StampAtlas::StampAtlas(const KernelSource& source, const KernelSet& set, Memory&
             missing.emplace_back();
         missing.back().push_back(i);
     }
-    parallel_for(int(missing.size()), control.threads, [&](int group) {
+    parallel_for(int(missing.size()), control.workers, [&](int group) {
         if (control.progress.cancelled()) return;
         std::vector<KernelAsk> asks;
         for (const std::size_t i : missing[std::size_t(group)]) asks.push_back(set.asks[i]);

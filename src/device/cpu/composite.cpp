@@ -219,7 +219,7 @@ Work composite_tiles(const ScatterPlan& plan, const StampAtlas& atlas, View<Rgba
     Workspaces<Workspace> workspaces;
     std::atomic<std::size_t> taps = 0;
     const std::size_t tiles = plan.tiles.size() - 1;
-    parallel_for(int(tiles), control.threads, [&](int i) {
+    parallel_for(int(tiles), control.workers, [&](int i) {
         if (control.progress.cancelled()) return;
         const auto workspace = workspaces.take();
         taps += TileCompositor(plan, atlas, std::size_t(i), *workspace).run(out);

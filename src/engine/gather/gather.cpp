@@ -126,7 +126,7 @@ private:
         const Input input = frame_.rows(first, last);
         const std::vector<Rect> tiles = tiles_of(input.colour.rect());
         std::vector<Range> ranges(tiles.size());
-        parallel_for(int(tiles.size()), input.threads,
+        parallel_for(int(tiles.size()), *input.workers,
                      [&](int i) { ranges[std::size_t(i)] = range_of(input, tiles[std::size_t(i)]); });
         const bool fills = input.gather.fill_hidden && input.deep.empty();
         const BlockFill fill = fills ? BlockFill::make(input) : BlockFill();
@@ -139,7 +139,7 @@ private:
         const Rect here{0, rows.y0 - first, rows.width(), rows.y1 - first};  // in the rows of `input`
         const View<Rgba> all = out.part({0, first, out.width(), last});
         const double share = double(rows.height()) / frame_.height() / double(tiles.size());
-        parallel_for(int(tiles.size()), input.threads, [&](int i) {
+        parallel_for(int(tiles.size()), *input.workers, [&](int i) {
             const Rect& tile = tiles[std::size_t(i)];
             if (input.progress->cancelled() || tile.intersected(here).empty()) return;
             if (input.deep.empty() && !is_reached(input, tiles, ranges, tile))

@@ -23,7 +23,7 @@ CellLevel::CellLevel(const Input& input, const BlockFill& fill, const RingSizes&
       rows_(std::size_t(height_)) {
     const int size = 1 << level;
     const float per_pixel = 1 / float(size * size);
-    parallel_for(height_, input.threads, [&](int cy) {
+    parallel_for(height_, *input.workers, [&](int cy) {
         Row& row = rows_[std::size_t(cy)];
         row.first.reserve(std::size_t(width_) + 1);
         for (int cx = 0; cx < width_; ++cx) {

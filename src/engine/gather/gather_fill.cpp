@@ -114,14 +114,14 @@ BlockFill BlockFill::make(const Input& input) {
     fill.block_ = block_px(nearest);
     const int b = fill.block_;
     Image<Block> blocks((input.width() + b - 1) / b, (input.height() + b - 1) / b);
-    parallel_for(blocks.height(), input.threads, [&](int y) {
+    parallel_for(blocks.height(), *input.workers, [&](int y) {
         for (int x = 0; x < blocks.width(); ++x)
             blocks(x, y) =
                 block_of(input, Rect{x * b, y * b, x * b + b, y * b + b}.intersected(input.colour.rect()));
     });
     const auto paths = search_paths();
     fill.fills_ = Image<Fill>(blocks.width(), blocks.height());
-    parallel_for(blocks.height(), input.threads, [&](int y) {
+    parallel_for(blocks.height(), *input.workers, [&](int y) {
         for (int x = 0; x < blocks.width(); ++x) {
             const float own = blocks(x, y).nearest_px;
             if (own > -kBlurredPx) continue;

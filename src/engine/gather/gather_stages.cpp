@@ -91,7 +91,7 @@ private:
     template <typename Make>
     Picture each(int width, int height, const Make& make) const {
         Picture picture = Picture::uninitialised(width, height);
-        parallel_for(height, in_.threads, [&](int y) {
+        parallel_for(height, *in_.workers, [&](int y) {
             for (int x = 0; x < width; ++x) picture(x, y) = make(x, y);
         });
         return picture;

@@ -52,7 +52,7 @@ public:
     void run(View<Rgba> out) {
         make_layers();
         constexpr int kBand = 16;
-        parallel_for((in_.height() + kBand - 1) / kBand, in_.threads, [&](int band) {
+        parallel_for((in_.height() + kBand - 1) / kBand, *in_.workers, [&](int band) {
             std::array<BlurReader, kLayers> readers;
             for (std::size_t k = 0; k < kLayers; ++k)
                 if (used_[k]) readers[k] = BlurReader(layers_[k], in_.width());
@@ -77,12 +77,12 @@ private:
             coarsest = std::max(coarsest, layers_[k].level);
         }
         const int size = 1 << coarsest;
-        parallel_for((in_.height() + size - 1) / size, in_.threads, [&](int row) {
+        parallel_for((in_.height() + size - 1) / size, *in_.workers, [&](int row) {
             for (int y = row * size; y < std::min(in_.height(), (row + 1) * size); ++y)
                 for (int x = 0; x < in_.width(); ++x) deposit(x, y);
         });
         for (std::size_t k = 0; k < kLayers; ++k)
-            if (used_[k]) blur(layers_[k], sigma_[k], in_.width(), in_.height(), in_.threads);
+            if (used_[k]) blur(layers_[k], sigma_[k], in_.width(), in_.height(), *in_.workers);
     }
 
     void deposit(int x, int y) {
@@ -143,12 +143,12 @@ BlurLayer blurred_picture(const Input& input, float radius_px) {
     BlurLayer layer = BlurLayer::on_grid(blur_level(sigma), input.width(), input.height());
     const int size = 1 << layer.level;
     const float per_pixel = 1 / float(size * size);
-    parallel_for(layer.light.height(), input.threads, [&](int row) {
+    parallel_for(layer.light.height(), *input.workers, [&](int row) {
         for (int y = row * size; y < std::min(input.height(), (row + 1) * size); ++y)
             for (int x = 0; x < input.width(); ++x)
                 layer.light(x / size, row) += per_pixel * input.colour(x, y);
     });
-    blur(layer, sigma, input.width(), input.height(), input.threads);
+    blur(layer, sigma, input.width(), input.height(), *input.workers);
     return layer;
 }
 
@@ -159,7 +159,7 @@ void mix_by_pixel(const Input& input, float largest_px, const Weights& weights, 
     const BlurLayer small = blurred_picture(input, largest_px / 2),
                     large = blurred_picture(input, largest_px);
     constexpr int kBand = 16;
-    parallel_for((input.height() + kBand - 1) / kBand, input.threads, [&](int band) {
+    parallel_for((input.height() + kBand - 1) / kBand, *input.workers, [&](int band) {
         BlurReader smaller(small, input.width()), larger(large, input.width());
         for (int y = band * kBand; y < std::min(input.height(), (band + 1) * kBand); ++y) {
             smaller.go_to_row(y), larger.go_to_row(y);

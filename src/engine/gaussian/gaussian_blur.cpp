@@ -88,17 +88,17 @@ struct Axis {
 
 // Blurs `channels` interleaved floats per cell, band by band of rows.
 void blur_cells(float* cells, int width, int height, int channels, const Axis& x, const Axis& y,
-                int threads) {
+                Workers& workers) {
     constexpr int kBand = 16;
     const int row = width * channels, bands = (height + kBand - 1) / kBand;
     Rows between(row, height, 0, y.radius());
-    parallel_for(bands, threads, [&](int band) {
+    parallel_for(bands, workers, [&](int band) {
         const int first = band * kBand, rows = std::min(kBand, height - first);
         Rows in(row, kBand, x.radius() * channels, 0);
         for (int k = 0; k < rows; ++k) std::copy_n(cells + std::ptrdiff_t(first + k) * row, row, in.row(k));
         pass(in, 0, between, first, row, rows, channels, x.weights);
     });
-    parallel_for(bands, threads, [&](int band) {
+    parallel_for(bands, workers, [&](int band) {
         const int first = band * kBand, rows = std::min(kBand, height - first);
         Rows out(row, kBand, 0, 0);
         pass(between, first, out, 0, row, rows, between.stride(), y.weights);
@@ -128,7 +128,7 @@ BlurLayer BlurLayer::on_grid(int level, int width, int height) {
     return {level, Picture(w, h), Plane(w, h)};
 }
 
-void blur(BlurLayer& layer, Sigma sigma, int width, int height, int threads) {
+void blur(BlurLayer& layer, Sigma sigma, int width, int height, Workers& workers) {
     const int w = layer.light.width(), h = layer.light.height();
     const auto axis = [&](double sigma_px, int cells, int pixels) {
         std::vector<float> weights = gaussian_weights(sigma_in_cells(sigma_px, layer.level));
@@ -136,8 +136,8 @@ void blur(BlurLayer& layer, Sigma sigma, int width, int height, int threads) {
         return Axis{std::move(weights), std::move(inside)};
     };
     const Axis x = axis(sigma.x_px, w, width), y = axis(sigma.y_px, h, height);
-    blur_cells(&layer.light.pixels()->r, w, h, 4, x, y, threads);
-    blur_cells(layer.covered.pixels(), w, h, 1, x, y, threads);
+    blur_cells(&layer.light.pixels()->r, w, h, 4, x, y, workers);
+    blur_cells(layer.covered.pixels(), w, h, 1, x, y, workers);
 }
 
 BlurReader::BlurReader(const BlurLayer& layer, int width)

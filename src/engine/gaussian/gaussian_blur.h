@@ -5,6 +5,8 @@
 // sigma^2, so the second moment is exact. (Box pyramids: L. Williams, "Pyramidal parametrics", 1983.)
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/waist/engine.h"
 
 namespace petzval::engine {
@@ -29,7 +31,7 @@ struct BlurLayer {
 
 // Blurs in place. Beyond the picture nothing is known: kernels are renormalised to what lies inside.
 // (width, height): the picture's. Requires: sigma is not less than the level's own blur.
-void blur(BlurLayer& layer, Sigma sigma, int width, int height, int threads);
+void blur(BlurLayer& layer, Sigma sigma, int width, int height, Workers& workers);
 
 // Reads a layer at the pixels of one row after another.
 class BlurReader {

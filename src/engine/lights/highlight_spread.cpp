@@ -142,7 +142,7 @@ public:
     Spreader(const Input& input, const HighlightKernels& kernels, const CocSamples& samples, float white)
         : input_(input),
           kernels_(kernels),
-          casters_(samples, input.threads),
+          casters_(samples, *input.workers),
           stretch_(float(std::max(1.0, input.pixel_aspect))),
           same_pixel_px_(input.deep_dims_itself ? same_pixel_px(input.pixel_aspect) : 0),
           bright_disc_(white * (input.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)) {}
@@ -310,14 +310,14 @@ Work spread_highlights(const Input& input, const HighlightKernels& kernels, cons
             bytes += std::size_t(4 * highlights[end].coc_px * highlights[end].coc_px + 9) * sizeof(float);
         const std::vector<std::size_t> seen = views.of_batch(begin, end);
         std::vector<std::unique_ptr<const PupilShadow>> shadows(seen.size());
-        parallel_for(int(seen.size()), input.threads, [&](int i) {
+        parallel_for(int(seen.size()), *input.workers, [&](int i) {
             const Viewpoint& view = views[seen[std::size_t(i)]];
             if (input.progress->cancelled()) return;
             if (view.y >= float(sending.y0 - kMostShared) && view.y < float(sending.y1 + kMostShared))
                 shadows[std::size_t(i)] = spreader.shadow(view);
         });
         std::vector<Sent> sent(end - begin);
-        parallel_for(int(sent.size()), input.threads, [&](int i) {
+        parallel_for(int(sent.size()), *input.workers, [&](int i) {
             const Highlight& h = highlights[begin + std::size_t(i)];
             if (input.progress->cancelled() || h.y < sending.y0 || h.y >= sending.y1) return;
             const std::size_t view = views.of_highlight(begin + std::size_t(i));
@@ -326,7 +326,7 @@ Work spread_highlights(const Input& input, const HighlightKernels& kernels, cons
                                     views[view].first_tap()};
         });
         constexpr int kBand = 32;
-        parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
+        parallel_for((out.height() + kBand - 1) / kBand, *input.workers, [&](int band) {
             const int y = rows.y0 + band * kBand;
             const Rect here = Rect{0, y, out.width(), y + kBand}.intersected(rows);
             Work of_band;

@@ -14,9 +14,9 @@ constexpr int kNarrowReach = 1, kWideReach = 3;  // cells on either side: 12 and
 
 // Mean of 1 / (luminance + kDark) over cells of `size` pixels. Its reciprocal, the harmonic mean, follows
 // what most of the cell shows and hardly moves for a few bright pixels.
-Plane reciprocal_cells(View<const Rgba> picture, int size, int threads) {
+Plane reciprocal_cells(View<const Rgba> picture, int size, Workers& workers) {
     Plane cells((picture.width() + size - 1) / size, (picture.height() + size - 1) / size);
-    parallel_for(cells.height(), threads, [&](int cy) {
+    parallel_for(cells.height(), workers, [&](int cy) {
         for (int cx = 0; cx < cells.width(); ++cx) {
             const Rect r =
                 Rect{cx * size, cy * size, (cx + 1) * size, (cy + 1) * size}.intersected(picture.rect());
@@ -41,12 +41,12 @@ float box_mean(View<const float> cells, int cx, int cy, int reach) {
 }  // namespace
 
 HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
-                               int threads)
+                               Workers& workers)
     : rule_(rule), width_(picture.width()), height_(picture.height()) {
-    find_contested(coc_px, threads);
-    const Plane reciprocal = reciprocal_cells(picture, kCell, threads);
+    find_contested(coc_px, workers);
+    const Plane reciprocal = reciprocal_cells(picture, kCell, workers);
     surroundings_ = Plane(reciprocal.width(), reciprocal.height());
-    parallel_for(reciprocal.height(), threads, [&](int y) {
+    parallel_for(reciprocal.height(), workers, [&](int y) {
         for (int x = 0; x < reciprocal.width(); ++x) {
             const float narrow = 1 / box_mean(reciprocal, x, y, kNarrowReach);
             const float wide = 1 / box_mean(reciprocal, x, y, kWideReach);
@@ -55,7 +55,7 @@ HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_p
     });
     // Rows are summed on their own, then in order: the same bits for any threads.
     std::vector<double> rows(static_cast<std::size_t>(picture.height()));
-    parallel_for(picture.height(), threads, [&](int y) {
+    parallel_for(picture.height(), workers, [&](int y) {
         for (int x = 0; x < picture.width(); ++x)
             rows[std::size_t(y)] += double(std::max(0.0f, luminance(picture(x, y))));
     });
@@ -67,11 +67,11 @@ HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_p
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all
 // surfaces, which is a distance transform (two-sweep chamfer, G. Borgefors 1986) of the blocks' nearest
 // radii.
-void HighlightSplit::find_contested(View<const float> coc_px, int threads) {
+void HighlightSplit::find_contested(View<const float> coc_px, Workers& workers) {
     constexpr float kMarginPx = 3;  // what is nearer by less hides next to nothing
     contested_ =
         Plane((coc_px.width() + kBlock - 1) / kBlock, (coc_px.height() + kBlock - 1) / kBlock, 1e30f);
-    parallel_for(contested_.height(), threads, [&](int by) {
+    parallel_for(contested_.height(), workers, [&](int by) {
         for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_px.height()); ++y)
             for (int x = 0; x < coc_px.width(); ++x)
                 contested_(x / kBlock, by) = std::min(contested_(x / kBlock, by), coc_px(x, y) + kMarginPx);
@@ -205,11 +205,11 @@ float share_that_leaves(std::span<const CocSample> samples, float same_pixel_px)
 }  // namespace
 
 std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
-                                       int largest_square, int threads) {
+                                       int largest_square, Workers& workers) {
     const int width = samples.width, height = samples.height();
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Highlight>> found(static_cast<std::size_t>(bands));
-    parallel_for(bands, threads, [&](int band) {
+    parallel_for(bands, workers, [&](int band) {
         std::vector<Highlight>& out = found[std::size_t(band)];
         const int y0 = band * kLargestSquare;
         for (int x0 = 0; x0 < width; x0 += kLargestSquare) {

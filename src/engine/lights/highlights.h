@@ -1,6 +1,8 @@
 // Light too bright to be handled with its neighbours: taken out of the picture exactly, spread on its own.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/waist/engine.h"
 
 #include <vector>
@@ -46,7 +48,7 @@ class HighlightSplit {
 public:
     // coc_px: the nearest radius of every pixel of the picture.
     HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
-                   int threads);
+                   Workers& workers);
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
     float white() const { return white_; }
@@ -58,7 +60,7 @@ public:
 
 private:
     float floor_at(int x, int y, float coc_px) const;
-    void find_contested(View<const float> coc_px, int threads);
+    void find_contested(View<const float> coc_px, Workers& workers);
 
     HighlightRule rule_;
     int width_, height_;
@@ -76,6 +78,6 @@ constexpr int kLargestSquare = 8;  // of highlights; a power of 2
 // longer stands out stays in the base. largest_square = 1 takes pixels alone. `samples` are rows of the
 // picture that `split` was made for, from first_row (a multiple of 8) on; highlights count rows from there.
 std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
-                                       int largest_square, int threads);
+                                       int largest_square, Workers& workers);
 
 }  // namespace petzval::engine

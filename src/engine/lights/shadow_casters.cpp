@@ -104,13 +104,13 @@ void coarsen(std::span<const Caster> fine, int size, std::vector<Caster>& out) {
     std::stable_sort(own(), out.end(), [](const Caster& a, const Caster& b) { return a.coc_px < b.coc_px; });
 }
 
-ShadowCasters::ShadowCasters(const CocSamples& samples, int threads)
+ShadowCasters::ShadowCasters(const CocSamples& samples, Workers& workers)
     : nearest_of_blocks_((samples.width + kBlock - 1) / kBlock, (samples.height() + kBlock - 1) / kBlock,
                          1e30f) {
     const CocSamplesView view = samples;
     const Rect picture{0, 0, samples.width, samples.height()};
     for (auto& rows : views_) rows.resize(std::size_t(nearest_of_blocks_.height()));
-    parallel_for(nearest_of_blocks_.height(), threads, [&](int by) {
+    parallel_for(nearest_of_blocks_.height(), workers, [&](int by) {
         RowOfBlocks& fine = views_[0][std::size_t(by)];
         for (auto& rows : views_) rows[std::size_t(by)].first.push_back(0);
         for (int bx = 0; bx < nearest_of_blocks_.width(); ++bx) {

@@ -1,6 +1,8 @@
 // What can stand between a highlight and the lens, as few squares.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/waist/engine.h"
 
 #include <array>
@@ -27,7 +29,7 @@ public:
     // How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a
     // tap. To what is behind one by less it is no shadow: it may be its own surface.
     static constexpr float kSameRadiusPx = 0.2f;
-    ShadowCasters(const CocSamples& samples, int threads);
+    ShadowCasters(const CocSamples& samples, Workers& workers);
 
     float nearest_coc_px() const { return nearest_; }  // of all
     // Blocks are counted from the picture's corner.

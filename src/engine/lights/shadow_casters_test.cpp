@@ -1,5 +1,7 @@
 #include "engine/lights/shadow_casters.h"
 
+#include "base/parallel.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -36,7 +38,7 @@ double covered(const ShadowCasters& casters, int view, float up_to_px) {
 }
 
 TEST(ShadowCasters, ViewsCoverAsMuchUpToEveryRadiusAtWhichOneMayEnd) {
-    const ShadowCasters casters(twigs(), 1);
+    const ShadowCasters casters(twigs(), one_thread());
     for (const float end : {-2.0f, -4.0f, -8.0f, -16.0f, -32.0f}) {
         const double fine = covered(casters, 0, end);
         EXPECT_GT(fine, 10);
@@ -46,7 +48,7 @@ TEST(ShadowCasters, ViewsCoverAsMuchUpToEveryRadiusAtWhichOneMayEnd) {
 }
 
 TEST(ShadowCasters, CoarserViewsHaveLargerAndFewerSquares) {
-    const ShadowCasters casters(twigs(), 1);
+    const ShadowCasters casters(twigs(), one_thread());
     std::size_t before = 0;
     for (int view = 0; view < ShadowCasters::kViews; ++view) {
         const auto squares = casters.of_block(view, 2, 0);

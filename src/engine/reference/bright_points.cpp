@@ -14,16 +14,16 @@ constexpr float kOverSurroundings = 1.5f, kOverWhite = 0.25f;
 
 // The mean over the square of `reach` pixels to every side of each pixel, as much of it as lies in the
 // picture.
-Plane square_means(View<const float> values, int reach, int threads) {
+Plane square_means(View<const float> values, int reach, Workers& workers) {
     const int width = values.width(), height = values.height();
     Plane across(width, height), means(width, height);
-    parallel_for(height, threads, [&](int y) {
+    parallel_for(height, workers, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const int begin = std::max(0, x - reach), end = std::min(width, x + reach + 1);
             for (int u = begin; u < end; ++u) across(x, y) += values(u, y) / float(end - begin);
         }
     });
-    parallel_for(height, threads, [&](int y) {
+    parallel_for(height, workers, [&](int y) {
         const int begin = std::max(0, y - reach), end = std::min(height, y + reach + 1);
         for (int v = begin; v < end; ++v)
             for (int x = 0; x < width; ++x) means(x, y) += across(x, v) / float(end - begin);
@@ -34,13 +34,13 @@ Plane square_means(View<const float> values, int reach, int threads) {
 float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
 
 // Harmonic means follow what most of a square shows and hardly move for a few bright pixels.
-Plane surroundings_of(View<const Rgba> picture, int threads) {
+Plane surroundings_of(View<const Rgba> picture, Workers& workers) {
     Plane reciprocal(picture.width(), picture.height());
-    parallel_for(picture.height(), threads, [&](int y) {
+    parallel_for(picture.height(), workers, [&](int y) {
         for (int x = 0; x < picture.width(); ++x) reciprocal(x, y) = 1 / (light_of(picture(x, y)) + kDark);
     });
-    Plane surroundings = square_means(reciprocal, 6, threads);
-    const Plane wide = square_means(reciprocal, 14, threads);
+    Plane surroundings = square_means(reciprocal, 6, workers);
+    const Plane wide = square_means(reciprocal, 14, workers);
     for (std::size_t i = 0; i < surroundings.size(); ++i) {
         const float mean = std::min(1 / surroundings.pixels()[i], 2 / wide.pixels()[i]);
         surroundings.pixels()[i] = std::max(0.0f, mean - kDark);
@@ -66,8 +66,8 @@ float share_that_stays(const CocSample& s, float surroundings, float white) {
 
 }  // namespace
 
-std::vector<BrightPoint> take_bright_points(CocSamples& samples, View<const Rgba> picture, int threads) {
-    const Plane surroundings = surroundings_of(picture, threads);
+std::vector<BrightPoint> take_bright_points(CocSamples& samples, View<const Rgba> picture, Workers& workers) {
+    const Plane surroundings = surroundings_of(picture, workers);
     const float white = white_of(picture);
     std::vector<BrightPoint> points;
     for (int y = 0; y < samples.height(); ++y)

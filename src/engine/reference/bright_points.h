@@ -1,6 +1,8 @@
 // Light that rays would miss or hit by chance: taken out of the samples exactly, point by point.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/waist/engine.h"
 
 #include <vector>
@@ -26,6 +28,6 @@ constexpr float kLeastCoverage = 1e-4f;
 // white stays too: rays find it. Outermost pixels, which stand for the scene beyond the frame, keep twice as
 // much of their surroundings. Light without coverage has no surface to stay on and is taken whole; light
 // wider than any picture (1024 px) stays.
-std::vector<BrightPoint> take_bright_points(CocSamples& samples, View<const Rgba> picture, int threads);
+std::vector<BrightPoint> take_bright_points(CocSamples& samples, View<const Rgba> picture, Workers& workers);
 
 }  // namespace petzval::engine

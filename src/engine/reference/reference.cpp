@@ -214,7 +214,7 @@ void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
             input.pupil_points, input.field_at(0.5 * (r.x0 + r.x1 - 1), 0.5 * (r.y0 + r.y1 - 1)), input.seed);
     };
     const std::vector<kernel::PupilRay> everywhere = rays_at(out.rect());
-    parallel_for(int(tiles.size()), input.threads, [&](int i) {
+    parallel_for(int(tiles.size()), *input.workers, [&](int i) {
         if (input.progress->cancelled()) return;
         const Rect& area = tiles[std::size_t(i)];
         const std::vector<kernel::PupilRay> here = varies ? rays_at(area) : std::vector<kernel::PupilRay>{};
@@ -237,13 +237,13 @@ void spread_points(const Input& input, const Surfaces& surfaces, const std::vect
     for (int begin = 0; begin < count && !input.progress->cancelled(); begin += kBatch) {
         const int size = std::min(kBatch, count - begin);
         std::vector<kernel::PointSpread> spreads(static_cast<std::size_t>(size));
-        parallel_for(size, input.threads, [&](int i) {
+        parallel_for(size, *input.workers, [&](int i) {
             const BrightPoint& p = points[std::size_t(begin + i)];
             spreads[std::size_t(i)] = visible_point_spread(surfaces, input.lens(0), input.field_at(p.x, p.y),
                                                            p, std::max(1.0, input.pixel_aspect));
         });
         constexpr int kBand = 32;
-        parallel_for((out.height() + kBand - 1) / kBand, input.threads, [&](int band) {
+        parallel_for((out.height() + kBand - 1) / kBand, *input.workers, [&](int band) {
             const Rect rows = Rect{0, band * kBand, out.width(), (band + 1) * kBand}.intersected(out.rect());
             for (int i = 0; i < size; ++i) {
                 const BrightPoint& p = points[std::size_t(begin + i)];
@@ -296,12 +296,12 @@ Result<Output> run_reference(const Input& input) {
     };
 
     CocSamples samples = stated_samples(input);
-    const std::vector<BrightPoint> points = take_bright_points(samples, input.colour, input.threads);
+    const std::vector<BrightPoint> points = take_bright_points(samples, input.colour, *input.workers);
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
     if (const Status fits = surfaces_fit(input, samples, margin); !fits) return fits.error();
     const Surfaces surfaces =
-        Surfaces::make(samples, input.open_edges, margin, input.deep_dims_itself, input.threads);
+        Surfaces::make(samples, input.open_edges, margin, input.deep_dims_itself, *input.workers);
     const double prepared = seconds();
 
     Output output;

@@ -31,14 +31,14 @@ Facet facet_of(Rgba colour, float coc_px) {
 }  // namespace
 
 Surfaces Surfaces::make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
-                        int threads) {
+                        Workers& workers) {
     Surfaces surfaces;
     surfaces.dims_itself_ = dims_itself;
     surfaces.area_ = {open.left ? -margin : 0, open.top ? -margin : 0,
                       samples.width + (open.right ? margin : 0),
                       samples.height() + (open.bottom ? margin : 0)};
     surfaces.gather(samples);
-    surfaces.connect(threads);
+    surfaces.connect(workers);
     surfaces.bound();
     return surfaces;
 }
@@ -62,9 +62,9 @@ void Surfaces::gather(const CocSamples& samples) {
     first_.push_back(std::uint32_t(facets_.size()));
 }
 
-void Surfaces::connect(int threads) {
+void Surfaces::connect(Workers& workers) {
     // Each corner belongs to the four facets' own slots, so rows of corners can be done in parallel.
-    parallel_for(area_.height() - 1, threads, [&](int row) {
+    parallel_for(area_.height() - 1, workers, [&](int row) {
         for (int x = area_.x0 + 1; x < area_.x1; ++x) connect_around_corner(x, area_.y0 + 1 + row);
     });
 }

@@ -4,6 +4,8 @@
 // facets share corners, so the surface is watertight; at a silhouette they do not, and rays pass between.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/waist/engine.h"
 
 #include <cmath>
@@ -42,7 +44,7 @@ public:
 
     // dims_itself: as Input::deep_dims_itself.
     static Surfaces make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
-                         int threads);
+                         Workers& workers);
     // Whether a facet that covers part of its pixel lets through its share of whatever lies behind it (fog),
     // or leaves the rest of the pixel's area to others (silhouettes).
     bool dims_itself() const { return dims_itself_; }
@@ -69,7 +71,7 @@ private:
     }
     std::size_t count(int x, int y) const { return first_[pixel(x, y) + 1] - first_[pixel(x, y)]; }
     void gather(const CocSamples& samples);
-    void connect(int threads);
+    void connect(Workers& workers);
     void connect_around_corner(int x, int y);
     void bound();
 

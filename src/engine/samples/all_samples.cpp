@@ -36,9 +36,9 @@ void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
 
 }  // namespace
 
-CocSamples all_samples(const StatedPicture& p, int threads) {
+CocSamples all_samples(const StatedPicture& p, Workers& workers) {
     CocSamples all;
-    if (p.deep && !p.deep->empty()) return deep_samples(*p.deep, p.radius_px, p.depth_is_coc, threads);
+    if (p.deep && !p.deep->empty()) return deep_samples(*p.deep, p.radius_px, p.depth_is_coc, workers);
     const View<const Rgba> colour = p.colour;
     all.width = colour.width();
     const DeepPicture* const extra = p.behind;

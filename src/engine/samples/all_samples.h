@@ -4,6 +4,7 @@
 
 #include "petzval/deep.h"
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include "engine/waist/engine.h"
 
@@ -36,6 +37,6 @@ struct StatedPicture {
 
 // Empty where nothing but colour and depth is stated. Hidden layers describe a pixel completely where they
 // hold a sample at or in front of the visible one; elsewhere the visible sample lies in front of them.
-CocSamples all_samples(const StatedPicture& picture, int threads);
+CocSamples all_samples(const StatedPicture& picture, Workers& workers);
 
 }  // namespace petzval::engine

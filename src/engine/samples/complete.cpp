@@ -77,12 +77,12 @@ CocSamples deep_completed(const Input& input) {
 
 CocSamples completed(const Input& input, View<const unsigned char> connected) {
     if (!input.deep.empty()) return deep_completed(input);
-    auto mixtures = unmix_silhouettes(input.colour, input.coc_px, connected, input.threads);
+    auto mixtures = unmix_silhouettes(input.colour, input.coc_px, connected, *input.workers);
     const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
     const auto hidden = fill_hidden(input.colour, input.coc_px, connected, mixtures, input.nearest_coc_px,
-                                    input.farthest_coc_px, shared_from_px, input.threads);
+                                    input.farthest_coc_px, shared_from_px, *input.workers);
 
-    unmix_nearer(mixtures, input.colour, hidden, input.threads);
+    unmix_nearer(mixtures, input.colour, hidden, *input.workers);
 
     // Counted first, then written, so that rows can be done in parallel.
     const int width = input.width(), height = input.height();
@@ -98,7 +98,7 @@ CocSamples completed(const Input& input, View<const unsigned char> connected) {
         }
     };
     std::vector<std::size_t> first_of_row(std::size_t(height) + 1, 0);
-    parallel_for(height, input.threads, [&](int y) {
+    parallel_for(height, *input.workers, [&](int y) {
         std::size_t n = 0;
         for (int x = 0; x < width; ++x) samples_at(x, y, [&](const CocSample&) { ++n; });
         first_of_row[std::size_t(y) + 1] = n;
@@ -108,7 +108,7 @@ CocSamples completed(const Input& input, View<const unsigned char> connected) {
     all.width = width;
     all.first.resize(std::size_t(width) * std::size_t(height) + 1);
     all.samples.resize(first_of_row.back());
-    parallel_for(height, input.threads, [&](int y) {
+    parallel_for(height, *input.workers, [&](int y) {
         std::size_t at = first_of_row[std::size_t(y)];
         for (int x = 0; x < width; ++x) {
             all.first[std::size_t(y) * std::size_t(width) + std::size_t(x)] = at;
@@ -119,8 +119,8 @@ CocSamples completed(const Input& input, View<const unsigned char> connected) {
     return all;
 }
 
-void share_lens_area(CocSamples& samples, int threads) {
-    parallel_for(samples.height(), threads, [&](int y) {
+void share_lens_area(CocSamples& samples, Workers& workers) {
+    parallel_for(samples.height(), workers, [&](int y) {
         const std::size_t row = std::size_t(y) * std::size_t(samples.width);
         for (std::size_t i = row; i < row + std::size_t(samples.width); ++i) {
             float free = 1;

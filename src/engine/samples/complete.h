@@ -2,6 +2,8 @@
 // continued.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/waist/engine.h"
 
 namespace petzval::engine {
@@ -18,6 +20,6 @@ CocSamples completed(const Input& input, View<const unsigned char> connected);
 // it see all of it; only translucent samples composited with it in one layer (engine/scatter/sources.h) dim
 // it, and it hides what else is in that layer. For what is left once highlights are taken: they look for what
 // is in front of them themselves.
-void share_lens_area(CocSamples& samples, int threads);
+void share_lens_area(CocSamples& samples, Workers& workers);
 
 }  // namespace petzval::engine

@@ -4,7 +4,7 @@
 
 namespace petzval::engine {
 
-Image<unsigned char> connections(View<const float> coc, int threads) {
+Image<unsigned char> connections(View<const float> coc, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     Image<unsigned char> connected(width, height, kAll);
     // Each pixel decides about its right and lower side; both pixels of the pair are marked. Rows are done in
@@ -13,7 +13,7 @@ Image<unsigned char> connections(View<const float> coc, int threads) {
         return same_surface(coc(x, y), coc(x + dx, y + dy), coc(x, y) - coc.clamped(x - dx, y - dy),
                             coc.clamped(x + 2 * dx, y + 2 * dy) - coc(x + dx, y + dy));
     };
-    parallel_for(height, threads, [&](int y) {
+    parallel_for(height, workers, [&](int y) {
         for (int x = 0; x + 1 < width; ++x)
             if (!joined(x, y, 1, 0)) {
                 connected(x, y) = static_cast<unsigned char>(connected(x, y) & ~kRight);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include <cmath>
 
@@ -25,7 +26,7 @@ inline bool same_surface(float coc_a_px, float coc_b_px, float slope_before_a_px
 enum Connected : unsigned char { kLeft = 1, kRight = 2, kUp = 4, kDown = 8, kAll = 15 };
 
 // Connections of every pixel of a plane of signed radii.
-Image<unsigned char> connections(View<const float> coc_px, int threads);
+Image<unsigned char> connections(View<const float> coc_px, Workers& workers);
 
 // Change of the radius per pixel along x and y within the surface of each pixel: the mean of the steps to its
 // connected neighbours.

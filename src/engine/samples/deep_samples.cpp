@@ -68,7 +68,7 @@ std::vector<float> cuts_of(const DeepPicture& deep, const std::function<float(fl
 }  // namespace
 
 CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float)>& radius_px,
-                        bool depth_is_coc, int threads) {
+                        bool depth_is_coc, Workers& workers) {
     const std::vector<float> cuts = cuts_of(deep, radius_px, depth_is_coc);
     const std::size_t width = std::size_t(deep.width());
     CocSamples all;
@@ -76,7 +76,7 @@ CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float
     all.first.assign(width * std::size_t(deep.height()) + 1, 0);
     std::vector<std::vector<CocSample>> rows(static_cast<std::size_t>(deep.height()));
     const auto nearer = [](const DeepSample& p, const DeepSample& q) { return p.depth_m < q.depth_m; };
-    parallel_for(deep.height(), threads, [&](int y) {
+    parallel_for(deep.height(), workers, [&](int y) {
         std::vector<CocSample>& row = rows[std::size_t(y)];
         std::vector<DeepSample> pixel, tidy;
         for (int x = 0; x < deep.width(); ++x) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/deep.h"
+#include "petzval/workers.h"
 
 #include "engine/waist/engine.h"
 
@@ -15,6 +16,6 @@ namespace petzval::engine {
 // falls with depth. Colours are made finite; a depth that is NaN, or not positive unless depth_is_coc, is
 // infinite.
 CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float)>& radius_px,
-                        bool depth_is_coc, int threads);
+                        bool depth_is_coc, Workers& workers);
 
 }  // namespace petzval::engine

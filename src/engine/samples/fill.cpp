@@ -83,7 +83,7 @@ private:
 class Filler {
 public:
     Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
-           const Sparse<Mixture>& mixtures, float largest, float farthest, int threads)
+           const Sparse<Mixture>& mixtures, float largest, float farthest, Workers& workers)
         : colour_(colour),
           coc_(coc),
           connected_(connected),
@@ -91,10 +91,10 @@ public:
           farthest_(farthest),
           largest_(largest) {
         clean_ = Plane::uninitialised(coc.width(), coc.height());
-        parallel_for(coc.height(), threads, [&](int y) {
+        parallel_for(coc.height(), workers, [&](int y) {
             for (int x = 0; x < coc.width(); ++x) clean_(x, y) = known_radius(x, y);
         });
-        measure_distances(threads);
+        measure_distances(workers);
         lay_paths();
     }
 
@@ -131,13 +131,13 @@ private:
     // behind it, the smallest. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
     // digital images", 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own
     // blur need no search.
-    void measure_distances(int threads) {
+    void measure_distances(Workers& workers) {
         const int width = (coc_.width() + kBlock - 1) / kBlock,
                   height = (coc_.height() + kBlock - 1) / kBlock;
         beyond_ = Plane(width, height, 1e9f);
         free_ = Image<int>(width, height, 1 << 20);
         Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
-        parallel_for(height, threads, [&](int by) {
+        parallel_for(height, workers, [&](int by) {
             for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y)
                 for (int x = 0; x < coc_.width(); ++x) {
                     const int bx = x / kBlock;
@@ -371,17 +371,17 @@ private:
 
 HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
                          const Sparse<Mixture>& mixtures, float nearest_coc_px, float farthest_coc_px,
-                         float shared_from_px, int threads) {
+                         float shared_from_px, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
     if (mixtures.values.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
-    const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px, threads);
+    const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px, workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
     layers.ranges = Image<Range>::uninitialised(width, height);
     Image<Range>& ranges = layers.ranges;
-    parallel_for(bands, threads, [&](int band) {
+    parallel_for(bands, workers, [&](int band) {
         std::vector<Hidden>& here = found[std::size_t(band)];
         Answers answers;
         for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
@@ -412,7 +412,7 @@ HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<co
         starts.push_back(layers.samples.size());
         layers.samples.insert(layers.samples.end(), band.begin(), band.end());
     }
-    parallel_for(height, threads, [&](int y) {
+    parallel_for(height, workers, [&](int y) {
         const auto start = std::uint32_t(starts[std::size_t(y / kLargestSquare)]);
         for (int x = 0; x < width; ++x) ranges(x, y).begin += start;
     });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include "engine/samples/connectivity.h"
 
@@ -51,7 +52,7 @@ struct Sparse {
 // the pixel, and what it leaves unexplained is the farther surface's detail. Of those that show the nearer
 // surface hardly anything of the farther one is to be seen: it is filled in first, then unmix_nearer().
 Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc_px,
-                                  View<const unsigned char> connected, int threads);
+                                  View<const unsigned char> connected, Workers& workers);
 
 // A sample behind the visible one that takes up `share` of its pixel; colour is premultiplied by that and by
 // its alpha.
@@ -76,7 +77,7 @@ struct HiddenLayers {
 
 // Takes apart the pixels of silhouettes that show the nearer surface, before what is hidden behind them.
 void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
-                  int threads);
+                  Workers& workers);
 
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
 // behind it. Only from surfaces farther than the one that hides. Along opposite directions that agree,
@@ -88,6 +89,6 @@ void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const Hidd
 // distance from the silhouette.
 HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc_px,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, int threads);
+                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, Workers& workers);
 
 }  // namespace petzval::engine

@@ -2,6 +2,8 @@
 // is known: a background, a wire before it that covers known shares of pixels, depth of one point per pixel.
 #include "engine/samples/hidden.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -46,10 +48,10 @@ Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float 
             d.colour(x, y) = share * wire(x, y) + (1 - share) * behind(x, y);
             d.coc(x, y) = middle >= left && middle < right ? kNearPx : kFarPx;
         }
-    const Image<unsigned char> connected = connections(d.coc, 1);
-    d.mixtures = unmix_silhouettes(d.colour, d.coc, connected, 1);
-    d.hidden = fill_hidden(d.colour, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, 1);
-    unmix_nearer(d.mixtures, d.colour, d.hidden, 1);
+    const Image<unsigned char> connected = connections(d.coc, one_thread());
+    d.mixtures = unmix_silhouettes(d.colour, d.coc, connected, one_thread());
+    d.hidden = fill_hidden(d.colour, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, one_thread());
+    unmix_nearer(d.mixtures, d.colour, d.hidden, one_thread());
     return d;
 }
 

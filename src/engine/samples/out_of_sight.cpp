@@ -56,11 +56,11 @@ private:
 
 }  // namespace
 
-void drop_out_of_sight(CocSamples& samples, double stretch, int threads) {
+void drop_out_of_sight(CocSamples& samples, double stretch, Workers& workers) {
     if (samples.first.empty()) return;
     const Sheets sheets(samples, stretch);
     std::vector<unsigned char> hidden(samples.samples.size());
-    parallel_for(samples.height(), threads, [&](int y) {
+    parallel_for(samples.height(), workers, [&](int y) {
         for (int x = 0; x < samples.width; ++x) {
             const std::size_t pixel = std::size_t(y) * std::size_t(samples.width) + std::size_t(x);
             const std::size_t first = samples.first[pixel], count = samples.first[pixel + 1] - first;

@@ -1,6 +1,8 @@
 // Light that no ray can reach, which hidden layers hold plenty of: the house behind the wall.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/waist/engine.h"
 
 namespace petzval::engine {
@@ -8,6 +10,6 @@ namespace petzval::engine {
 // Takes out samples behind an opaque one that goes on around it, at nearly the same radius, as far as rays
 // through any point of the pupil come past; `stretch`: how much wider than its radius the lens makes a disc.
 // Engines would find the same of every sample anew. What lies as near to the frame's edge as that stays.
-void drop_out_of_sight(CocSamples& samples, double stretch, int threads);
+void drop_out_of_sight(CocSamples& samples, double stretch, Workers& workers);
 
 }  // namespace petzval::engine

@@ -1,5 +1,7 @@
 #include "engine/samples/out_of_sight.h"
 
+#include "base/parallel.h"
+
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,7 +30,7 @@ std::size_t samples_at(const CocSamples& all, int x, int y) { return CocSamplesV
 
 TEST(OutOfSight, LightBehindAWallIsDroppedButForTheRimOfTheFrame) {
     CocSamples all = wall();
-    drop_out_of_sight(all, 1, 1);
+    drop_out_of_sight(all, 1, one_thread());
     EXPECT_EQ(samples_at(all, 20, 15), 1U);
     EXPECT_FLOAT_EQ(CocSamplesView(all).at(20, 15)[0].coc_px, kWallPx);
     EXPECT_EQ(samples_at(all, 1, 15), 2U) << "who knows where the wall ends";
@@ -37,13 +39,13 @@ TEST(OutOfSight, LightBehindAWallIsDroppedButForTheRimOfTheFrame) {
 
 TEST(OutOfSight, WhatRaysReachPastTheEndOfTheWallStays) {
     CocSamples all = wall(20);
-    drop_out_of_sight(all, 1, 1);
+    drop_out_of_sight(all, 1, one_thread());
     // Discs are 3 px wider behind the wall than in it.
     for (int x = 17; x < 20; ++x) EXPECT_EQ(samples_at(all, x, 15), 2U) << x;
     EXPECT_EQ(samples_at(all, 12, 15), 1U);
     EXPECT_EQ(samples_at(all, 25, 15), 1U) << "seen in the open";
     CocSamples wide = wall(20);
-    drop_out_of_sight(wide, 2, 1);
+    drop_out_of_sight(wide, 2, one_thread());
     EXPECT_EQ(samples_at(wide, 12, 15), 2U) << "aberrations spread light wider";
 }
 
@@ -51,7 +53,7 @@ TEST(OutOfSight, AThinWallHidesNothing) {
     CocSamples all = wall();
     for (CocSample& s : all.samples)
         if (s.coc_px == kWallPx) s.colour *= 0.9f;
-    drop_out_of_sight(all, 1, 1);
+    drop_out_of_sight(all, 1, one_thread());
     EXPECT_EQ(all.samples.size(), 2U * kWidth * kHeight);
 }
 

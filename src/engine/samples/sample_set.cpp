@@ -7,7 +7,7 @@ namespace petzval::engine {
 
 SampleSet complete_samples(const Input& input) {
     SampleSet set;
-    set.connected = connections(input.coc_px, input.threads);
+    set.connected = connections(input.coc_px, *input.workers);
     set.samples = completed(input, set.connected);
     return set;
 }

@@ -221,14 +221,14 @@ Rgba composited(std::span<const Hidden> hidden) {
 }  // namespace
 
 Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc,
-                                  View<const unsigned char> connected, int threads) {
+                                  View<const unsigned char> connected, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     auto touching = Image<unsigned char>::uninitialised(width, height);
-    parallel_for(height, threads, [&](int y) { find_touching(connected, y, touching); });
+    parallel_for(height, workers, [&](int y) { find_touching(connected, y, touching); });
     // Of each row, then one after the other.
     std::vector<std::vector<Mixture>> rows(static_cast<std::size_t>(height));
     Sparse<Mixture> mixtures{Image<int>::uninitialised(width, height), {}};
-    parallel_for(height, threads, [&](int y) {
+    parallel_for(height, workers, [&](int y) {
         for (int x = 0; x < width; ++x) {
             mixtures.index(x, y) = touching(x, y) ? int(rows[std::size_t(y)].size()) : -1;
             if (touching(x, y)) rows[std::size_t(y)].push_back(taken_apart(colour, coc, touching, x, y));
@@ -239,7 +239,7 @@ Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc
         before.push_back(int(mixtures.values.size()));
         mixtures.values.insert(mixtures.values.end(), row.begin(), row.end());
     }
-    parallel_for(height, threads, [&](int y) {
+    parallel_for(height, workers, [&](int y) {
         if (rows[std::size_t(y)].empty()) return;
         for (int x = 0; x < width; ++x)
             if (mixtures.index(x, y) >= 0) mixtures.index(x, y) += before[std::size_t(y)];
@@ -248,8 +248,8 @@ Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc
 }
 
 void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
-                  int threads) {
-    parallel_for(colour.height(), threads, [&](int y) {
+                  Workers& workers) {
+    parallel_for(colour.height(), workers, [&](int y) {
         for (int x = 0; x < colour.width(); ++x) {
             if (mixtures.index(x, y) < 0) continue;
             Mixture& m = mixtures.values[std::size_t(mixtures.index(x, y))];

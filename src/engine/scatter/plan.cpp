@@ -189,12 +189,12 @@ void list_tiles(ScatterPlan& plan) {
             plan.tiles.push_back({Rect{x, y, x + kTile, y + kTile}.intersected(rows), 0, 1});
 }
 
-void fill_tiles(const ScatterKernels& kernels, Progress& progress, int threads, ScatterPlan& plan) {
+void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& workers, ScatterPlan& plan) {
     list_tiles(plan);
     AskMarks marks(kernels.asks());
     std::vector<TileDraft> drafts(plan.tiles.size());
     constexpr int kBatch = 8;  // tiles that share their scratch
-    parallel_for((int(drafts.size()) + kBatch - 1) / kBatch, threads, [&](int batch) {
+    parallel_for((int(drafts.size()) + kBatch - 1) / kBatch, workers, [&](int batch) {
         TileFinder finder(plan, kernels, marks);
         for (std::size_t i = std::size_t(batch) * kBatch;
              i < std::min(drafts.size(), std::size_t(batch + 1) * kBatch) && !progress.cancelled(); ++i)
@@ -215,7 +215,7 @@ void fill_tiles(const ScatterKernels& kernels, Progress& progress, int threads, 
     plan.runs.resize(end.run + 1), plan.runs.back() = {end.arrival, 0};
     plan.arrivals.resize(end.arrival);
     if (kernels.has_zones()) plan.shares.resize(end.arrival);
-    parallel_for(int(drafts.size()), threads, [&](int i) {
+    parallel_for(int(drafts.size()), workers, [&](int i) {
         write_tile(drafts[std::size_t(i)], at[std::size_t(i)], places, plan);
         drafts[std::size_t(i)] = {};
     });
@@ -256,8 +256,8 @@ ScatterPlan make_plan(const Input& strip, const CocSamples& samples, View<const 
     ScatterPlan plan;
     plan.rows = rows, plan.first_row = first_row, plan.rule = rule, plan.holdout = strip.holdout;
     plan.levels =
-        make_sources(samples, strip.coc_px, connected, strip.open_edges, rule, kernels, strip.threads);
-    fill_tiles(kernels, *strip.progress, strip.threads, plan);
+        make_sources(samples, strip.coc_px, connected, strip.open_edges, rule, kernels, *strip.workers);
+    fill_tiles(kernels, *strip.progress, *strip.workers, plan);
     return plan;
 }
 

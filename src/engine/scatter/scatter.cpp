@@ -118,7 +118,7 @@ public:
               [&] { return std::make_shared<ScatterKernels>(frame, frame.width(), frame.height(), rule_); })),
           highlight_kernels_(frame.memory->get<HighlightKernels>(
               "highlights", [&] { return std::make_shared<HighlightKernels>(frame); })),
-          split_(frame.colour, frame.coc_px, bright_rule(frame), frame.threads) {
+          split_(frame.colour, frame.coc_px, bright_rule(frame), *frame.workers) {
         watch_.lap("split", {bytes_of(frame.colour) + bytes_of(frame.coc_px)});
     }
     Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_); }
@@ -148,8 +148,8 @@ private:
     void planned(const Input& strip, SampleSet set, const Rect& rows, int first_row, const Use& use) {
         CocSamples& base = set.samples;
         const std::vector<Highlight> highlights =
-            take_highlights(base, split_, first_row, kLargestSquare, strip.threads);
-        if (strip.deep_dims_itself) share_lens_area(base, strip.threads);
+            take_highlights(base, split_, first_row, kLargestSquare, *strip.workers);
+        if (strip.deep_dims_itself) share_lens_area(base, *strip.workers);
         watch_.lap("split", {2 * bytes_of(base) + highlights.size() * sizeof(Highlight)});
         const Rect here{0, rows.y0 - first_row, rows.width(), rows.y1 - first_row};
         const ScatterPlan plan = make_plan(strip, base, set.connected, here, first_row, rule_, *kernels_);
@@ -161,7 +161,7 @@ private:
     void draw(const PlannedStrip& p, double share, View<Rgba> out) {
         const Input& strip = p.input;
         const device::Device& device = *strip.device;
-        const device::Control control{strip.threads, *strip.progress, 0.9 * share};
+        const device::Control control{*strip.workers, *strip.progress, 0.9 * share};
         const auto atlas = device.atlas(*kernels_, p.scatter.kernels, *strip.memory, control);
         watch_.lap("atlas");
         if (!strip.progress->cancelled())

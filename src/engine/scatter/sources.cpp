@@ -306,7 +306,8 @@ private:
 
 std::vector<SourceArray> make_sources(const CocSamples& samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
-                                      const LevelRule& rule, const ScatterKernels& kernels, int threads) {
+                                      const LevelRule& rule, const ScatterKernels& kernels,
+                                      Workers& workers) {
     float largest = 0;
     for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
     const Maker maker(samples, coc_px, connected, rule);
@@ -320,7 +321,7 @@ std::vector<SourceArray> make_sources(const CocSamples& samples, View<const floa
     // A band of rows as tall as the largest cell is done by one thread.
     const int band_height = 1 << coarsest, bands = cells(coc_px.height(), coarsest);
     std::vector<std::vector<Rows>> rows(static_cast<std::size_t>(bands));
-    parallel_for(bands, threads, [&](int i) {
+    parallel_for(bands, workers, [&](int i) {
         Band band(levels, kernels, coc_px.width());
         for (int y = i * band_height; y < (i + 1) * band_height; ++y) {
             for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
@@ -333,7 +334,7 @@ std::vector<SourceArray> make_sources(const CocSamples& samples, View<const floa
         for (const std::vector<Rows>& band : rows) levels[l].place(band[l]);
         levels[l].allocate();
     }
-    parallel_for(bands, threads, [&](int i) {
+    parallel_for(bands, workers, [&](int i) {
         for (int l = 0; l <= coarsest; ++l)
             levels[std::size_t(l)].fill(rows[std::size_t(i)][std::size_t(l)], i << (coarsest - l));
         rows[std::size_t(i)] = {};

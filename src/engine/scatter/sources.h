@@ -6,6 +6,8 @@
 // them.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "engine/scatter/plan.h"
 
 namespace petzval::engine {
@@ -15,6 +17,6 @@ namespace petzval::engine {
 // slopes.
 std::vector<SourceArray> make_sources(const CocSamples& samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
-                                      const LevelRule& rule, const ScatterKernels& kernels, int threads);
+                                      const LevelRule& rule, const ScatterKernels& kernels, Workers& workers);
 
 }  // namespace petzval::engine

@@ -41,9 +41,9 @@ Parted part(const Input& input) {
                              .least_floor = 1,
                              .floor_at_1px = 0,
                              .contested_floor = 1};
-    const HighlightSplit split(input.colour, input.coc_px, rule, input.threads);
+    const HighlightSplit split(input.colour, input.coc_px, rule, *input.workers);
     std::vector<std::vector<Sprite>> rows{std::size_t(input.height())};
-    parallel_for(input.height(), input.threads, [&](int y) {
+    parallel_for(input.height(), *input.workers, [&](int y) {
         for (int x = 0; x < input.width(); ++x) {
             const Rgba light = input.colour(x, y);
             const float coc = input.coc_px(x, y);

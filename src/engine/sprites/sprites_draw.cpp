@@ -36,8 +36,8 @@ Rect cells_of(const Rect& tile, int level) {
 
 // Runs work(begin, end) for pieces of 0…count.
 template <typename Work>
-void in_batches(std::size_t count, std::size_t batch, int threads, const Work& work) {
-    parallel_for(int((count + batch - 1) / batch), threads, [&](int i) {
+void in_batches(std::size_t count, std::size_t batch, Workers& workers, const Work& work) {
+    parallel_for(int((count + batch - 1) / batch), workers, [&](int i) {
         const std::size_t begin = std::size_t(i) * batch;
         work(begin, std::min(count, begin + batch));
     });
@@ -69,7 +69,7 @@ public:
         std::vector<Placed> placed(sprites.size());
         const SpriteShadows shadows(input);
         const std::vector<std::uint32_t> order = by_place(input, sprites);
-        in_batches(sprites.size(), 4096, input.threads, [&](std::size_t begin, std::size_t end) {
+        in_batches(sprites.size(), 4096, *input.workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end && !input.progress->cancelled(); ++i)
                 placed[i] = place(sprites[order[i]], shadows);
         });
@@ -121,7 +121,7 @@ private:
                         visit(next[std::size_t(y * tiles_x_ + x) * pieces + begin / kPiece],
                               placed[i].drawing);
         };
-        in_batches(placed.size(), kPiece, in_.threads, [&](std::size_t begin, std::size_t end) {
+        in_batches(placed.size(), kPiece, *in_.workers, [&](std::size_t begin, std::size_t end) {
             each(begin, end, [](std::size_t& n, const Drawing&) { ++n; });
         });
         std::size_t sum = 0;
@@ -132,7 +132,7 @@ private:
         }
         first_.push_back(sum);
         members_.resize(sum);
-        in_batches(placed.size(), kPiece, in_.threads, [&](std::size_t begin, std::size_t end) {
+        in_batches(placed.size(), kPiece, *in_.workers, [&](std::size_t begin, std::size_t end) {
             each(begin, end, [&](std::size_t& n, const Drawing& drawing) { members_[n++] = drawing; });
         });
     }
@@ -255,7 +255,7 @@ void draw_sprites(const Input& input, std::span<const Sprite> sprites, View<Rgba
     const SpriteKernels kernels(input, sprites);
     Buckets buckets(input, sprites, kernels);
     const Drawer drawer(input, kernels);
-    parallel_for(buckets.count(), input.threads, [&](int tile) {
+    parallel_for(buckets.count(), *input.workers, [&](int tile) {
         if (input.progress->cancelled()) return;
         drawer.draw(buckets.at(tile), buckets.area(tile, out.rect()), out);
     });

@@ -77,7 +77,7 @@ SpriteShadows::SpriteShadows(const Input& input) : in_(input) {
         const int level = top(), below_width = width, below_height = height;
         width = (width + 1) / 2, height = (height + 1) / 2;
         Image<Node> nodes(width, height);
-        parallel_for(height, input.threads, [&](int y) {
+        parallel_for(height, *input.workers, [&](int y) {
             for (int x = 0; x < width; ++x)
                 for (int v = 2 * y; v < std::min(2 * y + 2, below_height); ++v)
                     for (int u = 2 * x; u < std::min(2 * x + 2, below_width); ++u)

@@ -11,6 +11,7 @@
 #include "petzval/light_point.h"
 #include "petzval/result.h"
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "image/big_vector.h"
 #include "kernel/model/lens_model.h"
@@ -137,7 +138,7 @@ struct Input : LensOnPicture {
     View<const float> depth_m;           // planar, may hold misses; empty where radii were given
     double focus_distance_m = 0;         // 0: unknown
     float radius_at_infinity_px = 0;     // 0: unknown
-    int threads = 0;
+    Workers* workers = &one_thread();    // never null
     std::size_t max_memory_bytes = 0;
     std::uint64_t seed = 1;
     Progress* progress = nullptr;

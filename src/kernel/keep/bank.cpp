@@ -94,7 +94,7 @@ PointSpread KernelBank::made(int step, int cell) const {
     return mirrored(*kernel_of(step, twin), left_right, up_down);
 }
 
-void KernelBank::prepare(double least_coc_px, double largest_coc_px, int threads) const {
+void KernelBank::prepare(double least_coc_px, double largest_coc_px, Workers& workers) const {
     const int first = step_of(least_coc_px), last = step_of(largest_coc_px);
     std::vector<std::pair<int, int>> keys;  // large kernels first: they take longest
     for (int k = 0; k <= last - first; ++k) {
@@ -102,7 +102,7 @@ void KernelBank::prepare(double least_coc_px, double largest_coc_px, int threads
         const Cells cells = cells_of(step);
         for (int cell = 0; cell < cells.columns * cells.rows; ++cell) keys.emplace_back(step, cell);
     }
-    parallel_for(int(keys.size()), threads, [&](int i) {
+    parallel_for(int(keys.size()), workers, [&](int i) {
         if (cache_.bytes() > options_.max_bytes * 9 / 10) return;
         kernel_of(keys[std::size_t(i)].first, keys[std::size_t(i)].second);
     });

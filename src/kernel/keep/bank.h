@@ -5,6 +5,8 @@
 // thread count and order of asking, also when a kernel was dropped for memory and is made again.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "kernel/keep/kernel_cache.h"
 #include "kernel/model/lens_model.h"
 
@@ -35,8 +37,7 @@ public:
     std::shared_ptr<const PointSpread> kernel(double coc_radius_px, FieldPosition field) const;
 
     // Makes all kernels between two signed radii, for every cell, as far as the memory limit allows.
-    // threads 0: all that may be used.
-    void prepare(double least_coc_px, double largest_coc_px, int threads = 0) const;
+    void prepare(double least_coc_px, double largest_coc_px, Workers& workers) const;
 
     double rounded_radius_px(double coc_radius_px) const { return radius_of(step_of(coc_radius_px)); }
     FieldPosition cell_middle(FieldPosition field, double coc_radius_px = 0) const {

@@ -90,7 +90,7 @@ TEST(KernelBank, MirroredCellsHoldWhatTheLensWouldGive) {
 TEST(KernelBank, GivesTheSameBitsForAnyOrderThreadsAndMemory) {
     const Counting lens(cats_eye());
     const KernelBank roomy(lens), tight(lens, {.max_bytes = 20000});
-    roomy.prepare(-9, 9, 2);
+    roomy.prepare(-9, 9, *own_workers(2));
     for (double r = 9; r >= -9; r -= 1.5)
         for (const FieldPosition field : {FieldPosition{0.6, 0.2}, {-0.6, -0.2}, {0, 0}})
             EXPECT_TRUE(same_bits(*roomy.kernel(r, field), *tight.kernel(r, field)));
@@ -110,7 +110,7 @@ TEST(KernelBank, StaysWithinItsMemory) {
 TEST(KernelBank, PreparedKernelsAreNotMadeAgain) {
     const Counting lens(cats_eye());
     const KernelBank bank(lens);
-    bank.prepare(-6, 6, 2);
+    bank.prepare(-6, 6, *own_workers(2));
     const int made = lens.made;
     // 25 steps from -6 to 6, 9 x 6 cells, of which 5 x 3 are not mirrored.
     EXPECT_EQ(bank.kernels_held(), std::size_t(49 * 54));
@@ -141,7 +141,7 @@ TEST(KernelBank, CellsOfLargeDiscsAreSoSmallThatNoRimSteps) {
 TEST(KernelBank, ManyThreadsAskingForOneKernelMakeItOnce) {
     const Counting lens(cats_eye());
     const KernelBank bank(lens);
-    parallel_for(64, 2, [&](int) { static_cast<void>(bank.kernel(15, {-0.5, -0.1})); });
+    parallel_for(64, *own_workers(2), [&](int) { static_cast<void>(bank.kernel(15, {-0.5, -0.1})); });
     EXPECT_EQ(lens.made, 1);
 }
 

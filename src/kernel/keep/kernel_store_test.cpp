@@ -122,7 +122,7 @@ TEST_F(KernelStoreTest, StaysWithinItsRoom) {
 TEST_F(KernelStoreTest, ManyStoresAtOnceLeaveWholeSegments) {
     const auto lens = lens_of(choice());
     const PointSpread kernel = lens->point_spread(5, {});
-    parallel_for(24, 2, [&](int i) {
+    parallel_for(24, *own_workers(2), [&](int i) {
         KernelStore store(folder_, "lens", kRoomy);
         store.add({i, 5, 0, 0}, kernel);
         for (int k = 0; k < 24; ++k)

@@ -1,6 +1,7 @@
 #include "kernel/lenses/wave_lens.h"
 
 #include "base/fft.h"
+#include "base/parallel.h"
 #include "colour/spectrum.h"
 #include "kernel/model/spread.h"
 
@@ -233,7 +234,7 @@ PointSpread WaveLens::transformed(double wavelength_nm, FieldPosition field, con
             row[(int(i) - half) & (side - 1)] = {float(amplitude[i]) * cosines[i],
                                                  float(amplitude[i]) * sines[i]};
     }
-    fft_square(wave, Fft(side), false, 1);
+    fft_square(wave, Fft(side), false, one_thread());
     return summed_over_pixels(wave, side, per_pixel, per_pixel / pixel_aspect_, extent);
 }
 

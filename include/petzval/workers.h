@@ -1,0 +1,58 @@
+// Threads that work for the library: our own, or a pool that a host lends.
+#pragma once
+
+#include "petzval/export.h"
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace petzval {
+
+// A borrowed function: whatever it was made of must outlive it. As cheap as a pointer.
+template <typename Signature>
+class FunctionRef;
+
+template <typename Returned, typename... Arguments>
+class FunctionRef<Returned(Arguments...)> {
+public:
+    template <typename Function>
+    requires(!std::is_same_v<std::remove_cvref_t<Function>, FunctionRef> &&
+             std::is_invocable_r_v<Returned, Function&, Arguments...>) FunctionRef(Function&& function)
+        : function_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
+          call_([](void* f, Arguments... arguments) -> Returned {
+              return (*static_cast<std::remove_reference_t<Function>*>(f))(
+                  std::forward<Arguments>(arguments)...);
+          }) {}
+    Returned operator()(Arguments... arguments) const {
+        return call_(function_, std::forward<Arguments>(arguments)...);
+    }
+
+private:
+    void* function_;
+    Returned (*call_)(void*, Arguments...);
+};
+
+// What a host implements to lend its threads. Results never depend on the width nor on who runs what.
+class PETZVAL_API Workers {
+public:
+    Workers() = default;
+    virtual ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    // How many bodies of one run() may be under way at the same time, the calling thread's included. At
+    // least 1; the same for as long as the object lives.
+    virtual int width() const = 0;
+    // Calls body(i) once for each i in 0…count-1, on any threads, in any order, and returns when all have
+    // returned. Bodies throw nothing, need no other body to be under way, and never call run(). Several
+    // threads may call run() at once where several jobs share the workers.
+    virtual void run(int count, FunctionRef<void(int)> body) = 0;
+};
+
+// Threads of our own, the calling one counted: 0 for all that this process may use. More than there are CPUs
+// are of use to tests alone. They are started when first needed and end with the object (oneTBB's, where the
+// library is built with it, stay for the process).
+PETZVAL_API std::shared_ptr<Workers> own_workers(int threads = 0);
+
+}  // namespace petzval
