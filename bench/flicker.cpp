@@ -30,7 +30,7 @@ struct NamedShot {
 constexpr NamedShot kShots[] = {
     {"night-pull", false, "night", 8, 3, 1},   {"table-pull", false, "table", 1.8, 0.8, 1},
     {"fence-pull", false, "fence", 6, 1.5, 1}, {"night-move", true, "night", 0, 0, 1},
-    {"fence-move", true, "fence", 0, 0, 1},
+    {"fence-move", true, "fence", 0, 0, 1},    {"post-move", true, "post", 0, 0, 1},
 };
 
 void write(const std::string& path, View<const Rgba> picture, ToneCurve tone) {
