@@ -74,7 +74,7 @@ def demo(*_):
 
 
 def build(preset="release", *targets):
-    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, core)"""
+    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, core, no-tbb)"""
     make(preset, *targets)
 
 

@@ -1,5 +1,6 @@
 #include "base/build_id.h"
 
+#ifdef __linux__
 #include <cstring>
 #include <elf.h>
 #include <link.h>
@@ -62,3 +63,10 @@ std::string build_id() {
 }
 
 }  // namespace petzval
+#else
+namespace petzval {
+
+std::string build_id() { return {}; }
+
+}  // namespace petzval
+#endif

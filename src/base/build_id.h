@@ -5,7 +5,8 @@
 
 namespace petzval {
 
-// The linker's build id of the program or library that holds this code, as bytes; empty if it has none.
+// The linker's build id of the program or library that holds this code, as bytes; empty if it has none
+// or the system is not Linux.
 std::string build_id();
 
 }  // namespace petzval

@@ -1,7 +1,8 @@
 #include "lens_files/text.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
 namespace petzval::lens_files {
@@ -155,7 +156,7 @@ std::optional<double> parse_number(std::string_view word) {
     std::string digits = unsigned_part;
     std::replace(digits.begin(), digits.end(), 'D', 'E');
     double value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = number_from_text(digits, value);
     if (error == std::errc::result_out_of_range) {
         // Too small is zero; too large is no number.
         const bool tiny = digits.find("E-") != std::string::npos;

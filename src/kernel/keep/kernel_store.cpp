@@ -122,11 +122,11 @@ struct KernelStore::Segment {
         if (file >= 0) close(file);
     }
 
-    bool read(void* to, std::size_t size, std::size_t offset) const {
+    bool read(void* to, std::size_t size, std::uint64_t offset) const {
         for (char* at = static_cast<char*>(to); size > 0;) {
             const ssize_t got = pread(file, at, size, off_t(offset));
             if (got <= 0) return false;
-            at += got, offset += std::size_t(got), size -= std::size_t(got);
+            at += got, offset += std::uint64_t(got), size -= std::size_t(got);
         }
         return true;
     }
@@ -141,9 +141,10 @@ struct KernelStore::Segment {
             !segment->read(&header, sizeof header, 0) || header.magic != kMagic || header.records == 0 ||
             header.records > kMostRecords)
             return nullptr;
-        const std::size_t index = header.records * sizeof(Record), size = std::size_t(about.st_size);
+        const std::size_t index = std::size_t(header.records) * sizeof(Record),
+                          size = std::size_t(about.st_size);
         if (size < sizeof header + index) return nullptr;
-        segment->records.resize(header.records);
+        segment->records.resize(std::size_t(header.records));
         if (!segment->read(segment->records.data(), index, sizeof header) ||
             hash_of(segment->records.data(), index, kMagic) != header.index_hash)
             return nullptr;
