@@ -8,6 +8,7 @@
 
 #include "petzval/export.h"
 
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <type_traits>
@@ -48,12 +49,15 @@ struct Rgba {
 // Rec.709 luminance of a colour, same units as the colour.
 inline float luminance(Rgba c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
-// A borrowed 2-D array of T: never owns, cheap to copy, pass by value. T may be const.
+// A borrowed 2-D array of T: never owns, cheap to copy, pass by value. T may be const. Where assert() is on,
+// every access is checked.
 template <typename T>
 class View {
 public:
     View() = default;
-    // Requires: row_stride (counted in elements, not bytes) >= width; pixels outlive the view.
+    // row_stride: from a row to the one below it, in elements, not bytes; negative where the bottom row comes
+    // first in memory, `pixels` being the top row all the same. Requires: its size >= width; pixels outlive
+    // the view.
     View(T* pixels, int width, int height, std::ptrdiff_t row_stride)
         : pixels_(pixels), width_(width), height_(height), row_stride_(row_stride) {}
     // A view of T is also a view of const T.
@@ -67,14 +71,21 @@ public:
     bool empty() const { return width_ <= 0 || height_ <= 0; }
     Rect rect() const { return {0, 0, width_, height_}; }
 
-    T* row(int y) const { return pixels_ + y * row_stride_; }
-    T& operator()(int x, int y) const { return pixels_[y * row_stride_ + x]; }
+    T* row(int y) const {
+        assert(y >= 0 && y < height_);
+        return pixels_ + y * row_stride_;
+    }
+    T& operator()(int x, int y) const {
+        assert(rect().contains(x, y));
+        return pixels_[y * row_stride_ + x];
+    }
     // The nearest pixel inside; requires a view that is not empty.
     T& clamped(int x, int y) const {
         return (*this)(x < 0 ? 0 : x >= width_ ? width_ - 1 : x, y < 0 ? 0 : y >= height_ ? height_ - 1 : y);
     }
     // Requires: r inside rect().
     View part(const Rect& r) const {
+        assert(r.empty() || r.intersected(rect()) == r);
         return {pixels_ + r.y0 * row_stride_ + r.x0, r.width(), r.height(), row_stride_};
     }
 
@@ -125,10 +136,16 @@ public:
 
     T* pixels() { return pixels_.get(); }
     const T* pixels() const { return pixels_.get(); }
-    T* row(int y) { return pixels_.get() + std::size_t(y) * std::size_t(width_); }
-    const T* row(int y) const { return pixels_.get() + std::size_t(y) * std::size_t(width_); }
-    T& operator()(int x, int y) { return row(y)[x]; }
-    const T& operator()(int x, int y) const { return row(y)[x]; }
+    T* row(int y) { return pixels_.get() + start_of_row(y); }
+    const T* row(int y) const { return pixels_.get() + start_of_row(y); }
+    T& operator()(int x, int y) {
+        assert(x >= 0 && x < width_);
+        return row(y)[x];
+    }
+    const T& operator()(int x, int y) const {
+        assert(x >= 0 && x < width_);
+        return row(y)[x];
+    }
 
     View<T> view() { return {pixels_.get(), width_, height_, width_}; }
     View<const T> view() const { return {pixels_.get(), width_, height_, width_}; }
@@ -142,6 +159,10 @@ private:
     };
     Image(int width, int height, Uninitialised) : width_(width), height_(height) {
         if (size() > 0) pixels_.reset(static_cast<T*>(allocate_pixels(size() * sizeof(T))));
+    }
+    std::size_t start_of_row(int y) const {
+        assert(y >= 0 && y < height_);
+        return std::size_t(y) * std::size_t(width_);
     }
     void swap(Image& o) noexcept {
         std::swap(pixels_, o.pixels_);
