@@ -8,12 +8,14 @@
 #include "session/engines.h"
 #include "session/frame.h"
 #include "session/mounted_lens.h"
+#include "session/on_grid.h"
 #include "views/plan_view.h"
 
 #include <algorithm>
 #include <chrono>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 namespace petzval {
@@ -45,6 +47,30 @@ public:
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+float largest_radius_px(const DefocusJob& job, const Radii& radii) {
+    float largest = 0;
+    const auto note = [&](float depth) { largest = std::max(largest, std::abs(radii(depth))); };
+    for (int y = 0; y < job.depth_m.height(); ++y)
+        for (int x = 0; x < job.depth_m.width(); ++x) note(job.depth_m(x, y));
+    for (const DeepPicture* deep : {job.deep, job.behind})
+        if (deep)
+            for (const DeepSample& s : deep->samples()) note(s.depth_m);
+    return largest;
+}
+
+// What an engine is to see of the frame. The reference has no grid; views show the data window alone.
+Rect window_for(const DefocusJob& job, const Radii& radii, const kernel::LensModel& lens) {
+    const bool shows_result = job.scatter.view == ScatterView::Result &&
+                              job.gather.stage == GatherStage::Final &&
+                              job.gaussian.view == GaussianView::Result;
+    const bool is_whole = job.data_window == job.display_window;
+    if (is_whole || !shows_result || job.engine == "reference") return job.data_window;
+    const float largest = largest_radius_px(job, radii);
+    const bool spreads_wider = lens.reach_px(double(largest)) > 1.1 * double(largest) + 2;
+    return on_grid(job.display_window, job.data_window, grid_for(largest, spreads_wider),
+                   lens.varies_over_field());
+}
 
 // A job as a session makes it: with the settings of the session and the control of the frame.
 DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, const Control& control) {
@@ -182,7 +208,15 @@ Result<DefocusReport> Session::defocus(const DefocusJob& asked, const Control& c
     if (const Status status = check_distortion(job); !status) return status.error();
     auto lens = contents_->lens_for(job);
     if (!lens) return lens.error();
-    auto report = made_frame(job, **engine, *radii, **lens, clock);
+    const Rect window = window_for(job, *radii, *(*lens)->levels.front());
+    std::optional<WiderJob> wider;
+    if (window != job.data_window) {
+        wider.emplace(job, window);
+        lens = contents_->lens_for(wider->job());
+        if (!lens) return lens.error();
+    }
+    auto report = made_frame(wider ? wider->job() : job, **engine, *radii, **lens, clock);
+    if (wider && report) report->image = wider->cut(report->image);
     contents_->trim(contents_->most_kept_bytes());
     return report;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace petzval::engine {
 namespace {
@@ -38,6 +39,23 @@ float box_mean(View<const float> cells, int cx, int cy, int reach) {
     return sum / float(r.width() * r.height());
 }
 
+// Four times the mean luminance of what the picture covers, to the nearest power of two: a frame that shows a
+// little more or less of the same scene has the same lights.
+float white_of(View<const Rgba> picture, Workers& workers) {
+    // Rows are summed on their own, then in order: the same bits for any threads.
+    std::vector<double> light(std::size_t(picture.height())), covered(std::size_t(picture.height()));
+    parallel_for(picture.height(), workers, [&](int y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            light[std::size_t(y)] += double(std::max(0.0f, luminance(picture(x, y))));
+            covered[std::size_t(y)] += double(picture(x, y).a);
+        }
+    });
+    const double all_light = std::accumulate(light.begin(), light.end(), 0.0);
+    const double all_covered = std::accumulate(covered.begin(), covered.end(), 0.0);
+    const double mean = all_light / std::max(1.0, all_covered);
+    return mean > 0 ? float(std::exp2(std::round(std::log2(4 * mean)))) : 0.0f;
+}
+
 }  // namespace
 
 HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
@@ -53,15 +71,7 @@ HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_p
             surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
         }
     });
-    // Rows are summed on their own, then in order: the same bits for any threads.
-    std::vector<double> rows(static_cast<std::size_t>(picture.height()));
-    parallel_for(picture.height(), workers, [&](int y) {
-        for (int x = 0; x < picture.width(); ++x)
-            rows[std::size_t(y)] += double(std::max(0.0f, luminance(picture(x, y))));
-    });
-    double sum = 0;
-    for (const double row : rows) sum += row;
-    white_ = float(4 * sum / (double(picture.width()) * picture.height()));
+    white_ = white_of(picture, workers);
 }
 
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all

@@ -1,0 +1,121 @@
+#include "session/on_grid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace petzval {
+namespace {
+
+// 0…grid-1: how far `at` lies beyond a multiple of the grid.
+int beyond(int at, int grid) { return ((at % grid) + grid) % grid; }
+
+// The share of pixel (x, y)'s light that does not stand out of the border around it: twice the harmonic mean
+// of luminance in the 13 x 13 pixels around, which few bright ones hardly raise.
+float steady_share(View<const Rgba> colour, int x, int y) {
+    constexpr int kReach = 6;
+    constexpr float kDark = 1e-3f, kOver = 2;
+    const auto light = [](Rgba c) {
+        return std::isfinite(luminance(c)) ? std::max(0.0f, luminance(c)) : 0.0f;
+    };
+    const Rect around =
+        Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(colour.rect());
+    float sum = 0;
+    for (int v = around.y0; v < around.y1; ++v)
+        for (int u = around.x0; u < around.x1; ++u) sum += 1 / (light(colour(u, v)) + kDark);
+    const float most = kOver * float(around.width() * around.height()) / sum;
+    return std::min(1.0f, most / (light(colour(x, y)) + kDark));
+}
+
+Rgba dimmed(Rgba c, float share) { return {c.r * share, c.g * share, c.b * share, c.a}; }
+
+}  // namespace
+
+Rect on_grid(const Rect& display_window, const Rect& data_window, int grid, bool whole) {
+    Rect window = data_window;
+    if (whole) {
+        window.x1 = std::max(window.x1, display_window.x1);
+        window.y1 = std::max(window.y1, display_window.y1);
+    }
+    const auto begin = [&](int display, int data) {
+        return whole && data > display ? display : data - beyond(data - display, grid);
+    };
+    window.x0 = begin(display_window.x0, data_window.x0);
+    window.y0 = begin(display_window.y0, data_window.y0);
+    return window;
+}
+
+int grid_for(float largest_radius_px, bool spreads_wider) {
+    constexpr int kLeast = 64, kMost = 1024;  // of tiles; a coarser grid no longer shows
+    const float coarsest = std::min(largest_radius_px, float(kMost)) * (spreads_wider ? 8 : 1);
+    return std::clamp(int(std::bit_ceil(unsigned(std::ceil(std::max(1.0f, coarsest))))), kLeast, kMost);
+}
+
+WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
+    const Rect& data = asked.data_window;
+    inside_ = {data.x0 - window.x0, data.y0 - window.y0, data.x1 - window.x0, data.y1 - window.y0};
+    job_.data_window = window;
+    widen_colour(asked);
+    job_.colour = colour_;
+    job_.depth_m = depth_;
+    const auto widen = [&](const DeepPicture*& deep, DeepPicture& own, bool is_matte) {
+        if (!deep || deep->empty()) return;
+        own = widened(*deep, is_matte);
+        deep = &own;
+    };
+    widen(job_.deep, deep_, false);
+    widen(job_.behind, behind_, false);
+    widen(job_.holdout, holdout_, true);
+    if (!asked.points) return;
+    points_ = *asked.points;
+    for (LightPoint& p : points_) {
+        p.x += float(inside_.x0);
+        p.y += float(inside_.y0);
+    }
+    job_.points = &points_;
+}
+
+void WiderJob::widen_colour(const DefocusJob& asked) {
+    const Rect &display = asked.display_window, &data = asked.data_window;
+    const int width = job_.data_window.width(), height = job_.data_window.height();
+    colour_ = Picture(width, height);
+    depth_ = Plane(width, height);
+    kept_ = Plane(width, height, 1.0f);
+    const auto is_empty = [&](int x, int y) {
+        return (x < inside_.x0 && data.x0 > display.x0) || (x >= inside_.x1 && data.x1 < display.x1) ||
+               (y < inside_.y0 && data.y0 > display.y0) || (y >= inside_.y1 && data.y1 < display.y1);
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int u = column(x), v = row(y);
+            depth_(x, y) = asked.depth_m(u, v);
+            if (!inside_.contains(x, y)) kept_(x, y) = is_empty(x, y) ? 0 : steady_share(asked.colour, u, v);
+            if (kept_(x, y) > 0) colour_(x, y) = dimmed(asked.colour(u, v), kept_(x, y));
+        }
+}
+
+DeepPicture WiderJob::widened(const DeepPicture& deep, bool is_matte) const {
+    std::vector<std::size_t> first{0};
+    std::vector<DeepSample> samples;
+    first.reserve(colour_.size() + 1);
+    samples.reserve(deep.sample_count());
+    for (int y = 0; y < colour_.height(); ++y)
+        for (int x = 0; x < colour_.width(); ++x) {
+            if (kept_(x, y) > 0)
+                for (DeepSample s : deep.at(column(x), row(y))) {
+                    if (!is_matte) s.colour = dimmed(s.colour, kept_(x, y));
+                    samples.push_back(s);
+                }
+            first.push_back(samples.size());
+        }
+    return {colour_.width(), colour_.height(), std::move(first), std::move(samples)};
+}
+
+Picture WiderJob::cut(const Picture& image) const {
+    Picture part = Picture::uninitialised(inside_.width(), inside_.height());
+    for (int y = 0; y < part.height(); ++y)
+        std::copy_n(image.view().row(y + inside_.y0) + inside_.x0, part.width(), part.row(y));
+    return part;
+}
+
+}  // namespace petzval

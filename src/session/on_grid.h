@@ -1,0 +1,50 @@
+// Where a data window begins decides nothing: engines see a picture that stands on the grid of its display
+// window.
+//
+// Engines work in tiles, cells and blocks that stand on the first pixel they are given, and with kernels for
+// zones of what they are given. A data window that follows its contents from frame to frame (autocrop) would
+// shift all of them, and the picture would flicker.
+#pragma once
+
+#include "petzval/defocus.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace petzval {
+
+// The data window grown to the left and up, so that it begins a whole number of `grid` pixels from the first
+// column and row of the display window; or where `whole`, so that it holds all of the display window.
+Rect on_grid(const Rect& display_window, const Rect& data_window, int grid, bool whole);
+
+// The pixels of the coarsest grid that any engine uses for radii up to this; a power of two. spreads_wider:
+// the lens's discs are wider than their radius, and their rims come on coarser grids.
+int grid_for(float largest_radius_px, bool spreads_wider);
+
+// A job with a wider data window: emptiness beyond edges that lie inside the display window; beyond others
+// the scene goes on as its border does, without what is brighter there than its surroundings.
+class WiderJob {
+public:
+    // Requires: window holds asked.data_window.
+    WiderJob(const DefocusJob& asked, const Rect& window);
+    WiderJob(const WiderJob&) = delete;
+    WiderJob& operator=(const WiderJob&) = delete;
+    const DefocusJob& job() const { return job_; }
+    // The part of a picture of this job that the one it was made from asked for.
+    Picture cut(const Picture& image) const;
+
+private:
+    void widen_colour(const DefocusJob& asked);
+    DeepPicture widened(const DeepPicture& deep, bool is_matte) const;
+    int column(int x) const { return std::clamp(x - inside_.x0, 0, inside_.width() - 1); }
+    int row(int y) const { return std::clamp(y - inside_.y0, 0, inside_.height() - 1); }
+
+    Rect inside_;  // what was asked for, in pixels of the wider picture
+    DefocusJob job_;
+    Picture colour_;
+    Plane depth_, kept_;  // kept_: the share of a repeated pixel's light that stays outside; 0: emptiness
+    DeepPicture deep_, behind_, holdout_;
+    std::vector<LightPoint> points_;
+};
+
+}  // namespace petzval

@@ -1,0 +1,44 @@
+#include "session/on_grid.h"
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+TEST(OnGrid, AWindowBeginsAWholeNumberOfCellsFromTheDisplayWindow) {
+    const Rect display{10, 20, 1010, 620};
+    EXPECT_EQ(on_grid(display, display, 64, false), display);
+    EXPECT_EQ(on_grid(display, {11, 20, 900, 600}, 64, false), (Rect{10, 20, 900, 600}));
+    EXPECT_EQ(on_grid(display, {74, 83, 900, 600}, 64, false), (Rect{74, 20, 900, 600}));
+    EXPECT_EQ(on_grid(display, {-10, 19, 900, 600}, 64, false), (Rect{-54, -44, 900, 600}));
+    EXPECT_EQ(on_grid(display, {74, -1, 900, 600}, 64, true), (Rect{10, -44, 1010, 620}));
+}
+
+TEST(OnGrid, TheGridIsAsCoarseAsAnyLevelForTheRadius) {
+    EXPECT_EQ(grid_for(0, false), 64);
+    EXPECT_EQ(grid_for(100, false), 128);
+    EXPECT_EQ(grid_for(100, true), 1024);
+    EXPECT_EQ(grid_for(1e9f, false), 1024);
+}
+
+TEST(OnGrid, BeyondAnEdgeInsideTheFrameIsEmptinessBeyondOthersTheBorderWithoutItsLights) {
+    Picture colour(20, 10, Rgba{0.5f, 0.5f, 0.5f, 1});
+    colour(0, 4) = {900, 900, 900, 1};
+    const Plane depth(20, 10, 3.0f);
+    DefocusJob job;
+    job.colour = colour, job.depth_m = depth;
+    job.display_window = {0, 0, 64, 64}, job.data_window = {-2, 30, 18, 40};
+    const WiderJob wider(job, {-64, 0, 18, 40});
+    const View<const Rgba> image = wider.job().colour;
+    EXPECT_EQ(image.width(), 82);
+    EXPECT_EQ(image(10, 10).a, 0);  // above: inside the frame
+    EXPECT_EQ(image(10, 32).a, 1);  // to the left: outside it
+    EXPECT_LT(image(10, 34).r, 1.1f);
+    EXPECT_EQ(wider.job().depth_m(10, 10), 3);
+    Picture drawn(82, 40);
+    drawn(62, 34).r = 7;
+    EXPECT_EQ(wider.cut(drawn)(0, 4).r, 7);
+}
+
+}  // namespace
+}  // namespace petzval

@@ -1,0 +1,76 @@
+// Where the data window begins changes nothing but its border: an autocropped sequence does not flicker.
+#include "shots.h"
+
+namespace petzval::conformance {
+namespace {
+
+// What an engine looks at around a pixel, for radii up to largest_px: what spreads there, what hides that,
+// and what filling looks at behind it; and the neighbourhoods in which lights are told from surfaces.
+constexpr int margin_px(int largest_px) { return 4 * largest_px + 32; }
+
+class DataWindow : public testing::TestWithParam<std::string> {};
+
+DefocusJob cropped(const Shot& shot, const std::string& engine, const Rect& window) {
+    DefocusJob job = shot.job(engine);
+    job.colour = shot.colour.view().part(window);
+    job.depth_m = shot.coc_px.view().part(window);
+    job.data_window = window;
+    return job;
+}
+
+// Pixels that differ. Alpha may by its last digit: gather takes it from coverage where nothing is
+// transparent.
+int changes(const Picture& part, const Picture& whole, const Rect& inside, const Rect& window) {
+    int changed = 0;
+    for (int y = inside.y0; y < inside.y1; ++y)
+        for (int x = inside.x0; x < inside.x1; ++x) {
+            const Rgba d = part(x - window.x0, y - window.y0) - whole(x, y);
+            changed += d.r != 0 || d.g != 0 || d.b != 0 || std::abs(d.a) > 1e-6f;
+        }
+    return changed;
+}
+
+TEST_P(DataWindow, AnyCropOfItLeavesWhatIsFartherFromItsBorderAsItWas) {
+    constexpr int kLargest = 12;
+    Shot shot = flat(330, 300, {}, 3);
+    paint_rectangles(shot.colour, 4);
+    std::mt19937 random(6);
+    for (int i = 0; i < 30; ++i) {
+        const int x = int(random() % 320), y = int(random() % 290);
+        const float coc = float(int(random() % (2 * kLargest + 1)) - kLargest);
+        shot.colour(x, y) = {40, 30, 20, 1};
+        for (int v = y; v < std::min(300, y + 25); ++v)
+            for (int u = x + 2; u < std::min(330, x + 19); ++u) shot.coc_px(u, v) = coc;
+    }
+    const Picture whole = rendered(shot.job(GetParam()));
+    for (const auto& [left, top] : {std::pair{1, 0}, {0, 1}, {4, 2}, {7, 13}, {8, 8}, {31, 5}, {64, 64}}) {
+        const Rect window{left, top, 330, 300};
+        const Picture part = rendered(cropped(shot, GetParam(), window));
+        const Rect inside = Rect{left, top, 330, 300}.grown(-margin_px(kLargest)).intersected(window);
+        EXPECT_EQ(changes(part, whole, inside, window), 0) << "cropped by " << left << ", " << top;
+    }
+}
+
+TEST_P(DataWindow, SoItIsForALensThatDiffersOverTheField) {
+    Shot shot = flat(200, 170, {}, 6);
+    paint_rectangles(shot.colour, 4);
+    DefocusJob whole = shot.job(GetParam());
+    whole.lens.cats_eye = 0.7;
+    const Rect window{5, 9, 197, 168};
+    DefocusJob part = cropped(shot, GetParam(), window);
+    part.lens.cats_eye = 0.7;
+    const Rect inside = window.grown(-margin_px(6));
+    EXPECT_EQ(changes(rendered(part), rendered(whole), inside, window), 0);
+}
+
+std::vector<std::string> engines_with_a_grid() {
+    std::vector<std::string> names = engine_names();
+    std::erase(names, "reference");
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, DataWindow, testing::ValuesIn(engines_with_a_grid()),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace petzval::conformance
