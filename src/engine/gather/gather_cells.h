@@ -22,6 +22,22 @@ struct CellLight {
     int ring = 0;
 };
 
+// Of a deep pixel, each sample dimmed by what is in front of it: a translucent one always, an opaque one
+// where so little farther away that no ray comes past what is in front. What a straight ray is left with is
+// emptiness.
+template <typename Emit>
+void for_each_deep_sample(const Input& input, int x, int y, const Emit& emit) {
+    constexpr float kNoRoomPx = 1, kOpaque = 1 - 1e-3f;
+    float open = 1, last_px = input.coc_px(x, y), front_px = -1e30f;
+    for (const CocSample& s : input.deep.at(x, y)) {
+        const float a = s.colour.a, share = a < kOpaque || s.coc_px - front_px < kNoRoomPx ? open : 1.0f;
+        if (share > 0) emit(share * s.colour, s.coc_px, s.colour == Rgba{} ? share : share * a);
+        open *= 1 - a;
+        last_px = front_px = s.coc_px;
+    }
+    if (open > 0) emit(Rgba{}, last_px, open);
+}
+
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered).
 template <typename Emit>
 void for_each_sample(const Input& input, const BlockFill& fill, int x, int y, const Emit& emit) {
@@ -31,6 +47,7 @@ void for_each_sample(const Input& input, const BlockFill& fill, int x, int y, co
         if (const auto hidden = fill.behind(x, y, coc)) emit(hidden->colour, hidden->coc_px, 1.0f);
         return;
     }
+    if (input.deep_dims_itself) return for_each_deep_sample(input, x, y, emit);
     for (const CocSample& s : input.deep.at(x, y))
         emit(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
 }
