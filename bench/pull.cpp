@@ -1,0 +1,62 @@
+// A focus pull through one session, timed: what `./dev bench pull` sets beside as many runs of the program.
+//
+// pull FILE.exr FRAMES LENS ENGINE NEAR_M FAR_M: reads once, makes FRAMES pictures with focus moving evenly
+// in dioptres, writes none. Prints CPU and wall seconds, reading included.
+#include "petzval/files.h"
+#include "petzval/session.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <sys/resource.h>
+
+namespace {
+
+using namespace petzval;
+
+[[noreturn]] void fail(const std::string& message) {
+    std::fprintf(stderr, "petzval_bench_pull: %s\n", message.c_str());
+    std::exit(2);
+}
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](timeval t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    if (count != 7) fail("FILE.exr FRAMES LENS ENGINE NEAR_M FAR_M");
+    const auto start = std::chrono::steady_clock::now();
+    const auto frame = read_frame(words[1]);
+    if (!frame) fail(frame.error().message);
+    const FoundCamera& found = frame->camera;
+    if (!found.focal_length_mm || !found.sensor_width_mm || !found.f_number)
+        fail("the picture lacks camera numbers; make it with `petzval scene make`");
+    const int frames = std::atoi(words[2]);
+    const double near_m = std::atof(words[5]), far_m = std::atof(words[6]);
+
+    DefocusJob rendered;
+    rendered.colour = frame->colour;
+    rendered.depth_m = frame->depth;
+    rendered.display_window = frame->display_window;
+    rendered.data_window = frame->data_window;
+    Look look;
+    look.lens.name = words[3];
+    look.engine = words[4];
+    Session session;
+    for (int i = 0; i < frames; ++i) {
+        const double share = frames > 1 ? double(i) / (frames - 1) : 0;
+        rendered.camera = {found.focal_length_mm->value, found.sensor_width_mm->value, found.f_number->value,
+                           1 / ((1 - share) / near_m + share / far_m)};
+        const auto taken = session.take(rendered, look);
+        if (!taken) fail(taken.error().message);
+    }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    std::printf("{\"cpu_s\": %.3f, \"wall_s\": %.3f, \"kept_mib\": %.1f, \"lenses\": %d}\n", cpu_seconds(),
+                wall.count(), double(session.usage().kept_bytes) / (1 << 20), session.usage().lenses);
+}
