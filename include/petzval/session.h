@@ -33,6 +33,8 @@ PETZVAL_API DefocusJob with_look(DefocusJob job, const Look& look);
 // How one frame is made.
 struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
+    // True cancels; asked often, by any thread at any time: a flag that another thread sets.
+    std::function<bool()> cancelled = {};
 };
 
 struct SessionUsage {
@@ -62,8 +64,6 @@ public:
     void trim(std::size_t bytes);
 
 private:
-    Workers& workers() const;
-
     struct Contents;
     std::unique_ptr<Contents> contents_;
 };

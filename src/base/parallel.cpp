@@ -1,5 +1,7 @@
 #include "base/parallel.h"
 
+#include "base/cancel.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -57,8 +59,12 @@ std::shared_ptr<Workers> workers_of(int threads, Workers* lent) {
 
 void parallel_for(int count, Workers& workers, FunctionRef<void(int)> body) {
     if (count <= 0) return;
+    const auto* const cancellable = dynamic_cast<const CancellableWorkers*>(&workers);
     if (count == 1 || t_inside_a_body || workers.width() <= 1) {
-        for (int i = 0; i < count; ++i) body(i);
+        for (int i = 0; i < count; ++i) {
+            if (cancellable) cancellable->check();
+            body(i);
+        }
         return;
     }
     FirstError error;
@@ -66,6 +72,7 @@ void parallel_for(int count, Workers& workers, FunctionRef<void(int)> body) {
         if (error.any()) return;
         const InsideABody inside;
         try {
+            if (cancellable) cancellable->check();
             body(i);
         } catch (...) {
             error.keep(std::current_exception());

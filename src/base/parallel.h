@@ -21,7 +21,8 @@ Workers& one_thread();
 
 // Calls body(i) once for each i in 0…count-1 on these workers, in any order, and blocks until all are done.
 // A loop inside a body runs on that body's thread. The first exception of a body is rethrown here; bodies
-// that had not begun by then are left out.
+// that had not begun by then are left out. Of CancellableWorkers (base/cancel.h) that is Cancelled once
+// nobody wants the result.
 void parallel_for(int count, Workers& workers, FunctionRef<void(int)> body);
 
 }  // namespace petzval

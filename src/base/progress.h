@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <mutex>
+#include <utility>
 
 namespace petzval {
 
@@ -11,14 +12,19 @@ namespace petzval {
 class Progress {
 public:
     Progress() = default;
-    explicit Progress(std::function<bool(double)> callback) : callback_(std::move(callback)) {}
+    // asked_to_stop: cancels when it says true; asked often, by any thread at any time.
+    explicit Progress(std::function<bool(double)> callback, std::function<bool()> asked_to_stop = {})
+        : callback_(std::move(callback)), asked_to_stop_(std::move(asked_to_stop)) {}
 
     // `share` of the whole work was done. Returns false once cancelled.
     bool advance(double share);
-    bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+    bool cancelled() const {
+        return cancelled_.load(std::memory_order_relaxed) || (asked_to_stop_ && asked_to_stop_());
+    }
 
 private:
     std::function<bool(double)> callback_;
+    std::function<bool()> asked_to_stop_;
     std::mutex mutex_;
     double done_ = 0;
     std::atomic<bool> cancelled_{false};

@@ -1,20 +1,19 @@
-// What outlives a frame, and the order of one: lens, samples, engine, distortion, report.
+// The way of one frame: lens, samples, engine, distortion, report.
 #include "petzval/session.h"
 
 #include "base/parallel.h"
 #include "device/cpu/cpu_device.h"
 #include "engine/waist/memory.h"
+#include "session/contents.h"
 #include "session/distort.h"
 #include "session/engines.h"
 #include "session/frame.h"
-#include "session/mounted_lens.h"
 #include "session/on_grid.h"
 #include "views/plan_view.h"
 
 #include <algorithm>
 #include <chrono>
-#include <list>
-#include <mutex>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -72,21 +71,19 @@ Rect window_for(const DefocusJob& job, const Radii& radii, const kernel::LensMod
                    lens.varies_over_field());
 }
 
-// A job as a session makes it: with the settings of the session and the control of the frame.
-DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, const Control& control) {
+// A job as a session makes it: with the settings of the session.
+DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, Workers& workers) {
     job.threads = s.threads;
-    job.workers = s.workers.get();
+    job.workers = &workers;
     job.max_memory_bytes = s.max_memory_bytes;
     job.kernel_cache_folder = s.kernel_cache_folder;
     job.kernel_cache_bytes = s.kernel_cache_bytes;
-    job.progress = control.progress;
     return job;
 }
 
 Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& chosen, const Radii& radii,
-                                 MountedLens& lens, const Clock& clock) {
+                                 MountedLens& lens, const Clock& clock, Progress& progress) {
     const double lens_ready = clock.seconds();
-    Progress progress(job.progress);
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
     engine::Input& input = frame.input;
     input.lens_levels = lens.levels;
@@ -133,92 +130,42 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
 
 }  // namespace
 
-// Lenses that frames used, the last one first. Frames hold what they use, so that it may be let go of any
-// time.
-struct Session::Contents {
-    explicit Contents(SessionSettings s) : settings(std::move(s)) {
-        if (!settings.workers) settings.workers = workers_of(settings.threads, nullptr);
-    }
-
-    SessionSettings settings;
-    mutable std::mutex mutex;  // of all below
-    std::list<std::pair<std::string, std::shared_ptr<MountedLens>>> lenses;
-
-    std::size_t most_kept_bytes() const {
-        constexpr std::size_t kUnlimited = std::size_t(1) << 30;
-        return settings.max_memory_bytes > 0 ? settings.max_memory_bytes / 8 : kUnlimited;
-    }
-
-    // Errors: those of the lens.
-    Result<std::shared_ptr<MountedLens>> lens_for(const DefocusJob& job) {
-        const std::string key = MountedLens::key_of(job);
-        if (!key.empty()) {
-            const std::lock_guard lock(mutex);
-            for (auto i = lenses.begin(); i != lenses.end(); ++i) {
-                if (i->first != key) continue;
-                lenses.splice(lenses.begin(), lenses, i);
-                return i->second;
-            }
-        }
-        auto made = MountedLens::make(job);
-        if (!made || key.empty()) return made;
-        const std::lock_guard lock(mutex);
-        lenses.emplace_front(key, *made);
-        return made;
-    }
-
-    // Of lenses that hold more than the others leave them: first their kernels go, then they.
-    void trim(std::size_t bytes) {
-        constexpr std::size_t kMostLenses = 8;  // each holds tables besides its kernels
-        const std::lock_guard lock(mutex);
-        std::size_t held = 0;
-        for (auto& [key, lens] : lenses) {
-            lens->kernels.trim(bytes - std::min(bytes, held));
-            held += lens->kernels.bytes();
-        }
-        while (lenses.size() > (bytes > 0 ? kMostLenses : 0)) lenses.pop_back();
-    }
-
-    SessionUsage usage() const {
-        const std::lock_guard lock(mutex);
-        SessionUsage usage;
-        for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->kernels.bytes();
-        usage.lenses = int(lenses.size());
-        return usage;
-    }
-};
-
 Session::Session(SessionSettings settings) : contents_(std::make_unique<Contents>(std::move(settings))) {}
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
-Workers& Session::workers() const { return *contents_->settings.workers; }
-
-Result<DefocusReport> Session::defocus(const DefocusJob& asked, const Control& control) {
+Result<DefocusReport> Session::Contents::defocus(const DefocusJob& asked, Progress& progress,
+                                                 CancellableWorkers& workers) {
     const Clock clock;
-    DefocusJob job = job_of_session(asked, contents_->settings, control);
+    DefocusJob job = job_of_session(asked, settings, workers);
     // What is kept is there while the frame is made.
-    if (job.max_memory_bytes > 0) job.max_memory_bytes -= contents_->usage().kept_bytes;
+    if (job.max_memory_bytes > 0) job.max_memory_bytes -= usage().kept_bytes;
     if (const Status status = check_job(job); !status) return status.error();
     const auto engine = find_engine(job);
     if (!engine) return engine.error();
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
     if (const Status status = check_distortion(job); !status) return status.error();
-    auto lens = contents_->lens_for(job);
+    auto lens = lens_for(job);
     if (!lens) return lens.error();
     const Rect window = window_for(job, *radii, *(*lens)->levels.front());
     std::optional<WiderJob> wider;
     if (window != job.data_window) {
         wider.emplace(job, window);
-        lens = contents_->lens_for(wider->job());
+        lens = lens_for(wider->job());
         if (!lens) return lens.error();
     }
-    auto report = made_frame(wider ? wider->job() : job, **engine, *radii, **lens, clock);
+    auto report = made_frame(wider ? wider->job() : job, **engine, *radii, **lens, clock, progress);
     if (wider && report) report->image = wider->cut(report->image);
-    contents_->trim(contents_->most_kept_bytes());
+    trim(most_kept_bytes());
     return report;
+}
+
+Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& control) {
+    return contents_->unless_cancelled(control, [&](Progress& progress, CancellableWorkers& workers) {
+        return contents_->defocus(job, progress, workers);
+    });
 }
 
 SessionUsage Session::usage() const { return contents_->usage(); }

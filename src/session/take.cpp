@@ -2,7 +2,8 @@
 // back into the plate's range.
 #include "petzval/dynamic_range.h"
 #include "petzval/glare.h"
-#include "petzval/session.h"
+
+#include "session/contents.h"
 
 #include <utility>
 
@@ -39,6 +40,18 @@ Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& l
     return add_glare(picture, settings);
 }
 
+// A blurred picture with what else the lens does to its light; buffers that are shown instead stay as they
+// are.
+Result<DefocusReport> lit(Result<DefocusReport> report, const DefocusJob& job, const Look& look) {
+    if (!report || !report->panels.empty()) return report;
+    auto dimmed = with_falloff(std::move(report->image), job, look);
+    if (!dimmed) return dimmed.error();
+    auto glared = with_glare(std::move(*dimmed), job, look);
+    if (!glared) return glared.error();
+    report->image = std::move(*glared);
+    return report;
+}
+
 }  // namespace
 
 DefocusJob with_look(DefocusJob job, const Look& look) {
@@ -55,28 +68,21 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
 }
 
 Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look, const Control& control) {
-    DefocusJob job = with_look(rendered, look);
-    job.workers = &workers();
-    Picture expanded;
-    if (look.expand_highlights) {
+    return contents_->unless_cancelled(control, [&](Progress& progress, CancellableWorkers& workers) {
+        DefocusJob job = with_look(rendered, look);
+        job.workers = &workers;
+        if (!look.expand_highlights) return lit(contents_->defocus(job, progress, workers), job, look);
         if (job.deep && !job.deep->empty())
-            return Error{ErrorCode::InvalidArgument,
-                         "--expand-highlights is for flat plates, not for deep pictures"};
-        auto given_back = expand_highlights(job.colour, look.expansion);
-        if (!given_back) return given_back.error();
-        expanded = std::move(*given_back);
-        job.colour = expanded;
-    }
-    auto report = defocus(job, control);
-    if (!report || !report->panels.empty()) return report;
-    auto dimmed = with_falloff(std::move(report->image), job, look);
-    if (!dimmed) return dimmed.error();
-    auto glared = with_glare(std::move(*dimmed), job, look);
-    if (!glared) return glared.error();
-    report->image = std::move(*glared);
-    if (look.expand_highlights)
-        report->image = compress_highlights(report->image, expanded, rendered.colour, look.expansion);
-    return report;
+            return Result<DefocusReport>(Error{
+                ErrorCode::InvalidArgument, "--expand-highlights is for flat plates, not for deep pictures"});
+        const auto expanded = expand_highlights(job.colour, look.expansion);
+        if (!expanded) return Result<DefocusReport>(expanded.error());
+        job.colour = *expanded;
+        auto report = lit(contents_->defocus(job, progress, workers), job, look);
+        if (report && report->panels.empty())
+            report->image = compress_highlights(report->image, *expanded, rendered.colour, look.expansion);
+        return report;
+    });
 }
 
 }  // namespace petzval

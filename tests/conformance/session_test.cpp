@@ -3,6 +3,7 @@
 
 #include "shots.h"
 
+#include <atomic>
 #include <string>
 #include <thread>
 #include <vector>
@@ -92,6 +93,26 @@ TEST(Session, CountsWhatItKeepsAgainstItsMemory) {
         through(session, with_lens(frames.second, "scatter", lens));
     EXPECT_LE(session.usage().kept_bytes, kLimit / 8);
     EXPECT_EQ(session.usage().lenses, 4);
+}
+
+// Asked to stop at its n-th question: wherever that is, the frame ends as cancelled, and the next one is
+// whole.
+TEST_P(EverySession, EndsWhereverItIsAskedTo) {
+    const TwoFrames frames;
+    const DefocusJob job = with_lens(frames.second, GetParam(), "doublet");
+    Session session;
+    const Picture whole = through(session, job);
+    for (const int questions : {0, 1, 3, 10, 30, 100, 300}) {
+        std::atomic<int> asked{0};
+        const auto stop = [&] { return asked++ >= questions; };
+        const auto report = session.defocus(job, {.progress = {}, .cancelled = stop});
+        if (report) {
+            EXPECT_LE(asked, questions);
+            continue;
+        }
+        EXPECT_EQ(report.error().code, ErrorCode::Cancelled);
+    }
+    EXPECT_EQ(largest_difference(through(session, job), whole), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, EverySession, testing::ValuesIn(engine_names()),

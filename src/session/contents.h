@@ -1,0 +1,88 @@
+// What a session holds, and a frame as it is made.
+#pragma once
+
+#include "petzval/session.h"
+
+#include "base/cancel.h"
+#include "base/parallel.h"
+#include "session/mounted_lens.h"
+
+#include <algorithm>
+#include <list>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace petzval {
+
+// Lenses that frames used, the last one first. Frames hold what they use, so that it may be let go of any
+// time.
+struct Session::Contents {
+    explicit Contents(SessionSettings s) : settings(std::move(s)) {
+        if (!settings.workers) settings.workers = workers_of(settings.threads, nullptr);
+    }
+
+    SessionSettings settings;
+    mutable std::mutex mutex;  // of all below
+    std::list<std::pair<std::string, std::shared_ptr<MountedLens>>> lenses;
+
+    std::size_t most_kept_bytes() const {
+        constexpr std::size_t kUnlimited = std::size_t(1) << 30;
+        return settings.max_memory_bytes > 0 ? settings.max_memory_bytes / 8 : kUnlimited;
+    }
+
+    // A defocus alone. Errors: those of Session::defocus(). Throws Cancelled.
+    Result<DefocusReport> defocus(const DefocusJob& asked, Progress& progress, CancellableWorkers& workers);
+
+    // Runs body(progress, workers), which gives a report, for one frame.
+    template <typename Body>
+    Result<DefocusReport> unless_cancelled(const Control& control, const Body& body) {
+        Progress progress(control.progress, control.cancelled);
+        CancellableWorkers cancellable(*settings.workers, progress);
+        try {
+            return body(progress, cancellable);
+        } catch (const Cancelled&) {
+            return Error{ErrorCode::Cancelled, "cancelled"};
+        }
+    }
+
+    // Errors: those of the lens.
+    Result<std::shared_ptr<MountedLens>> lens_for(const DefocusJob& job) {
+        const std::string key = MountedLens::key_of(job);
+        if (!key.empty()) {
+            const std::lock_guard lock(mutex);
+            for (auto i = lenses.begin(); i != lenses.end(); ++i) {
+                if (i->first != key) continue;
+                lenses.splice(lenses.begin(), lenses, i);
+                return i->second;
+            }
+        }
+        auto made = MountedLens::make(job);
+        if (!made || key.empty()) return made;
+        const std::lock_guard lock(mutex);
+        lenses.emplace_front(key, *made);
+        return made;
+    }
+
+    // Of lenses that hold more than the others leave them: first their kernels go, then they.
+    void trim(std::size_t bytes) {
+        constexpr std::size_t kMostLenses = 8;  // each holds tables besides its kernels
+        const std::lock_guard lock(mutex);
+        std::size_t held = 0;
+        for (auto& [key, lens] : lenses) {
+            lens->kernels.trim(bytes - std::min(bytes, held));
+            held += lens->kernels.bytes();
+        }
+        while (lenses.size() > (bytes > 0 ? kMostLenses : 0)) lenses.pop_back();
+    }
+
+    SessionUsage usage() const {
+        const std::lock_guard lock(mutex);
+        SessionUsage usage;
+        for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->kernels.bytes();
+        usage.lenses = int(lenses.size());
+        return usage;
+    }
+};
+
+}  // namespace petzval
