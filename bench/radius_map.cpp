@@ -25,8 +25,7 @@ int main(int count, char** words) {
     float largest = 1e-6f;
     for (std::size_t i = 0; i < radii.size(); ++i) largest = std::max(largest, std::abs(radii.pixels()[i]));
     Frame map;
-    map.display_window = read->display_window;
-    map.data_window = read->data_window;
+    map.place = read->place;
     map.colour = Picture(radii.width(), radii.height());
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const float share = std::abs(radii.pixels()[i]) / largest;

@@ -157,7 +157,7 @@ int main(int count, char** words) {
     DefocusJob job;
     job.colour = colour;
     job.depth_m = depth_m;
-    job.display_window = job.data_window = colour.rect();
+    job.place = Place::whole(colour.rect());
     job.camera = camera_of(frame->camera);
     job.lens.name = options.lens;
     job.engine = options.engine;

@@ -77,6 +77,7 @@ PUBLIC = {
     "look_json": "look",
     "names": "names",
     "ocio": "ocio",
+    "place": "image",
     "petzval": "session",
     "petzval_c": "c",
     "pixel_view": "image",

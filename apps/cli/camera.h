@@ -28,8 +28,8 @@ struct CameraFlags {
 
 // What only `defocus` knows: a pixel to focus on and the artist's controls.
 struct FocusFlags {
-    std::optional<Pixel> focus_at;     // in pixels of the display window
-    std::optional<Place> focus_point;  // of the world, in scene units
+    std::optional<Pixel> focus_at;          // in pixels of the display window
+    std::optional<WorldPoint> focus_point;  // of the world, in scene units
     std::optional<Interval> focus_range_m;
     std::optional<double> max_radius_px, near_scale, far_scale, focus_falloff;
     // Blur that still counts as sharp, for the focus view and the limits in the report.

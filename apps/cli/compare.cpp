@@ -29,7 +29,7 @@ struct CompareFlags {
 
 // The picture over the whole display window, empty where the file has no pixels.
 Picture over_display_window(const Frame& frame) {
-    return through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
+    return through_window(frame.colour, frame.place.data_window, frame.place.display_window, Rgba{});
 }
 
 std::string size_text(int width, int height) {

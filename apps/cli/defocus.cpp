@@ -108,7 +108,7 @@ Status Run::expand_plate() {
 Status Run::read_lights() {
     const std::string& path = flags_.engine_options.points;
     if (path.empty()) return Done{};
-    auto points = read_points(path, input_.frame.data_window);
+    auto points = read_points(path, input_.frame.place.data_window);
     if (!points) return points.error();
     points_ = std::move(*points);
     if (points_.has_depth && flags_.input.depth_is_coc())
@@ -142,7 +142,8 @@ Status Run::choose_camera() {
     camera_ = *camera;
     note(camera_line(input_.camera, image_scale()));
     report_["camera"] = camera_json(input_.camera, image_scale());
-    const auto limits = focus_limits(camera_, input_.frame.display_window.width(), permissible_radius_px());
+    const auto limits =
+        focus_limits(camera_, input_.frame.place.display_window.width(), permissible_radius_px());
     if (limits) report_["focus_limits"] = limits_json(*limits, permissible_radius_px());
     return Done{};
 }

@@ -177,9 +177,7 @@ DefocusJob DefocusFlags::job(const Input& loaded, const Camera& complete) const 
     if (!loaded.frame.deep.empty()) job.deep = &loaded.frame.deep;
     if (!loaded.behind.empty()) job.behind = &loaded.behind;
     if (!loaded.holdout.empty()) job.holdout = &loaded.holdout;
-    job.display_window = loaded.frame.display_window;
-    job.data_window = loaded.frame.data_window;
-    job.pixel_aspect = loaded.frame.pixel_aspect;
+    job.place = loaded.frame.place;
     job.camera = complete;
     job.coc = focus.controls();
     job.lens = lens.choice();

@@ -27,19 +27,18 @@ WriteOptions exr_options(const ViewSettings& settings) {
 
 // An EXR keeps the window of the input; a PNG knows only the display window.
 const Rect& window_of(const Frame& frame, const ViewSettings& settings) {
-    return is_exr(settings) ? frame.data_window : frame.display_window;
+    return is_exr(settings) ? frame.place.data_window : frame.place.display_window;
 }
 
 template <typename T>
 Image<T> in_output_window(const Image<T>& pixels, const Frame& frame, const ViewSettings& settings, T fill) {
-    return through_window(pixels, frame.data_window, window_of(frame, settings), fill);
+    return through_window(pixels, frame.place.data_window, window_of(frame, settings), fill);
 }
 
 Status write_plane(const std::string& channel, View<const float> plane, const Frame& frame,
                    const ViewSettings& settings, WriteOptions options) {
     options.type = PixelType::Float;
-    return write_exr_planes(settings.output, frame.display_window, frame.data_window, {{channel, plane}},
-                            options);
+    return write_exr_planes(settings.output, frame.place, {{channel, plane}}, options);
 }
 
 // "FOCUS 4 M  85 MM F/4"
@@ -60,9 +59,7 @@ Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& 
         return write_developed(settings.output, picture.view(), as_it_is, settings.overwrite);
     }
     Frame drawn;
-    drawn.display_window = frame.display_window;
-    drawn.data_window = frame.data_window;
-    drawn.pixel_aspect = frame.pixel_aspect;
+    drawn.place = frame.place;
     drawn.colour = std::move(picture);
     return write_exr(settings.output, drawn, exr_options(settings));
 }
@@ -123,12 +120,11 @@ Status write_panels(Frame& frame, const ViewSource& source, const ViewSettings& 
         std::vector<NamedPlane> named;
         for (const PanelPlane& p : planes) named.push_back({p.channel, p.values.view()});
         options.type = PixelType::Float;
-        return write_exr_planes(settings.output, frame.display_window, frame.data_window, named, options);
+        return write_exr_planes(settings.output, frame.place, named, options);
     }
     options.attributes.emplace_back("petzval:panels", places_of(source.panels));
     Frame alone;
-    alone.display_window = alone.data_window = atlas.rect();
-    alone.pixel_aspect = frame.pixel_aspect;
+    alone.place = Place::whole(atlas.rect(), frame.place.pixel_aspect);
     alone.has_alpha = true;
     alone.colour = atlas.clone();
     return write_exr(settings.output, alone, options);

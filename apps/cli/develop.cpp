@@ -51,7 +51,7 @@ Status develop_file(const DevelopVerbFlags& flags) {
         flags.develop.settings(input->frame.display_referred, flags.input.transfer, flags.run.threads);
     settings.dither = !flags.no_dither;
     const Frame& frame = input->frame;
-    Picture shown = through_window(frame.colour, frame.data_window, frame.display_window, Rgba{});
+    Picture shown = through_window(frame.colour, frame.place.data_window, frame.place.display_window, Rgba{});
     if (flags.ocio.is_on()) {
         std::string used;
         std::vector<std::string> said;

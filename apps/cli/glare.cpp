@@ -93,12 +93,8 @@ Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const LensChoic
     if (given().empty()) return Done{};
     const Camera camera = known_numbers(found);
     if (vignetting) {
-        auto dimmed = add_falloff(frame.colour.view(), {.camera = camera,
-                                                        .lens = lens,
-                                                        .display_window = frame.display_window,
-                                                        .data_window = frame.data_window,
-                                                        .pixel_aspect = frame.pixel_aspect,
-                                                        .threads = threads});
+        auto dimmed = add_falloff(frame.colour.view(),
+                                  {.camera = camera, .lens = lens, .place = frame.place, .threads = threads});
         if (!dimmed) return dimmed.error();
         frame.colour = std::move(*dimmed);
     }
@@ -108,16 +104,14 @@ Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const LensChoic
     settings.star = star.value_or(0);
     settings.star_radius = star_radius.value_or(settings.star_radius);
     settings.star_quality = star_quality.value_or(settings.star_quality);
-    settings.diffraction_px = diffraction_px(camera, frame.display_window.width());
+    settings.diffraction_px = diffraction_px(camera, frame.place.display_window.width());
     settings.ghosts = ghosts.value_or(0);
     settings.coating = coating.value_or(settings.coating);
     settings.camera = camera;
     settings.veil = veil.value_or(0);
     settings.threshold = threshold.value_or(settings.threshold);
     settings.lens = lens;
-    settings.display_window = frame.display_window;
-    settings.data_window = frame.data_window;
-    settings.pixel_aspect = frame.pixel_aspect;
+    settings.place = frame.place;
     settings.threads = threads;
     auto glared = add_glare(frame.colour.view(), settings);
     if (!glared) return glared.error();

@@ -24,12 +24,10 @@ DepthSettings depth_settings(const InputFlags& flags, const FoundCamera& camera)
 // The depth of a frame, and of its deep samples, made planar metres in place.
 Result<DepthReport> convert_depth(Frame& frame, const DepthSettings& settings) {
     if (frame.depth.empty()) return DepthReport{};
-    auto report = depth_to_planar_metres(frame.depth.view(), frame.display_window, frame.data_window,
-                                         frame.pixel_aspect, settings);
+    auto report = depth_to_planar_metres(frame.depth.view(), frame.place, settings);
     if (!report) return report;
     if (!frame.deep.empty()) {
-        const auto deep = deep_to_planar_metres(frame.deep, frame.display_window, frame.data_window,
-                                                frame.pixel_aspect, settings);
+        const auto deep = deep_to_planar_metres(frame.deep, frame.place, settings);
         if (!deep) return deep.error();
     }
     return report;
@@ -87,20 +85,21 @@ Status load_behind(Input& input, const InputFlags& flags, const DepthSettings& s
     auto read = load_other(input, "behind", flags.behind, flags, settings, depth);
     if (!read) return read.error();
     Frame& hidden = *read;
-    if (hidden.data_window != input.frame.data_window)
-        return Error{ErrorCode::InvalidFile, "--behind " + flags.behind + " covers " +
-                                                 window_text(hidden.data_window) + ", but " + flags.path +
-                                                 " covers " + window_text(input.frame.data_window) +
-                                                 "; they must be the same"};
+    if (hidden.place.data_window != input.frame.place.data_window)
+        return Error{ErrorCode::InvalidFile,
+                     "--behind " + flags.behind + " covers " + window_text(hidden.place.data_window) +
+                         ", but " + flags.path + " covers " + window_text(input.frame.place.data_window) +
+                         "; they must be the same"};
     input.behind = samples_of(hidden);
     return Done{};
 }
 
 Status same_shot(const Frame& frame, const Frame& other, const std::string& flag, const std::string& input) {
-    if (frame.display_window == other.display_window) return Done{};
-    return Error{ErrorCode::InvalidFile,
-                 flag + " has a display window of " + window_text(other.display_window) + ", but that of " +
-                     input + " is " + window_text(frame.display_window) + "; they must be the same"};
+    if (frame.place.display_window == other.place.display_window) return Done{};
+    return Error{ErrorCode::InvalidFile, flag + " has a display window of " +
+                                             window_text(other.place.display_window) + ", but that of " +
+                                             input + " is " + window_text(frame.place.display_window) +
+                                             "; they must be the same"};
 }
 
 Rect around(const Rect& a, const Rect& b) {
@@ -123,28 +122,28 @@ void extend(DepthReport& report, const DepthReport& other) {
 Status merge_files(Input& input, const InputFlags& flags, const DepthSettings& settings) {
     Frame& frame = input.frame;
     std::vector<DeepPicture> pictures;
-    std::vector<Rect> windows{frame.data_window};
+    std::vector<Rect> windows{frame.place.data_window};
     pictures.push_back(samples_of(frame));
-    Rect all = frame.data_window;
+    Rect all = frame.place.data_window;
     for (const std::string& path : flags.merge) {
         DepthReport depth;
         auto other = load_other(input, path, path, flags, settings, depth);
         if (!other) return other.error();
         if (Status same = same_shot(frame, *other, "--merge " + path, flags.path); !same) return same;
-        all = around(all, other->data_window);
+        all = around(all, other->place.data_window);
         if (is_too_large(all))
             return Error{ErrorCode::InvalidFile, "--merge " + path +
                                                      " lies too far from the other pictures: together "
                                                      "they cover " +
                                                      window_text(all)};
         extend(input.depth, depth);
-        windows.push_back(other->data_window);
+        windows.push_back(other->place.data_window);
         pictures.push_back(samples_of(*other));
     }
     std::vector<PlacedDeep> parts;
     for (std::size_t i = 0; i < pictures.size(); ++i) parts.push_back({&pictures[i], windows[i]});
     frame.deep = merge_deep(parts, all);
-    frame.data_window = all;
+    frame.place.data_window = all;
     frame.has_alpha = true;
     flatten(frame.deep, frame.colour, frame.depth, flags.read.threads);
     return Done{};
@@ -156,9 +155,9 @@ Status load_holdout(Input& input, const InputFlags& flags, const DepthSettings& 
     if (!matte) return matte.error();
     if (Status same = same_shot(input.frame, *matte, "--holdout " + flags.holdout, flags.path); !same)
         return same;
-    const Rect window = matte->data_window;
+    const Rect window = matte->place.data_window;
     const DeepPicture samples = samples_of(*matte);
-    input.holdout = merge_deep({{&samples, window}}, input.frame.data_window);
+    input.holdout = merge_deep({{&samples, window}}, input.frame.place.data_window);
     if (input.holdout.empty())
         input.warnings.push_back("holdout: " + flags.holdout + " holds nothing inside the picture's window");
     return Done{};
@@ -274,7 +273,7 @@ Result<Input> load_input(const InputFlags& flags, const CameraFlags& camera) {
 
 Result<bool> grow_empty_sides(Input& input, int by_px) {
     Frame& frame = input.frame;
-    const Rect old = frame.data_window, &display = frame.display_window;
+    const Rect old = frame.place.data_window, &display = frame.place.display_window;
     const Rect wider{
         old.x0 > display.x0 ? old.x0 - by_px : old.x0, old.y0 > display.y0 ? old.y0 - by_px : old.y0,
         old.x1 < display.x1 ? old.x1 + by_px : old.x1, old.y1 < display.y1 ? old.y1 + by_px : old.y1};
@@ -287,14 +286,14 @@ Result<bool> grow_empty_sides(Input& input, int by_px) {
     frame.depth = grown(frame.depth, old, wider, true);
     for (DeepPicture* deep : {&frame.deep, &input.behind, &input.holdout})
         if (!deep->empty()) *deep = merge_deep({{deep, old}}, wider);
-    frame.data_window = wider;
+    frame.place.data_window = wider;
     frame.has_alpha = true;
     return true;
 }
 
 Status focus_on_pixel(Input& input, Pixel pixel) {
-    const Rect& display = input.frame.display_window;
-    const Rect& data = input.frame.data_window;
+    const Rect& display = input.frame.place.display_window;
+    const Rect& data = input.frame.place.data_window;
     const int x = pixel.x + display.x0 - data.x0, y = pixel.y + display.y0 - data.y0;
     const std::string where = std::to_string(pixel.x) + "," + std::to_string(pixel.y);
     if (x < 0 || y < 0 || x >= data.width() || y >= data.height())
@@ -308,7 +307,7 @@ Status focus_on_pixel(Input& input, Pixel pixel) {
     return Done{};
 }
 
-Result<std::string> focus_on_point(Input& input, Place place, double unit_scale_m) {
+Result<std::string> focus_on_point(Input& input, WorldPoint place, double unit_scale_m) {
     const std::string name = "--focus-point " + plain(place.x) + "," + plain(place.y) + "," + plain(place.z);
     if (!input.camera.camera_from_world)
         return Error{ErrorCode::InvalidArgument,

@@ -63,6 +63,6 @@ Status focus_on_pixel(Input& input, Pixel pixel);
 // The same by a point of the world, in scene units of `unit_scale_m` metres. Returns a warning, or nothing:
 // where it lies behind OpenEXR's camera, the matrix is taken as one of a camera that looks along -z. Errors:
 // InvalidArgument without a camera matrix, or for a point in the plane of the lens.
-Result<std::string> focus_on_point(Input& input, Place place, double unit_scale_m);
+Result<std::string> focus_on_point(Input& input, WorldPoint place, double unit_scale_m);
 
 }  // namespace petzval::cli

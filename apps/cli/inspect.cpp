@@ -111,7 +111,7 @@ std::optional<FocusLimits> limits_of(const Input& input, const InspectFlags& fla
     const auto camera = complete_camera(input.camera, scale, "", "");
     if (!camera) return std::nullopt;
     const auto limits =
-        focus_limits(*camera, input.frame.display_window.width(), flags.permissible_radius_px);
+        focus_limits(*camera, input.frame.place.display_window.width(), flags.permissible_radius_px);
     return limits ? std::optional(*limits) : std::nullopt;
 }
 
@@ -119,8 +119,8 @@ std::string description(const Input& input, const InspectFlags& all, const Dynam
     const InputFlags& flags = all.input;
     std::ostringstream out;
     const Frame& frame = input.frame;
-    out << one_line(flags.path) << "\n  display window " << window_text(frame.display_window);
-    if (frame.pixel_aspect != 1) out << ", pixel aspect " << plain(frame.pixel_aspect);
+    out << one_line(flags.path) << "\n  display window " << window_text(frame.place.display_window);
+    if (frame.place.pixel_aspect != 1) out << ", pixel aspect " << plain(frame.place.pixel_aspect);
     if (frame.display_referred) out << ", display-referred";
     out << "\n";
     describe_parts(frame, out);
@@ -140,9 +140,9 @@ Json report_of(const Input& input, const InspectFlags& all, const DynamicRange& 
     Json report = new_report("inspect");
     const Frame& frame = input.frame;
     report["input"] = flags.path;
-    report["display_window"] = window_json(frame.display_window);
-    report["data_window"] = window_json(frame.data_window);
-    report["pixel_aspect"] = frame.pixel_aspect;
+    report["display_window"] = window_json(frame.place.display_window);
+    report["data_window"] = window_json(frame.place.data_window);
+    report["pixel_aspect"] = frame.place.pixel_aspect;
     report["display_referred"] = frame.display_referred;
     report["has_alpha"] = frame.has_alpha;
     report["parts"] = Json::array();

@@ -118,7 +118,7 @@ public:
         options.type = PixelType::Float;
         options.overwrite = overwrite;
         options.attributes = std::move(attributes);
-        return write_exr_planes(path, window, window, named, options);
+        return write_exr_planes(path, Place::whole(window), named, options);
     }
 
 private:

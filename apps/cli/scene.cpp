@@ -125,10 +125,9 @@ Camera complete(const FoundCamera& found, ImageScale image_scale) {
             .image_scale = image_scale};
 }
 
-Frame frame_of(const Rect& display_window, const Rect& data_window, Picture colour) {
+Frame frame_of(const Place& place, Picture colour) {
     Frame frame;
-    frame.display_window = display_window;
-    frame.data_window = data_window;
+    frame.place = place;
     frame.has_alpha = true;
     frame.colour = std::move(colour);
     return frame;
@@ -141,15 +140,17 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
     options.camera.camera_from_world = scene.camera_from_world;
     options.threads = flags.scene.threads;
     const Rect display{0, 0, flags.scene.width, flags.scene.height};
-    Frame sharp = frame_of(display, scene.data_window, std::move(scene.colour));
+    const Place place{display, scene.data_window};
+    Frame sharp = frame_of(place, std::move(scene.colour));
     sharp.depth = std::move(scene.depth_m);
     if (Status done = write_exr(flags.output, sharp, options); !done) return done;
     if (!flags.truth.empty())
-        if (Status done = write_exr(flags.truth, frame_of(display, display, std::move(scene.truth)), options);
+        if (Status done =
+                write_exr(flags.truth, frame_of(Place::whole(display), std::move(scene.truth)), options);
             !done)
             return done;
     if (!flags.layers.empty()) {
-        Status done = write_deep_exr(flags.layers, display, scene.data_window, scene.layers, options);
+        Status done = write_deep_exr(flags.layers, place, scene.layers, options);
         if (!done) return done;
     }
     for (const std::string& file : flags.outputs()) note("wrote " + file);

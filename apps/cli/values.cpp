@@ -134,14 +134,14 @@ Result<Pixel> parse_pixel(const std::string& text) {
     return Pixel{*x, *y};
 }
 
-Result<Place> parse_place(const std::string& text) {
+Result<WorldPoint> parse_place(const std::string& text) {
     const std::size_t comma = std::min(text.find(','), text.size());
     const auto others = split_at_comma(text.substr(std::min(comma + 1, text.size())));
     const auto x = whole_number(text.substr(0, comma)), y = whole_number(others ? others->first : ""),
                z = whole_number(others ? others->second : "");
     if (!x || !y || !z || !std::isfinite(*x + *y + *z))
         return no("must be a point of the scene, three numbers in its units, as 1.5,0,-3");
-    return Place{*x, *y, *z};
+    return WorldPoint{*x, *y, *z};
 }
 
 Result<int> parse_count(const std::string& text) {

@@ -21,7 +21,7 @@ struct Interval {
 struct Pixel {
     int x = 0, y = 0;
 };
-struct Place {
+struct WorldPoint {
     double x = 0, y = 0, z = 0;
 };
 
@@ -46,7 +46,7 @@ Result<Interval> parse_range_m(const std::string& text);
 // "480,270".
 Result<Pixel> parse_pixel(const std::string& text);
 // "1.5,0,-3": three finite numbers.
-Result<Place> parse_place(const std::string& text);
+Result<WorldPoint> parse_place(const std::string& text);
 
 Result<int> parse_count(const std::string& text);    // 1 and more
 Result<int> parse_threads(const std::string& text);  // 0 (all) … 1024

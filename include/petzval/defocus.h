@@ -8,6 +8,7 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
+#include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
@@ -33,8 +34,7 @@ struct DefocusJob {
     // the matte holds there in front of where the light came from. For engines scatter and reference.
     const DeepPicture* holdout = nullptr;
     // Where the pixels lie in the display window, for the field position of lenses and the sensor's width.
-    Rect display_window, data_window;
-    double pixel_aspect = 1;
+    Place place;
 
     Camera camera;
     CocControls coc;

@@ -4,6 +4,7 @@
 #include "petzval/deep.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
@@ -44,19 +45,16 @@ struct DepthReport {
 //
 // A value is a miss if it is NaN, infinite, of size >= 1e10 or 65504 (the largest half), 0 (except in
 // Normalized and Device, where 0 is the near end), or if its planar depth is not > 0.
-// `display` is the display window and `data` the window the plane covers, both in pixels of the same frame
-// (Ray needs them to know the axis; pixel_aspect = width / height of a pixel). If every finite value is
+// The plane covers the data window of `place`, which Ray needs to know the axis. If every finite value is
 // negative, absolute values are taken; otherwise negative values are misses; either way with one warning.
 // CocPx is not a depth: InvalidArgument. Errors: InvalidArgument naming the flag that is missing or out of
 // range.
-PETZVAL_API Result<DepthReport> depth_to_planar_metres(View<float> depth, const Rect& display,
-                                                       const Rect& data, double pixel_aspect,
+PETZVAL_API Result<DepthReport> depth_to_planar_metres(View<float> depth, const Place& place,
                                                        const DepthSettings& settings);
 
 // The same for both depths of every deep sample; samples stay nearest first. Each sample counts as a pixel
 // does.
-PETZVAL_API Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Rect& display,
-                                                      const Rect& data, double pixel_aspect,
+PETZVAL_API Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Place& place,
                                                       const DepthSettings& settings);
 
 }  // namespace petzval

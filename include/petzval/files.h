@@ -6,6 +6,7 @@
 #include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
@@ -62,12 +63,11 @@ class CarriedContent;
 
 // A picture with its depth and its place in the frame.
 struct Frame {
-    Rect display_window, data_window;  // data_window may be smaller, larger or offset
-    double pixel_aspect = 1;           // width / height of a pixel
-    Picture colour;                    // size of data_window; scene-linear Rec.709, premultiplied
-    bool has_alpha = false;            // false: colour.a is 1 everywhere
-    // Size of data_window, values as stored (see depth_to_planar_metres), +infinity where a depth of another
-    // window covers nothing; may be empty.
+    Place place;
+    Picture colour;          // size of the data window; scene-linear Rec.709, premultiplied
+    bool has_alpha = false;  // false: colour.a is 1 everywhere
+    // Size of the data window, values as stored (see depth_to_planar_metres), +infinity where a depth of
+    // another window covers nothing; may be empty.
     Plane depth;
     // All samples of a deep input with depths as stored (see deep_to_planar_metres), else empty. colour and
     // depth are then what it looks like from the front: samples one over the other, and the depth at which
@@ -124,10 +124,9 @@ PETZVAL_API void remove_unfinished_outputs();
 // written as float Z. Written beside `path`, synced, renamed: `path` is either complete or untouched.
 //
 // Carried channels are copied bit for bit from the input, which must still be what was read; where
-// frame.data_window is larger than the input's they are 0 there (depth: +infinity). Colour goes back to the
-// primaries of the input. Mip levels below the first are dropped.
-// Errors: InvalidArgument (sizes that do not match, an unknown compression), InvalidFile (the input changed),
-// OutputFailed.
+// the frame's data window is larger than the input's they are 0 there (depth: +infinity). Colour goes back to
+// the primaries of the input. Mip levels below the first are dropped. Errors: InvalidArgument (sizes that do
+// not match, an unknown compression), InvalidFile (the input changed), OutputFailed.
 PETZVAL_API Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options = {});
 
 // Planes under channel names, float, one part: circle of confusion, depth, bokeh textures.
@@ -135,14 +134,12 @@ struct NamedPlane {
     std::string channel;
     View<const float> plane;
 };
-PETZVAL_API Status write_exr_planes(const std::string& path, const Rect& display_window,
-                                    const Rect& data_window, const std::vector<NamedPlane>& planes,
-                                    const WriteOptions& options = {});
+PETZVAL_API Status write_exr_planes(const std::string& path, const Place& place,
+                                    const std::vector<NamedPlane>& planes, const WriteOptions& options = {});
 
 // A deep scanline EXR: half R, G, B, A (float with PixelType::Float) and float Z, ZBack (left out where no
 // sample has a thickness). Compression none, rle or zips, the only ones for deep files; empty: zips.
-PETZVAL_API Status write_deep_exr(const std::string& path, const Rect& display_window,
-                                  const Rect& data_window, const DeepPicture& deep,
+PETZVAL_API Status write_deep_exr(const std::string& path, const Place& place, const DeepPicture& deep,
                                   const WriteOptions& options = {});
 
 // 8 or 16 bit PNG of display-referred bytes already encoded (see develop.h). channels: 1, 3 or 4,

@@ -10,6 +10,7 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
+#include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
@@ -62,10 +63,9 @@ struct GlareSettings : GlareAmounts {
     double diffraction_px = 0;
     Camera camera;    // for the ghosts of a prescription: all four numbers
     LensChoice lens;  // the aperture, and the prescription for ghosts
-    // Where the pixels lie in the frame; empty: the picture is the frame. Shares of height are of the display
-    // window's, ghosts mirror about its centre.
-    Rect display_window, data_window;
-    double pixel_aspect = 1;
+    // Of an empty display window: the picture is the frame. Shares of height are of the display window's,
+    // ghosts mirror about its centre.
+    Place place;
     int threads = 0;             // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
@@ -81,8 +81,7 @@ PETZVAL_API Result<Picture> add_glare(View<const Rgba> picture, const GlareSetti
 struct FalloffSettings {
     Camera camera = {};  // focal length and sensor width; for a prescription also f-number and focus
     LensChoice lens = {};
-    Rect display_window = {}, data_window = {};  // as above
-    double pixel_aspect = 1;
+    Place place = {};  // as above
     int threads = 0;
     Workers* workers = nullptr;
 };

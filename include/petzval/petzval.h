@@ -18,6 +18,7 @@
 #include "petzval/look.h"
 #include "petzval/look_json.h"
 #include "petzval/names.h"
+#include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/session.h"
 #include "petzval/version.h"

@@ -55,13 +55,13 @@ Status check(const DepthSettings& s) {
 // Turns one stored value into planar metres: what the kind says, without misses and signs.
 class Converter {
 public:
-    Converter(const Rect& display, double pixel_aspect, const DepthSettings& s)
-        : kind_(s.kind), scale_m_(s.unit_scale_m) {
+    Converter(const Place& place, const DepthSettings& s) : kind_(s.kind), scale_m_(s.unit_scale_m) {
         if (s.range_near) near_ = *s.range_near;
         if (s.range_far) far_ = *s.range_far;
         if (kind_ == DepthKind::Ray) {
+            const Rect& display = place.display_window;
             tan_per_px_x_ = *s.sensor_width_mm / *s.focal_length_mm / display.width();
-            tan_per_px_y_ = tan_per_px_x_ / pixel_aspect;
+            tan_per_px_y_ = tan_per_px_x_ / place.pixel_aspect;
             axis_x_ = 0.5 * (double(display.x0) + display.x1);
             axis_y_ = 0.5 * (double(display.y0) + display.y1);
         }
@@ -163,32 +163,30 @@ DepthReport report_of(const Tally& before, const Tally& after) {
     return report;
 }
 
-Status check_windows(int width, int height, const Rect& display, const Rect& data, double pixel_aspect) {
-    if (width != data.width() || height != data.height() || display.empty())
+Status check_place(int width, int height, const Place& place) {
+    const Rect& data = place.data_window;
+    if (!place.fits(width, height))
         return Error{ErrorCode::InvalidArgument, "depth is " + std::to_string(width) + "x" +
                                                      std::to_string(height) + " but its data window is " +
                                                      std::to_string(data.width()) + "x" +
                                                      std::to_string(data.height())};
-    if (!(pixel_aspect > 0) || !std::isfinite(pixel_aspect))
-        return Error{ErrorCode::InvalidArgument,
-                     "the pixel aspect ratio must be > 0, got " + std::to_string(pixel_aspect)};
-    return Done{};
+    return check(place);
 }
 
 }  // namespace
 
-Result<DepthReport> depth_to_planar_metres(View<float> depth, const Rect& display, const Rect& data,
-                                           double pixel_aspect, const DepthSettings& settings) {
+Result<DepthReport> depth_to_planar_metres(View<float> depth, const Place& place,
+                                           const DepthSettings& settings) {
     if (Status s = check(settings); !s) return s.error();
-    if (Status s = check_windows(depth.width(), depth.height(), display, data, pixel_aspect); !s)
-        return s.error();
+    if (Status s = check_place(depth.width(), depth.height(), place); !s) return s.error();
     const DepthKind kind = settings.kind;
     const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
     const Tally before = tally_rows(depth.height(), *workers, [&](int y, Tally& tally) {
         for (int x = 0; x < depth.width(); ++x) tally.look_at(depth(x, y), kind);
     });
     const float sign = before.negative > 0 && before.positive == 0 ? -1.f : 1.f;
-    const Converter to(display, pixel_aspect, settings);
+    const Converter to(place, settings);
+    const Rect& data = place.data_window;
     const Tally after = tally_rows(depth.height(), *workers, [&](int y, Tally& tally) {
         for (int x = 0; x < depth.width(); ++x) {
             float& d = depth(x, y);
@@ -199,11 +197,10 @@ Result<DepthReport> depth_to_planar_metres(View<float> depth, const Rect& displa
     return report_of(before, after);
 }
 
-Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Rect& display, const Rect& data,
-                                          double pixel_aspect, const DepthSettings& settings) {
+Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Place& place,
+                                          const DepthSettings& settings) {
     if (Status s = check(settings); !s) return s.error();
-    if (Status s = check_windows(deep.width(), deep.height(), display, data, pixel_aspect); !s)
-        return s.error();
+    if (Status s = check_place(deep.width(), deep.height(), place); !s) return s.error();
     const DepthKind kind = settings.kind;
     const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
     const auto row = [&](int y) {
@@ -215,7 +212,8 @@ Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Rect& display
         for (const DeepSample& s : row(y)) tally.look_at(s.depth_m, kind);
     });
     const float sign = before.negative > 0 && before.positive == 0 ? -1.f : 1.f;
-    const Converter to(display, pixel_aspect, settings);
+    const Converter to(place, settings);
+    const Rect& data = place.data_window;
     const bool reorder = to.reverses_order() || sign < 0;
     const Tally after = tally_rows(deep.height(), *workers, [&](int y, Tally& tally) {
         for (int x = 0; x < deep.width(); ++x) {

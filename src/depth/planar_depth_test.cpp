@@ -21,7 +21,7 @@ struct Converted {
 Converted convert(std::vector<float> values, const DepthSettings& settings) {
     const Rect window{0, 0, int(values.size()), 1};
     const View<float> view(values.data(), window.width(), 1, window.width());
-    const Result<DepthReport> report = depth_to_planar_metres(view, window, window, 1, settings);
+    const Result<DepthReport> report = depth_to_planar_metres(view, Place::whole(window), settings);
     EXPECT_TRUE(report) << (report ? "" : report.error().message);
     return {values, report ? *report : DepthReport{}};
 }
@@ -40,8 +40,7 @@ DepthSettings of_range(DepthKind kind, double near, double far) {
 
 std::string refusal(const DepthSettings& settings) {
     float value = 1;
-    const auto r =
-        depth_to_planar_metres(View<float>(&value, 1, 1, 1), {0, 0, 1, 1}, {0, 0, 1, 1}, 1, settings);
+    const auto r = depth_to_planar_metres(View<float>(&value, 1, 1, 1), Place::whole({0, 0, 1, 1}), settings);
     return r ? "" : r.error().message;
 }
 
@@ -87,7 +86,7 @@ TEST(PlanarDepth, RayDistanceOfAWallIsFlatAgainWithAnyWindowAndPixelAspect) {
             depth(x, y) =
                 float(wall_m * std::sqrt(x_mm * x_mm + y_mm * y_mm + focal_mm * focal_mm) / focal_mm);
         }
-    ASSERT_TRUE(depth_to_planar_metres(depth, display, data, aspect, settings));
+    ASSERT_TRUE(depth_to_planar_metres(depth, {display, data, aspect}, settings));
     for (std::size_t i = 0; i < depth.size(); ++i) ASSERT_NEAR(depth.pixels()[i], wall_m, 1e-5);
 }
 
@@ -134,7 +133,7 @@ TEST(PlanarDepth, DeepSamplesBecomeMetresAndStayNearestFirst) {
         2, 1, {0, 2, 3},
         {{{1, 0, 0, 1}, 0.25f, 0.2f}, {{0, 1, 0, 1}, 0.5f, 0.5f}, {{0, 0, 1, 1}, kInfinity, kInfinity}});
     const Rect window{0, 0, 2, 1};
-    const auto report = deep_to_planar_metres(deep, window, window, 1, of_kind(DepthKind::Inverse));
+    const auto report = deep_to_planar_metres(deep, Place::whole(window), of_kind(DepthKind::Inverse));
     ASSERT_TRUE(report);
     EXPECT_EQ(report->misses, 1u);
     EXPECT_EQ(deep.at(0, 0)[0].colour.g, 1);

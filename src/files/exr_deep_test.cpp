@@ -53,16 +53,15 @@ void expect_equal(const DeepPicture& a, const DeepPicture& b) {
 TEST(DeepExr, EverySampleComesBackWithAnyWindowCompressionAndEmptyPixels) {
     const TemporaryFolder folder;
     const DeepPicture deep = ramp(13, 150, [](int x, int y) { return (x * y) % 5; });
-    const Rect display{0, 0, 20, 20}, data{-3, 7, 10, 157};
+    const Place place{{0, 0, 20, 20}, {-3, 7, 10, 157}, 1.5};
     for (const char* compression : {"none", "rle", "zips"}) {
         WriteOptions options;
         options.compression = compression;
-        const Status written = write_deep_exr(folder / "a.exr", display, data, deep, options);
+        const Status written = write_deep_exr(folder / "a.exr", place, deep, options);
         ASSERT_TRUE(written) << written.error().message;
         const Result<Frame> frame = read_frame(folder / "a.exr");
         ASSERT_TRUE(frame) << frame.error().message;
-        EXPECT_EQ(frame->data_window, data);
-        EXPECT_EQ(frame->display_window, display);
+        EXPECT_EQ(frame->place, place);
         EXPECT_EQ(frame->parts[0].compression, compression);
         expect_equal(deep, frame->deep);
     }
@@ -73,7 +72,7 @@ TEST(DeepExr, VolumesKeepTheirThicknessAndFloatColoursTheirValue) {
     const DeepPicture deep(1, 1, {0, 2}, {{{1e6f, 0.1f, 0, 0.3f}, 2, 2.5f}, {{0, 0, 0, 1}, 7, 7}});
     WriteOptions options;
     options.type = PixelType::Float;
-    ASSERT_TRUE(write_deep_exr(folder / "a.exr", {0, 0, 1, 1}, {0, 0, 1, 1}, deep, options));
+    ASSERT_TRUE(write_deep_exr(folder / "a.exr", Place::whole({0, 0, 1, 1}), deep, options));
     const Result<Frame> frame = read_frame(folder / "a.exr");
     ASSERT_TRUE(frame) << frame.error().message;
     expect_equal(deep, frame->deep);
@@ -85,7 +84,7 @@ TEST(DeepExr, AHundredThousandSamplesInOnePixelAreNoProblem) {
     const DeepPicture deep = ramp(3, 2, [](int x, int y) { return x == 1 && y == 1 ? 100000 : 1; });
     WriteOptions options;
     options.type = PixelType::Float;
-    ASSERT_TRUE(write_deep_exr(folder / "a.exr", {0, 0, 3, 2}, {0, 0, 3, 2}, deep, options));
+    ASSERT_TRUE(write_deep_exr(folder / "a.exr", Place::whole({0, 0, 3, 2}), deep, options));
     const Result<Frame> frame = read_frame(folder / "a.exr");
     ASSERT_TRUE(frame) << frame.error().message;
     expect_equal(deep, frame->deep);
@@ -153,7 +152,7 @@ TEST(DeepExr, DeepTilesAreReadAndSortedNearestFirst) {
 TEST(DeepExr, ADeepInputIsWrittenBackFlatAndStaysTiled) {
     const TemporaryFolder folder;
     write_deep_tiles(folder / "tiles.exr", 20, 30, 8);
-    ASSERT_TRUE(write_deep_exr(folder / "lines.exr", {0, 0, 20, 30}, {0, 0, 20, 30},
+    ASSERT_TRUE(write_deep_exr(folder / "lines.exr", Place::whole({0, 0, 20, 30}),
                                ramp(20, 30, [](int, int) { return 2; })));
     for (const auto& [name, type] : {std::pair("tiles.exr", "tiledimage"), {"lines.exr", "scanlineimage"}}) {
         const Result<Frame> frame = read_frame(folder / name);
@@ -220,7 +219,7 @@ TEST(DeepExr, DamagedAndTruncatedFilesAreErrors) {
     const test::WithoutExrThreads quick;
     const TemporaryFolder folder;
     const DeepPicture deep = ramp(9, 5, [](int x, int y) { return (x + y) % 4; });
-    ASSERT_TRUE(write_deep_exr(folder / "lines.exr", {0, 0, 9, 5}, {0, 0, 9, 5}, deep));
+    ASSERT_TRUE(write_deep_exr(folder / "lines.exr", Place::whole({0, 0, 9, 5}), deep));
     write_deep_tiles(folder / "tiles.exr", 9, 5, 4);
     for (const char* name : {"lines.exr", "tiles.exr"}) {
         const std::string good = test::bytes_of(folder / name), path = folder / "bad.exr";

@@ -95,10 +95,9 @@ void write_samples(Imf::MultiPartOutputFile& output, const DeepPicture& deep, co
 
 }  // namespace
 
-Status write_deep_exr(const std::string& path, const Rect& display_window, const Rect& data_window,
-                      const DeepPicture& deep, const WriteOptions& options) {
-    if (data_window.empty() || display_window.empty() || deep.width() != data_window.width() ||
-        deep.height() != data_window.height())
+Status write_deep_exr(const std::string& path, const Place& place, const DeepPicture& deep,
+                      const WriteOptions& options) {
+    if (!check(place) || !place.fits(deep.width(), deep.height()))
         return Error{ErrorCode::InvalidArgument,
                      "a deep picture must have the size of its data window, at least 1x1"};
     const std::string compression = options.compression.empty() ? "zips" : lower(options.compression);
@@ -114,18 +113,18 @@ Status write_deep_exr(const std::string& path, const Rect& display_window, const
     channels.push_back(plain_channel("Z", SampleType::Float));
     if (has_back) channels.push_back(plain_channel("ZBack", SampleType::Float));
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {
-        Imf::Header header = new_header(display_window, data_window, 1, channels);
+        Imf::Header header = new_header(place, channels);
         header.setType(Imf::DEEPSCANLINE);
         WriteOptions chosen = options;
         chosen.compression = compression;
-        if (Status s = apply(chosen, display_window, header); !s) return s;
+        if (Status s = apply(chosen, place.display_window, header); !s) return s;
         WriteReport report;
         Imf::MultiPartOutputFile output(stream, &header, 1, false,
                                         exr_threads(*workers_of(options.threads, options.workers)));
         if (wide)
-            write_samples<float>(output, deep, data_window, has_back, report);
+            write_samples<float>(output, deep, place.data_window, has_back, report);
         else
-            write_samples<Imath::half>(output, deep, data_window, has_back, report);
+            write_samples<Imath::half>(output, deep, place.data_window, has_back, report);
         if (options.report) *options.report = report;
         return Done{};
     });

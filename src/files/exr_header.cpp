@@ -57,7 +57,7 @@ Imf::Header copied_header(const Imf::Header& input, const Frame& frame, bool fla
     std::vector<std::string> unwanted{"chunkCount"};  // OpenEXR counts anew
     if (flat) unwanted.insert(unwanted.end(), {"version", "maxSamplesPerPixel"});
     Imf::Header header = without(input, unwanted);
-    header.displayWindow() = box_of(frame.display_window);
+    header.displayWindow() = box_of(frame.place.display_window);
     if (!header.hasType()) header.setType(header.hasTileDescription() ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
     return header;
 }
@@ -74,10 +74,9 @@ bool loses_again(const std::string& compression, const Channel& channel) {
 
 Imath::Box2i box_of(const Rect& r) { return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}}; }
 
-Imf::Header new_header(const Rect& display_window, const Rect& data_window, double pixel_aspect,
-                       const std::vector<Channel>& channels) {
-    Imf::Header header(box_of(display_window), box_of(data_window), float(pixel_aspect), Imath::V2f(0, 0), 1,
-                       Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+Imf::Header new_header(const Place& place, const std::vector<Channel>& channels) {
+    Imf::Header header(box_of(place.display_window), box_of(place.data_window), float(place.pixel_aspect),
+                       Imath::V2f(0, 0), 1, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
     header.setType(Imf::SCANLINEIMAGE);
     header.channels() = channel_list(channels);
     return header;
@@ -91,7 +90,7 @@ Imf::Header colour_header(const Imf::Header& input, const Frame& frame, const st
                           std::size_t colours) {
     const bool deep = input.hasType() && Imf::isDeepData(input.type());
     Imf::Header header = copied_header(input, frame, deep);
-    header.dataWindow() = box_of(frame.data_window);
+    header.dataWindow() = box_of(frame.place.data_window);
     header.channels() = channel_list(channels);
     header.lineOrder() = Imf::INCREASING_Y;
     const bool tiled = Imf::isTiled(header.type());

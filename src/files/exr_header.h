@@ -12,8 +12,7 @@
 
 namespace petzval {
 
-Imf::Header new_header(const Rect& display_window, const Rect& data_window, double pixel_aspect,
-                       const std::vector<Channel>& channels);
+Imf::Header new_header(const Place& place, const std::vector<Channel>& channels);
 
 // The header of the colour's part with everything the input said, for flat pixels of `channels`, of which the
 // first `colours` are written anew and all others copied: these must not suffer from the compression.

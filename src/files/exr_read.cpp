@@ -186,12 +186,11 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
         Result<Plane> depth = read_depth(exr, *choices.depth);
         if (!depth) return depth.error();
         const Rect window = exr.layout.parts[choices.depth->part].data_window;
-        frame.depth =
-            window == frame.data_window ? std::move(*depth) : pasted(*depth, window, frame.data_window);
+        frame.depth = window == frame.place.data_window ? std::move(*depth)
+                                                        : pasted(*depth, window, frame.place.data_window);
     }
     if (!options.depth_file.empty()) {
-        Result<Plane> depth =
-            read_depth_file(options, frame.display_window, frame.data_window, frame.detected);
+        Result<Plane> depth = read_depth_file(options, frame.place, frame.detected);
         if (!depth) return depth.error();
         frame.depth = std::move(*depth);
     }
@@ -218,15 +217,15 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     if (!opened) return opened.error();
     const ExrFile& exr = *opened;
     Frame frame;
-    frame.display_window = exr.layout.display_window;
-    frame.pixel_aspect = exr.layout.pixel_aspect;
+    frame.place.display_window = exr.layout.display_window;
+    frame.place.pixel_aspect = exr.layout.pixel_aspect;
     frame.parts = summaries_of(exr.layout);
 
     Result<ColourChoice> colour = choose_colour(file->path(), exr.layout, options);
     if (!colour && !pixels && colour.error().code == ErrorCode::InvalidFile) {
         // A header of depth or circles of confusion alone is worth showing.
         frame.detected.emplace_back("colour: none");
-        frame.data_window = exr.layout.parts[0].data_window;
+        frame.place.data_window = exr.layout.parts[0].data_window;
         frame.camera = camera_of(exr, 0);
         describe_camera(frame.camera, frame.detected);
         return frame;
@@ -234,7 +233,7 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     if (!colour) return colour.error();
     Choices choices{*colour, std::nullopt};
     const Part& part = exr.layout.parts[colour->part];
-    frame.data_window = part.data_window;
+    frame.place.data_window = part.data_window;
     frame.has_alpha = !colour->alpha.empty();
     frame.detected.push_back(colour->line);
     warn_of_lossy_compression(part, *colour, frame);

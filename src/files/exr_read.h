@@ -15,7 +15,7 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
                              bool pixels);
 
 // Depth from another file, EXR or PNG, in the colour's data window. Adds a line to `detected`.
-Result<Plane> read_depth_file(const ReadOptions& options, const Rect& display_window, const Rect& data_window,
+Result<Plane> read_depth_file(const ReadOptions& options, const Place& place,
                               std::vector<std::string>& detected);
 
 }  // namespace petzval

@@ -37,7 +37,7 @@ public:
     // `part_of_colour` 0 … 3: red, green, blue, alpha.
     void fill(BandChannel& to, int part_of_colour, int y0, int y1) {
         parallel_for(y1 - y0, workers_, [&](int row) {
-            const Rgba* from = frame_.colour.row(y0 + row - frame_.data_window.y0);
+            const Rgba* from = frame_.colour.row(y0 + row - frame_.place.data_window.y0);
             if (to.channel.type == SampleType::Half)
                 fill_row(reinterpret_cast<Imath::half*>(to.row(row)), from, part_of_colour, kLargestHalf);
             else
@@ -70,12 +70,10 @@ private:
 };
 
 Status check_size(const Frame& frame) {
-    if (frame.data_window.empty() || frame.display_window.empty())
+    if (frame.place.data_window.empty() || frame.place.display_window.empty())
         return Error{ErrorCode::InvalidArgument,
                      "a frame needs a data window and a display window of at least 1x1"};
-    const auto fits = [&](int width, int height) {
-        return width == frame.data_window.width() && height == frame.data_window.height();
-    };
+    const auto fits = [&](int width, int height) { return frame.place.fits(width, height); };
     if (!fits(frame.colour.width(), frame.colour.height()))
         return Error{ErrorCode::InvalidArgument,
                      "the colour of a frame must have the size of its data window"};
@@ -96,15 +94,15 @@ Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& o
     for (const char* name : {"R", "G", "B"}) channels.push_back(plain_channel(name, type));
     if (frame.has_alpha) channels.push_back(plain_channel("A", type));
     if (!frame.depth.empty()) channels.push_back(plain_channel("Z", SampleType::Float));
-    Imf::Header header = new_header(frame.display_window, frame.data_window, frame.pixel_aspect, channels);
-    if (Status s = apply(options, frame.display_window, header); !s) return s;
+    Imf::Header header = new_header(frame.place, channels);
+    if (Status s = apply(options, frame.place.display_window, header); !s) return s;
     const std::optional<PrimariesConversion> rec709;
     ColourSource colour(frame, rec709, workers);
     Imf::MultiPartOutputFile output(stream, &header, 1, false, exr_threads(workers));
     write_bands(output, 0, channels, [&](std::vector<BandChannel>& band, int y0, int y1) {
         const int colours = frame.has_alpha ? 4 : 3;
         for (int c = 0; c < colours; ++c) colour.fill(band[std::size_t(c)], c, y0, y1);
-        if (!frame.depth.empty()) copy_floats(band.back(), frame.depth, y0 - frame.data_window.y0);
+        if (!frame.depth.empty()) copy_floats(band.back(), frame.depth, y0 - frame.place.data_window.y0);
     });
     if (options.report) *options.report = colour.report();
     return Done{};
@@ -240,7 +238,7 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
     if (!same_pixels(exr.layout, carried.layout))
         return invalid_file(carried.file->path(), "changed since it was read");
     const OutputChannels channels = channels_of(carried, frame, options.type);
-    const bool same_window = exr.layout.parts[part].data_window == frame.data_window;
+    const bool same_window = exr.layout.parts[part].data_window == frame.place.data_window;
     for (const Channel& c : channels.all)
         if (c.subsampled() && !same_window)
             return Error{ErrorCode::Unsupported,
@@ -259,7 +257,7 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
                               : kept_header(exr.parts->header(p), frame));
         source.push_back(p);
     }
-    if (Status s = apply(options, frame.display_window, headers[colour_out]); !s) return s;
+    if (Status s = apply(options, frame.place.display_window, headers[colour_out]); !s) return s;
 
     ColourSource colour(frame, carried.primaries, workers);
     Imf::MultiPartOutputFile output(stream, headers.data(), int(headers.size()), false, exr_threads(workers));
@@ -268,7 +266,7 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
         others.emplace(
             exr, part,
             std::vector<Channel>(channels.all.begin() + std::ptrdiff_t(channels.colours), channels.all.end()),
-            frame.data_window, carried.depth_channel);
+            frame.place.data_window, carried.depth_channel);
     for (std::size_t p = 0; p < headers.size(); ++p) {
         if (p != colour_out) {
             copy_part(*exr.parts, source[p], output, int(p));
@@ -294,26 +292,25 @@ Status write_exr(const std::string& path, const Frame& frame, const WriteOptions
     });
 }
 
-Status write_exr_planes(const std::string& path, const Rect& display_window, const Rect& data_window,
-                        const std::vector<NamedPlane>& planes, const WriteOptions& options) {
-    if (planes.empty() || data_window.empty() || display_window.empty())
+Status write_exr_planes(const std::string& path, const Place& place, const std::vector<NamedPlane>& planes,
+                        const WriteOptions& options) {
+    if (planes.empty() || !check(place))
         return Error{ErrorCode::InvalidArgument, "planes, a data window and a display window are needed"};
     std::vector<Channel> channels;
     for (const NamedPlane& p : planes) {
-        if (p.channel.empty() || p.plane.width() != data_window.width() ||
-            p.plane.height() != data_window.height())
+        if (p.channel.empty() || !place.fits(p.plane.width(), p.plane.height()))
             return Error{ErrorCode::InvalidArgument,
                          "plane '" + printable(p.channel) + "' needs a name and the size of the data window"};
         channels.push_back(plain_channel(p.channel, SampleType::Float));
     }
     const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {
-        Imf::Header header = new_header(display_window, data_window, 1, channels);
-        if (Status s = apply(options, display_window, header); !s) return s;
+        Imf::Header header = new_header(place, channels);
+        if (Status s = apply(options, place.display_window, header); !s) return s;
         Imf::MultiPartOutputFile output(stream, &header, 1, false, exr_threads(*workers));
         write_bands(output, 0, channels, [&](std::vector<BandChannel>& band, int y0, int) {
             for (std::size_t i = 0; i < planes.size(); ++i)
-                copy_floats(band[i], planes[i].plane, y0 - data_window.y0);
+                copy_floats(band[i], planes[i].plane, y0 - place.data_window.y0);
         });
         return Done{};
     });

@@ -26,8 +26,8 @@ const Rect kWindow{0, 0, 8, 6};
 TEST(WriteExr, APictureOfOurOwnComesBackWithItsDepthAndCamera) {
     const TemporaryFolder folder;
     Frame frame;
-    frame.display_window = {0, 0, 32, 18};
-    frame.data_window = {-2, -1, 34, 700};
+    frame.place.display_window = {0, 0, 32, 18};
+    frame.place.data_window = {-2, -1, 34, 700};
     frame.colour = Picture(36, 701, {0.5f, 0.25f, 2, 1});
     frame.colour(3, 4) = {1, 2, 3, 0.5f};
     frame.has_alpha = true;
@@ -41,8 +41,8 @@ TEST(WriteExr, APictureOfOurOwnComesBackWithItsDepthAndCamera) {
     const Result<Frame> back = read_frame(folder / "a.exr");
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(back->camera.camera_from_world, options.camera.camera_from_world);
-    EXPECT_EQ(back->data_window, frame.data_window);
-    EXPECT_EQ(back->display_window, frame.display_window);
+    EXPECT_EQ(back->place.data_window, frame.place.data_window);
+    EXPECT_EQ(back->place.display_window, frame.place.display_window);
     EXPECT_EQ(back->colour(3, 4), frame.colour(3, 4));
     EXPECT_EQ(back->colour(35, 700), frame.colour(35, 700));
     EXPECT_EQ(back->depth(0, 0), 7.3f);
@@ -59,7 +59,7 @@ TEST(WriteExr, APictureOfOurOwnComesBackWithItsDepthAndCamera) {
 TEST(WriteExr, HalfClampsFloatDoesNotAndTheReportCounts) {
     const TemporaryFolder folder;
     Frame frame;
-    frame.display_window = frame.data_window = kWindow;
+    frame.place = Place::whole(kWindow);
     frame.colour = Picture(8, 6, {1e6f, -1e6f, std::numeric_limits<float>::quiet_NaN(), 1});
     WriteReport report;
     WriteOptions options;
@@ -81,14 +81,28 @@ TEST(WriteExr, PlanesComeBackUnderTheirNames) {
     Plane coc(8, 6, -2.5f), depth(8, 6, 3.f);
     WriteOptions options;
     options.attributes = {{"petzval:coc", "signed radius, px, + is far"}};
-    ASSERT_TRUE(
-        write_exr_planes(folder / "a.exr", kWindow, kWindow, {{"coc.radius", coc}, {"Z", depth}}, options));
+    ASSERT_TRUE(write_exr_planes(folder / "a.exr", Place::whole(kWindow), {{"coc.radius", coc}, {"Z", depth}},
+                                 options));
     ReadOptions read;
     read.depth_channel = "coc.radius";
     Imf::InputFile file((folder / "a.exr").c_str());
     EXPECT_EQ(file.header().typedAttribute<Imf::StringAttribute>("petzval:coc").value(),
               "signed radius, px, + is far");
     EXPECT_EQ(file.header().channels()["coc.radius"].type, Imf::FLOAT);
+}
+
+TEST(WriteExr, PlanesLieWhereTheirPictureLies) {
+    const TemporaryFolder folder;
+    const Place place{{0, 0, 20, 10}, {-1, 2, 7, 8}, 2};
+    WriteOptions options;
+    options.camera.sensor_width_mm = FoundNumber{40, "test"};
+    ASSERT_TRUE(write_exr_planes(folder / "a.exr", place, {{"Z", Plane(8, 6, 1.f)}}, options));
+    const Imf::InputFile file((folder / "a.exr").c_str());
+    EXPECT_EQ(file.header().pixelAspectRatio(), 2);
+    EXPECT_EQ(file.header().dataWindow().min, Imath::V2i(-1, 2));
+    // 40 mm across 20 pixels, and 10 pixels down that are half as high.
+    EXPECT_EQ(file.header().typedAttribute<Imf::V2fAttribute>("sensorOverallDimensions").value(),
+              Imath::V2f(40, 10));
 }
 
 TEST(WriteExr, EveryOtherChannelPartAndAttributeIsKept) {
@@ -140,7 +154,7 @@ TEST(WriteExr, AGrownDataWindowKeepsCarriedChannelsWhereTheyWere) {
     for (const Rect window : {Rect{-4, -5, 20, 507}, Rect{5, 100, 8, 300}, Rect{30, 30, 40, 40}}) {
         Result<Frame> frame = read_frame(folder / "in.exr");
         ASSERT_TRUE(frame);
-        frame->data_window = window;
+        frame->place.data_window = window;
         frame->colour = Picture(window.width(), window.height(), {1, 1, 1, 1});
         frame->depth = Plane();
         const Status written = write_exr(folder / "out.exr", *frame);
@@ -149,7 +163,7 @@ TEST(WriteExr, AGrownDataWindowKeepsCarriedChannelsWhereTheyWere) {
                             z = depth_named(folder / "out.exr", "Z");
         const Result<Frame> z_in = depth_named(folder / "in.exr", "Z");
         ASSERT_TRUE(id && z && z_in);
-        EXPECT_EQ(id->data_window, window);
+        EXPECT_EQ(id->place.data_window, window);
         for (int y = window.y0; y < window.y1; ++y)
             for (int x = window.x0; x < window.x1; ++x) {
                 const bool known = part.data_window.contains(x, y);
@@ -316,7 +330,7 @@ TEST(WriteExr, LuminanceAndChromaAreReadAndBecomeRgb) {
 TEST(WriteExr, AnExistingFileIsKeptWhereOverwritingIsOff) {
     const TemporaryFolder folder;
     Frame frame;
-    frame.display_window = frame.data_window = kWindow;
+    frame.place = Place::whole(kWindow);
     frame.colour = Picture(8, 6);
     ASSERT_TRUE(write_exr(folder / "a.exr", frame));
     const std::string before = test::bytes_of(folder / "a.exr");
@@ -345,13 +359,13 @@ TEST(WriteExr, SizesThatDoNotMatchAreRefused) {
     const TemporaryFolder folder;
     Frame frame;
     EXPECT_EQ(write_exr(folder / "a.exr", frame).error().code, ErrorCode::InvalidArgument);
-    frame.display_window = frame.data_window = kWindow;
+    frame.place = Place::whole(kWindow);
     frame.colour = Picture(3, 3);
     EXPECT_EQ(write_exr(folder / "a.exr", frame).error().code, ErrorCode::InvalidArgument);
     const Plane plane(2, 2);
-    EXPECT_EQ(write_exr_planes(folder / "a.exr", kWindow, kWindow, {{"Z", plane}}).error().code,
+    EXPECT_EQ(write_exr_planes(folder / "a.exr", Place::whole(kWindow), {{"Z", plane}}).error().code,
               ErrorCode::InvalidArgument);
-    EXPECT_EQ(write_exr_planes(folder / "a.exr", kWindow, kWindow, {}).error().code,
+    EXPECT_EQ(write_exr_planes(folder / "a.exr", Place::whole(kWindow), {}).error().code,
               ErrorCode::InvalidArgument);
     EXPECT_EQ(folder.files(), 0u);
 }

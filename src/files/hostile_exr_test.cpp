@@ -169,7 +169,7 @@ TEST(HostileFile, AHugeHeaderWithoutPixelsTakesNoMemory) {
     write_bytes(folder / "a.exr", with_window(good, "dataWindow", {1 << 30, 0, (1 << 30) + 7, 5}));
     expect_refused(folder / "a.exr", "far out");
     const DeepPicture deep(1, 1, {0, 1}, {{{1, 1, 1, 1}, 2, 2}});
-    ASSERT_TRUE(write_deep_exr(folder / "deep.exr", {0, 0, 1, 1}, {0, 0, 1, 1}, deep));
+    ASSERT_TRUE(write_deep_exr(folder / "deep.exr", Place::whole({0, 0, 1, 1}), deep));
     write_bytes(folder / "a.exr",
                 with_window(bytes_of(folder / "deep.exr"), "dataWindow", {0, 0, 15999, 15999}));
     expect_refused(folder / "a.exr", "promises 1.0 GB of pixels");

@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 Frame small_frame(int size) {
     Frame frame;
-    frame.display_window = frame.data_window = {0, 0, size, size};
+    frame.place = Place::whole({0, 0, size, size});
     frame.colour = Picture(size, size);
     for (std::size_t i = 0; i < frame.colour.size(); ++i)
         frame.colour.pixels()[i] = {float(i * 7919 % 1009), float(i * 104729 % 997), float(i % 13), 1};
@@ -133,8 +133,8 @@ TEST(OutputFile, AFullDiskLeavesTheOldFileAndNothingElse) {
         const FullDisk full(bytes);
         const std::array failures{
             write_exr(folder / "a.exr", frame), write_exr(folder / "b.exr", *carried),
-            write_exr_planes(folder / "c.exr", {0, 0, 9, 9}, frame.data_window, {{"Z", plane}}, raw),
-            write_deep_exr(folder / "d.exr", {0, 0, 1, 1}, {0, 0, 1, 1}, deep, raw),
+            write_exr_planes(folder / "c.exr", {{0, 0, 9, 9}, frame.place.data_window}, {{"Z", plane}}, raw),
+            write_deep_exr(folder / "d.exr", Place::whole({0, 0, 1, 1}), deep, raw),
             write_png(folder / "e.png", png)};
         for (const Status& failure : failures) {
             ASSERT_FALSE(failure);

@@ -54,25 +54,26 @@ Error wrong_size(const InputFile& file, const Rect& depth, const Rect& picture) 
                                          "; depth must have the picture's size");
 }
 
-Result<Plane> depth_of_png(const InputFile& file, std::size_t max_pixels, const Rect& display,
-                           const Rect& data, std::vector<std::string>& detected) {
+Result<Plane> depth_of_png(const InputFile& file, std::size_t max_pixels, const Place& place,
+                           std::vector<std::string>& detected) {
     const Result<PngPixels> png = read_png_file(file, max_pixels);
     if (!png) return png.error();
     detected.push_back("depth: " + printable(file.path()) + ", " + std::to_string(png->bits) +
                        " bit as a share of full scale, never sRGB-decoded");
     const Rect size{0, 0, png->width, png->height};
     Plane depth = first_channel(*png);
-    if (size.width() == data.width() && size.height() == data.height()) return depth;
+    if (place.fits(size.width(), size.height())) return depth;
+    const Rect& display = place.display_window;
     if (size.width() != display.width() || size.height() != display.height())
         return wrong_size(file, size, display);
-    return pasted(depth, display, data);
+    return pasted(depth, display, place.data_window);
 }
 
 Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
-                           const Rect& display, const Rect& data, std::vector<std::string>& detected) {
+                           const Place& place, std::vector<std::string>& detected) {
     Result<ExrFile> exr = ExrFile::open(file, options.max_pixels, *options.workers);
     if (!exr) return exr.error();
-    const Rect theirs = exr->layout.display_window;
+    const Rect theirs = exr->layout.display_window, &display = place.display_window;
     if (theirs.width() != display.width() || theirs.height() != display.height())
         return wrong_size(*file, theirs, display);
     const Result<DepthChoice> choice = choose_depth(file->path(), exr->layout, nullptr, options, false);
@@ -81,7 +82,7 @@ Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const R
     Result<Plane> depth = read_depth(*exr, *choice);
     if (!depth) return depth.error();
     const Rect window = exr->layout.parts[choice->part].data_window;
-    return window == data ? std::move(*depth) : pasted(*depth, window, data);
+    return window == place.data_window ? std::move(*depth) : pasted(*depth, window, place.data_window);
 }
 
 }  // namespace
@@ -94,13 +95,12 @@ Result<Frame> read_frame_header(const std::string& path, const ReadOptions& opti
     return read(path, options, false);
 }
 
-Result<Plane> read_depth_file(const ReadOptions& options, const Rect& display_window, const Rect& data_window,
+Result<Plane> read_depth_file(const ReadOptions& options, const Place& place,
                               std::vector<std::string>& detected) {
     const auto file = InputFile::open(options.depth_file);
     if (!file) return file.error();
-    if (starts_like_exr(**file)) return depth_of_exr(*file, options, display_window, data_window, detected);
-    if (starts_like_png(**file))
-        return depth_of_png(**file, options.max_pixels, display_window, data_window, detected);
+    if (starts_like_exr(**file)) return depth_of_exr(*file, options, place, detected);
+    if (starts_like_png(**file)) return depth_of_png(**file, options.max_pixels, place, detected);
     return neither(**file);
 }
 
@@ -115,10 +115,10 @@ Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const
                 ErrorCode::InvalidArgument,
                 printable(file->path(), 4096) + ": a PNG has no layer or view '" + printable(*asked) + "'"};
     Frame frame;
-    frame.display_window = frame.data_window = {0, 0, png->width, png->height};
+    frame.place = Place::whole({0, 0, png->width, png->height});
     frame.has_alpha = png->channels == 4;
     frame.display_referred = true;
-    frame.parts.push_back({"", "png", "", "zip", frame.data_window, {}});
+    frame.parts.push_back({"", "png", "", "zip", frame.place.data_window, {}});
     const std::string bits = std::to_string(png->bits) + " bit";
     for (int c = 0; c < png->channels; ++c)
         frame.parts[0].channels.push_back(
@@ -144,8 +144,7 @@ Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const
         frame.colour.pixels()[i] = {linear[s[0]] * a, linear[s[step]] * a, linear[s[2 * step]] * a, a};
     }
     if (!options.depth_file.empty()) {
-        Result<Plane> depth =
-            read_depth_file(options, frame.display_window, frame.data_window, frame.detected);
+        Result<Plane> depth = read_depth_file(options, frame.place, frame.detected);
         if (!depth) return depth.error();
         frame.depth = std::move(*depth);
     }

@@ -34,8 +34,8 @@ TEST(ReadFrame, PixelsOfEveryTypeCompressionAndLayoutArriveAsTheyWereWritten) {
                 write_quick_exr(folder / "a.exr", kWindow, {part});
                 const Result<Frame> frame = read_frame(folder / "a.exr");
                 ASSERT_TRUE(frame) << frame.error().message;
-                ASSERT_EQ(frame->data_window, window);
-                ASSERT_EQ(frame->display_window, kWindow);
+                ASSERT_EQ(frame->place.data_window, window);
+                ASSERT_EQ(frame->place.display_window, kWindow);
                 for (int y = window.y0; y < window.y1; ++y)
                     for (int x = window.x0; x < window.x1; ++x) {
                         const Rgba c = frame->colour(x - window.x0, y - window.y0);

@@ -35,16 +35,16 @@ TEST(SharedExr, BothEyesOfOneShotAreTheSameInOnePartAndInTenParts) {
     for (const std::string view : {"left", "right"}) {
         const Result<Frame> a = view_of(single, view), b = view_of(multi, view);
         ASSERT_TRUE(a && b) << (a ? b : a).error().message;
-        ASSERT_EQ(a->data_window, (Rect{654, 245, 1565, 1121}));
-        ASSERT_EQ(a->display_window, (Rect{0, 0, 2048, 1556}));
-        const Rect both = a->data_window.intersected(b->data_window);
+        ASSERT_EQ(a->place.data_window, (Rect{654, 245, 1565, 1121}));
+        ASSERT_EQ(a->place.display_window, (Rect{0, 0, 2048, 1556}));
+        const Rect both = a->place.data_window.intersected(b->place.data_window);
         for (int y = both.y0; y < both.y1; ++y)
             for (int x = both.x0; x < both.x1; ++x) {
-                const Rgba p = a->colour(x - a->data_window.x0, y - a->data_window.y0);
-                const Rgba q = b->colour(x - b->data_window.x0, y - b->data_window.y0);
+                const Rgba p = a->colour(x - a->place.data_window.x0, y - a->place.data_window.y0);
+                const Rgba q = b->colour(x - b->place.data_window.x0, y - b->place.data_window.y0);
                 ASSERT_EQ(p, q) << view << " " << x << "," << y;
-                const float dp = a->depth(x - a->data_window.x0, y - a->data_window.y0);
-                const float dq = b->depth(x - b->data_window.x0, y - b->data_window.y0);
+                const float dp = a->depth(x - a->place.data_window.x0, y - a->place.data_window.y0);
+                const float dq = b->depth(x - b->place.data_window.x0, y - b->place.data_window.y0);
                 ASSERT_EQ(dp, dq) << view << " " << x << "," << y;
             }
         EXPECT_THAT(b->detected, Contains(HasSubstr("'depth_" + view + "'")));
@@ -120,7 +120,7 @@ TEST(SharedExr, DeepSamplesAreAllThereSortedAndComposeToTheFlatPicture) {
         SKIP_WITHOUT(shared(name));
         const Result<Frame> frame = read_frame(shared(name));
         ASSERT_TRUE(frame) << frame.error().message;
-        EXPECT_EQ(frame->data_window, window);
+        EXPECT_EQ(frame->place.data_window, window);
         EXPECT_EQ(frame->deep.sample_count(), count);
         for (int y = 0; y < frame->deep.height(); ++y)
             for (int x = 0; x < frame->deep.width(); ++x) {
@@ -145,7 +145,7 @@ TEST(SharedExr, ARealDeepImageSurvivesBeingWrittenAgain) {
     const test::TemporaryFolder folder;
     const Result<Frame> in = read_frame(path);
     ASSERT_TRUE(in);
-    const Status written = write_deep_exr(folder / "a.exr", in->display_window, in->data_window, in->deep);
+    const Status written = write_deep_exr(folder / "a.exr", in->place, in->deep);
     ASSERT_TRUE(written) << written.error().message;
     const Result<Frame> out = read_frame(folder / "a.exr");
     ASSERT_TRUE(out) << out.error().message;
@@ -164,8 +164,7 @@ TEST(SharedExr, TheScenesWithTruthHaveDepthInMetres) {
         Result<Frame> frame = read_frame(shared(name));
         ASSERT_TRUE(frame) << frame.error().message;
         EXPECT_EQ(frame->colour.width(), 960);
-        const auto report = depth_to_planar_metres(frame->depth, frame->display_window, frame->data_window,
-                                                   frame->pixel_aspect, {});
+        const auto report = depth_to_planar_metres(frame->depth, frame->place, {});
         ASSERT_TRUE(report);
         EXPECT_GT(report->nearest_m, 0.1f);
         EXPECT_LT(report->farthest_finite_m, 1000.f);

@@ -47,7 +47,8 @@ Status check(const GlareSettings& s) {
     if (!in(s.threshold, 0, 1e9)) return refuse("--glare-threshold", s.threshold, "0 or more");
     if (!in(s.diffraction_px, 0, 1e6))
         return refuse("the size of diffraction", s.diffraction_px, "0 or more");
-    if (!in(s.pixel_aspect, 0.01, 100)) return refuse("the pixel aspect", s.pixel_aspect, "0.01 to 100");
+    if (!in(s.place.pixel_aspect, 0.01, 100))
+        return refuse("the pixel aspect", s.place.pixel_aspect, "0.01 to 100");
     if (const Status fine = kernel::check_aperture(s.lens); !fine) return fine;
     if (s.star > 0 && s.lens.aperture.blades < 3)
         return Error{ErrorCode::InvalidArgument,
@@ -112,14 +113,14 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& s) {
             std::copy_n(picture.row(y), std::size_t(same.width()), same.row(y));
         return same;
     }
-    Rect display = s.display_window, data = s.data_window;
+    Rect display = s.place.display_window, data = s.place.data_window;
     if (display.empty()) display = data = picture.rect();
-    const double height = display.height() / s.pixel_aspect;  // in widths of a pixel, as radii are
+    const double height = display.height() / s.place.pixel_aspect;  // in widths of a pixel, as radii are
 
     GhostModel ghosts;
     if (s.ghosts > 0) {
         if (kernel::is_drawn(s.lens.name)) {
-            ghosts = sprite_ghosts(s.lens.aperture, height, s.pixel_aspect);
+            ghosts = sprite_ghosts(s.lens.aperture, height, s.place.pixel_aspect);
         } else {
             auto traced = prescription_ghosts(s, display.width());
             if (!traced) return traced.error();
@@ -136,14 +137,15 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& s) {
     }
     Picture out = remaining(picture, bright, s, *workers);
     if (s.bloom > 0)
-        add(out, bloom(light, s.bloom_radius * height, s.pixel_aspect, *workers), float(s.bloom), *workers);
+        add(out, bloom(light, s.bloom_radius * height, s.place.pixel_aspect, *workers), float(s.bloom),
+            *workers);
     if (s.star > 0 && s.star_quality == StarQuality::Draft)
-        add_streaks(out, bright, s.lens.aperture, s.star_radius * height, s.pixel_aspect, float(s.star),
+        add_streaks(out, bright, s.lens.aperture, s.star_radius * height, s.place.pixel_aspect, float(s.star),
                     *workers);
     if (s.star > 0 && s.star_quality == StarQuality::Final)
         add_convolved(out, bright,
                       star_kernel(s.lens.aperture, std::max(2.0, s.star_radius * height), s.diffraction_px,
-                                  s.pixel_aspect, *workers),
+                                  s.place.pixel_aspect, *workers),
                       float(s.star), *workers);
     if (s.ghosts > 0) {
         const kernel::Point middle{display.x0 - data.x0 + 0.5 * display.width(),

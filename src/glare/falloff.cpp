@@ -23,9 +23,9 @@ constexpr int kGridColumns = 64;  // the frame is lit on a grid this wide, and b
 using Opening = std::function<double(kernel::FieldPosition)>;
 
 Opening barrel(const FalloffSettings& settings) {
-    const Rect& display = settings.display_window;
-    const kernel::Pupil pupil(settings.lens,
-                              {settings.camera, display.width(), display.height(), settings.pixel_aspect});
+    const Rect& display = settings.place.display_window;
+    const kernel::Pupil pupil(
+        settings.lens, {settings.camera, display.width(), display.height(), settings.place.pixel_aspect});
     constexpr double kTolerance = 1e-3;
     const double whole = std::abs(kernel::area(pupil.outline({0, 0}, kTolerance)));
     return [=](kernel::FieldPosition field) {
@@ -75,10 +75,10 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
                      "--sensor-width (mm)"};
     if (picture.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
     if (const Status fine = kernel::check_aperture(settings.lens); !fine) return fine.error();
-    Rect display = settings.display_window, data = settings.data_window;
+    Rect display = settings.place.display_window, data = settings.place.data_window;
     if (display.empty()) display = data = picture.rect();
     const double half_width = 0.5 * display.width();
-    const double half_height = 0.5 * display.height() / settings.pixel_aspect;  // in widths of a pixel
+    const double half_height = 0.5 * display.height() / settings.place.pixel_aspect;  // in widths of a pixel
     const double half_diagonal = std::hypot(half_width, half_height);
     const double mm_per_px = camera.sensor_width_mm / display.width();
 
@@ -92,7 +92,7 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
     }
     const auto reaching = [&](double x, double y) {  // picture coordinates, px
         const double right = x + data.x0 - display.x0 - half_width;
-        const double up = half_height - (y + data.y0 - display.y0) / settings.pixel_aspect;
+        const double up = half_height - (y + data.y0 - display.y0) / settings.place.pixel_aspect;
         const double tangent = std::hypot(right, up) * mm_per_px / camera.focal_length_mm;
         const double cos_squared = 1 / (1 + tangent * tangent);
         return cos_squared * cos_squared * opening({right / half_diagonal, up / half_diagonal});

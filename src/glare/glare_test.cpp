@@ -168,10 +168,10 @@ TEST(Glare, EveryNumberChangesTheResult) {
         {"rotation", [](GlareSettings& s) { s.lens.aperture.rotation_deg = 20; }},
         {"curvature", [](GlareSettings& s) { s.lens.aperture.curvature = 0.5; }},
         {"squeeze", [](GlareSettings& s) { s.lens.aperture.squeeze = 2; }},
-        {"pixel aspect", [](GlareSettings& s) { s.pixel_aspect = 2; }},
+        {"pixel aspect", [](GlareSettings& s) { s.place.pixel_aspect = 2; }},
         {"windows",
          [](GlareSettings& s) {
-             s.display_window = {0, 0, 400, 192}, s.data_window = {20, 0, 20 + kWidth, kHeight};
+             s.place.display_window = {0, 0, 400, 192}, s.place.data_window = {20, 0, 20 + kWidth, kHeight};
          }},
     };
     for (const Part& change : changes) {

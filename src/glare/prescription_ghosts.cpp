@@ -185,7 +185,7 @@ Result<GhostModel> prescription_ghosts(const GlareSettings& settings, int width_
     lens->stop = kernel::aperture_outline(settings.lens.aperture, 0.002);
     lens->focal_length_mm = camera.focal_length_mm;
     lens->px_per_mm = width_px / camera.sensor_width_mm;
-    lens->pixel_aspect = settings.pixel_aspect;
+    lens->pixel_aspect = settings.place.pixel_aspect;
     for (std::size_t c = 0; c < 3; ++c) {
         const auto glass = optics::at_wavelength(traced->prescription(), kChannels[c].wavelength_um);
         for (int i = 1; i < glass.count(); ++i)

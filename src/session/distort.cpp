@@ -53,16 +53,16 @@ Rgba sampled(const Picture& picture, double x, double y) {
 
 }  // namespace
 
-Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, Workers& workers) {
+Picture distorted(const Picture& picture, const PixelField& field, double amount, Workers& workers) {
     Picture result = Picture::uninitialised(picture.width(), picture.height());
     parallel_for(picture.height(), workers, [&](int y) {
-        const double down = (y + 0.5 - field.centre_y_px) / field.pixel_aspect;
+        const double down = (y + 0.5 - field.field_centre_y) / field.pixel_aspect;
         for (int x = 0; x < picture.width(); ++x) {
-            const double right = x + 0.5 - field.centre_x_px;
-            const double target = field.per_px * std::hypot(right, down);
+            const double right = x + 0.5 - field.field_centre_x;
+            const double target = field.field_per_px * std::hypot(right, down);
             const double scale = target > 0 ? undistorted(target, amount) / target : 1;
-            result(x, y) = sampled(picture, field.centre_x_px + scale * right - 0.5,
-                                   field.centre_y_px + scale * down * field.pixel_aspect - 0.5);
+            result(x, y) = sampled(picture, field.field_centre_x + scale * right - 0.5,
+                                   field.field_centre_y + scale * down * field.pixel_aspect - 0.5);
         }
     });
     return result;

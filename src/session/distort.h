@@ -4,19 +4,13 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/place.h"
 #include "petzval/workers.h"
 
 namespace petzval {
 
-// What maps pixels of a picture to the field: as engine::Input has it.
-struct FieldOfPixels {
-    double centre_x_px = 0, centre_y_px = 0;  // of the display window, in the picture's pixels
-    double per_px = 0;                        // half diagonals
-    double pixel_aspect = 1;
-};
-
 // Of the same size. Where something from outside of the picture would be seen, its border is repeated.
 // Requires: -0.3 <= amount <= 0.3.
-Picture distorted(const Picture& picture, const FieldOfPixels& field, double amount, Workers& workers);
+Picture distorted(const Picture& picture, const PixelField& field, double amount, Workers& workers);
 
 }  // namespace petzval

@@ -30,7 +30,7 @@ Blob blob_of(const Picture& picture) {
     return b;
 }
 
-FieldOfPixels field_of(int width, int height) {
+PixelField field_of(int width, int height) {
     return {0.5 * width, 0.5 * height, 2 / std::hypot(width, height), 1};
 }
 
@@ -48,8 +48,9 @@ TEST(Distorted, APointMovesByTheCubeOfItsRadius) {
         Picture picture(400, 300, Rgba{0, 0, 0, 1});
         for (int y = 198; y < 203; ++y)
             for (int x = 298; x < 303; ++x) picture(x, y).g = 1;
-        const FieldOfPixels field = field_of(400, 300);
-        const double right = 300.5 - 200, down = 200.5 - 150, r = field.per_px * std::hypot(right, down);
+        const PixelField field = field_of(400, 300);
+        const double right = 300.5 - 200, down = 200.5 - 150,
+                     r = field.field_per_px * std::hypot(right, down);
         const Blob blob = blob_of(distorted(picture, field, amount, *own_workers(2)));
         // The square is not a point: its far side moves more.
         EXPECT_NEAR(blob.x, 200 + right * (1 + amount * r * r), 0.15);
@@ -76,7 +77,7 @@ TEST(Distorted, DiscsOfAPictureHaveTheShapeOfTheKernel) {
     Plane coc(kWidth, kHeight, 14.0f);
     DefocusJob job;
     job.colour = colour, job.depth_m = coc, job.depth_is_coc = true;
-    job.display_window = job.data_window = colour.rect();
+    job.place = Place::whole(colour.rect());
     job.camera = {50, 36, 2, 2};
     job.lens.distortion = 0.15;
     const auto report = defocus(job);
@@ -100,7 +101,7 @@ TEST(Distorted, APrescriptionRefusesIt) {
     Plane coc(16, 16, 1.0f);
     DefocusJob job;
     job.colour = colour, job.depth_m = coc, job.depth_is_coc = true;
-    job.display_window = job.data_window = colour.rect();
+    job.place = Place::whole(colour.rect());
     job.camera = {50, 36, 4, 2};
     job.lens.name = "tessar", job.lens.distortion = 0.1;
     const auto report = defocus(job);

@@ -46,8 +46,8 @@ Picture finite_picture(View<const Rgba> colour, Workers& workers) {
 // An edge of the data window that lies inside the display window is the end of the scene; any other edge is
 // only where the render stopped.
 engine::OpenEdges open_edges(const DefocusJob& job) {
-    const Rect& display = job.display_window;
-    const Rect& data = job.data_window;
+    const Rect& display = job.place.display_window;
+    const Rect& data = job.place.data_window;
     return {data.x0 <= display.x0, data.y0 <= display.y0, data.x1 >= display.x1, data.y1 >= display.y1};
 }
 
@@ -56,7 +56,7 @@ engine::OpenEdges open_edges(const DefocusJob& job) {
 Result<Radii> Radii::make(const DefocusJob& job) {
     Radii radii;
     if (job.depth_is_coc) return radii;
-    const auto coc = CircleOfConfusion::make(job.camera, job.display_window.width(), job.coc);
+    const auto coc = CircleOfConfusion::make(job.camera, job.place.display_window.width(), job.coc);
     if (!coc) return coc.error();
     radii.coc_ = coc.value();
     return radii;
@@ -88,9 +88,7 @@ Status check_job(const DefocusJob& job) {
         if (deep && !deep->empty() &&
             (deep->width() != job.colour.width() || deep->height() != job.colour.height()))
             return invalid("the deep samples, hidden layers or holdout are not of the picture's size");
-    if (job.display_window.empty()) return invalid("the display window is empty");
-    if (!(job.pixel_aspect > 0) || !std::isfinite(job.pixel_aspect))
-        return invalid("the pixel aspect ratio must be positive");
+    if (Status place = check(job.place); !place) return place;
     if (job.points && !job.points->empty() && job.engine != "sprites")
         return invalid("given points are drawn by --engine sprites, not " + job.engine);
     if (job.scatter.view != ScatterView::Result && job.engine != "scatter")
@@ -151,11 +149,7 @@ void PreparedFrame::note_radii() {
 }
 
 void PreparedFrame::place_in_field(const DefocusJob& job) {
-    const Rect& display = job.display_window;
-    input.field_centre_x = 0.5 * (display.x0 + display.x1) - job.data_window.x0;
-    input.field_centre_y = 0.5 * (display.y0 + display.y1) - job.data_window.y0;
-    input.field_per_px = 2 / std::hypot(display.width(), display.height() / job.pixel_aspect);
-    input.pixel_aspect = job.pixel_aspect;
+    static_cast<PixelField&>(input) = job.place.field();
 }
 
 }  // namespace petzval

@@ -6,7 +6,8 @@
 namespace petzval {
 
 kernel::Mount mount_of(const DefocusJob& job) {
-    return {job.camera, job.display_window.width(), job.display_window.height(), job.pixel_aspect};
+    return {job.camera, job.place.display_window.width(), job.place.display_window.height(),
+            job.place.pixel_aspect};
 }
 
 LensChoice lens_before_distortion(const DefocusJob& job) {
@@ -62,7 +63,7 @@ Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job) {
 std::string MountedLens::key_of(const DefocusJob& job) {
     std::string key = kernel::lens_key(lens_before_distortion(job), mount_of(job));
     if (key.empty()) return key;
-    const Rect &display = job.display_window, &data = job.data_window;
+    const Rect &display = job.place.display_window, &data = job.place.data_window;
     for (const int n : {display.x0, display.y0, display.x1, display.y1, data.x0, data.y0, data.x1, data.y1,
                         int(job.quality)})
         key += " " + std::to_string(n);

@@ -110,9 +110,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
         output->warnings = std::move(shown.warnings);
     }
     if (job.lens.distortion != 0 && report.panels.empty())
-        report.image = distorted(
-            report.image, {input.field_centre_x, input.field_centre_y, input.field_per_px, job.pixel_aspect},
-            job.lens.distortion, *job.workers);
+        report.image = distorted(report.image, job.place.field(), job.lens.distortion, *job.workers);
     report.engine = chosen.name;
     report.device = input.device->name();
     report.lens = lens.levels.front()->description();

@@ -13,7 +13,7 @@ def attribute(name, kind, value):
     return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(value)) + value
 
 
-def header(names, half, width, height, display=None, data=None, compression=0, attributes=b""):
+def header(names, half, width, height, display=None, data=None, compression=0, attributes=b"", aspect=1):
     data = data or (0, 0, width - 1, height - 1)
     display = display or (0, 0, width - 1, height - 1)
     channels = b"".join(
@@ -24,17 +24,18 @@ def header(names, half, width, height, display=None, data=None, compression=0, a
             + attribute("dataWindow", "box2i", struct.pack("<4i", *data))
             + attribute("displayWindow", "box2i", struct.pack("<4i", *display))
             + attribute("lineOrder", "lineOrder", b"\0")
-            + attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+            + attribute("pixelAspectRatio", "float", struct.pack("<f", aspect))
             + attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0))
             + attribute("screenWindowWidth", "float", struct.pack("<f", 1))
             + attributes + b"\0")
 
 
-def exr_bytes(channels, half=(), display=None, origin=(0, 0), attributes=b""):
+def exr_bytes(channels, half=(), display=None, origin=(0, 0), attributes=b"", aspect=1):
     names = sorted(channels)
     height, width = len(channels[names[0]]), len(channels[names[0]][0])
     data = (origin[0], origin[1], origin[0] + width - 1, origin[1] + height - 1)
-    head = header(names, half, width, height, display or (0, 0, width - 1, height - 1), data, 0, attributes)
+    display = display or (0, 0, width - 1, height - 1)
+    head = header(names, half, width, height, display, data, 0, attributes, aspect)
     lines = []
     for y in range(height):
         line = b"".join(struct.pack("<%d%s" % (width, "e" if n in half else "f"), *channels[n][y]) for n in names)

@@ -35,7 +35,7 @@ struct DeepShot {
         job.colour = colour, job.depth_m = coc_px, job.depth_is_coc = true;
         job.deep = &deep;
         job.holdout = holdout.empty() ? nullptr : &holdout;
-        job.display_window = job.data_window = colour.rect();
+        job.place = Place::whole(colour.rect());
         job.engine = engine;
         job.pupil_points = 1024;
         return job;
@@ -270,7 +270,7 @@ TEST(Deep, ManySamplesAndWildOnesStayFiniteAndBounded) {
     for (const char* engine : kExact) {
         DefocusJob job = shot.job(engine);
         job.pupil_points = 16;
-        job.display_window = job.data_window.grown(1);  // nothing beyond
+        job.place.display_window = job.place.data_window.grown(1);  // nothing beyond
         const Picture image = rendered(job);
         for (std::size_t i = 0; i < image.size(); ++i)
             for (const float v : {image.pixels()[i].r, image.pixels()[i].g, image.pixels()[i].b})

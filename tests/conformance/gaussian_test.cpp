@@ -24,7 +24,7 @@ struct DepthShot {
     DefocusJob job() const {
         DefocusJob job;
         job.colour = colour, job.depth_m = depth_m;
-        job.display_window = job.data_window = colour.rect();
+        job.place = Place::whole(colour.rect());
         job.camera = {.focal_length_mm = 85, .sensor_width_mm = 36, .f_number = 1.4, .focus_distance_m = 2};
         job.engine = "gaussian";
         job.gaussian.style = GaussianStyle::Wgld;

@@ -28,7 +28,7 @@ struct Shot {
         job.depth_m = coc_px;
         job.depth_is_coc = true;
         job.behind = behind.empty() ? nullptr : &behind;
-        job.display_window = job.data_window = colour.rect();
+        job.place = Place::whole(colour.rect());
         job.engine = engine;
         job.pupil_points = 1024;
         return job;

@@ -113,7 +113,7 @@ TEST(Sprites, DepthIsTurnedIntoTheRadiusOfTheCamera) {
     p.x = 80.5f, p.y = 60.5f, p.g = 10, p.depth_m = 9;
     const std::vector<LightPoint> points{p};
     DefocusJob job;
-    job.colour = colour, job.depth_m = depth, job.display_window = job.data_window = colour.rect();
+    job.colour = colour, job.depth_m = depth, job.place = Place::whole(colour.rect());
     job.camera = {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 0.4, .focus_distance_m = 2};
     job.engine = "sprites", job.points = &points;
     const double radius = double((*circle_of_confusion(job))(80, 60));

@@ -138,7 +138,7 @@ inline DefocusJob job_of(const Shot& shot, std::size_t frame, const std::string&
     DefocusJob job;
     job.colour = shot.picture(frame).colour;
     job.depth_m = shot.picture(frame).depth_m;
-    job.display_window = job.data_window = shot.picture(frame).colour.rect();
+    job.place = Place::whole(shot.picture(frame).colour.rect());
     const DeepPicture& layers = shot.picture(frame).layers;
     job.behind = layers.empty() ? nullptr : &layers;
     job.camera = shot.cameras[frame];

@@ -86,21 +86,13 @@ struct OpenEdges {
 };
 
 // A lens, and where the pixels of a picture lie in its field.
-struct LensOnPicture {
-    // Field position of pixel (x, y): ((x + 0.5 - centre_x) * per_px, -(y + 0.5 - centre_y) * per_px /
-    // pixel_aspect).
-    double field_centre_x = 0, field_centre_y = 0, field_per_px = 0;
-    double pixel_aspect = 1;
+struct LensOnPicture : PixelField {
     // The lens on pixels 1, 2, 4, … times as wide: lens_levels[n]. At least one; the last stands for all
     // beyond.
     std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
 
     const kernel::LensModel& lens(int level) const {
         return *lens_levels[std::min(std::size_t(level), lens_levels.size() - 1)];
-    }
-    kernel::FieldPosition field_at(double x, double y) const {
-        return {(x + 0.5 - field_centre_x) * field_per_px,
-                -(y + 0.5 - field_centre_y) * field_per_px / pixel_aspect};
     }
 };
 

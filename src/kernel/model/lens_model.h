@@ -12,6 +12,7 @@
 #include "petzval/camera.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
+#include "petzval/place.h"
 #include "petzval/result.h"
 
 #include <cstdint>
@@ -21,10 +22,7 @@
 
 namespace petzval::kernel {
 
-// Where in the picture: -1…1 of half the display window's diagonal, x right, y UP (as lenses are drawn).
-struct FieldPosition {
-    double x = 0, y = 0;
-};
+using petzval::FieldPosition;
 
 // One point-spread function on the pixel grid: the light of a source at the centre of pixel (0, 0).
 struct PointSpread {

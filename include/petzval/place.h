@@ -1,0 +1,55 @@
+// Where the pixels of a picture lie in the frame: the display window, the data window and the shape of a
+// pixel are of use only together.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+namespace petzval {
+
+// A point of the frame: -1…1 of half the display window's diagonal, x right, y UP (as lenses are drawn).
+struct FieldPosition {
+    double x = 0, y = 0;
+};
+
+// What maps the pixels of one picture, counted from its own first pixel, to the field.
+struct PixelField {
+    double field_centre_x = 0, field_centre_y = 0;  // of the display window, in the picture's pixels
+    double field_per_px = 0;                        // half diagonals
+    double pixel_aspect = 1;
+
+    // Of the centre of pixel (x, y).
+    FieldPosition field_at(double x, double y) const {
+        return {(x + 0.5 - field_centre_x) * field_per_px,
+                -(y + 0.5 - field_centre_y) * field_per_px / pixel_aspect};
+    }
+};
+
+struct Place {
+    Rect display_window;      // the frame: what a viewer shows, and what the sensor is as wide as
+    Rect data_window;         // the pixels there are: smaller, larger or offset
+    double pixel_aspect = 1;  // width / height of a pixel
+
+    // A picture that is its own frame.
+    static Place whole(const Rect& frame, double pixel_aspect = 1) { return {frame, frame, pixel_aspect}; }
+
+    // The frame's height in widths of a pixel, the unit of radii.
+    double display_height_px() const { return display_window.height() / pixel_aspect; }
+    // More pixels around the same frame.
+    Place grown(int by_px) const { return {display_window, data_window.grown(by_px), pixel_aspect}; }
+    // Whether the frame shows pixels of the picture.
+    bool is_in_sight() const { return !data_window.intersected(display_window).empty(); }
+    // Whether a picture of that size fills the data window.
+    bool fits(int width, int height) const {
+        return width == data_window.width() && height == data_window.height();
+    }
+    PETZVAL_API PixelField field() const;
+
+    friend bool operator==(const Place&, const Place&) = default;
+};
+
+// Errors: InvalidArgument for an empty display or data window, or a pixel aspect that is not finite and > 0.
+PETZVAL_API Status check(const Place& place);
+
+}  // namespace petzval
