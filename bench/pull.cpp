@@ -43,8 +43,7 @@ int main(int count, char** words) {
     DefocusJob rendered;
     rendered.colour = frame->colour;
     rendered.depth_m = frame->depth;
-    rendered.display_window = frame->display_window;
-    rendered.data_window = frame->data_window;
+    rendered.place = frame->place;
     Look look;
     look.lens.name = words[3];
     look.engine = words[4];

@@ -98,6 +98,9 @@ THIRD_PARTY = {
     r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look|src/c)/",
     r"CLI/": r"apps/cli/",
 }
+# What a library says must not depend on the program around it: it names fields, not flags.
+FLAG = re.compile(r'"(?:[^"\\]|\\.)*?(?<![\w-])--[a-z][a-z-]+')
+SAYS_FLAGS = {"lens_sheet"}  # shows commands
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]')
 
 
@@ -130,6 +133,10 @@ def violations(root):
         allowed = ALLOWED[own] | {own} if own else set()
         if own and name.endswith("_test.cpp"):
             allowed = allowed | TESTS.get(own, set())
+        if own and own not in SAYS_FLAGS and not name.endswith("_test.cpp"):
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                if FLAG.search(line) and not line.lstrip().startswith("//"):
+                    yield f"{name}:{number}: a library names fields, as camera.f_number, not flags"
         for number, included in includes(path):
             for pattern, home in THIRD_PARTY.items():
                 if re.match(pattern, included) and not re.match(home, name):

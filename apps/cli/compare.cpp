@@ -6,7 +6,6 @@
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
-#include "windows.h"
 
 #include <algorithm>
 #include <array>

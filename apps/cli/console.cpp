@@ -1,5 +1,7 @@
 #include "console.h"
 
+#include "fields.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -26,8 +28,8 @@ std::size_t utf8_length(const std::string& text, std::size_t i) {
 
 void line_to_stderr(const std::string& prefix, const char* colour, const std::string& line) {
     const bool coloured = colour_wanted() && !prefix.empty();
-    const std::string text =
-        (coloured ? colour + prefix + "\x1b[0m" : prefix) + one_line(line) + "\n";  // one write per line
+    const std::string text = (coloured ? colour + prefix + "\x1b[0m" : prefix) + one_line(in_flags(line)) +
+                             "\n";  // one write per line
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -6,7 +6,6 @@
 #include "panels.h"
 #include "text.h"
 #include "values.h"
-#include "windows.h"
 
 #include <algorithm>
 #include <cmath>

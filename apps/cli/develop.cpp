@@ -11,7 +11,6 @@
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
-#include "windows.h"
 
 #include <cmath>
 #include <memory>

@@ -2,6 +2,7 @@
 
 #include "petzval/version.h"
 
+#include "fields.h"
 #include "input.h"
 #include "output.h"
 
@@ -98,7 +99,9 @@ std::size_t peak_memory_bytes() {
     return std::size_t(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
 }
 
-Status write_report(const Json& report, const std::string& path) {
+Status write_report(Json report, const std::string& path) {
+    for (const char* lines : {"detected", "warnings"})
+        for (Json& line : report[lines]) line = in_flags(line.get<std::string>());
     // File names need not be UTF-8: what is not becomes U+FFFD.
     std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     replace_all(text, "\"\\u0001infinity\"", "1e999");

@@ -42,6 +42,6 @@ std::size_t peak_memory_bytes();
 
 // Writes it to a file, or "-" for standard output. Infinite numbers are written as 1e999: valid JSON that
 // readers take as infinity. Errors: OutputFailed.
-Status write_report(const Json& report, const std::string& path);
+Status write_report(Json report, const std::string& path);
 
 }  // namespace petzval::cli

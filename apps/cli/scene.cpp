@@ -20,7 +20,7 @@ namespace {
 
 struct MakeFlags {
     std::string name, output, truth, layers;
-    std::optional<Place> camera_at, look_at;
+    std::optional<WorldPoint> camera_at, look_at;
     SceneSettings scene;
     CameraFlags camera;
     OverwriteFlags overwrite;

@@ -26,7 +26,10 @@ struct DefocusJob {
     View<const Rgba> colour;  // scene-linear, premultiplied
     View<const float>
         depth_m;  // planar metres, same size; +infinity for a miss. Or, with depth_is_coc, radii
-    bool depth_is_coc = false;  // depth_m holds signed CoC radii in pixels and the camera is not asked
+    // The signed radius of every pixel instead of its depth, which stays empty: the camera is not asked, and
+    // depths of `deep`, `behind` and `holdout` are radii too.
+    View<const float> coc_px;
+    bool depth_is_coc = false;  // older: depth_m holds what coc_px is for
     const DeepPicture* deep =
         nullptr;  // all samples of a deep input, same size; replaces colour and depth_m where given
     const DeepPicture* behind = nullptr;  // hidden layers, same size, see docs/conventions.md; may be null

@@ -17,10 +17,13 @@ enum class ErrorCode {
     Cancelled,        // the progress callback asked to stop
 };
 
-// One sentence: what is wrong, where, and what would be accepted. No trailing newline.
+// One sentence: what is wrong, where, and what would be accepted. No trailing newline. What can be chosen is
+// spoken of by its field, as camera.f_number (those of a look as petzval/look_json.h writes them); a program
+// may put in what its user knows.
 struct Error {
     ErrorCode code = ErrorCode::InvalidArgument;
     std::string message;
+    std::string field = {};  // the choice that is wrong, where it is one
 };
 
 // A value or an Error.

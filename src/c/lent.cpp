@@ -47,8 +47,7 @@ Status take_depth(const petzval_shot& shot, TakenShot& into) {
     read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
                           plane.row_stride},
                 into.depth);
-    into.job.depth_m = into.depth;
-    into.job.depth_is_coc = radii;
+    (radii ? into.job.coc_px : into.job.depth_m) = into.depth;
     return Done{};
 }
 
@@ -88,12 +87,11 @@ Status TakenShot::take(const petzval_shot* given, TakenShot& into) {
     into.job.colour = into.colour;
     if (Status ok = take_depth(shot, into); !ok) return ok;
     const Rect display = rect_of(shot.display_window), data = rect_of(shot.data_window);
-    into.job.data_window = data.empty() ? into.colour.rect() : data;
-    into.job.display_window = display.empty() ? into.job.data_window : display;
-    if (into.job.data_window.width() != into.colour.width() ||
-        into.job.data_window.height() != into.colour.height())
+    into.job.place.data_window = data.empty() ? into.colour.rect() : data;
+    into.job.place.display_window = display.empty() ? into.job.place.data_window : display;
+    if (!into.job.place.fits(into.colour.width(), into.colour.height()))
         return refused("data_window is not of the picture's size");
-    if (shot.pixel_aspect != 0) into.job.pixel_aspect = shot.pixel_aspect;
+    if (shot.pixel_aspect != 0) into.job.place.pixel_aspect = shot.pixel_aspect;
     if (shot.camera) into.job.camera = camera_of(taken(shot.camera));
     return Done{};
 }

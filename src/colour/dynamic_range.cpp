@@ -106,12 +106,12 @@ void add_advice(DynamicRange& range, bool low, bool display_referred) {
         range.advice.push_back(
             rounded(100 * range.clipped_share) +
             " % of the pixels are clipped at 1: lights hold no more than diffuse white, so "
-            "their blur will be dull; --expand-highlights gives them back by assumption");
+            "their blur will be dull; plate.expand_highlights gives them back by assumption");
     const double stops = range.diffuse_over_shadow_stops;
     if (!display_referred && stops > 0.5 && stops < 2 && range.specular_over_diffuse_stops < 1.5)
         range.advice.emplace_back(
             "all light lies within a few stops; if the picture looks flat, see whether the "
-            "scene's lights stand in the ratios of real ones before reaching for --contrast");
+            "scene's lights stand in the ratios of real ones before reaching for develop.contrast");
 }
 
 }  // namespace

@@ -45,9 +45,10 @@ constexpr double kTolerance = 1.05;  // what resampling may leave above 1
 
 Result<Picture> expand_highlights(View<const Rgba> plate, const HighlightExpansion& expansion) {
     if (!(expansion.knee >= 0 && expansion.knee < 1))
-        return Error{ErrorCode::InvalidArgument, "the knee of --expand-highlights must lie between 0 and 1"};
+        return Error{ErrorCode::InvalidArgument,
+                     "the knee of plate.expand_highlights must lie between 0 and 1"};
     if (!(expansion.peak > 1 && expansion.peak <= 1e6))
-        return Error{ErrorCode::InvalidArgument, "--highlight-peak must be more than 1, at most 1000000"};
+        return Error{ErrorCode::InvalidArgument, "plate.peak must be more than 1, at most 1000000"};
     const Shoulder shoulder(expansion);
     Picture out = Picture::uninitialised(plate.width(), plate.height());
     for (int y = 0; y < plate.height(); ++y)
@@ -56,7 +57,7 @@ Result<Picture> expand_highlights(View<const Rgba> plate, const HighlightExpansi
             const float brightest = std::max({c.r, c.g, c.b});
             if (double(brightest) > kTolerance && std::isfinite(brightest)) {
                 std::ostringstream text;
-                text << "--expand-highlights is for plates that end at 1; this picture holds light of "
+                text << "plate.expand_highlights is for plates that end at 1; this picture holds light of "
                      << brightest << " and needs none";
                 return Error{ErrorCode::InvalidArgument, text.str()};
             }

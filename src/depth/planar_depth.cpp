@@ -23,31 +23,35 @@ bool is_miss(float stored, DepthKind kind) {
 }
 
 Status check(const DepthSettings& s) {
-    const auto refuse = [](const std::string& message) { return Error{ErrorCode::InvalidArgument, message}; };
+    // Messages begin with the field.
+    const auto refuse = [](const std::string& message) {
+        return Error{ErrorCode::InvalidArgument, message, message.substr(0, message.find(' '))};
+    };
     const auto got = [](double v) { return ", got " + std::to_string(v); };
     if (s.kind == DepthKind::CocPx)
-        return refuse("--depth-kind coc-px holds circle-of-confusion radii, not distances in metres");
+        return refuse("depth.kind coc-px holds circle-of-confusion radii, not distances in metres");
     if (!(s.unit_scale_m > 0) || !std::isfinite(s.unit_scale_m))
-        return refuse("--unit-scale must be > 0 metres per unit" + got(s.unit_scale_m));
+        return refuse("depth.unit_scale_m must be > 0 metres per unit" + got(s.unit_scale_m));
     if (s.kind == DepthKind::Ray) {
         if (!s.focal_length_mm || !s.sensor_width_mm)
             return refuse(
-                "--depth-kind ray needs --focal-length and --sensor-width: the angle of each pixel");
+                "depth.kind ray needs camera.focal_length_mm and camera.sensor_width_mm: the angle of each "
+                "pixel");
         if (!(*s.focal_length_mm > 0) || !std::isfinite(*s.focal_length_mm))
-            return refuse("--focal-length must be > 0 mm" + got(*s.focal_length_mm));
+            return refuse("camera.focal_length_mm must be > 0 mm" + got(*s.focal_length_mm));
         if (!(*s.sensor_width_mm > 0) || !std::isfinite(*s.sensor_width_mm))
-            return refuse("--sensor-width must be > 0 mm" + got(*s.sensor_width_mm));
+            return refuse("camera.sensor_width_mm must be > 0 mm" + got(*s.sensor_width_mm));
     }
     if (is_range_kind(s.kind)) {
         if (!s.range_near || !s.range_far)
-            return refuse("--depth-kind normalized and device need --depth-range NEAR,FAR");
+            return refuse("depth.kind normalized and device need depth.range NEAR,FAR");
         const double near = *s.range_near, far = *s.range_far;
         const bool device = s.kind == DepthKind::Device;
         if (!(near > 0 || (near == 0 && !device)) || !(far > 0 || (far == 0 && !device)) || near == far)
-            return refuse("--depth-range needs two different distances > 0" + got(near) + "," +
+            return refuse("depth.range needs two different distances > 0" + got(near) + "," +
                           std::to_string(far));
         if (std::isinf(near) ? !device : (std::isinf(far) && !device))
-            return refuse("--depth-range may be infinite only for --depth-kind device");
+            return refuse("depth.range may be infinite only for depth.kind device");
     }
     return Done{};
 }

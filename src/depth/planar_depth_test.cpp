@@ -118,14 +118,14 @@ TEST(PlanarDepth, UnitScaleScalesEveryKind) {
 
 TEST(PlanarDepth, MissingOrImpossibleNumbersNameTheirFlag) {
     EXPECT_THAT(refusal(of_kind(DepthKind::CocPx)), testing::HasSubstr("coc-px"));
-    EXPECT_THAT(refusal(of_kind(DepthKind::Ray)), testing::HasSubstr("--focal-length"));
-    EXPECT_THAT(refusal(of_kind(DepthKind::Normalized)), testing::HasSubstr("--depth-range"));
-    EXPECT_THAT(refusal(of_range(DepthKind::Device, 2, 2)), testing::HasSubstr("--depth-range"));
-    EXPECT_THAT(refusal(of_range(DepthKind::Device, 0, 2)), testing::HasSubstr("--depth-range"));
-    EXPECT_THAT(refusal(of_range(DepthKind::Normalized, 1, kInfinity)), testing::HasSubstr("--depth-range"));
+    EXPECT_THAT(refusal(of_kind(DepthKind::Ray)), testing::HasSubstr("camera.focal_length_mm"));
+    EXPECT_THAT(refusal(of_kind(DepthKind::Normalized)), testing::HasSubstr("depth.range"));
+    EXPECT_THAT(refusal(of_range(DepthKind::Device, 2, 2)), testing::HasSubstr("depth.range"));
+    EXPECT_THAT(refusal(of_range(DepthKind::Device, 0, 2)), testing::HasSubstr("depth.range"));
+    EXPECT_THAT(refusal(of_range(DepthKind::Normalized, 1, kInfinity)), testing::HasSubstr("depth.range"));
     DepthSettings scale;
     scale.unit_scale_m = -1;
-    EXPECT_THAT(refusal(scale), testing::HasSubstr("--unit-scale"));
+    EXPECT_THAT(refusal(scale), testing::HasSubstr("depth.unit_scale_m"));
 }
 
 TEST(PlanarDepth, DeepSamplesBecomeMetresAndStayNearestFirst) {

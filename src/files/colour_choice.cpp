@@ -128,7 +128,7 @@ Result<std::vector<Group>> of_wanted_layer(const std::string& path, const Layout
 }
 
 std::string reason(const Group& g, const Part& part, const ReadOptions& options, std::size_t candidates) {
-    if (!options.layer.empty()) return "asked for with --layer";
+    if (!options.layer.empty()) return "asked for with read.layer";
     if (candidates == 1) return "the only colour there is";
     switch (rank(g, part)) {
         case 0:
@@ -136,7 +136,7 @@ std::string reason(const Group& g, const Part& part, const ReadOptions& options,
         case 1:
             return "named like a finished picture";
         default:
-            return "the first of " + std::to_string(candidates) + " colour layers; --layer overrides";
+            return "the first of " + std::to_string(candidates) + " colour layers; read.layer overrides";
     }
 }
 
@@ -190,7 +190,7 @@ Result<ColourChoice> choose_colour(const std::string& path, const Layout& layout
         std::vector<std::string> names;
         for (const Part& p : layout.parts)
             for (const Channel& c : p.channels) names.push_back(c.name);
-        const char* hint = with_data ? "its layers hold other data, --layer takes one all the same"
+        const char* hint = with_data ? "its layers hold other data, read.layer takes one all the same"
                                      : "R, G, B or Y are needed";
         return invalid_file(path,
                             std::string("has no colour: ") + hint + "; its channels are " + listed(names));

@@ -122,7 +122,7 @@ Result<DepthChoice> named_channel(const std::string& path, const Layout& layout,
         return Error{ErrorCode::InvalidArgument, printable(path, 4096) + ": has no depth channel '" +
                                                      printable(wanted) + "'; it has " +
                                                      listed(channel_names(layout))};
-    return choice_of(layout, best_part, *best, "asked for with --depth-channel");
+    return choice_of(layout, best_part, *best, "asked for with read.depth_channel");
 }
 
 std::optional<DepthChoice> by_pattern(const Layout& layout, const ColourChoice* colour) {
@@ -210,7 +210,7 @@ Result<DepthChoice> choose_depth(const std::string& path, const Layout& layout, 
         if (auto found = by_position(layout, colour)) return *found;
     return invalid_file(path,
                         "has no depth channel (looked for Z, depth.Z, ….Depth.Z, VRayZDepth, depth.R, P); "
-                        "name one with --depth-channel or a file with --depth; its channels are " +
+                        "name one with read.depth_channel or a file with read.depth_file; its channels are " +
                             listed(channel_names(layout)));
 }
 

@@ -73,7 +73,7 @@ void describe_view(const Layout& layout, const ColourChoice& colour, const ReadO
     if (layout.views.empty()) return;
     std::string line = "view: " + (colour.view.empty() ? "none" : printable(colour.view));
     if (layout.views.size() == 1) return detected.push_back(line + ", the only one");
-    line += options.view_name.empty() ? ", the first that fits" : ", asked for with --view-name";
+    line += options.view_name.empty() ? ", the first that fits" : ", asked for with read.view_name";
     detected.push_back(line + "; the file has " + listed(layout.views));
 }
 
@@ -131,7 +131,7 @@ Status check_deep(const ExrFile& exr, const Choices& choices, const ReadOptions&
     if (!options.depth_file.empty())
         return Error{
             ErrorCode::InvalidArgument,
-            printable(path, 4096) + ": is deep, its samples have their own depth; leave out --depth"};
+            printable(path, 4096) + ": is deep, its samples have their own depth; leave out read.depth_file"};
     if (!choices.depth || choices.depth->part != choices.colour.part)
         return invalid_file(path, "is deep but its samples have no Z of their own");
     std::vector<std::string> dropped;

@@ -130,7 +130,8 @@ Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const
     frame.detected.push_back("colour: PNG, " + bits + ", decoded through " + curve +
                              "; 1.0 is clipped highlights");
     if (options.depth_file.empty() && (options.need_depth || !options.depth_channel.empty()) && pixels)
-        return invalid_file(file->path(), "has no depth channel; a PNG needs a depth file, --depth FILE");
+        return invalid_file(file->path(),
+                            "has no depth channel; a PNG needs a depth file, read.depth_file FILE");
     if (!pixels) return frame;
 
     std::vector<float> linear(png->bits == 16 ? 65536 : 256);

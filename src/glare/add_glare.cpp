@@ -19,32 +19,41 @@ namespace {
 
 using namespace glare;
 
+// "glare.bloom" of "bloom (glare.bloom)"; nothing where no or several fields are named.
+std::string field_in(const std::string& what) {
+    const std::size_t start = what.find("glare.");
+    if (start == std::string::npos || what.find("glare.", start + 1) != std::string::npos) return "";
+    return what.substr(start, what.find_first_of(") ", start) - start);
+}
+
 Error refuse(const std::string& what, double got, const std::string& accepted) {
     std::ostringstream text;
     text << what << " is " << got << "; it must be " << accepted;
-    return {ErrorCode::InvalidArgument, text.str()};
+    return {ErrorCode::InvalidArgument, text.str(), field_in(what)};
 }
 
 Status check_amounts(const GlareSettings& s) {
-    const std::pair<const char*, double> amounts[] = {{"bloom (--bloom)", s.bloom},
-                                                      {"star (--star)", s.star},
-                                                      {"ghosts (--ghosts)", s.ghosts},
-                                                      {"veil (--veil)", s.veil}};
+    const std::pair<const char*, double> amounts[] = {{"bloom (glare.bloom)", s.bloom},
+                                                      {"star (glare.star)", s.star},
+                                                      {"ghosts (glare.ghosts)", s.ghosts},
+                                                      {"veil (glare.veil)", s.veil}};
     double sum = 0;
     for (const auto& [name, amount] : amounts) {
         if (!(amount >= 0 && amount <= 1)) return refuse(name, amount, "0 to 1, a share of the light");
         sum += amount;
     }
-    if (sum > 1) return refuse("the sum of --bloom, --star, --ghosts and --veil", sum, "at most 1");
+    if (sum > 1)
+        return refuse("the sum of glare.bloom, glare.star, glare.ghosts and glare.veil", sum, "at most 1");
     return Done{};
 }
 
 Status check(const GlareSettings& s) {
     if (const Status fine = check_amounts(s); !fine) return fine;
     const auto in = [](double x, double low, double high) { return x >= low && x <= high; };  // false for NaN
-    if (!in(s.bloom_radius, 1e-4, 1)) return refuse("--bloom-radius", s.bloom_radius, "0.0001 to 1 heights");
-    if (!in(s.star_radius, 1e-3, 2)) return refuse("--star-radius", s.star_radius, "0.001 to 2 heights");
-    if (!in(s.threshold, 0, 1e9)) return refuse("--glare-threshold", s.threshold, "0 or more");
+    if (!in(s.bloom_radius, 1e-4, 1))
+        return refuse("glare.bloom_radius", s.bloom_radius, "0.0001 to 1 heights");
+    if (!in(s.star_radius, 1e-3, 2)) return refuse("glare.star_radius", s.star_radius, "0.001 to 2 heights");
+    if (!in(s.threshold, 0, 1e9)) return refuse("glare.threshold", s.threshold, "0 or more");
     if (!in(s.diffraction_px, 0, 1e6))
         return refuse("the size of diffraction", s.diffraction_px, "0 or more");
     if (!in(s.place.pixel_aspect, 0.01, 100))
@@ -52,7 +61,7 @@ Status check(const GlareSettings& s) {
     if (const Status fine = kernel::check_aperture(s.lens); !fine) return fine;
     if (s.star > 0 && s.lens.aperture.blades < 3)
         return Error{ErrorCode::InvalidArgument,
-                     "a round aperture throws no star (--star): give --blades, as --blades 6"};
+                     "a round aperture throws no star (glare.star): give lens.blades, as lens.blades 6"};
     return Done{};
 }
 

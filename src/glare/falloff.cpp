@@ -71,8 +71,8 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
     const Camera& camera = settings.camera;
     if (!is_positive(camera.focal_length_mm) || !is_positive(camera.sensor_width_mm))
         return Error{ErrorCode::InvalidArgument,
-                     "light falloff needs a focal length and a sensor width: give --focal-length and "
-                     "--sensor-width (mm)"};
+                     "light falloff needs a focal length and a sensor width: give camera.focal_length_mm and "
+                     "camera.sensor_width_mm (mm)"};
     if (picture.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
     if (const Status fine = kernel::check_aperture(settings.lens); !fine) return fine.error();
     Rect display = settings.place.display_window, data = settings.place.data_window;

@@ -184,15 +184,16 @@ TEST(Glare, EveryNumberChangesTheResult) {
 TEST(Glare, NumbersThatMeanNothingAreNamed) {
     const Picture picture = lamp();
     const std::vector<Part> wrong{
-        {"--bloom", [](GlareSettings& s) { s.bloom = -0.1; }},
-        {"--star", [](GlareSettings& s) { s.star = double(kNaN); }},
-        {"--veil", [](GlareSettings& s) { s.veil = 1.5; }},
+        {"glare.bloom", [](GlareSettings& s) { s.bloom = -0.1; }},
+        {"glare.star", [](GlareSettings& s) { s.star = double(kNaN); }},
+        {"glare.veil", [](GlareSettings& s) { s.veil = 1.5; }},
         {"at most 1", [](GlareSettings& s) { s.veil = s.bloom = 0.6; }},
-        {"--bloom-radius", [](GlareSettings& s) { s.bloom_radius = 0; }},
-        {"--star-radius", [](GlareSettings& s) { s.star_radius = 50; }},
-        {"--glare-threshold", [](GlareSettings& s) { s.threshold = -1; }},
-        {"--blades", [](GlareSettings& s) { s.star = 0.1, s.lens.aperture.blades = 0; }},
-        {"give --focal-length", [](GlareSettings& s) { s.ghosts = 0.1, s.lens.name = "double-gauss"; }},
+        {"glare.bloom_radius", [](GlareSettings& s) { s.bloom_radius = 0; }},
+        {"glare.star_radius", [](GlareSettings& s) { s.star_radius = 50; }},
+        {"glare.threshold", [](GlareSettings& s) { s.threshold = -1; }},
+        {"lens.blades", [](GlareSettings& s) { s.star = 0.1, s.lens.aperture.blades = 0; }},
+        {"give camera.focal_length_mm",
+         [](GlareSettings& s) { s.ghosts = 0.1, s.lens.name = "double-gauss"; }},
         {"no-such-lens",
          [](GlareSettings& s) {
              s.ghosts = 0.1, s.lens.name = "no-such-lens", s.camera = {50, 36, 2, 3, ImageScale::Rendered};

@@ -166,7 +166,7 @@ TEST(Falloff, APrescriptionLosesMoreThanCosToTheFourthWideOpen) {
 TEST(Falloff, WithoutACameraItSaysWhichFlagsToGive) {
     const auto result = add_falloff(Picture(4, 4).view(), {});
     ASSERT_FALSE(result.has_value());
-    EXPECT_NE(result.error().message.find("--focal-length"), std::string::npos);
+    EXPECT_NE(result.error().message.find("camera.focal_length_mm"), std::string::npos);
 }
 
 }  // namespace

@@ -169,7 +169,8 @@ Result<GhostModel> prescription_ghosts(const GlareSettings& settings, int width_
         !in_range(camera.f_number) || !(camera.focus_distance_m > 0))
         return Error{ErrorCode::InvalidArgument,
                      "ghosts of " + settings.lens.name +
-                         " need a camera: give --focal-length, --sensor-width, --fstop and --focus"};
+                         " need a camera: give camera.focal_length_mm, camera.sensor_width_mm, "
+                         "camera.f_number and camera.focus_distance_m"};
     auto file = lens_files::find_lens(settings.lens.name);
     if (!file) return file.error();
     const auto own = optics::first_order(file->lens, file->lens.primary_um);

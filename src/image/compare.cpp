@@ -228,7 +228,7 @@ Result<Comparison> compare(View<const Rgba> reference, View<const Rgba> test,
         return invalid("compare: the mask is " + size_text(mask.width(), mask.height()) +
                        ", the pictures are " + size + "; they must be the same size");
     if (!(settings.exposure > 0) || !std::isfinite(settings.exposure))
-        return invalid("compare: --exposure is " + std::to_string(settings.exposure) +
+        return invalid("compare: compare.exposure is " + std::to_string(settings.exposure) +
                        "; it must be positive");
 
     const Input in{reference, test, mask, float(settings.exposure)};

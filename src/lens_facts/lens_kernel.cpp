@@ -21,9 +21,9 @@ Result<Lens> mounted(const LensChoice& lens, const LensMount& mount) {
 }
 
 Status check_radius(const kernel::LensModel& lens, double coc_radius_px) {
-    if (!std::isfinite(coc_radius_px)) return refuse("--defocus must be a finite number of pixels");
+    if (!std::isfinite(coc_radius_px)) return refuse("disc.coc_radius_px must be a finite number of pixels");
     if (!(2 * lens.reach_px(coc_radius_px) < kLargestDiscPx))
-        return refuse("--defocus: this disc would be wider than " + std::to_string(kLargestDiscPx) +
+        return refuse("disc.coc_radius_px: this disc would be wider than " + std::to_string(kLargestDiscPx) +
                       " pixels");
     return Done{};
 }
@@ -82,9 +82,9 @@ Result<LensDisc> lens_point_spread(const LensChoice& choice, const LensMount& mo
     if (!lens) return lens.error();
     if (const Status status = check_radius(**lens, coc_radius_px); !status) return status.error();
     if (!(std::hypot(field_x, field_y) <= 1.001))
-        return refuse("--field must lie within the half diagonal, as 0.5,-0.3");
+        return refuse("disc.field must lie within the half diagonal, as 0.5,-0.3");
     if (size_px < 0 || size_px > kLargestDiscPx)
-        return refuse("--size must be 0 (as the disc needs) to " + std::to_string(kLargestDiscPx));
+        return refuse("disc.size_px must be 0 (as the disc needs) to " + std::to_string(kLargestDiscPx));
     const kernel::FieldPosition field{field_x, field_y};
     const kernel::PointSpread spread =
         raw ? (*lens)->raw_point_spread(coc_radius_px, field) : (*lens)->point_spread(coc_radius_px, field);
@@ -99,7 +99,7 @@ Result<LensDisc> lens_point_spread(const LensChoice& choice, const LensMount& mo
 
 Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mount,
                                    const BokehTextureSettings& settings) {
-    if (settings.columns < 2 || settings.columns > 16384) return refuse("--columns must be 2 to 16384");
+    if (settings.columns < 2 || settings.columns > 16384) return refuse("disc.columns must be 2 to 16384");
     if (settings.rows_per_px < 1 || settings.rows_per_px > 16)
         return refuse("rows per pixel must be 1 to 16");
     LensChoice round = choice;
@@ -111,7 +111,7 @@ Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mo
     fine.width_px *= settings.rows_per_px, fine.height_px *= settings.rows_per_px;
     const auto lens = mounted(round, fine);
     if (!lens) return lens.error();
-    if (!(settings.largest_coc_px > 0)) return refuse("--defocus must be above 0");
+    if (!(settings.largest_coc_px > 0)) return refuse("disc.coc_radius_px must be above 0");
     const double finer = settings.rows_per_px;
     if (const Status status = check_radius(**lens, finer * settings.largest_coc_px); !status)
         return status.error();

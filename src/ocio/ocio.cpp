@@ -70,7 +70,7 @@ Result<Source> source_of(const OCIO::Config& config, const std::string& asked) {
     Source source;
     if (!asked.empty()) {
         if (!config.getColorSpace(asked.c_str()))
-            return invalid("--ocio-space " + asked + ": not in the config, which has " +
+            return invalid("ocio.working_space " + asked + ": not in the config, which has " +
                            listed(config.getNumColorSpaces(),
                                   [&](int i) { return config.getColorSpaceNameByIndex(i); }));
         source.space = asked;
@@ -90,12 +90,12 @@ Result<Source> source_of(const OCIO::Config& config, const std::string& asked) {
         }
     if (!config.hasRole(OCIO::ROLE_SCENE_LINEAR))
         return invalid(
-            "the config has no role scene_linear; give --ocio-space, the name it has for "
+            "the config has no role scene_linear; give ocio.working_space, the name it has for "
             "scene-linear Rec.709");
     source.space = OCIO::ROLE_SCENE_LINEAR;
     source.warnings.emplace_back(
         "the config does not say which space is scene-linear Rec.709; its "
-        "scene_linear is taken for it (--ocio-space names another)");
+        "scene_linear is taken for it (ocio.working_space names another)");
     return source;
 }
 
@@ -103,13 +103,13 @@ Result<OcioView> completed(const OCIO::Config& config, OcioView view) {
     const auto display = [&](int i) { return config.getDisplay(i); };
     if (view.display.empty()) view.display = config.getDefaultDisplay();
     if (!holds(config.getNumDisplays(), display, view.display))
-        return invalid("--ocio: the config has no display '" + view.display + "'; it has " +
+        return invalid("ocio.view: the config has no display '" + view.display + "'; it has " +
                        listed(config.getNumDisplays(), display));
     const char* const name = view.display.c_str();
     const auto view_name = [&](int i) { return config.getView(name, i); };
     if (view.view.empty()) view.view = config.getDefaultView(name);
     if (!holds(config.getNumViews(name), view_name, view.view))
-        return invalid("--ocio: display '" + view.display + "' has no view '" + view.view + "'; it has " +
+        return invalid("ocio.view: display '" + view.display + "' has no view '" + view.view + "'; it has " +
                        listed(config.getNumViews(name), view_name));
     return view;
 }
@@ -148,7 +148,7 @@ Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view, i
                                Workers* workers) {
     const char* const path = std::getenv("OCIO");
     if (!path || !*path)
-        return invalid("--ocio: $OCIO is not set; it names the config, as /shows/one/config.ocio");
+        return invalid("ocio.view: $OCIO is not set; it names the config, as /shows/one/config.ocio");
     try {
         OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
         return codes_by(*OCIO::Config::CreateFromFile(path), picture, view, *workers_of(threads, workers));

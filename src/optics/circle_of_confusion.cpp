@@ -8,10 +8,10 @@
 namespace petzval {
 namespace {
 
-Error invalid(const std::string& what, double got, const std::string& accepted) {
+Error invalid(const std::string& field, const std::string& what, double got, const std::string& accepted) {
     std::ostringstream text;
     text << what << " is " << got << "; it must be " << accepted;
-    return {ErrorCode::InvalidArgument, text.str()};
+    return {ErrorCode::InvalidArgument, text.str(), field};
 }
 
 bool positive(double x) { return x > 0; }  // false for NaN
@@ -19,26 +19,32 @@ bool positive_finite(double x) { return x > 0 && std::isfinite(x); }
 
 Status check(const Camera& camera, int width_px, const CocControls& controls) {
     if (!positive_finite(camera.focal_length_mm))
-        return invalid("focal length (--focal-length, mm)", camera.focal_length_mm, "a positive number");
+        return invalid("camera.focal_length_mm", "focal length (camera.focal_length_mm, mm)",
+                       camera.focal_length_mm, "a positive number");
     if (!positive_finite(camera.sensor_width_mm))
-        return invalid("sensor width (--sensor-width, mm)", camera.sensor_width_mm, "a positive number");
-    if (!positive(camera.f_number)) return invalid("f-number (--fstop)", camera.f_number, "positive");
+        return invalid("camera.sensor_width_mm", "sensor width (camera.sensor_width_mm, mm)",
+                       camera.sensor_width_mm, "a positive number");
+    if (!positive(camera.f_number))
+        return invalid("camera.f_number", "f-number (camera.f_number)", camera.f_number, "positive");
     if (!positive(camera.focus_distance_m))
-        return invalid("focus distance (--focus, m)", camera.focus_distance_m, "positive");
-    if (width_px <= 0) return invalid("picture width in pixels", width_px, "positive");
+        return invalid("camera.focus_distance_m", "focus distance (camera.focus_distance_m, m)",
+                       camera.focus_distance_m, "positive");
+    if (width_px <= 0) return invalid("", "picture width in pixels", width_px, "positive");
     if (camera.image_scale == ImageScale::ThinLens &&
         camera.focus_distance_m * 1000 <= camera.focal_length_mm)
-        return invalid("focus distance (--focus, m)", camera.focus_distance_m,
-                       "beyond the focal length with --image-scale thin-lens: nothing nearer can be imaged");
+        return invalid(
+            "camera.focus_distance_m", "focus distance (camera.focus_distance_m, m)", camera.focus_distance_m,
+            "beyond the focal length with camera.image_scale thin-lens: nothing nearer can be imaged");
     if (!(controls.near_scale >= 0) || !std::isfinite(controls.near_scale))
-        return invalid("--near-scale", controls.near_scale, "0 or more");
+        return invalid("focus.near_scale", "focus.near_scale", controls.near_scale, "0 or more");
     if (!(controls.far_scale >= 0) || !std::isfinite(controls.far_scale))
-        return invalid("--far-scale", controls.far_scale, "0 or more");
-    if (!positive(controls.max_radius_px)) return invalid("--max-radius", controls.max_radius_px, "positive");
+        return invalid("focus.far_scale", "focus.far_scale", controls.far_scale, "0 or more");
+    if (!positive(controls.max_radius_px))
+        return invalid("focus.max_radius_px", "focus.max_radius_px", controls.max_radius_px, "positive");
     if (!(controls.focus_falloff >= 0) || !std::isfinite(controls.focus_falloff))
-        return invalid("--focus-falloff", controls.focus_falloff, "0 or more");
+        return invalid("focus.falloff", "focus.falloff", controls.focus_falloff, "0 or more");
     if (!(controls.focus_near_m >= 0) || !(controls.focus_far_m >= controls.focus_near_m))
-        return invalid("--focus-range: its near end", controls.focus_near_m,
+        return invalid("focus.range_m", "focus.range_m: its near end", controls.focus_near_m,
                        "positive and not behind its far end");
     return Done{};
 }

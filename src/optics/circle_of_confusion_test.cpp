@@ -75,20 +75,20 @@ TEST(CircleOfConfusion, FocusInsideTheFocalLengthIsRefusedOnlyWhereItMeansNothin
     const auto refused = CircleOfConfusion::make(camera, 1920);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
-    EXPECT_NE(refused.error().message.find("--focus"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("camera.focus_distance_m"), std::string::npos);
 }
 
 TEST(CircleOfConfusion, EveryMissingNumberIsNamed) {
     const auto message = [](Camera camera) { return CircleOfConfusion::make(camera, 1920).error().message; };
     Camera camera = portrait();
     camera.focal_length_mm = 0;
-    EXPECT_NE(message(camera).find("--focal-length"), std::string::npos);
+    EXPECT_NE(message(camera).find("camera.focal_length_mm"), std::string::npos);
     camera = portrait(), camera.sensor_width_mm = std::nan("");
-    EXPECT_NE(message(camera).find("--sensor-width"), std::string::npos);
+    EXPECT_NE(message(camera).find("camera.sensor_width_mm"), std::string::npos);
     camera = portrait(), camera.f_number = -2;
-    EXPECT_NE(message(camera).find("--fstop"), std::string::npos);
+    EXPECT_NE(message(camera).find("camera.f_number"), std::string::npos);
     camera = portrait(), camera.focus_distance_m = 0;
-    EXPECT_NE(message(camera).find("--focus"), std::string::npos);
+    EXPECT_NE(message(camera).find("camera.focus_distance_m"), std::string::npos);
 }
 
 TEST(CircleOfConfusion, ControlsAreNeutralByDefaultAndEachDoesItsPart) {

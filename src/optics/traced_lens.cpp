@@ -41,8 +41,8 @@ Result<TracedLens> TracedLens::make(Prescription lens, const LensSetting& settin
     if (setting.f_number != 0) {
         if (!(setting.f_number >= first->f_number * (1 - 1e-3)) || !std::isfinite(setting.f_number)) {
             std::ostringstream text;
-            text << "f-number (--fstop) is " << setting.f_number << "; this lens opens to " << first->f_number
-                 << " and no further";
+            text << "f-number (camera.f_number) is " << setting.f_number << "; this lens opens to "
+                 << first->f_number << " and no further";
             return Error{ErrorCode::InvalidArgument, text.str()};
         }
         result.f_number_ = setting.f_number;

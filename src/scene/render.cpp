@@ -33,10 +33,10 @@ Error invalid(const std::string& what, std::int64_t got, const std::string& acce
 Status check(const SceneSettings& s, int frames) {
     const std::string side = "1 to " + std::to_string(kMaxSide) + " pixels";
     const std::string samples = "1 to " + std::to_string(kMaxSamples);
-    if (s.width < 1 || s.width > kMaxSide) return invalid("width (--width)", s.width, side);
-    if (s.height < 1 || s.height > kMaxSide) return invalid("height (--height)", s.height, side);
+    if (s.width < 1 || s.width > kMaxSide) return invalid("width (scene.width)", s.width, side);
+    if (s.height < 1 || s.height > kMaxSide) return invalid("height (scene.height)", s.height, side);
     if (s.overscan_px < 0 || s.overscan_px > kMaxSide)
-        return invalid("overscan (--overscan)", s.overscan_px,
+        return invalid("overscan (scene.overscan_px)", s.overscan_px,
                        "0 to " + std::to_string(kMaxSide) + " pixels");
     const std::int64_t pixels = std::int64_t(s.width + 2 * s.overscan_px) * (s.height + 2 * s.overscan_px);
     if (pixels > kMaxPixels)
@@ -44,19 +44,19 @@ Status check(const SceneSettings& s, int frames) {
     if (s.samples < 1 || s.samples > kMaxSamples)
         return invalid("pinhole samples per pixel", s.samples, samples);
     if (s.truth_samples < 1 || s.truth_samples > kMaxSamples)
-        return invalid("lens samples per pixel (--samples)", s.truth_samples, samples);
+        return invalid("lens samples per pixel (scene.truth_samples)", s.truth_samples, samples);
     if (!(s.depth_blur_px >= 0 && s.depth_blur_px <= 1000))
-        return invalid("depth blur (--depth-blur)", std::int64_t(s.depth_blur_px), "0 to 1000 pixels");
+        return invalid("depth blur (scene.depth_blur_px)", std::int64_t(s.depth_blur_px), "0 to 1000 pixels");
     if (s.depth_bits < 0 || s.depth_bits > 16)
-        return invalid("depth bits (--depth-bits)", s.depth_bits, "1 to 16, or 0 for exact depth");
+        return invalid("depth bits (scene.depth_bits)", s.depth_bits, "1 to 16, or 0 for exact depth");
     // Rays that leave the pinhole almost along the sensor are too long for single precision.
     const double width = s.camera ? s.camera->sensor_width_mm / s.camera->focal_length_mm : 1;
     if (!(width > 1e-4 && width < 100))
         return Error{ErrorCode::InvalidArgument,
-                     "the sensor width must be 0.0001 to 100 times the focal length (--sensor-width, "
-                     "--focal-length)"};
+                     "the sensor width must be 0.0001 to 100 times the focal length (camera.sensor_width_mm, "
+                     "camera.focal_length_mm)"};
     if (s.frame < 0 || s.frame >= frames)
-        return invalid("frame (--frame)", s.frame,
+        return invalid("frame (scene.frame)", s.frame,
                        frames == 1 ? "0: this scene does not move" : "0 to " + std::to_string(frames - 1));
     return Done{};
 }
@@ -83,8 +83,9 @@ Result<Viewpoint> moved(Viewpoint view, const SceneSettings& s) {
     if (!s.look_at) return view;
     const Vec3 towards = single(*s.look_at) - view.position;
     if (!(std::hypot(towards.x, towards.z) > 1e-4f * std::max(1.0f, std::abs(towards.y))))
-        return Error{ErrorCode::InvalidArgument,
-                     "the camera would look straight up or down, or at itself (--camera-at, --look-at)"};
+        return Error{
+            ErrorCode::InvalidArgument,
+            "the camera would look straight up or down, or at itself (scene.camera_at, scene.look_at)"};
     return Viewpoint::looking(view.position, single(*s.look_at));
 }
 

@@ -62,21 +62,21 @@ TEST(BuiltInScenes, NumbersOutOfRangeAreNamed) {
     };
     SceneSettings s = small();
     s.width = 0;
-    EXPECT_NE(message(s).find("--width"), std::string::npos);
+    EXPECT_NE(message(s).find("scene.width"), std::string::npos);
     s = small(), s.height = -3;
-    EXPECT_NE(message(s).find("--height"), std::string::npos);
+    EXPECT_NE(message(s).find("scene.height"), std::string::npos);
     s = small(), s.width = s.height = 60000;
     EXPECT_NE(message(s).find("width x height"), std::string::npos);
     s = small(), s.truth_samples = 0;
-    EXPECT_NE(message(s).find("--samples"), std::string::npos);
+    EXPECT_NE(message(s).find("scene.truth_samples"), std::string::npos);
     s = small(), s.frame = 1;
-    EXPECT_NE(message(s).find("--frame"), std::string::npos);
+    EXPECT_NE(message(s).find("scene.frame"), std::string::npos);
     s = small(), s.depth_blur_px = -1;
-    EXPECT_NE(message(s).find("--depth-blur"), std::string::npos);
+    EXPECT_NE(message(s).find("scene.depth_blur_px"), std::string::npos);
     s = small(), s.depth_bits = 17;
-    EXPECT_NE(message(s).find("--depth-bits"), std::string::npos);
+    EXPECT_NE(message(s).find("scene.depth_bits"), std::string::npos);
     s = small(), s.camera = Camera{};
-    EXPECT_NE(message(s).find("--focal-length"), std::string::npos);
+    EXPECT_NE(message(s).find("camera.focal_length_mm"), std::string::npos);
 }
 
 TEST(BuiltInScenes, StopWhenAsked) {
@@ -132,7 +132,7 @@ TEST(BuiltInScenes, ACameraThatLooksStraightUpIsRefused) {
     s.look_at = ScenePoint{0, 3, 0};
     const auto refused = render_scene("bars", s);
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("--look-at"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("scene.look_at"), std::string::npos);
 }
 
 TEST(BuiltInScenes, SoftDepthChangesTheDepthAlone) {

@@ -76,7 +76,7 @@ TEST(Distorted, DiscsOfAPictureHaveTheShapeOfTheKernel) {
     colour(400, 160) = {1000, 1000, 1000, 1};
     Plane coc(kWidth, kHeight, 14.0f);
     DefocusJob job;
-    job.colour = colour, job.depth_m = coc, job.depth_is_coc = true;
+    job.colour = colour, job.coc_px = coc;
     job.place = Place::whole(colour.rect());
     job.camera = {50, 36, 2, 2};
     job.lens.distortion = 0.15;
@@ -100,13 +100,13 @@ TEST(Distorted, APrescriptionRefusesIt) {
     Picture colour(16, 16);
     Plane coc(16, 16, 1.0f);
     DefocusJob job;
-    job.colour = colour, job.depth_m = coc, job.depth_is_coc = true;
+    job.colour = colour, job.coc_px = coc;
     job.place = Place::whole(colour.rect());
     job.camera = {50, 36, 4, 2};
     job.lens.name = "tessar", job.lens.distortion = 0.1;
     const auto report = defocus(job);
     ASSERT_FALSE(report);
-    EXPECT_NE(report.error().message.find("--distortion"), std::string::npos);
+    EXPECT_NE(report.error().message.find("lens.distortion"), std::string::npos);
 }
 
 }  // namespace

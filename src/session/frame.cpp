@@ -55,7 +55,7 @@ engine::OpenEdges open_edges(const DefocusJob& job) {
 
 Result<Radii> Radii::make(const DefocusJob& job) {
     Radii radii;
-    if (job.depth_is_coc) return radii;
+    if (has_radii(job)) return radii;
     const auto coc = CircleOfConfusion::make(job.camera, job.place.display_window.width(), job.coc);
     if (!coc) return coc.error();
     radii.coc_ = coc.value();
@@ -78,10 +78,13 @@ Plane Radii::of(View<const float> depth, Workers& workers) const {
 
 Status check_job(const DefocusJob& job) {
     if (job.colour.empty()) return invalid("the picture is empty");
-    if (job.depth_m.width() != job.colour.width() || job.depth_m.height() != job.colour.height()) {
+    if (!job.depth_m.empty() && !job.coc_px.empty())
+        return invalid("depth and radii are both given; one says what blurs");
+    const View<const float> depth = depth_or_radii(job);
+    if (depth.width() != job.colour.width() || depth.height() != job.colour.height()) {
         std::ostringstream text;
-        text << "depth is " << job.depth_m.width() << "x" << job.depth_m.height() << " and colour "
-             << job.colour.width() << "x" << job.colour.height() << "; they must be of one size";
+        text << "depth is " << depth.width() << "x" << depth.height() << " and colour " << job.colour.width()
+             << "x" << job.colour.height() << "; they must be of one size";
         return invalid(text.str());
     }
     for (const DeepPicture* deep : {job.deep, job.behind, job.holdout})
@@ -90,17 +93,17 @@ Status check_job(const DefocusJob& job) {
             return invalid("the deep samples, hidden layers or holdout are not of the picture's size");
     if (Status place = check(job.place); !place) return place;
     if (job.points && !job.points->empty() && job.engine != "sprites")
-        return invalid("given points are drawn by --engine sprites, not " + job.engine);
+        return invalid("given points are drawn by job.engine sprites, not " + job.engine);
     if (job.scatter.view != ScatterView::Result && job.engine != "scatter")
-        return invalid("layers, levels of detail and highlights are those of --engine scatter, not " +
+        return invalid("layers, levels of detail and highlights are those of job.engine scatter, not " +
                        job.engine);
-    if (!(job.sprites.bright_factor > 0)) return invalid("--bright-factor must be more than 0");
-    if (job.pupil_points < 1) return invalid("--pupil-points must be at least 1");
+    if (!(job.sprites.bright_factor > 0)) return invalid("sprites.bright_factor must be more than 0");
+    if (job.pupil_points < 1) return invalid("job.pupil_points must be at least 1");
     return Done{};
 }
 
 PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double lens_reach_px)
-    : coc_px_(radii.of(job.depth_m, *job.workers)) {
+    : coc_px_(radii.of(depth_or_radii(job), *job.workers)) {
     input.colour = job.colour;
     if (!is_finite(job.colour, *job.workers))
         input.colour = repaired_ = finite_picture(job.colour, *job.workers);
@@ -118,7 +121,7 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
     points_ = drawable_points(
         job, [&](float depth_m) { return radii(depth_m); }, warnings);
     input.points = points_;
-    if (!job.depth_is_coc) {
+    if (!has_radii(job)) {
         input.depth_m = job.depth_m;
         input.focus_distance_m = job.camera.focus_distance_m;
     }
@@ -129,14 +132,14 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
 }
 
 void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, double lens_reach_px) {
-    samples_ = engine::all_samples({input.colour, job.depth_m, job.depth_is_coc, job.deep, job.behind, radii},
-                                   *job.workers);
+    samples_ = engine::all_samples(
+        {input.colour, depth_or_radii(job), has_radii(job), job.deep, job.behind, radii}, *job.workers);
     if (job.scatter.view != ScatterView::Layers)  // shows them all
         engine::drop_out_of_sight(samples_, lens_reach_px, *job.workers);
     if (!samples_.first.empty()) input.deep = samples_;
     input.deep_dims_itself = job.deep && !job.deep->empty();
     if (job.holdout && !job.holdout->empty())
-        input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, job.depth_is_coc, *job.workers);
+        input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, has_radii(job), *job.workers);
 }
 
 void PreparedFrame::note_radii() {

@@ -13,6 +13,12 @@
 
 namespace petzval {
 
+// Whether radii are given instead of depth, and the plane of either.
+inline bool has_radii(const DefocusJob& job) { return job.depth_is_coc || !job.coc_px.empty(); }
+inline View<const float> depth_or_radii(const DefocusJob& job) {
+    return job.coc_px.empty() ? job.depth_m : job.coc_px;
+}
+
 // The radius of every pixel of a depth plane: by the camera, or as given.
 class Radii {
 public:

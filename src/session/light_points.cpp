@@ -1,5 +1,7 @@
 #include "session/light_points.h"
 
+#include "session/frame.h"
+
 #include <cmath>
 
 namespace petzval {
@@ -28,7 +30,7 @@ std::vector<LightPoint> drawable_points(const DefocusJob& job,
         if (p.x < 0 || p.y < 0 || p.x >= float(job.colour.width()) || p.y >= float(job.colour.height()))
             ++outside;
         // Where radii are given for the picture, a point's depth is none.
-        if (has_depth && !job.depth_is_coc) p.coc_px = radius_px(p.depth_m);
+        if (has_depth && !has_radii(job)) p.coc_px = radius_px(p.depth_m);
         points.push_back(p);
     }
     const auto report = [&](std::size_t count, const char* what) {

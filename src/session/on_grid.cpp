@@ -52,9 +52,9 @@ int grid_for(float largest_radius_px, bool spreads_wider) {
 }
 
 WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
-    const Rect& data = asked.data_window;
+    const Rect& data = asked.place.data_window;
     inside_ = {data.x0 - window.x0, data.y0 - window.y0, data.x1 - window.x0, data.y1 - window.y0};
-    job_.data_window = window;
+    job_.place.data_window = window;
     widen_colour(asked);
     job_.colour = colour_;
     job_.depth_m = depth_;
@@ -76,8 +76,8 @@ WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
 }
 
 void WiderJob::widen_colour(const DefocusJob& asked) {
-    const Rect &display = asked.display_window, &data = asked.data_window;
-    const int width = job_.data_window.width(), height = job_.data_window.height();
+    const Rect &display = asked.place.display_window, &data = asked.place.data_window;
+    const int width = job_.place.data_window.width(), height = job_.place.data_window.height();
     colour_ = Picture(width, height);
     depth_ = Plane(width, height);
     kept_ = Plane(width, height, 1.0f);

@@ -25,7 +25,7 @@ int grid_for(float largest_radius_px, bool spreads_wider);
 // the scene goes on as its border does, without what is brighter there than its surroundings.
 class WiderJob {
 public:
-    // Requires: window holds asked.data_window.
+    // Requires: window holds asked.place.data_window.
     WiderJob(const DefocusJob& asked, const Rect& window);
     WiderJob(const WiderJob&) = delete;
     WiderJob& operator=(const WiderJob&) = delete;

@@ -27,7 +27,7 @@ TEST(OnGrid, BeyondAnEdgeInsideTheFrameIsEmptinessBeyondOthersTheBorderWithoutIt
     const Plane depth(20, 10, 3.0f);
     DefocusJob job;
     job.colour = colour, job.depth_m = depth;
-    job.display_window = {0, 0, 64, 64}, job.data_window = {-2, 30, 18, 40};
+    job.place.display_window = {0, 0, 64, 64}, job.place.data_window = {-2, 30, 18, 40};
     const WiderJob wider(job, {-64, 0, 18, 40});
     const View<const Rgba> image = wider.job().colour;
     EXPECT_EQ(image.width(), 82);

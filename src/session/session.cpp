@@ -31,10 +31,10 @@ Result<const engine::Engine*> find_engine(const DefocusJob& job) {
             continue;
         }
         if (job.holdout && !e.takes_holdout)
-            return invalid("--engine " + job.engine + " takes no holdout; scatter and reference do");
+            return invalid("job.engine " + job.engine + " takes no holdout; scatter and reference do");
         return &e;
     }
-    return invalid("--engine " + job.engine + " is not known; there are: " + known);
+    return invalid("job.engine " + job.engine + " is not known; there are: " + known);
 }
 
 class Clock {
@@ -63,11 +63,11 @@ Rect window_for(const DefocusJob& job, const Radii& radii, const kernel::LensMod
     const bool shows_result = job.scatter.view == ScatterView::Result &&
                               job.gather.stage == GatherStage::Final &&
                               job.gaussian.view == GaussianView::Result;
-    const bool is_whole = job.data_window == job.display_window;
-    if (is_whole || !shows_result || job.engine == "reference") return job.data_window;
+    const bool is_whole = job.place.data_window == job.place.display_window;
+    if (is_whole || !shows_result || job.engine == "reference") return job.place.data_window;
     const float largest = largest_radius_px(job, radii);
     const bool spreads_wider = lens.reach_px(double(largest)) > 1.1 * double(largest) + 2;
-    return on_grid(job.display_window, job.data_window, grid_for(largest, spreads_wider),
+    return on_grid(job.place.display_window, job.place.data_window, grid_for(largest, spreads_wider),
                    lens.varies_over_field());
 }
 
@@ -92,7 +92,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
     input.progress = &progress;
     const std::unique_ptr<views::PlanView> view = views::plan_view(job.scatter.view);
     if (view) {
-        const std::string name = std::string("--view ") + views::name_of(job.scatter.view);
+        const std::string name = std::string("job.view ") + views::name_of(job.scatter.view);
         if (const Status fits = engine::fits_memory(input, views::kBytesPerPixel, name); !fits)
             return fits.error();
         input.plan_reader = view.get();
@@ -149,7 +149,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& asked, Progre
     if (!lens) return lens.error();
     const Rect window = window_for(job, *radii, *(*lens)->levels.front());
     std::optional<WiderJob> wider;
-    if (window != job.data_window) {
+    if (window != job.place.data_window) {
         wider.emplace(job, window);
         lens = lens_for(wider->job());
         if (!lens) return lens.error();
@@ -179,7 +179,7 @@ Result<Plane> circle_of_confusion(const DefocusJob& job) {
     if (const Status status = check_job(job); !status) return status.error();
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
-    return radii->of(job.depth_m, *workers_of(job.threads, job.workers));
+    return radii->of(depth_or_radii(job), *workers_of(job.threads, job.workers));
 }
 
 Result<DefocusReport> defocus(const DefocusJob& job) {

@@ -22,20 +22,17 @@ bool has_glare(const GlareAmounts& glare) {
 
 Result<Picture> with_falloff(Picture picture, const DefocusJob& job, const Look& look) {
     if (!look.vignetting) return picture;
-    return add_falloff(picture, {job.camera, job.lens, job.display_window, job.data_window, job.pixel_aspect,
-                                 job.threads, job.workers});
+    return add_falloff(picture, {job.camera, job.lens, job.place, job.threads, job.workers});
 }
 
 Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look) {
     if (!has_glare(look.glare)) return picture;
     GlareSettings settings;
     static_cast<GlareAmounts&>(settings) = look.glare;
-    settings.diffraction_px = diffraction_px(job.camera, job.display_window.width());
+    settings.diffraction_px = diffraction_px(job.camera, job.place.display_window.width());
     settings.camera = job.camera;
     settings.lens = job.lens;
-    settings.display_window = job.display_window;
-    settings.data_window = job.data_window;
-    settings.pixel_aspect = job.pixel_aspect;
+    settings.place = job.place;
     settings.workers = job.workers;
     return add_glare(picture, settings);
 }
@@ -73,8 +70,9 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
         job.workers = &workers;
         if (!look.expand_highlights) return lit(contents_->defocus(job, progress, workers), job, look);
         if (job.deep && !job.deep->empty())
-            return Result<DefocusReport>(Error{
-                ErrorCode::InvalidArgument, "--expand-highlights is for flat plates, not for deep pictures"});
+            return Result<DefocusReport>(
+                Error{ErrorCode::InvalidArgument,
+                      "plate.expand_highlights is for flat plates, not for deep pictures"});
         const auto expanded = expand_highlights(job.colour, look.expansion);
         if (!expanded) return Result<DefocusReport>(expanded.error());
         job.colour = *expanded;

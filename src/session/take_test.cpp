@@ -19,9 +19,8 @@ struct Rendered {
     Rendered() {
         colour(20, 20) = {1, 0.9f, 0.8f, 1};
         job.colour = colour;
-        job.depth_m = radii;
-        job.depth_is_coc = true;
-        job.display_window = job.data_window = colour.rect();
+        job.coc_px = radii;
+        job.place = Place::whole(colour.rect());
         job.camera = {50, 36, 2, 3};
     }
 };

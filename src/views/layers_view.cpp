@@ -74,7 +74,7 @@ bool LayersView::read(const Input& input, const engine::SampleSet& set) {
     if (most > ranks)
         shown_.warnings.push_back(
             "up to " + std::to_string(most) +
-            " surfaces lie behind each other in a pixel; --view layers shows the nearest " +
+            " surfaces lie behind each other in a pixel; job.view layers shows the nearest " +
             std::to_string(ranks));
     return false;
 }

@@ -14,7 +14,7 @@ DefocusJob cropped(const Shot& shot, const std::string& engine, const Rect& wind
     DefocusJob job = shot.job(engine);
     job.colour = shot.colour.view().part(window);
     job.depth_m = shot.coc_px.view().part(window);
-    job.data_window = window;
+    job.place.data_window = window;
     return job;
 }
 

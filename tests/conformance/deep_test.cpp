@@ -32,7 +32,7 @@ struct DeepShot {
     }
     DefocusJob job(const std::string& engine) const {
         DefocusJob job;
-        job.colour = colour, job.depth_m = coc_px, job.depth_is_coc = true;
+        job.colour = colour, job.coc_px = coc_px;
         job.deep = &deep;
         job.holdout = holdout.empty() ? nullptr : &holdout;
         job.place = Place::whole(colour.rect());

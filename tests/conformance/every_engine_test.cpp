@@ -71,7 +71,7 @@ TEST_P(EveryEngine, LivesThroughLightAndRadiiThatAreNoNumbers) {
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::OutOfMemory);
         shot.coc_px(6, 6) = 100, shot.coc_px(7, 7) = -100;
-        broken.depth_m = shot.coc_px;
+        broken.coc_px = shot.coc_px;
     }
     const Picture image = rendered(broken);
     for (std::size_t i = 0; i < image.size(); ++i) {
@@ -92,6 +92,19 @@ TEST_P(EveryEngine, SaysWhichEngineRanAndRefusesAnEmptyPicture) {
 
 std::string name_of(const testing::TestParamInfo<std::string>& engine) { return engine.param; }
 INSTANTIATE_TEST_SUITE_P(Registry, EveryEngine, testing::ValuesIn(engine_names()), name_of);
+
+TEST(Radii, UnderTheirOldNameAreTheSameAndBesideDepthAreRefused) {
+    Shot shot = flat(24, 16, {0.2f, 0.3f, 0.4f, 1}, 3);
+    shot.colour(12, 8) = {9, 9, 9, 1};
+    DefocusJob job = shot.job("scatter");
+    const Picture image = rendered(job);
+    std::swap(job.depth_m, job.coc_px);
+    job.depth_is_coc = true;
+    const Picture old = rendered(job);
+    for (std::size_t i = 0; i < image.size(); ++i) ASSERT_EQ(image.pixels()[i], old.pixels()[i]) << i;
+    job.coc_px = shot.coc_px;
+    EXPECT_FALSE(defocus(job));
+}
 
 }  // namespace
 }  // namespace petzval::conformance

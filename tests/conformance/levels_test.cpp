@@ -88,7 +88,7 @@ TEST(Memory, TooLittleIsRefusedWithWhatItTakes) {
         const auto refused = defocus(job);
         ASSERT_FALSE(refused) << engine;
         EXPECT_EQ(refused.error().code, ErrorCode::OutOfMemory) << engine;
-        EXPECT_NE(refused.error().message.find("--max-memory"), std::string::npos) << engine;
+        EXPECT_NE(refused.error().message.find("job.max_memory_bytes"), std::string::npos) << engine;
         const Picture usual = rendered(shot.job(engine));
         job.max_memory_bytes = std::size_t(2) << 30;
         EXPECT_EQ(largest_difference(rendered(job), usual), 0) << engine;

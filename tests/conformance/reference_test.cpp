@@ -113,7 +113,7 @@ TEST(Reference, ALampRightBehindAWallStaysHidden) {
     shot.behind = DeepPicture(61, 61, std::move(first), std::move(samples));
     for (const char* engine : {"reference", "scatter"}) {
         DefocusJob job = shot.job(engine);
-        job.depth_is_coc = false;
+        std::swap(job.depth_m, job.coc_px);  // metres
         job.camera = {
             .focal_length_mm = 105, .sensor_width_mm = 4.5, .f_number = 1.4, .focus_distance_m = 4.8};
         const Picture image = rendered(job);

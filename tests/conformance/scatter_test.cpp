@@ -262,7 +262,7 @@ TEST(Scatter, TheSameBitsForAnyMemoryLimitAndAClearAnswerWhenItIsTooSmall) {
     const auto refused = defocus(strips);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::OutOfMemory);
-    EXPECT_NE(refused.error().message.find("--max-memory"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("job.max_memory_bytes"), std::string::npos);
 }
 
 TEST(Scatter, EmptinessStaysEmptyAndAlphaIsBlurredAsColourIs) {

@@ -25,8 +25,7 @@ struct Shot {
     DefocusJob job(const std::string& engine) const {
         DefocusJob job;
         job.colour = colour;
-        job.depth_m = coc_px;
-        job.depth_is_coc = true;
+        job.coc_px = coc_px;
         job.behind = behind.empty() ? nullptr : &behind;
         job.place = Place::whole(colour.rect());
         job.engine = engine;

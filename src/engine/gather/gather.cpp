@@ -69,8 +69,8 @@ void copy_tile(const Input& input, const Rect& tile, View<Rgba> out) {
         std::copy_n(input.colour.row(y) + tile.x0, tile.width(), out.row(y) + tile.x0);
 }
 
-// Under --max-memory the picture is done in strips of rows, each with as many around it as can matter to it;
-// they begin on whole tiles, cells and blocks, so that they change no bit.
+// Under job.max_memory_bytes the picture is done in strips of rows, each with as many around it as can matter
+// to it; they begin on whole tiles, cells and blocks, so that they change no bit.
 struct Strips {
     int rows = 0, halo = 0;
 };

@@ -281,9 +281,9 @@ Status surfaces_fit(const Input& input, const CocSamples& samples, int margin) {
     if (bytes <= most) return Done{};
     Error error = too_little_memory("reference", std::size_t(bytes));
     if (input.max_memory_bytes == 0)
-        error.message =
-            "engine reference takes about " + std::to_string(std::size_t(bytes) >> 20) +
-            "M for this picture and blur; cut radii with --max-radius, or allow it with --max-memory";
+        error.message = "engine reference takes about " + std::to_string(std::size_t(bytes) >> 20) +
+                        "M for this picture and blur; cut radii with focus.max_radius_px, or allow it with "
+                        "job.max_memory_bytes";
     return error;
 }
 

@@ -96,7 +96,7 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     const std::size_t least = std::min(std::size_t(unit + 2 * plan.halo), std::size_t(input.height()));
     if (input.max_memory_bytes > 0 && rows < least)
         return Error{ErrorCode::OutOfMemory,
-                     "--max-memory " + std::to_string(input.max_memory_bytes >> 20) +
+                     "job.max_memory_bytes " + std::to_string(input.max_memory_bytes >> 20) +
                          "M is too little for this picture and blur; it takes at least " +
                          std::to_string((held + least * row_bytes) / (std::size_t(1) << 20) + 1) + "M"};
     return plan;

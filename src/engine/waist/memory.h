@@ -1,4 +1,4 @@
-// What an engine may take: --max-memory against what it knows it needs.
+// What an engine may take: job.max_memory_bytes against what it knows it needs.
 #pragma once
 
 #include "engine/waist/engine.h"
@@ -15,7 +15,7 @@ inline std::size_t held_bytes(const Input& input) {
 }
 
 inline Error too_little_memory(const std::string& what, std::size_t needed_bytes) {
-    return {ErrorCode::OutOfMemory, "--max-memory is too little: " + what + " takes about " +
+    return {ErrorCode::OutOfMemory, "job.max_memory_bytes is too little: " + what + " takes about " +
                                         std::to_string((needed_bytes >> 20) + 1) +
                                         "M for this picture and blur"};
 }

@@ -19,23 +19,25 @@ double radical_inverse(std::uint64_t i, unsigned base) {
 
 double wrapped(double x) { return x - std::floor(x); }
 
-Error invalid(const char* what, double got, const char* accepted) {
+// `what` begins with the field.
+Error invalid(const std::string& what, double got, const char* accepted) {
     std::ostringstream text;
     text << what << " is " << got << "; it must be " << accepted;
-    return {ErrorCode::InvalidArgument, text.str()};
+    return {ErrorCode::InvalidArgument, text.str(), what.substr(0, what.find_first_of(": "))};
 }
 
 Status check_texture(const PupilTexture& t) {
     const auto share = [](double x) { return x >= 0 && x <= 1; };
-    if (!share(t.dust)) return invalid("--dust", t.dust, "0 to 1");
-    if (!share(t.scratches)) return invalid("--scratches", t.scratches, "0 to 1");
-    if (!share(t.onion_rings)) return invalid("--onion-rings", t.onion_rings, "0 to 1");
+    if (!share(t.dust)) return invalid("lens.dust", t.dust, "0 to 1");
+    if (!share(t.scratches)) return invalid("lens.scratches", t.scratches, "0 to 1");
+    if (!share(t.onion_rings)) return invalid("lens.onion_rings", t.onion_rings, "0 to 1");
     if (!t.image) return Done{};
     float most = 0;
     for (std::size_t i = 0; i < t.image->size(); ++i)
         if (std::isfinite(t.image->pixels()[i])) most = std::max(most, t.image->pixels()[i]);
     if (!(most > 0))
-        return invalid("brightest pixel of --aperture-image", double(most), "above 0, or no light is left");
+        return invalid("lens.aperture_image: its brightest pixel", double(most),
+                       "above 0, or no light is left");
     return Done{};
 }
 
@@ -105,29 +107,29 @@ double corner_tangent(const Mount& mount) {
 Status check_aperture(const LensChoice& choice) {
     const ApertureShape& shape = choice.aperture;
     if (shape.blades != 0 && (shape.blades < 3 || shape.blades > 64))
-        return invalid("--blades", shape.blades, "0 (round) or 3 to 64");
+        return invalid("lens.blades", shape.blades, "0 (round) or 3 to 64");
     if (!std::isfinite(shape.rotation_deg))
-        return invalid("--blade-rotation", shape.rotation_deg, "a number of degrees");
+        return invalid("lens.blade_rotation_deg", shape.rotation_deg, "a number of degrees");
     if (!(shape.curvature >= 0 && shape.curvature <= 1))
-        return invalid("--blade-curvature", shape.curvature, "0 (straight) to 1 (circle)");
+        return invalid("lens.blade_curvature", shape.curvature, "0 (straight) to 1 (circle)");
     if (!(shape.squeeze >= 0.1 && shape.squeeze <= 10))
-        return invalid("--squeeze", shape.squeeze, "0.1 to 10");
+        return invalid("lens.squeeze", shape.squeeze, "0.1 to 10");
     if (!(choice.cats_eye >= 0 && choice.cats_eye <= 1))
-        return invalid("--cats-eye", choice.cats_eye, "0 to 1");
+        return invalid("lens.cats_eye", choice.cats_eye, "0 to 1");
     if (!(shape.round_at_f_number >= 0) || !std::isfinite(shape.round_at_f_number))
-        return invalid("--iris-open", shape.round_at_f_number,
+        return invalid("lens.iris_open", shape.round_at_f_number,
                        "the f-number at which the iris is round, or 0");
     for (const BarrelRim& rim : choice.barrel) {
         if (!(rim.radius_mm > 0) || !std::isfinite(rim.radius_mm))
-            return invalid("--barrel radius, mm", rim.radius_mm, "above 0");
+            return invalid("lens.barrel radius, mm", rim.radius_mm, "above 0");
         if (!std::isfinite(rim.distance_mm))
-            return invalid("--barrel distance, mm", rim.distance_mm, "a number");
+            return invalid("lens.barrel distance, mm", rim.distance_mm, "a number");
     }
     const BarnDoors& doors = choice.barn_doors;
     for (const double door : {doors.left, doors.right, doors.top, doors.bottom})
-        if (!(door >= 0 && door < 2)) return invalid("--barn-doors", door, "0 (open) to below 2 (closed)");
+        if (!(door >= 0 && door < 2)) return invalid("lens.barn_doors", door, "0 (open) to below 2 (closed)");
     if (doors.left + doors.right > 1.98 || doors.top + doors.bottom > 1.98)
-        return invalid("--barn-doors: opposite doors together",
+        return invalid("lens.barn_doors: opposite doors together",
                        std::max(doors.left + doors.right, doors.top + doors.bottom),
                        "below 1.98, or no light is left");
     return check_texture(choice.texture);

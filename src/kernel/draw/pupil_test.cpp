@@ -119,7 +119,7 @@ TEST(ApertureImage, WithoutLightIsRefused) {
     choice.texture.image = std::make_shared<const Plane>(8, 8, 0.0f);
     const auto lens = make_lens(choice, full_frame());
     ASSERT_FALSE(lens);
-    EXPECT_NE(lens.error().message.find("--aperture-image"), std::string::npos);
+    EXPECT_NE(lens.error().message.find("lens.aperture_image"), std::string::npos);
 }
 
 TEST(Texture, DustScratchesAndRingsShowInLargeDiscsForEveryKindOfLens) {
@@ -190,11 +190,11 @@ TEST(Pupil, NumbersOutOfRangeAreRefusedByName) {
     const auto names = [](const std::string& text, const char* flag) {
         return text.find(flag) != std::string::npos;
     };
-    EXPECT_TRUE(names(message([](LensChoice& c) { c.barn_doors.left = 2; }), "--barn-doors"));
-    EXPECT_TRUE(names(message([](LensChoice& c) { c.barn_doors = {1, 1, 0, 0}; }), "--barn-doors"));
-    EXPECT_TRUE(names(message([](LensChoice& c) { c.texture.dust = 1.5; }), "--dust"));
-    EXPECT_TRUE(names(message([](LensChoice& c) { c.barrel = {{-1, 3}}; }), "--barrel"));
-    EXPECT_TRUE(names(message([](LensChoice& c) { c.aperture.round_at_f_number = -1; }), "--iris-open"));
+    EXPECT_TRUE(names(message([](LensChoice& c) { c.barn_doors.left = 2; }), "lens.barn_doors"));
+    EXPECT_TRUE(names(message([](LensChoice& c) { c.barn_doors = {1, 1, 0, 0}; }), "lens.barn_doors"));
+    EXPECT_TRUE(names(message([](LensChoice& c) { c.texture.dust = 1.5; }), "lens.dust"));
+    EXPECT_TRUE(names(message([](LensChoice& c) { c.barrel = {{-1, 3}}; }), "lens.barrel"));
+    EXPECT_TRUE(names(message([](LensChoice& c) { c.aperture.round_at_f_number = -1; }), "lens.iris_open"));
 }
 
 }  // namespace

@@ -221,13 +221,13 @@ TEST(MakeLens, AnUnknownNameListsTheKnownOnes) {
 TEST(MakeLens, NumbersOutOfRangeAreRefusedByName) {
     LensChoice choice;
     choice.aperture.blades = 2;
-    EXPECT_NE(make_lens(choice, kMount).error().message.find("--blades"), std::string::npos);
+    EXPECT_NE(make_lens(choice, kMount).error().message.find("lens.blades"), std::string::npos);
     choice = {};
     choice.cats_eye = std::nan("");
-    EXPECT_NE(make_lens(choice, kMount).error().message.find("--cats-eye"), std::string::npos);
+    EXPECT_NE(make_lens(choice, kMount).error().message.find("lens.cats_eye"), std::string::npos);
     choice = {};
     choice.aperture.squeeze = 0;
-    EXPECT_NE(make_lens(choice, kMount).error().message.find("--squeeze"), std::string::npos);
+    EXPECT_NE(make_lens(choice, kMount).error().message.find("lens.squeeze"), std::string::npos);
 }
 
 }  // namespace

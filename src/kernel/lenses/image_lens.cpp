@@ -26,12 +26,12 @@ bool holds_light(const Picture& picture, float Rgba::*which) {
 Status check_kernel_images(const KernelImages& images) {
     if (!images.far)
         return Error{ErrorCode::InvalidArgument,
-                     "--kernel-image: the picture for discs behind focus is missing"};
+                     "lens.kernel_images: the picture for discs behind focus is missing"};
     for (const auto& picture : {images.far, images.near})
         for (const auto which : {&Rgba::r, &Rgba::g, &Rgba::b})
             if (picture && !holds_light(*picture, which))
                 return Error{ErrorCode::InvalidArgument,
-                             "--kernel-image must hold light in red, green and blue"};
+                             "lens.kernel_images must hold light in red, green and blue"};
     return Done{};
 }
 

@@ -18,29 +18,41 @@ using Lens = std::unique_ptr<const LensModel>;
 using RayLens = std::unique_ptr<const GeometricLens>;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+Error refuse_field(const char* field, const std::string& message) {
+    return {ErrorCode::InvalidArgument, message, field};
+}
 
 // Aberrations have a size only on a camera.
 Status check_camera(const Mount& mount) {
     const Camera& camera = mount.camera;
     if (!(camera.focal_length_mm > 0) || !std::isfinite(camera.focal_length_mm))
-        return refuse("this lens needs a focal length (--focal-length, mm) above 0");
+        return refuse_field("camera.focal_length_mm",
+                            "this lens needs a focal length (camera.focal_length_mm, mm) above 0");
     if (!(camera.sensor_width_mm > 0) || !std::isfinite(camera.sensor_width_mm))
-        return refuse("this lens needs a sensor width (--sensor-width, mm) above 0");
-    if (!(camera.f_number > 0)) return refuse("this lens needs an f-number (--fstop) above 0");
+        return refuse_field("camera.sensor_width_mm",
+                            "this lens needs a sensor width (camera.sensor_width_mm, mm) above 0");
+    if (!(camera.f_number > 0))
+        return refuse_field("camera.f_number", "this lens needs an f-number (camera.f_number) above 0");
     return Done{};
 }
 
 Status check_residuals(const LensChoice& choice) {
     const auto in = [](double value, double limit) { return std::abs(value) <= limit; };  // false for NaN
-    if (!in(choice.spherical, 10)) return refuse("--spherical must lie between -10 and 10");
-    if (!in(choice.axial_colour, 10)) return refuse("--axial-colour must lie between -10 and 10");
-    if (!in(choice.lateral_colour, 10)) return refuse("--lateral-colour must lie between -10 and 10");
-    if (!in(choice.coma, 10)) return refuse("--coma must lie between -10 and 10");
-    if (!in(choice.astigmatism, 10)) return refuse("--astigmatism must lie between -10 and 10");
-    if (!in(choice.distortion, 0.3)) return refuse("--distortion must lie between -0.3 and 0.3");
-    if (!in(choice.focus_shift_mm, 1000)) return refuse("--focus-shift must lie between -1000 and 1000 mm");
+    if (!in(choice.spherical, 10))
+        return refuse_field("lens.spherical", "lens.spherical must lie between -10 and 10");
+    if (!in(choice.axial_colour, 10))
+        return refuse_field("lens.axial_colour", "lens.axial_colour must lie between -10 and 10");
+    if (!in(choice.lateral_colour, 10))
+        return refuse_field("lens.lateral_colour", "lens.lateral_colour must lie between -10 and 10");
+    if (!in(choice.coma, 10)) return refuse_field("lens.coma", "lens.coma must lie between -10 and 10");
+    if (!in(choice.astigmatism, 10))
+        return refuse_field("lens.astigmatism", "lens.astigmatism must lie between -10 and 10");
+    if (!in(choice.distortion, 0.3))
+        return refuse_field("lens.distortion", "lens.distortion must lie between -0.3 and 0.3");
+    if (!in(choice.focus_shift_mm, 1000))
+        return refuse_field("lens.focus_shift_mm", "lens.focus_shift_mm must lie between -1000 and 1000 mm");
     if (choice.wavelengths < 0 || choice.wavelengths > 1000)
-        return refuse("--wavelengths must be 0 (as many as needed) to 1000");
+        return refuse_field("lens.wavelengths", "lens.wavelengths must be 0 (as many as needed) to 1000");
     return Done{};
 }
 
@@ -67,7 +79,7 @@ Result<RayLens> ray_lens(const LensChoice& choice, const Mount& mount) {
     const auto no_lateral_colour = [&] {
         return choice.lateral_colour == 1
                    ? Status(Done{})
-                   : refuse("--lateral-colour shapes lenses that are traced from their surfaces; \"" +
+                   : refuse("lens.lateral_colour shapes lenses that are traced from their surfaces; \"" +
                             choice.name + "\" is drawn as curves, without any");
     };
     if (curves) {

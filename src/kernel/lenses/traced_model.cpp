@@ -35,7 +35,8 @@ Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, m
 Status check_choice(const LensChoice& c) {
     if (c.spherical != 1 || c.axial_colour != 1 || c.coma != 0 || c.astigmatism != 0 || c.distortion != 0)
         return refuse(
-            "--spherical, --axial-colour, --coma, --astigmatism and --distortion shape lenses drawn as "
+            "lens.spherical, lens.axial_colour, lens.coma, lens.astigmatism and lens.distortion shape lenses "
+            "drawn as "
             "curves (lens list); \"" +
             c.name + "\" is traced from its surfaces");
     return Done{};

@@ -254,7 +254,7 @@ TEST(TracedModel, AnApertureThatTheLensDoesNotHaveIsRefused) {
     const auto lens = make_lens(choice, full_frame(1.4));
     ASSERT_FALSE(lens);
     EXPECT_EQ(lens.error().code, ErrorCode::InvalidArgument);
-    EXPECT_NE(lens.error().message.find("--fstop"), std::string::npos);
+    EXPECT_NE(lens.error().message.find("camera.f_number"), std::string::npos);
 }
 
 TEST(TracedModel, OptionsOfCurveLensesAreRefused) {
@@ -262,12 +262,12 @@ TEST(TracedModel, OptionsOfCurveLensesAreRefused) {
     choice.name = "tessar", choice.coma = 1;
     const auto lens = make_lens(choice, mount_of("tessar"));
     ASSERT_FALSE(lens);
-    EXPECT_NE(lens.error().message.find("--coma"), std::string::npos);
+    EXPECT_NE(lens.error().message.find("lens.coma"), std::string::npos);
     LensChoice drawn;
     drawn.name = "doublet", drawn.lateral_colour = 0;
     const auto without = make_lens(drawn, full_frame(2));
     ASSERT_FALSE(without);
-    EXPECT_NE(without.error().message.find("--lateral-colour"), std::string::npos);
+    EXPECT_NE(without.error().message.find("lens.lateral_colour"), std::string::npos);
 }
 
 TEST(TracedModel, WithoutKnownDispersionItIsNeutral) {

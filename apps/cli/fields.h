@@ -1,0 +1,13 @@
+// The library's messages name fields, as camera.f_number; a user knows flags, as --fstop.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace petzval::cli {
+
+// The text with every field that has a flag spoken of by that flag.
+std::string in_flags(const std::string& text);
+std::vector<std::string> in_flags(std::vector<std::string> lines);
+
+}  // namespace petzval::cli
