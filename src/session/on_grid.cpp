@@ -1,5 +1,7 @@
 #include "session/on_grid.h"
 
+#include "session/frame.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -57,7 +59,7 @@ WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
     job_.place.data_window = window;
     widen_colour(asked);
     job_.colour = colour_;
-    job_.depth_m = depth_;
+    (asked.coc_px.empty() ? job_.depth_m : job_.coc_px) = depth_;
     const auto widen = [&](const DeepPicture*& deep, DeepPicture& own, bool is_matte) {
         if (!deep || deep->empty()) return;
         own = widened(*deep, is_matte);
@@ -78,6 +80,7 @@ WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
 void WiderJob::widen_colour(const DefocusJob& asked) {
     const Rect &display = asked.place.display_window, &data = asked.place.data_window;
     const int width = job_.place.data_window.width(), height = job_.place.data_window.height();
+    const View<const float> depth = depth_or_radii(asked);
     colour_ = Picture(width, height);
     depth_ = Plane(width, height);
     kept_ = Plane(width, height, 1.0f);
@@ -88,7 +91,7 @@ void WiderJob::widen_colour(const DefocusJob& asked) {
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const int u = column(x), v = row(y);
-            depth_(x, y) = asked.depth_m(u, v);
+            depth_(x, y) = depth(u, v);
             if (!inside_.contains(x, y)) kept_(x, y) = is_empty(x, y) ? 0 : steady_share(asked.colour, u, v);
             if (kept_(x, y) > 0) colour_(x, y) = dimmed(asked.colour(u, v), kept_(x, y));
         }

@@ -50,8 +50,9 @@ private:
 float largest_radius_px(const DefocusJob& job, const Radii& radii) {
     float largest = 0;
     const auto note = [&](float depth) { largest = std::max(largest, std::abs(radii(depth))); };
-    for (int y = 0; y < job.depth_m.height(); ++y)
-        for (int x = 0; x < job.depth_m.width(); ++x) note(job.depth_m(x, y));
+    const View<const float> depth = depth_or_radii(job);
+    for (int y = 0; y < depth.height(); ++y)
+        for (int x = 0; x < depth.width(); ++x) note(depth(x, y));
     for (const DeepPicture* deep : {job.deep, job.behind})
         if (deep)
             for (const DeepSample& s : deep->samples()) note(s.depth_m);

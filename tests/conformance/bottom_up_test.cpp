@@ -32,7 +32,7 @@ TEST(BottomUp, EveryEngineGivesTheSameBits) {
         DefocusJob job = shot.job(engine);
         job.pupil_points = 64;
         const Picture top_down = rendered(job);
-        job.colour = colour.view(), job.depth_m = coc_px.view();
+        job.colour = colour.view(), job.coc_px = coc_px.view();
         EXPECT_EQ(largest_difference(top_down, rendered(job)), 0) << engine;
     }
 }

@@ -13,7 +13,7 @@ class DataWindow : public testing::TestWithParam<std::string> {};
 DefocusJob cropped(const Shot& shot, const std::string& engine, const Rect& window) {
     DefocusJob job = shot.job(engine);
     job.colour = shot.colour.view().part(window);
-    job.depth_m = shot.coc_px.view().part(window);
+    job.coc_px = shot.coc_px.view().part(window);
     job.place.data_window = window;
     return job;
 }

@@ -66,7 +66,7 @@ TEST(Levels, AreThoseOfScatter) {
     job.scatter.view = ScatterView::Levels;
     const auto refused = defocus(job);
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("--engine scatter"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("engine scatter"), std::string::npos);
 }
 
 TEST(Memory, GatherInStripsGivesTheSameBits) {

@@ -225,7 +225,7 @@ TEST(Sprites, GivenPointsNeedThisEngine) {
     job.engine = "gather";
     const auto report = defocus(job);
     ASSERT_FALSE(report.has_value());
-    EXPECT_NE(report.error().message.find("--engine sprites"), std::string::npos);
+    EXPECT_NE(report.error().message.find("engine sprites"), std::string::npos);
 }
 
 TEST(Sprites, ManyLightsAddUp) {

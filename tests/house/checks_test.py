@@ -50,11 +50,17 @@ class Checks(unittest.TestCase):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "petzval/defocus.h"\n'}, "petzval/defocus.h")
 
     def test_other_peoples_headers_stay_in_their_room(self):
-        self.assert_found("check_layers.py", {"src/engine/waist/a.cpp": "#include <tbb/task_arena.h>\n"}, "parallel")
+        self.assert_found("check_layers.py", {"src/engine/waist/a.cpp": "#include <tbb/task_arena.h>\n"}, "workers")
         self.assert_found("check_layers.py", {"include/petzval/a.h": "#include <OpenEXR/ImfArray.h>\n"}, "files")
 
     def test_the_program_sees_public_headers_only(self):
         self.assert_found("check_layers.py", {"apps/cli/a.cpp": '#include "engine/b.h"\n'}, "petzval/ only")
+
+    def test_a_library_that_speaks_of_flags_is_found(self):
+        self.assert_found("check_layers.py", {"src/image/a.cpp": 'auto a = "give --fstop";\n'}, "names fields")
+        self.assert_clean("check_layers.py", {"src/image/a.cpp": '// --fstop\nauto a = "give camera.f_number -- or b--c";\n',
+                                              "src/image/a_test.cpp": 'auto a = "--fstop";\n',
+                                              "apps/cli/a.cpp": 'auto a = "--fstop";\n'})
 
     def test_a_long_function_is_found_in_any_form(self):
         for head in ("int long_one() {\n", "Result<A<B>> C::long_one(int a,\n          int b) const {\n",

@@ -18,7 +18,7 @@ int main() {
     petzval::DefocusJob job;
     job.colour = colour;
     job.depth_m = depth;
-    job.place = Place::whole(colour.rect());
+    job.place = petzval::Place::whole(colour.rect());
     job.camera = camera;
     for (const std::string& engine : petzval::engine_names()) {
         job.engine = engine;
