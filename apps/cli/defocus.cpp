@@ -47,6 +47,7 @@ private:
     Input input_;
     PointsFile points_;
     Camera camera_;
+    std::optional<Lens> lens_;  // once read
     std::optional<ExpandedPlate> plate_;
     ViewSource view_;  // what compute() made and write() needs
 };
@@ -76,6 +77,9 @@ Status Run::read() {
     detail("petzval " PETZVAL_VERSION ", " + (flags_.run.threads > 0 ? plain(flags_.run.threads) : "all") +
            " threads, seed " + std::to_string(flags_.seed) + ", " + name_of(flags_.quality) + " quality");
     if (Status done = flags_.lens.load(flags_.run.threads); !done) return done;
+    const auto lens = Lens::open(flags_.lens.choice());
+    if (!lens) return lens.error();
+    lens_ = *lens;
     auto loaded = load_input(flags_.input, flags_.camera);
     if (!loaded) return loaded.error();
     input_ = std::move(*loaded);
@@ -170,6 +174,7 @@ Status Run::grow() {
 
 Status Run::compute() {
     DefocusJob job = flags_.job(input_, camera_);
+    job.opened_lens = lens_;
     report_["lens"] = lens_json(job.lens, "");
     report_["lens"].update(character_json(job.lens));
     report_["parameters"] = flags_.parameters_json(job);
@@ -225,7 +230,7 @@ Status Run::render(DefocusJob job) {
 Status Run::add_glare() {
     report_["glare"] = flags_.glare.json();
     const Stopwatch watch;
-    Status done = flags_.glare.apply(input_.frame, input_.camera, flags_.lens.choice(), flags_.run.threads);
+    Status done = flags_.glare.apply(input_.frame, input_.camera, *lens_, flags_.run.threads);
     if (done && plate_) input_.frame.colour = plate_->back(input_.frame.colour);
     report_["seconds"]["glare"] = watch.seconds();
     return done;

@@ -38,12 +38,14 @@ Status develop_file(const DevelopVerbFlags& flags) {
         return Done{};
     }
     if (Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
+    const auto lens = Lens::open(flags.lens.choice());
+    if (!lens) return lens.error();
     auto input = load_input(flags.input, flags.camera);
     if (!input) return input.error();
     for (const auto& line : input->detected_in_picture()) note(line);
     for (const auto& line : input->warnings) warning(line);
     const double read_s = total.seconds();
-    Status glared = flags.glare.apply(input->frame, input->camera, flags.lens.choice(), flags.run.threads);
+    Status glared = flags.glare.apply(input->frame, input->camera, *lens, flags.run.threads);
     if (!glared) return glared;
     const double glare_s = total.seconds() - read_s;
     DevelopSettings settings =

@@ -89,12 +89,13 @@ void GlareFlags::check(const LensChoice& lens) const {
         throw UsageError("--bloom, --star, --ghosts and --veil together take more than all light");
 }
 
-Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const LensChoice& lens, int threads) const {
+Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const Lens& lens, int threads) const {
     if (given().empty()) return Done{};
     const Camera camera = known_numbers(found);
     if (vignetting) {
-        auto dimmed = add_falloff(frame.colour.view(),
-                                  {.camera = camera, .lens = lens, .place = frame.place, .threads = threads});
+        auto dimmed =
+            add_falloff(frame.colour.view(),
+                        {.camera = camera, .opened_lens = lens, .place = frame.place, .threads = threads});
         if (!dimmed) return dimmed.error();
         frame.colour = std::move(*dimmed);
     }
@@ -110,7 +111,7 @@ Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const LensChoic
     settings.camera = camera;
     settings.veil = veil.value_or(0);
     settings.threshold = threshold.value_or(settings.threshold);
-    settings.lens = lens;
+    settings.opened_lens = lens;
     settings.place = frame.place;
     settings.threads = threads;
     auto glared = add_glare(frame.colour.view(), settings);

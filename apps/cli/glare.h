@@ -28,7 +28,7 @@ struct GlareFlags {
 
     // Changes frame.colour; nothing if no flag was given. Camera numbers that are missing are an error only
     // where a part needs them. Errors: those of add_falloff and add_glare.
-    Status apply(Frame& frame, const FoundCamera& found, const LensChoice& lens, int threads) const;
+    Status apply(Frame& frame, const FoundCamera& found, const Lens& lens, int threads) const;
     Json json() const;  // null if no flag was given
 };
 

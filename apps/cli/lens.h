@@ -1,7 +1,7 @@
 // The lens of a command.
 #pragma once
 
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 
 #include "flags.h"
 #include "lens_character.h"

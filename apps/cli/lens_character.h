@@ -2,7 +2,7 @@
 // blades.
 #pragma once
 
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/result.h"
 
 #include "flags.h"

@@ -61,13 +61,13 @@ struct PictureFlags {
 // Numbers that are not given are the lens's own: also its format, that of a normal lens (36 mm for 50 mm)
 // where none is stated. So --focal-length alone mounts the lens, scaled, on the sensor it was made for: in
 // pixels its aberrations grow along. With the sensor scaled by the same factor the kernel stays what it was.
-Result<LensMount> mount_of(const PictureFlags& flags) {
+Result<LensMount> mount_of(const PictureFlags& flags, const Lens& lens) {
     LensMount mount;
     mount.width_px = flags.width_px;
     mount.height_px = flags.height_px.value_or(std::max(1, flags.width_px * 9 / 16));
     double focal_length_mm = 50, f_number = 2, sensor_width_mm = 0;
-    if (flags.lens.name != "ideal") {
-        const auto facts = lens_facts(flags.lens.name);
+    if (lens.kind() != LensModelKind::Ideal) {
+        const auto facts = lens_facts(lens);
         if (!facts) return facts.error();
         if (facts->efl_mm > 0) focal_length_mm = facts->efl_mm;
         sensor_width_mm = facts->sensor_width_mm;
@@ -147,13 +147,13 @@ Status write_view(const PictureFlags& flags, Picture picture) {
     return write_developed(flags.output, picture.view(), settings, !flags.overwrite.no_clobber);
 }
 
-Status finish(const PictureFlags& flags, Json report, const LensMount& mount, const LensChoice& lens,
+Status finish(const PictureFlags& flags, Json report, const LensMount& mount, const Lens& lens,
               const std::string& description, const Stopwatch& watch) {
     note("wrote " + flags.output);
     if (flags.run.json.empty()) return Done{};
     report["output"] = flags.output;
-    report["lens"] = lens_json(lens, description);
-    report["lens"].update(character_json(lens));
+    report["lens"] = lens_json(lens.choice(), description);
+    report["lens"].update(character_json(lens.choice()));
     report["camera"] = mount_json(mount);
     report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
@@ -162,7 +162,7 @@ Status finish(const PictureFlags& flags, Json report, const LensMount& mount, co
 
 struct Mounted {
     LensMount mount;
-    LensChoice lens;
+    Lens lens;
 };
 
 // What a picture is made of, or nothing where there is nothing to do.
@@ -175,9 +175,11 @@ Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
         if (!path.empty() && path != "-")
             if (Status fine = check_output(path, flags.lens.input_files()); !fine) return fine.error();
     if (Status done = flags.lens.load(0); !done) return done.error();
-    const auto mount = mount_of(flags);
+    const auto lens = Lens::open(flags.lens.choice());
+    if (!lens) return lens.error();
+    const auto mount = mount_of(flags, *lens);
     if (!mount) return mount.error();
-    return std::optional<Mounted>({*mount, flags.lens.choice()});
+    return std::optional<Mounted>({*mount, *lens});
 }
 
 struct PsfFlags : PictureFlags {

@@ -4,7 +4,7 @@
 #include "petzval/camera.h"
 #include "petzval/depth.h"
 #include "petzval/files.h"
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/result.h"
 
 #include <chrono>

@@ -42,6 +42,7 @@ struct DefocusJob {
     Camera camera;
     CocControls coc;
     LensChoice lens;
+    std::optional<Lens> opened_lens;  // where given, it is taken instead of `lens`, and nothing is read
 
     std::string engine = "scatter";  // one of engine_names()
     Quality quality = Quality::Standard;

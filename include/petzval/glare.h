@@ -14,7 +14,7 @@
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
-#include <string>
+#include <optional>
 
 namespace petzval {
 
@@ -61,8 +61,9 @@ struct GlareSettings : GlareAmounts {
     // 550 nm times the f-number, in pixels: the grain of the diffraction pattern. 0 or less than the finest
     // that is computed (about star_radius / 500 of the height): that finest, whose grain does not show.
     double diffraction_px = 0;
-    Camera camera;    // for the ghosts of a prescription: all four numbers
-    LensChoice lens;  // the aperture, and the prescription for ghosts
+    Camera camera;                    // for the ghosts of a prescription: all four numbers
+    LensChoice lens;                  // the aperture, and the prescription for ghosts
+    std::optional<Lens> opened_lens;  // where given, it is taken instead of `lens`, and nothing is read
     // Of an empty display window: the picture is the frame. Shares of height are of the display window's,
     // ghosts mirror about its centre.
     Place place;
@@ -81,7 +82,8 @@ PETZVAL_API Result<Picture> add_glare(View<const Rgba> picture, const GlareSetti
 struct FalloffSettings {
     Camera camera = {};  // focal length and sensor width; for a prescription also f-number and focus
     LensChoice lens = {};
-    Place place = {};  // as above
+    std::optional<Lens> opened_lens = {};  // as above
+    Place place = {};                      // as above
     int threads = 0;
     Workers* workers = nullptr;
 };

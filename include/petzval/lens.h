@@ -1,99 +1,48 @@
-// What the photographer mounts on the camera: a named lens, the shape of its aperture, and what is left of
-// its aberrations.
+// A lens, ready to be mounted on a camera.
 #pragma once
 
-#include "petzval/image.h"
+#include "petzval/export.h"
+#include "petzval/lens_choice.h"
+#include "petzval/result.h"
 
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace petzval {
 
-// Polygon inscribed in the f-stop's circle; see docs/conventions.md, "Shapes".
-struct ApertureShape {
-    int blades = 0;           // 0: round; else >= 3
-    double rotation_deg = 0;  // first vertex, counter-clockwise from +x, in the far (upright) disc
-    double curvature = 0;     // 0 straight edges … 1 circle
-    double squeeze = 1;       // the disc is so many times taller than wide, > 0
-    // > 0: the f-number at which the iris is fully open and round; its blades straighten towards `curvature`
-    // over the first stop and a half.
-    double round_at_f_number = 0;
-
-    bool operator==(const ApertureShape&) const = default;
+enum class LensModelKind {
+    Ideal,         // a flat disc
+    Curves,        // longitudinal aberration curves
+    Prescription,  // surfaces and glass, traced
 };
 
-// A circular rim of the barrel, a hood or a filter ring, in front of the entrance pupil (distance > 0) or
-// behind.
-struct BarrelRim {
-    double radius_mm = 0, distance_mm = 0;
+// What a LensChoice describes, read, checked and named by its content once. Cheap to copy: copies share what
+// was read. Never changes, also when the file it came from does; safe to use from many threads.
+class PETZVAL_API Lens {
+public:
+    // Errors: InvalidArgument naming an unknown lens or an option out of range; InvalidFile for a lens file
+    // that is missing, damaged or no regular file. What needs a camera is checked where the lens is mounted.
+    static Result<Lens> open(const LensChoice& choice);
+    // The same lens used in another way: `choice` decides all but the name. Nothing is read. Errors: as
+    // above.
+    Result<Lens> with(const LensChoice& choice) const;
 
-    bool operator==(const BarrelRim&) const = default;
-};
+    const LensChoice& choice() const;
+    const std::string& name() const { return choice().name; }  // as asked for
+    LensModelKind kind() const;
+    // The ideal lens and lenses drawn as curves; not those with surfaces.
+    bool is_drawn() const { return kind() != LensModelKind::Prescription; }
+    // Whether a kernel of given radius changes when only the focus is moved.
+    bool depends_on_focus() const;
+    // Names the content: the lens's data and every option, images included. 32 hexadecimal digits.
+    const std::string& key() const;
 
-// How far each door of a matte box reaches over the pupil from its side, in pupil radii: 0 open, 1 half
-// covered.
-struct BarnDoors {
-    double left = 0, right = 0, top = 0, bottom = 0;  // as seen in the far (upright) disc
+    struct Contents;
+    const Contents& contents() const { return *contents_; }
 
-    bool operator==(const BarnDoors&) const = default;
-};
-
-// What lies in the pupil; seen best in large discs. Strengths 0 (none) to 1.
-struct PupilTexture {
-    // Transmission 0…1 over the square around the f-stop's circle, upright as the far disc shows it; may be
-    // null.
-    std::shared_ptr<const Plane> image;
-    double dust = 0, scratches = 0;
-    double onion_rings = 0;  // turning marks of moulded aspheres
-    std::uint64_t seed = 1;  // where dust, scratches and rings lie
-
-    bool operator==(const PupilTexture&) const = default;
-};
-
-// A disc photographed or drawn, used as it is instead of a lens; the circle it shows fills the picture. Far:
-// upright. Without `near`, discs in front of focus are the far one turned by 180 degrees.
-struct KernelImages {
-    std::shared_ptr<const Picture> far, near;  // both null: none
-
-    bool operator==(const KernelImages&) const = default;
-};
-
-// Where the sensor is put, which spherical aberration and colour leave open.
-enum class FocusMode {
-    Best,      // least mean square blur at this aperture, wavelengths weighted by luminance
-    Paraxial,  // where light at 587.56 nm near the axis meets
-    Shift,     // focus_shift_mm from there
-};
-
-// A lens as an engine is asked to use it. Defaults: a perfect lens with a round aperture, a flat disc.
-struct LensChoice {
-    std::string name = "ideal";  // a built-in lens (lens list) or the path of a lens file
-    ApertureShape aperture;
-    double cats_eye = 0;  // 0…1: barrel displaced by cats_eye * field, in pupil radii
-    std::vector<BarrelRim> barrel;
-    BarnDoors barn_doors;
-    PupilTexture texture;
-    KernelImages kernel_images;
-
-    FocusMode focus_mode = FocusMode::Best;
-    double focus_shift_mm = 0;  // FocusMode::Shift: + away from the lens
-    // The defocus-control ring: factors on the lens's own residuals, 1 as built, 0 none, -1 reversed.
-    double spherical = 1, axial_colour = 1;
-    double lateral_colour = 1;  // the same, of a prescription: how far apart colours land off the axis
-    // Third-order aberrations off the axis, added to a curve lens (0: none). At full field, with the pupil's
-    // rim at height h = 1/(2 f-number) focal lengths:
-    double coma = 0;         // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward
-    double astigmatism = 0;  // tangential and sagittal focus 2 * 0.01 * astigmatism focal lengths apart
-    // Discs stretch by (1 + 3 d) along and (1 + d) across the field's direction, and defocus() moves the
-    // picture with them: from r half diagonals to r (1 + d r^2). Channels besides colour and alpha stay where
-    // they are.
-    double distortion = 0;
-    int wavelengths = 0;  // bands of the spectrum; 0: as many as the kernel needs to be smooth
-    bool wave = false;    // diffraction: rings in discs of small sensors, spikes of blades; slow
-
-    bool operator==(const LensChoice&) const = default;
+private:
+    explicit Lens(std::shared_ptr<const Contents> contents) : contents_(std::move(contents)) {}
+    std::shared_ptr<const Contents> contents_;
 };
 
 }  // namespace petzval

@@ -3,18 +3,13 @@
 #pragma once
 
 #include "petzval/export.h"
+#include "petzval/lens.h"
 #include "petzval/result.h"
 
 #include <string>
 #include <vector>
 
 namespace petzval {
-
-enum class LensModelKind {
-    Ideal,         // a flat disc
-    Curves,        // longitudinal aberration curves
-    Prescription,  // surfaces and glass, traced
-};
 
 struct LensSummary {
     std::string name;                   // as --lens takes it
@@ -81,9 +76,9 @@ struct LensFacts {
     std::vector<FieldFacts> field;  // from the axis to field_deg; ends where no ray passes the stop's centre
 };
 
-// Errors: InvalidArgument for a name that is neither a lens nor a file (the message lists the lenses);
-// InvalidFile for a file that is damaged, holds something unsupported, or describes no lens that forms an
-// image.
+// Errors: InvalidFile for a file that describes no lens that forms an image.
+PETZVAL_API Result<LensFacts> lens_facts(const Lens& lens);
+// Errors: as above, and those of Lens::open().
 PETZVAL_API Result<LensFacts> lens_facts(const std::string& name_or_file);
 
 }  // namespace petzval

@@ -30,6 +30,10 @@ struct LensDisc {
 // -1…1 of its half diagonal, x right, y up. size_px: sides of the picture, made odd; 0: as large as the disc.
 // raw: before colours that no screen has are mapped into gamut. Errors: those of the lens; InvalidArgument
 // for numbers that are not finite, or a disc or picture larger than kLargestDiscPx.
+PETZVAL_API Result<LensDisc> lens_point_spread(const Lens& lens, const LensMount& mount, double coc_radius_px,
+                                               double field_x = 0, double field_y = 0, int size_px = 0,
+                                               bool raw = false);
+// Errors: also those of Lens::open().
 PETZVAL_API Result<LensDisc> lens_point_spread(const LensChoice& lens, const LensMount& mount,
                                                double coc_radius_px, double field_x = 0, double field_y = 0,
                                                int size_px = 0, bool raw = false);
@@ -56,6 +60,8 @@ struct BokehTexture {
 };
 
 // Errors: as above.
+PETZVAL_API Result<BokehTexture> bokeh_texture(const Lens& lens, const LensMount& mount,
+                                               const BokehTextureSettings& settings = {});
 PETZVAL_API Result<BokehTexture> bokeh_texture(const LensChoice& lens, const LensMount& mount,
                                                const BokehTextureSettings& settings = {});
 

@@ -8,7 +8,7 @@
 #include "petzval/engine_options.h"
 #include "petzval/export.h"
 #include "petzval/glare.h"
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/result.h"
 
 #include <span>

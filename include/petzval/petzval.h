@@ -13,6 +13,7 @@
 #include "petzval/glare.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/lens_facts.h"
 #include "petzval/lens_kernel.h"
 #include "petzval/look.h"

@@ -9,7 +9,7 @@
 #include "glare/star_kernel.h"
 #include "glare/streaks.h"
 #include "kernel/draw/pupil.h"
-#include "kernel/lenses/make_lens.h"
+#include "kernel/lenses/opened_lens.h"
 
 #include <sstream>
 #include <vector>
@@ -111,9 +111,19 @@ void add_veil(Picture& out, const Picture& light, float amount) {
     for (std::size_t i = 0; i < out.size(); ++i) out.pixels()[i] += mean;
 }
 
+Result<GhostModel> ghosts_of(const GlareSettings& s, double height_px, int width_px) {
+    const auto lens = s.opened_lens ? Result<Lens>(*s.opened_lens) : Lens::open(s.lens);
+    if (!lens) return lens.error();
+    if (const optics::Prescription* surfaces = kernel::prescription_of(*lens))
+        return prescription_ghosts(*surfaces, s, width_px);
+    return sprite_ghosts(s.lens.aperture, height_px, s.place.pixel_aspect);
+}
+
 }  // namespace
 
-Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& s) {
+Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings) {
+    GlareSettings s = settings;
+    if (s.opened_lens) s.lens = s.opened_lens->choice();
     if (picture.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
     if (const Status fine = check(s); !fine) return fine.error();
     if (s.bloom == 0 && s.star == 0 && s.ghosts == 0 && s.veil == 0) {
@@ -128,13 +138,9 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& s) {
 
     GhostModel ghosts;
     if (s.ghosts > 0) {
-        if (kernel::is_drawn(s.lens.name)) {
-            ghosts = sprite_ghosts(s.lens.aperture, height, s.place.pixel_aspect);
-        } else {
-            auto traced = prescription_ghosts(s, display.width());
-            if (!traced) return traced.error();
-            ghosts = std::move(*traced);
-        }
+        auto model = ghosts_of(s, height, display.width());
+        if (!model) return model.error();
+        ghosts = std::move(*model);
     }
     const std::shared_ptr<Workers> workers = workers_of(s.threads, s.workers);
     const Picture light = without_alpha(picture, *workers);

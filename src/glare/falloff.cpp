@@ -4,8 +4,7 @@
 
 #include "base/parallel.h"
 #include "kernel/draw/pupil.h"
-#include "kernel/lenses/make_lens.h"
-#include "lens_files/shelf.h"
+#include "kernel/lenses/opened_lens.h"
 #include "optics/aberrations.h"
 
 #include <algorithm>
@@ -22,10 +21,10 @@ constexpr int kGridColumns = 64;  // the frame is lit on a grid this wide, and b
 // The open share of the pupil at a place of the field (-1…1 of the half diagonal, y up), 1 in the middle.
 using Opening = std::function<double(kernel::FieldPosition)>;
 
-Opening barrel(const FalloffSettings& settings) {
+Opening barrel(const LensChoice& lens, const FalloffSettings& settings) {
     const Rect& display = settings.place.display_window;
     const kernel::Pupil pupil(
-        settings.lens, {settings.camera, display.width(), display.height(), settings.place.pixel_aspect});
+        lens, {settings.camera, display.width(), display.height(), settings.place.pixel_aspect});
     constexpr double kTolerance = 1e-3;
     const double whole = std::abs(kernel::area(pupil.outline({0, 0}, kTolerance)));
     return [=](kernel::FieldPosition field) {
@@ -34,27 +33,25 @@ Opening barrel(const FalloffSettings& settings) {
 }
 
 // Rays past the rims, by distance from the middle; half_diagonal_mm on the sensor.
-Result<Opening> rims(const FalloffSettings& settings, double half_diagonal_mm) {
-    auto file = lens_files::find_lens(settings.lens.name);
-    if (!file) return file.error();
-    const auto own = optics::first_order(file->lens, file->lens.primary_um);
+Result<Opening> rims(const optics::Prescription& lens, const FalloffSettings& settings,
+                     double half_diagonal_mm) {
+    const auto own = optics::first_order(lens, lens.primary_um);
     if (!own) return own.error();
     optics::LensSetting setting;
     const Camera& camera = settings.camera;
     setting.f_number = camera.f_number > own->f_number ? camera.f_number : 0;
     if (camera.focus_distance_m > 0) setting.focus_distance_mm = 1000 * camera.focus_distance_m;
     const auto traced = optics::TracedLens::make(
-        optics::scaled(file->lens, camera.focal_length_mm / own->focal_length_mm), setting);
+        optics::scaled(lens, camera.focal_length_mm / own->focal_length_mm), setting);
     if (!traced) return traced.error();
     std::vector<double> share;
     for (int i = 0; i <= kRings; ++i) {
         const double field_rad = std::atan(half_diagonal_mm * i / kRings / camera.focal_length_mm);
-        const auto beam = traced->beam(file->lens.primary_um, field_rad);
+        const auto beam = traced->beam(lens.primary_um, field_rad);
         share.push_back(beam ? optics::unvignetted_share(*beam, 48) : 0);
     }
     const double middle = share.front();
-    if (!(middle > 0))
-        return Error{ErrorCode::InvalidArgument, settings.lens.name + ": no light reaches the middle"};
+    if (!(middle > 0)) return Error{ErrorCode::InvalidArgument, lens.name + ": no light reaches the middle"};
     return Opening([share, middle](kernel::FieldPosition field) {
         const double at = std::min(std::hypot(field.x, field.y), 1.0) * kRings;
         const std::size_t i = std::min(std::size_t(at), share.size() - 2);
@@ -74,7 +71,8 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
                      "light falloff needs a focal length and a sensor width: give camera.focal_length_mm and "
                      "camera.sensor_width_mm (mm)"};
     if (picture.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
-    if (const Status fine = kernel::check_aperture(settings.lens); !fine) return fine.error();
+    const auto lens = settings.opened_lens ? Result<Lens>(*settings.opened_lens) : Lens::open(settings.lens);
+    if (!lens) return lens.error();
     Rect display = settings.place.display_window, data = settings.place.data_window;
     if (display.empty()) display = data = picture.rect();
     const double half_width = 0.5 * display.width();
@@ -82,9 +80,9 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
     const double half_diagonal = std::hypot(half_width, half_height);
     const double mm_per_px = camera.sensor_width_mm / display.width();
 
-    Opening opening = barrel(settings);
-    if (!kernel::is_drawn(settings.lens.name)) {
-        auto traced = rims(settings, half_diagonal * mm_per_px);
+    Opening opening = barrel(lens->choice(), settings);
+    if (const optics::Prescription* surfaces = kernel::prescription_of(*lens)) {
+        auto traced = rims(*surfaces, settings, half_diagonal * mm_per_px);
         if (!traced) return traced.error();
         opening = [cats_eye = std::move(opening), traced = std::move(*traced)](kernel::FieldPosition field) {
             return cats_eye(field) * traced(field);

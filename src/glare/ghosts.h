@@ -6,6 +6,7 @@
 #include "petzval/workers.h"
 
 #include "kernel/model/coverage.h"
+#include "optics/prescription.h"
 
 #include <functional>
 #include <vector>
@@ -26,7 +27,8 @@ using GhostModel = std::function<std::vector<GhostShape>(kernel::Point source_px
 GhostModel sprite_ghosts(const ApertureShape& aperture, double height_px, double pixel_aspect);
 
 // Paraxial ghosts of a prescription; see prescription_ghosts.cpp. width_px: of the frame.
-Result<GhostModel> prescription_ghosts(const GlareSettings& settings, int width_px);
+Result<GhostModel> prescription_ghosts(const optics::Prescription& lens, const GlareSettings& settings,
+                                       int width_px);
 
 // out += amount * ghosts of `light`. middle: of the frame, in pixels of the view.
 void add_ghosts(View<Rgba> out, View<const Rgba> light, const GhostModel& model, kernel::Point middle,

@@ -5,6 +5,7 @@
 #include "glare/bloom.h"
 #include "glare/ghosts.h"
 #include "kernel/draw/outline.h"
+#include "kernel/lenses/opened_lens.h"
 
 #include <cmath>
 
@@ -71,8 +72,14 @@ GlareSettings triplet() {
     return settings;
 }
 
+Result<GhostModel> ghosts_of(const GlareSettings& settings) {
+    const auto lens = Lens::open(settings.lens);
+    if (!lens) return lens.error();
+    return prescription_ghosts(*kernel::prescription_of(*lens), settings, 1920);
+}
+
 TEST(Ghosts, APrescriptionThrowsOneForEveryPairOfItsSurfaces) {
-    const auto model = prescription_ghosts(triplet(), 1920);
+    const auto model = ghosts_of(triplet());
     ASSERT_TRUE(model.has_value()) << model.error().message;
     // Six surfaces, fifteen pairs, three channels; on the axis nothing is cut off altogether.
     const auto ghosts = (*model)({0, 0});
@@ -87,7 +94,7 @@ TEST(Ghosts, APrescriptionThrowsOneForEveryPairOfItsSurfaces) {
 }
 
 TEST(Ghosts, AGhostIsMirroredWithItsLight) {
-    const auto model = prescription_ghosts(triplet(), 1920);
+    const auto model = ghosts_of(triplet());
     ASSERT_TRUE(model.has_value());
     const auto left = (*model)({-200, 100}), right = (*model)({200, -100});
     ASSERT_EQ(left.size(), right.size());
@@ -116,7 +123,7 @@ TEST(Ghosts, TwoReflectionsInAPlaneWindowFallOnTheImageItself) {
     std::fclose(file);
     GlareSettings settings = triplet();
     settings.lens.name = path;
-    const auto model = prescription_ghosts(settings, 1920);
+    const auto model = ghosts_of(settings);
     ASSERT_TRUE(model.has_value()) << model.error().message;
     double nearest = 1e9;
     for (const GhostShape& ghost : (*model)({300, 40})) {

@@ -8,7 +8,6 @@
 // Reflection is a refraction into index -n: u' = -u - 2 c y; thickness counts backwards between i and j.
 #include "glare/ghosts.h"
 #include "kernel/draw/outline.h"
-#include "lens_files/shelf.h"
 #include "optics/traced_lens.h"
 
 #include <algorithm>
@@ -163,23 +162,22 @@ bool in_range(double x) { return x > 0 && std::isfinite(x); }
 
 }  // namespace
 
-Result<GhostModel> prescription_ghosts(const GlareSettings& settings, int width_px) {
+Result<GhostModel> prescription_ghosts(const optics::Prescription& prescription,
+                                       const GlareSettings& settings, int width_px) {
     const Camera& camera = settings.camera;
     if (!in_range(camera.focal_length_mm) || !in_range(camera.sensor_width_mm) ||
         !in_range(camera.f_number) || !(camera.focus_distance_m > 0))
         return Error{ErrorCode::InvalidArgument,
-                     "ghosts of " + settings.lens.name +
+                     "ghosts of " + prescription.name +
                          " need a camera: give camera.focal_length_mm, camera.sensor_width_mm, "
                          "camera.f_number and camera.focus_distance_m"};
-    auto file = lens_files::find_lens(settings.lens.name);
-    if (!file) return file.error();
-    const auto own = optics::first_order(file->lens, file->lens.primary_um);
+    const auto own = optics::first_order(prescription, prescription.primary_um);
     if (!own) return own.error();
     const double scale = camera.focal_length_mm / own->focal_length_mm;
     optics::LensSetting setting;
     setting.f_number = camera.f_number > own->f_number ? camera.f_number : 0;  // never wider than open
     setting.focus_distance_mm = 1000 * camera.focus_distance_m;
-    const auto traced = optics::TracedLens::make(optics::scaled(file->lens, scale), setting);
+    const auto traced = optics::TracedLens::make(optics::scaled(prescription, scale), setting);
     if (!traced) return traced.error();
 
     auto lens = std::make_shared<GhostLens>();

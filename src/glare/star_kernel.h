@@ -11,7 +11,7 @@
 // fades to nothing at `radius_px`, and the rest is scaled to sum to 1.
 #pragma once
 
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/workers.h"
 
 #include "kernel/model/lens_model.h"

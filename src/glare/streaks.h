@@ -4,7 +4,7 @@
 #pragma once
 
 #include "petzval/image.h"
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/workers.h"
 
 #include "kernel/model/coverage.h"

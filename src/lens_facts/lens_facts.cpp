@@ -1,6 +1,7 @@
 #include "petzval/lens_facts.h"
 
 #include "kernel/lenses/aberration_curves.h"
+#include "kernel/lenses/opened_lens.h"
 #include "lens_files/shelf.h"
 #include "optics/aberrations.h"
 #include "optics/seidel.h"
@@ -115,23 +116,6 @@ Status add_field(LensFacts& facts, const optics::Prescription& lens, const optic
     return Done{};
 }
 
-// The lenses a person may have meant: names that begin alike or hold the word; else as many as fit a line.
-Error unknown_lens(const std::string& name) {
-    const std::vector<LensSummary> lenses = lens_list();
-    std::string near_it, some;
-    for (const LensSummary& lens : lenses) {
-        const bool is_near =
-            lens.name.find(name) != std::string::npos || lens.name.substr(0, 4) == name.substr(0, 4);
-        if (is_near && near_it.size() < 250) near_it.append(near_it.empty() ? "" : ", ").append(lens.name);
-        if (some.size() < 250) some.append(some.empty() ? "" : ", ").append(lens.name);
-    }
-    const std::string all = std::to_string(lenses.size());
-    return {ErrorCode::InvalidArgument,
-            "there is no lens or lens file \"" + name.substr(0, 100) + "\"; " +
-                (near_it.empty() ? "of the " + all + " lenses (petzval lens list) some are " + some
-                                 : "near it: " + near_it + " (petzval lens list has all " + all + ")")};
-}
-
 LensFacts facts_of(const kernel::AberrationCurves& curves) {
     LensFacts facts;
     facts.summary = summary_of(curves);
@@ -186,26 +170,34 @@ std::vector<LensSummary> lens_list() {
     return list;
 }
 
-Result<LensFacts> lens_facts(const std::string& name_or_file) {
-    if (name_or_file == "ideal") {
-        LensFacts facts;
-        facts.summary = ideal_summary();
-        return facts;
+Result<LensFacts> lens_facts(const Lens& lens) {
+    const lens_files::LensFile& file = *lens.contents().file;
+    LensFacts facts;
+    switch (lens.kind()) {
+        case LensModelKind::Ideal:
+            facts.summary = ideal_summary();
+            break;
+        case LensModelKind::Curves:
+            facts = facts_of(*file.curves);
+            facts.summary.year = file.lens.year, facts.summary.history = file.lens.history;
+            if (!file.format.empty()) facts.summary.source = file.lens.source;
+            facts.format = file.format, facts.notes = file.lens.notes, facts.warnings = file.warnings;
+            break;
+        case LensModelKind::Prescription: {
+            auto traced = facts_of(file);
+            if (!traced) return Error{ErrorCode::InvalidFile, lens.name() + ": " + traced.error().message};
+            return traced;
+        }
     }
-    if (const kernel::AberrationCurves* curves = kernel::curve_preset(name_or_file)) return facts_of(*curves);
-    const auto file = lens_files::find_lens(name_or_file);
-    if (!file && file.error().code == ErrorCode::InvalidArgument) return unknown_lens(name_or_file);
-    if (!file) return file.error();
-    if (file->curves) {
-        LensFacts facts = facts_of(*file->curves);
-        facts.summary.year = file->lens.year, facts.summary.source = file->lens.source;
-        facts.summary.history = file->lens.history;
-        facts.format = file->format, facts.notes = file->lens.notes, facts.warnings = file->warnings;
-        return facts;
-    }
-    auto facts = facts_of(*file);
-    if (!facts) return Error{ErrorCode::InvalidFile, name_or_file + ": " + facts.error().message};
     return facts;
+}
+
+Result<LensFacts> lens_facts(const std::string& name_or_file) {
+    LensChoice choice;
+    choice.name = name_or_file;
+    const auto lens = Lens::open(choice);
+    if (!lens) return lens.error();
+    return lens_facts(*lens);
 }
 
 }  // namespace petzval

@@ -9,11 +9,11 @@
 namespace petzval {
 namespace {
 
-using Lens = std::unique_ptr<const kernel::LensModel>;
+using Model = std::unique_ptr<const kernel::LensModel>;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
-Result<Lens> mounted(const LensChoice& lens, const LensMount& mount) {
+Result<Model> mounted(const Lens& lens, const LensMount& mount) {
     if (mount.width_px <= 0 || mount.height_px <= 0 ||
         !(mount.pixel_aspect > 0.01 && mount.pixel_aspect < 100))
         return refuse("the picture's width, height and pixel aspect must be above 0");
@@ -76,9 +76,9 @@ void fill(BokehTexture& texture, const std::vector<std::vector<Rgba>>& profiles)
 
 }  // namespace
 
-Result<LensDisc> lens_point_spread(const LensChoice& choice, const LensMount& mount, double coc_radius_px,
+Result<LensDisc> lens_point_spread(const Lens& opened, const LensMount& mount, double coc_radius_px,
                                    double field_x, double field_y, int size_px, bool raw) {
-    const auto lens = mounted(choice, mount);
+    const auto lens = mounted(opened, mount);
     if (!lens) return lens.error();
     if (const Status status = check_radius(**lens, coc_radius_px); !status) return status.error();
     if (!(std::hypot(field_x, field_y) <= 1.001))
@@ -97,19 +97,21 @@ Result<LensDisc> lens_point_spread(const LensChoice& choice, const LensMount& mo
     return disc;
 }
 
-Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mount,
+Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
                                    const BokehTextureSettings& settings) {
     if (settings.columns < 2 || settings.columns > 16384) return refuse("disc.columns must be 2 to 16384");
     if (settings.rows_per_px < 1 || settings.rows_per_px > 16)
         return refuse("rows per pixel must be 1 to 16");
-    LensChoice round = choice;
+    LensChoice round = opened.choice();
     round.aperture = {};
     round.cats_eye = 0, round.barrel = {}, round.barn_doors = {}, round.texture = {},
     round.kernel_images = {};
     // A sensor of finer pixels.
     LensMount fine = mount;
     fine.width_px *= settings.rows_per_px, fine.height_px *= settings.rows_per_px;
-    const auto lens = mounted(round, fine);
+    const auto round_lens = opened.with(round);
+    if (!round_lens) return round_lens.error();
+    const auto lens = mounted(*round_lens, fine);
     if (!lens) return lens.error();
     if (!(settings.largest_coc_px > 0)) return refuse("disc.coc_radius_px must be above 0");
     const double finer = settings.rows_per_px;
@@ -135,6 +137,20 @@ Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mo
     });
     fill(texture, profiles);
     return texture;
+}
+
+Result<LensDisc> lens_point_spread(const LensChoice& choice, const LensMount& mount, double coc_radius_px,
+                                   double field_x, double field_y, int size_px, bool raw) {
+    const auto lens = Lens::open(choice);
+    if (!lens) return lens.error();
+    return lens_point_spread(*lens, mount, coc_radius_px, field_x, field_y, size_px, raw);
+}
+
+Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mount,
+                                   const BokehTextureSettings& settings) {
+    const auto lens = Lens::open(choice);
+    if (!lens) return lens.error();
+    return bokeh_texture(*lens, mount, settings);
 }
 
 }  // namespace petzval

@@ -1,5 +1,6 @@
 #include "lens_files/lens_file.h"
 
+#include "base/content_hash.h"
 #include "lens_files/readers.h"
 
 #include <filesystem>
@@ -74,6 +75,7 @@ Result<LensFile> read_lens(std::string_view bytes, const std::string& name) {
     if (file->lens.name.empty())
         file->lens.name = file->lens.id.empty() ? std::filesystem::path(name).stem().string() : file->lens.id;
     if (file->lens.id.empty()) file->lens.id = std::filesystem::path(name).stem().string();
+    file->content_key = ContentHash().add(bytes).text();
     if (file->curves) file->curves->name = file->lens.id, file->curves->description = file->lens.name;
     return file;
 }
@@ -82,6 +84,10 @@ Result<LensFile> load_lens_file(const std::string& path) {
     std::error_code problem;
     if (std::filesystem::is_directory(path, problem))
         return Error{ErrorCode::InvalidFile, path + ": a folder, not a lens file"};
+    // Pipes and devices may never answer.
+    if (std::filesystem::exists(path, problem) && !std::filesystem::is_regular_file(path, problem))
+        return Error{ErrorCode::InvalidFile,
+                     path + ": a pipe or a device, not a lens file; lenses are read from regular files"};
     std::ifstream stream(path, std::ios::binary);
     if (!stream) return Error{ErrorCode::InvalidFile, path + ": cannot be opened for reading"};
     std::string bytes(kLargestLensFile + 1, '\0');

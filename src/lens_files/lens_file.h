@@ -29,6 +29,7 @@ struct LensFile {
     std::optional<optics::AberrationCurves> curves;  // instead of surfaces
     std::string format;                              // as in the list above
     std::vector<std::string> warnings;               // one sentence each, for the user
+    std::string content_key;                         // names the bytes it was read from
 };
 
 inline constexpr std::size_t kLargestLensFile = 2 << 20;  // bytes
@@ -38,7 +39,8 @@ inline constexpr std::size_t kLargestLensFile = 2 << 20;  // bytes
 // Errors: InvalidFile for damaged or unsupported content, or bytes that are none of the formats.
 Result<LensFile> read_lens(std::string_view bytes, const std::string& name);
 
-// Errors: InvalidFile when the file is missing, unreadable, empty or too large; those of read_lens.
+// Errors: InvalidFile when the file is missing, unreadable, no regular file, empty or too large; those of
+// read_lens.
 Result<LensFile> load_lens_file(const std::string& path);
 
 }  // namespace petzval::lens_files

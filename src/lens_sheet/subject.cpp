@@ -3,8 +3,8 @@
 #include "colour/spectrum.h"
 #include "kernel/draw/ring_kernel.h"
 #include "kernel/lenses/make_lens.h"
+#include "kernel/lenses/opened_lens.h"
 #include "kernel/model/spread.h"
-#include "lens_files/shelf.h"
 #include "optics/aberrations.h"
 
 #include <algorithm>
@@ -100,7 +100,9 @@ std::vector<kernel::Light> ring_light(const AxialBands& bands, double coc_um, do
     return light;
 }
 
-bool Subject::has_colour() const { return !lens_ || lens_->dispersion_known; }
+const optics::Prescription* Subject::prescription() const { return kernel::prescription_of(lens_); }
+
+bool Subject::has_colour() const { return !prescription() || prescription()->dispersion_known; }
 
 kernel::Mount Subject::mount(double f_number, double um_per_px, double scale) const {
     kernel::Mount mount;
@@ -114,9 +116,9 @@ kernel::Mount Subject::mount(double f_number, double um_per_px, double scale) co
 }
 
 Result<RayLens> Subject::mounted(double f_number, const LensChoice& character, double um_per_px) const {
-    LensChoice choice = character;
-    choice.name = asked_;
-    auto lens = kernel::make_lens(choice, mount(f_number, um_per_px, 1));
+    const auto opened = lens_.with(character);
+    if (!opened) return opened.error();
+    auto lens = kernel::make_lens(*opened, mount(f_number, um_per_px, 1));
     if (!lens) return lens.error();
     const std::shared_ptr<const kernel::LensModel> model = std::move(*lens);
     return std::dynamic_pointer_cast<const kernel::GeometricLens>(model);
@@ -126,22 +128,23 @@ Result<std::shared_ptr<const kernel::LensModel>> Subject::wave_lens(double f_num
                                                                     double scale,
                                                                     const LensChoice& character) const {
     LensChoice choice = character;
-    choice.name = asked_;
     choice.wave = true;
     if (choice.wavelengths == 0) choice.wavelengths = 15;
-    auto lens = kernel::make_lens(choice, mount(f_number, um_per_px, scale));
+    const auto opened = lens_.with(choice);
+    if (!opened) return opened.error();
+    auto lens = kernel::make_lens(*opened, mount(f_number, um_per_px, scale));
     if (!lens) return lens.error();
     return std::shared_ptr<const kernel::LensModel>(std::move(*lens));
 }
 
 std::vector<Point> Subject::zone_foci(double wavelength_nm) const {
     std::vector<Point> points;
-    if (lens_) {
-        const auto first = optics::first_order(*lens_, lens_->primary_um);
+    if (const optics::Prescription* lens = prescription()) {
+        const auto first = optics::first_order(*lens, lens->primary_um);
         std::vector<double> zones;
         for (int i = 0; i <= kZones; ++i) zones.push_back(double(i) / kZones);
         const double um[] = {wavelength_nm / 1000, kPrimary_nm / 1000};
-        const auto lsa = optics::longitudinal_aberration(*lens_, *first, um, zones);
+        const auto lsa = optics::longitudinal_aberration(*lens, *first, um, zones);
         // From the paraxial focus at d, whatever the lens's own primary wavelength is.
         for (std::size_t i = 0; i < zones.size(); ++i)
             points.push_back({lsa.shift_mm[0][i] - lsa.shift_mm[1][0], zones[i]});
@@ -166,24 +169,23 @@ void Subject::measure() {
 }
 
 Result<Subject> Subject::make(const std::string& name_or_file, Workers& workers) {
-    Subject subject;
+    LensChoice choice;
+    choice.name = name_or_file;
+    const auto lens = Lens::open(choice);
+    if (!lens) return lens.error();
+    Subject subject(*lens);
     subject.workers_ = &workers;
-    auto facts = lens_facts(name_or_file);
+    auto facts = lens_facts(*lens);
     if (!facts) return facts.error();
     subject.facts_ = std::move(*facts);
-    subject.asked_ = name_or_file;
     const LensFacts& f = subject.facts_;
     if (f.efl_mm > 0) subject.focal_length_mm_ = f.efl_mm;
     // Rounded up, so that the lens has it.
     if (f.f_number > 0) subject.f_number_ = f.f_number * (1 + 1e-9);
     const double format = f.sensor_width_mm > 0 ? f.sensor_width_mm / subject.focal_length_mm_ : 0.72;
     double corner = 0.5 * std::hypot(1.0, 2.0 / 3) * format;
-    if (f.has_prescription) {
-        auto file = lens_files::find_lens(name_or_file);
-        if (!file) return file.error();
-        subject.lens_ = std::move(file->lens);
+    if (f.has_prescription)
         corner = std::tan(std::clamp(f.field_deg, kLeastField_deg, kWidestField_deg) * kDegree);
-    }
     subject.corner_deg_ = std::atan(corner) / kDegree;
     const double width_mm = 2 * corner * subject.focal_length_mm_ / std::hypot(1.0, 2.0 / 3);
     subject.sensor_width_mm_ = std::ceil(1000 * width_mm) / 1000;

@@ -63,9 +63,9 @@ public:
 
     Workers& workers() const { return *workers_; }
     const std::string& name() const { return facts_.summary.name; }
-    const std::string& asked() const { return asked_; }  // name or file, as commands take it
+    const std::string& asked() const { return lens_.name(); }  // name or file, as commands take it
     const LensFacts& facts() const { return facts_; }
-    const optics::Prescription* prescription() const { return lens_ ? &*lens_ : nullptr; }
+    const optics::Prescription* prescription() const;  // null for lenses that are drawn
     double focal_length_mm() const { return focal_length_mm_; }
     double f_number() const { return f_number_; }
     double sensor_width_mm() const { return sensor_width_mm_; }
@@ -91,14 +91,13 @@ public:
     std::vector<Point> zone_foci(double wavelength_nm) const;
 
 private:
-    Subject() = default;
+    explicit Subject(Lens lens) : lens_(std::move(lens)) {}
     kernel::Mount mount(double f_number, double um_per_px, double scale) const;
     void measure();
 
+    Lens lens_;
     Workers* workers_ = nullptr;
     LensFacts facts_;
-    std::string asked_;  // as make_lens takes it
-    std::optional<optics::Prescription> lens_;
     double focal_length_mm_ = 50, f_number_ = 2, sensor_width_mm_ = 36, corner_deg_ = 0;
     double blur_um_ = 0, best_focus_mm_ = 0;
     RayLens open_;

@@ -1,7 +1,7 @@
 // Values of a look as JSON, by their type. Reading fails with a message that completes "lens.blades: …".
 #pragma once
 
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/names.h"
 #include "petzval/result.h"
 

@@ -1,6 +1,6 @@
 // A picture as a lens with distortion records it: what stands at r half diagonals from the middle of the
 // display window moves to r (1 + amount r^2), so that discs stretch by (1 + 3 amount r^2) along that
-// direction and by (1 + amount r^2) across it, as petzval/lens.h says.
+// direction and by (1 + amount r^2) across it, as petzval/lens_choice.h says.
 #pragma once
 
 #include "petzval/image.h"

@@ -2,6 +2,7 @@
 
 #include "kernel/keep/remembered_lens.h"
 #include "kernel/lenses/make_lens.h"
+#include "kernel/lenses/opened_lens.h"
 
 namespace petzval {
 
@@ -10,28 +11,39 @@ kernel::Mount mount_of(const DefocusJob& job) {
             job.place.pixel_aspect};
 }
 
-LensChoice lens_before_distortion(const DefocusJob& job) {
-    LensChoice lens = job.lens;
-    lens.distortion = 0;
-    return lens;
-}
-
-Status check_distortion(const DefocusJob& job) {
+Status open_lens(DefocusJob& job) {
+    if (!job.opened_lens) {
+        auto lens = Lens::open(job.lens);
+        if (!lens) return lens.error();
+        job.opened_lens = std::move(*lens);
+    }
+    job.lens = job.opened_lens->choice();
     if (job.lens.distortion == 0) return Done{};
-    const auto lens = kernel::make_lens(job.lens, mount_of(job));
-    return lens ? Status(Done{}) : lens.error();
+    const auto model = kernel::make_lens(*job.opened_lens, mount_of(job));
+    return model ? Status(Done{}) : model.error();
 }
 
 namespace {
 
 using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
 
+// The lens as engines see it: distortion comes last, of discs and picture at once.
+Lens before_distortion(const DefocusJob& job) {
+    LensChoice straight = job.opened_lens->choice();
+    straight.distortion = 0;
+    return job.opened_lens->with(straight).value();  // which asks for less than what was granted
+}
+
+std::string key_of_kernels(const DefocusJob& job) {
+    return kernel::lens_key(before_distortion(job), mount_of(job));
+}
+
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
 Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store) {
     constexpr std::size_t kRememberedBytes = std::size_t(48) << 20;
     constexpr int kLevels =
         13;  // the largest radius in cells of the last one is 4, fewer than any engine needs
-    auto levels = kernel::make_lens_levels(lens_before_distortion(job), mount_of(job), kLevels);
+    auto levels = kernel::make_lens_levels(before_distortion(job), mount_of(job), kLevels);
     if (!levels) return levels;
     for (std::size_t i = 0; i < levels->size(); ++i) {
         auto& lens = (*levels)[i];
@@ -44,8 +56,7 @@ Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kern
 // Null where nothing is to be kept. The reference engine asks for a new radius with every point of light.
 std::shared_ptr<kernel::KernelStore> store_for(const DefocusJob& job) {
     if (job.kernel_cache_folder.empty() || job.engine == "reference") return nullptr;
-    return std::make_shared<kernel::KernelStore>(job.kernel_cache_folder,
-                                                 kernel::lens_key(lens_before_distortion(job), mount_of(job)),
+    return std::make_shared<kernel::KernelStore>(job.kernel_cache_folder, key_of_kernels(job),
                                                  job.kernel_cache_bytes);
 }
 
@@ -61,7 +72,7 @@ Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job) {
 }
 
 std::string MountedLens::key_of(const DefocusJob& job) {
-    std::string key = kernel::lens_key(lens_before_distortion(job), mount_of(job));
+    std::string key = key_of_kernels(job);
     if (key.empty()) return key;
     const Rect &display = job.place.display_window, &data = job.place.data_window;
     for (const int n : {display.x0, display.y0, display.x1, display.y1, data.x0, data.y0, data.x1, data.y1,

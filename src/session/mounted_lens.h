@@ -16,12 +16,12 @@
 namespace petzval {
 
 kernel::Mount mount_of(const DefocusJob& job);
-// The lens as engines see it: distortion comes last, of discs and picture at once.
-LensChoice lens_before_distortion(const DefocusJob& job);
 
-// Whether this lens can have the distortion asked for. Errors: those of the lens.
-Status check_distortion(const DefocusJob& job);
+// The job with its lens opened, if it brings none. Errors: those of Lens::open(); a distortion that this lens
+// cannot have.
+Status open_lens(DefocusJob& job);
 
+// Jobs here have their lens opened.
 struct MountedLens {
     // On the picture's pixels and coarser ones, for engines that work at several resolutions. Errors: those
     // of the lens.

@@ -145,7 +145,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& asked, Progre
     if (!engine) return engine.error();
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
-    if (const Status status = check_distortion(job); !status) return status.error();
+    if (const Status status = open_lens(job); !status) return status.error();
     auto lens = lens_for(job);
     if (!lens) return lens.error();
     const Rect window = window_for(job, *radii, *(*lens)->levels.front());

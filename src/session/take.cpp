@@ -4,6 +4,7 @@
 #include "petzval/glare.h"
 
 #include "session/contents.h"
+#include "session/mounted_lens.h"
 
 #include <utility>
 
@@ -22,7 +23,11 @@ bool has_glare(const GlareAmounts& glare) {
 
 Result<Picture> with_falloff(Picture picture, const DefocusJob& job, const Look& look) {
     if (!look.vignetting) return picture;
-    return add_falloff(picture, {job.camera, job.lens, job.place, job.threads, job.workers});
+    return add_falloff(picture, {.camera = job.camera,
+                                 .opened_lens = job.opened_lens,
+                                 .place = job.place,
+                                 .threads = job.threads,
+                                 .workers = job.workers});
 }
 
 Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look) {
@@ -31,7 +36,7 @@ Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& l
     static_cast<GlareAmounts&>(settings) = look.glare;
     settings.diffraction_px = diffraction_px(job.camera, job.place.display_window.width());
     settings.camera = job.camera;
-    settings.lens = job.lens;
+    settings.opened_lens = job.opened_lens;
     settings.place = job.place;
     settings.workers = job.workers;
     return add_glare(picture, settings);
@@ -58,6 +63,7 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
     job.pupil_points = look.pupil_points;
     job.coc = look.coc;
     job.lens = look.lens;
+    if (job.opened_lens && !(job.opened_lens->choice() == look.lens)) job.opened_lens.reset();
     job.gather = look.gather;
     job.gaussian = look.gaussian;
     job.sprites = look.sprites;
@@ -68,6 +74,7 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
     return contents_->unless_cancelled(control, [&](Progress& progress, CancellableWorkers& workers) {
         DefocusJob job = with_look(rendered, look);
         job.workers = &workers;
+        if (const Status opened = open_lens(job); !opened) return Result<DefocusReport>(opened.error());
         if (!look.expand_highlights) return lit(contents_->defocus(job, progress, workers), job, look);
         if (job.deep && !job.deep->empty())
             return Result<DefocusReport>(

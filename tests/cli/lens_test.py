@@ -1,6 +1,11 @@
 """petzval lens list and show: the fixed keys, files of every kind, and what is said of files that are no lens."""
+import ctypes
 import json
+import os
 import pathlib
+import shutil
+import struct
+import sys
 import unittest
 
 from program import CommandLineTest
@@ -97,6 +102,56 @@ class LensShow(CommandLineTest):
         text = self.succeed("lens", "show", "petzval-portrait").out
         for word in ("Petzval", "focal length", "S_III", "587.6 nm", "tangential", "1840"):
             self.assertIn(word, text)
+
+
+class Opens:
+    """Counts how often a file is opened, as the kernel tells it."""
+    IN_OPEN, IN_CLOSE = 0x20, 0x18  # both watched: like events that follow each other are told once
+
+    def __init__(self, path):
+        self.libc = ctypes.CDLL(None, use_errno=True)
+        self.watch = self.libc.inotify_init1(os.O_NONBLOCK)
+        if self.watch < 0 or self.libc.inotify_add_watch(
+                self.watch, os.fsencode(path), self.IN_OPEN | self.IN_CLOSE) < 0:
+            raise OSError(ctypes.get_errno(), "inotify")
+
+    def count(self):
+        """Since the last call."""
+        events = 0
+        try:
+            data = os.read(self.watch, 1 << 16)
+        except BlockingIOError:
+            return 0
+        while data:
+            _, mask, _, length = struct.unpack_from("iIII", data)
+            events += bool(mask & self.IN_OPEN)
+            data = data[16 + length:]
+        return events
+
+
+@unittest.skipUnless(sys.platform == "linux", "inotify")
+class LensFileIsOpenedOnce(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(LENSES / "tessar.json", self.path("my.json"))
+        self.opens = Opens(self.path("my.json"))
+
+    def test_by_a_run_with_ghosts_stars_and_vignetting(self):
+        self.succeed("scene", "make", "night", "-o", "night.exr", "--width", "64", "--height", "36")
+        self.succeed("defocus", "night.exr", "-o", "out.exr", "--lens", "my.json", "--focal-length", "50mm",
+                     "--sensor-width", "36mm", "--fstop", "4", "--focus", "2m", "--blades", "6", "--ghosts", "0.1",
+                     "--star", "0.1", "--vignetting", "--kernel-cache", "kept")
+        self.assertEqual(self.opens.count(), 1)
+
+    def test_by_what_shows_a_lens(self):
+        for command in (["show", "my.json"], ["psf", "my.json", "-o", "disc.exr"],
+                        ["table", "my.json", "--columns", "3", "--defocus", "4", "-o", "table.exr"]):
+            self.succeed("lens", *command)
+            self.assertEqual(self.opens.count(), 1, command)
+
+    def test_a_pipe_is_refused_and_not_waited_for(self):
+        os.mkfifo(self.path("pipe.json"))
+        self.refuse(3, "lens", "show", "pipe.json", says=["pipe.json", "regular file"])
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 // disc shows it. Curves are drawn as chords so short that on the image they leave the arc by `tolerance`.
 #pragma once
 
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 
 #include "kernel/model/coverage.h"
 

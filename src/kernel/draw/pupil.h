@@ -2,7 +2,7 @@
 // evenly over it.
 #pragma once
 
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/result.h"
 
 #include "kernel/draw/outline.h"

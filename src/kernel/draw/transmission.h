@@ -2,7 +2,7 @@
 #pragma once
 
 #include "petzval/image.h"
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 
 #include "kernel/model/coverage.h"
 

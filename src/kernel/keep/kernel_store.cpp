@@ -1,6 +1,5 @@
 #include "kernel/keep/kernel_store.h"
 
-#include "base/build_id.h"
 #include "base/content_hash.h"
 #include "kernel/model/spread.h"
 
@@ -288,56 +287,7 @@ private:
     int level_;
 };
 
-void add_picture(ContentHash& hash, const Plane* plane) {
-    hash.add(plane != nullptr);
-    if (!plane) return;
-    hash.add(plane->width()).add(plane->height());
-    for (int y = 0; y < plane->height(); ++y)
-        hash.add(std::string_view(reinterpret_cast<const char*>(plane->row(y)),
-                                  std::size_t(plane->width()) * sizeof(float)));
-}
-
-// The bytes of a lens in a file; none for a name of ours, which stands for itself, because the program holds
-// it. Nothing for what cannot be read twice (a pipe) or is no lens (a folder, a device, a huge file).
-std::optional<std::string> lens_content(const std::string& name) {
-    constexpr std::uintmax_t kLargestFile = 1 << 22;
-    std::error_code problem;
-    if (!std::filesystem::exists(name, problem)) return std::string();
-    if (!std::filesystem::is_regular_file(name, problem)) return std::nullopt;
-    if (std::filesystem::file_size(name, problem) > kLargestFile || problem) return std::nullopt;
-    std::ifstream file(name, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
 }  // namespace
-
-std::string lens_key(const LensChoice& c, const Mount& m) {
-    const std::string program = build_id();
-    if (program.empty() || c.kernel_images.far || c.kernel_images.near) return {};
-    const std::optional<std::string> content = lens_content(c.name);
-    if (!content) return {};
-    ContentHash hash;
-    hash.add(program).add(c.name).add(*content);
-    const ApertureShape& a = c.aperture;
-    hash.add(a.blades).add(a.rotation_deg).add(a.curvature).add(a.squeeze).add(a.round_at_f_number);
-    hash.add(c.cats_eye).add(c.barrel.size());
-    for (const BarrelRim& rim : c.barrel) hash.add(rim.radius_mm).add(rim.distance_mm);
-    hash.add(c.barn_doors.left).add(c.barn_doors.right).add(c.barn_doors.top).add(c.barn_doors.bottom);
-    const PupilTexture& t = c.texture;
-    hash.add(t.dust).add(t.scratches).add(t.onion_rings).add(t.seed);
-    add_picture(hash, t.image.get());
-    hash.add(c.focus_mode)
-        .add(c.focus_shift_mm)
-        .add(c.spherical)
-        .add(c.axial_colour)
-        .add(c.lateral_colour)
-        .add(c.coma);
-    hash.add(c.astigmatism).add(c.distortion).add(c.wavelengths).add(c.wave);
-    const Camera& camera = m.camera;
-    hash.add(camera.focal_length_mm).add(camera.sensor_width_mm).add(camera.f_number);
-    hash.add(camera.focus_distance_m).add(m.display_width_px).add(m.display_height_px).add(m.pixel_aspect);
-    return hash.text();
-}
 
 std::unique_ptr<const LensModel> kept(std::unique_ptr<const LensModel> lens,
                                       std::shared_ptr<KernelStore> store, int level) {

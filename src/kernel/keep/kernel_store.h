@@ -1,9 +1,9 @@
 // Kernels kept on disk between runs.
 //
-// A folder holds one folder per lens, named by everything that decides its kernels: lens, options, camera,
-// sizes, and the program's build. In it lie segments: each is written once, by one run, under a name of its
-// own and renamed into place, so processes never disturb each other. What is damaged or unreadable in any way
-// is as if it were not there. What is read back is what was written, bit for bit.
+// A folder holds one folder per lens, named by everything that decides its kernels (lens_key(): lens,
+// options, camera, sizes, and the program's build). In it lie segments: each is written once, by one run,
+// under a name of its own and renamed into place, so processes never disturb each other. What is damaged or
+// unreadable in any way is as if it were not there. What is read back is what was written, bit for bit.
 #pragma once
 
 #include "kernel/model/lens_model.h"
@@ -59,9 +59,6 @@ private:
     std::vector<std::pair<Key, PointSpread>> pending_;
     std::size_t pending_bytes_ = 0, written_bytes_ = 0;
 };
-
-// Everything that decides the kernels of a lens; empty if they cannot be told from those of another program.
-std::string lens_key(const LensChoice& choice, const Mount& mount);
 
 // The lens, with kernels that were made before taken from `store` and new ones given to it.
 std::unique_ptr<const LensModel> kept(std::unique_ptr<const LensModel> lens,

@@ -7,9 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <random>
-#include <set>
 
 #include <gtest/gtest.h>
 
@@ -149,77 +147,6 @@ TEST_F(KernelStoreTest, QuickLensesAreLeftAlone) {
     static_cast<void>(kept(lens_of(ideal), store_, 0)->point_spread(9, kPlaces[1]));
     forget();
     EXPECT_TRUE(segments().empty());
-}
-
-TEST(LensKey, EverythingThatChangesKernelsChangesTheKey) {
-    const Mount mount = full_frame();
-    const LensChoice plain = [] {
-        LensChoice c;
-        c.name = "doublet";
-        return c;
-    }();
-    std::set<std::string> keys{lens_key(plain, mount)};
-    EXPECT_EQ(keys.begin()->size(), 32u);
-    EXPECT_TRUE(keys.contains(lens_key(plain, mount))) << "the same lens, the same key";
-    const std::function<void(LensChoice&, Mount&)> changes[] = {
-        [](LensChoice& c, Mount&) { c.name = "triplet"; },
-        [](LensChoice& c, Mount&) { c.aperture.blades = 5; },
-        [](LensChoice& c, Mount&) { c.aperture.rotation_deg = 5; },
-        [](LensChoice& c, Mount&) { c.aperture.curvature = 0.5; },
-        [](LensChoice& c, Mount&) { c.aperture.squeeze = 2; },
-        [](LensChoice& c, Mount&) { c.aperture.round_at_f_number = 2; },
-        [](LensChoice& c, Mount&) { c.cats_eye = 0.5; },
-        [](LensChoice& c, Mount&) {
-            c.barrel = {{10, 5}};
-        },
-        [](LensChoice& c, Mount&) {
-            c.barrel = {{10, 6}};
-        },
-        [](LensChoice& c, Mount&) { c.barn_doors.left = 0.2; },
-        [](LensChoice& c, Mount&) { c.barn_doors.right = 0.2; },
-        [](LensChoice& c, Mount&) { c.barn_doors.top = 0.2; },
-        [](LensChoice& c, Mount&) { c.barn_doors.bottom = 0.2; },
-        [](LensChoice& c, Mount&) { c.texture.dust = 0.2; },
-        [](LensChoice& c, Mount&) { c.texture.scratches = 0.2; },
-        [](LensChoice& c, Mount&) { c.texture.onion_rings = 0.2; },
-        [](LensChoice& c, Mount&) { c.texture.seed = 2; },
-        [](LensChoice& c, Mount&) { c.texture.image = std::make_shared<Plane>(2, 2, 0.5f); },
-        [](LensChoice& c, Mount&) { c.texture.image = std::make_shared<Plane>(2, 2, 0.6f); },
-        [](LensChoice& c, Mount&) { c.focus_mode = FocusMode::Paraxial; },
-        [](LensChoice& c, Mount&) { c.focus_shift_mm = 0.1; },
-        [](LensChoice& c, Mount&) { c.spherical = 0; },
-        [](LensChoice& c, Mount&) { c.axial_colour = 0; },
-        [](LensChoice& c, Mount&) { c.lateral_colour = 0; },
-        [](LensChoice& c, Mount&) { c.coma = 0.1; },
-        [](LensChoice& c, Mount&) { c.astigmatism = 0.1; },
-        [](LensChoice& c, Mount&) { c.distortion = 0.1; },
-        [](LensChoice& c, Mount&) { c.wavelengths = 40; },
-        [](LensChoice& c, Mount&) { c.wave = true; },
-        [](LensChoice&, Mount& m) { m.camera.focal_length_mm = 51; },
-        [](LensChoice&, Mount& m) { m.camera.sensor_width_mm = 35; },
-        [](LensChoice&, Mount& m) { m.camera.f_number = 2.1; },
-        [](LensChoice&, Mount& m) { m.camera.focus_distance_m = 3; },
-        [](LensChoice&, Mount& m) { m.display_width_px = 1921; },
-        [](LensChoice&, Mount& m) { m.display_height_px = 1081; },
-        [](LensChoice&, Mount& m) { m.pixel_aspect = 2; },
-    };
-    for (std::size_t i = 0; i < std::size(changes); ++i) {
-        LensChoice choice = plain;
-        Mount changed = mount;
-        changes[i](choice, changed);
-        EXPECT_TRUE(keys.insert(lens_key(choice, changed)).second) << "change " << i;
-    }
-}
-
-TEST(LensKey, OfAFileIsOfItsContent) {
-    const std::string path = testing::TempDir() + "lens_key_test.json";
-    LensChoice choice;
-    choice.name = path;
-    std::ofstream(path) << "one";
-    const std::string one = lens_key(choice, full_frame());
-    std::ofstream(path) << "two";
-    EXPECT_NE(one, lens_key(choice, full_frame()));
-    fs::remove(path);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ constexpr double kRayWidth = 1.0 / 256;
 constexpr int kLeastRingBands = 31, kLeastMeshBands = 7, kLeastRayBands = 62;
 constexpr double kSeenFrom_nm = 430, kSeenTo_nm = 670;
 
-// Units of LensChoice::coma and ::astigmatism, focal lengths (petzval/lens.h).
+// Units of LensChoice::coma and ::astigmatism, focal lengths (petzval/lens_choice.h).
 constexpr double kComaUnit = 0.02, kAstigmatismUnit = 0.01;
 
 double focus_of(const CurveSampler& sampler, const LensChoice& choice, double focal_length_mm) {

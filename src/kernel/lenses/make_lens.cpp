@@ -1,12 +1,11 @@
-// From a name to a lens: the registry.
 #include "kernel/lenses/make_lens.h"
 
 #include "kernel/lenses/curve_lens.h"
 #include "kernel/lenses/ideal_lens.h"
 #include "kernel/lenses/image_lens.h"
+#include "kernel/lenses/opened_lens.h"
 #include "kernel/lenses/traced_model.h"
 #include "kernel/lenses/wave_lens.h"
-#include "lens_files/shelf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +13,9 @@
 namespace petzval::kernel {
 namespace {
 
-using Lens = std::unique_ptr<const LensModel>;
-using RayLens = std::unique_ptr<const GeometricLens>;
+using Model = std::unique_ptr<const LensModel>;
+using RayModel = std::unique_ptr<const GeometricLens>;
 
-Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 Error refuse_field(const char* field, const std::string& message) {
     return {ErrorCode::InvalidArgument, message, field};
 }
@@ -36,93 +34,41 @@ Status check_camera(const Mount& mount) {
     return Done{};
 }
 
-Status check_residuals(const LensChoice& choice) {
-    const auto in = [](double value, double limit) { return std::abs(value) <= limit; };  // false for NaN
-    if (!in(choice.spherical, 10))
-        return refuse_field("lens.spherical", "lens.spherical must lie between -10 and 10");
-    if (!in(choice.axial_colour, 10))
-        return refuse_field("lens.axial_colour", "lens.axial_colour must lie between -10 and 10");
-    if (!in(choice.lateral_colour, 10))
-        return refuse_field("lens.lateral_colour", "lens.lateral_colour must lie between -10 and 10");
-    if (!in(choice.coma, 10)) return refuse_field("lens.coma", "lens.coma must lie between -10 and 10");
-    if (!in(choice.astigmatism, 10))
-        return refuse_field("lens.astigmatism", "lens.astigmatism must lie between -10 and 10");
-    if (!in(choice.distortion, 0.3))
-        return refuse_field("lens.distortion", "lens.distortion must lie between -0.3 and 0.3");
-    if (!in(choice.focus_shift_mm, 1000))
-        return refuse_field("lens.focus_shift_mm", "lens.focus_shift_mm must lie between -1000 and 1000 mm");
-    if (choice.wavelengths < 0 || choice.wavelengths > 1000)
-        return refuse_field("lens.wavelengths", "lens.wavelengths must be 0 (as many as needed) to 1000");
-    return Done{};
-}
-
-// The ideal lens with third-order aberrations off the axis: curves without any shift.
-const AberrationCurves& straight_curves() {
-    static const AberrationCurves curves{"ideal", "no aberration on the axis", 50, 1, 36, {587.56}, {0, 0.5},
-                                         {{0, 0}}};
-    return curves;
-}
-
-// A name that is no file and no lens of ours; damaged files keep their own message.
-Error unknown(const std::string& name, const Error& error) {
-    if (error.code != ErrorCode::InvalidArgument) return error;
-    std::string known = "ideal";
-    for (const std::string& preset : curve_preset_names()) known += ", " + preset;
-    for (const lens_files::ShelfItem& item : lens_files::shelf()) known += ", " + std::string(item.name);
-    return refuse("unknown lens \"" + name + "\"; known are " + known + ", or the path of a lens file");
-}
-
-Result<RayLens> ray_lens(const LensChoice& choice, const Mount& mount) {
+Result<RayModel> ray_model(const Lens& lens, const Mount& mount) {
+    const LensChoice& choice = lens.choice();
     const bool perfect = choice.coma == 0 && choice.astigmatism == 0 && choice.distortion == 0;
-    if (choice.name == "ideal" && perfect) return RayLens(std::make_unique<IdealLens>(choice, mount));
-    const AberrationCurves* curves = choice.name == "ideal" ? &straight_curves() : curve_preset(choice.name);
-    const auto no_lateral_colour = [&] {
-        return choice.lateral_colour == 1
-                   ? Status(Done{})
-                   : refuse("lens.lateral_colour shapes lenses that are traced from their surfaces; \"" +
-                            choice.name + "\" is drawn as curves, without any");
-    };
-    if (curves) {
-        if (const Status status = no_lateral_colour(); !status) return status.error();
-        if (const Status status = check_camera(mount); !status) return status.error();
-        return RayLens(std::make_unique<CurveLens>(*curves, choice, mount));
-    }
-    const auto file = lens_files::find_lens(choice.name);
-    if (!file) return unknown(choice.name, file.error());
+    if (lens.kind() == LensModelKind::Ideal && perfect)
+        return RayModel(std::make_unique<IdealLens>(choice, mount));
     if (const Status status = check_camera(mount); !status) return status.error();
-    if (file->curves)
-        if (const Status status = no_lateral_colour(); !status) return status.error();
-    if (file->curves) return RayLens(std::make_unique<CurveLens>(*file->curves, choice, mount));
-    return TracedModel::make(file->lens, choice, mount);
+    if (const AberrationCurves* curves = curves_of(lens))
+        return RayModel(std::make_unique<CurveLens>(*curves, choice, mount));
+    return TracedModel::make(*prescription_of(lens), choice, mount);
 }
 
 }  // namespace
 
-bool is_drawn(const std::string& name) {
-    if (name == "ideal" || curve_preset(name)) return true;
-    const auto file = lens_files::find_lens(name);
-    return file && file->curves;
-}
-
-Result<Lens> make_lens(const LensChoice& choice, const Mount& mount) {
-    if (const Status status = check_aperture(choice); !status) return status.error();
-    if (const Status status = check_residuals(choice); !status) return status.error();
+Result<Model> make_lens(const Lens& lens, const Mount& mount) {
+    const LensChoice& choice = lens.choice();
     if (!choice.barrel.empty() || choice.aperture.round_at_f_number > 0)
         if (const Status status = check_camera(mount); !status) return status.error();
-    if (choice.kernel_images.far || choice.kernel_images.near) {
-        if (const Status status = check_kernel_images(choice.kernel_images); !status) return status.error();
-        return Lens(std::make_unique<ImageLens>(choice, mount));
-    }
+    if (choice.kernel_images.far || choice.kernel_images.near)
+        return Model(std::make_unique<ImageLens>(choice, mount));
     if (choice.wave)
         if (const Status status = check_camera(mount); !status) return status.error();
-    auto lens = ray_lens(choice, mount);
-    if (!lens) return lens.error();
-    if (choice.wave) return Lens(std::make_unique<WaveLens>(std::move(*lens), mount, choice.wavelengths));
-    return Lens(std::move(*lens));
+    auto model = ray_model(lens, mount);
+    if (!model) return model.error();
+    if (choice.wave) return Model(std::make_unique<WaveLens>(std::move(*model), mount, choice.wavelengths));
+    return Model(std::move(*model));
 }
 
-Result<std::vector<Lens>> make_lens_levels(const LensChoice& choice, const Mount& mount, int count) {
-    std::vector<Lens> levels;
+Result<Model> make_lens(const LensChoice& choice, const Mount& mount) {
+    const auto lens = Lens::open(choice);
+    if (!lens) return lens.error();
+    return make_lens(*lens, mount);
+}
+
+Result<std::vector<Model>> make_lens_levels(const Lens& lens, const Mount& mount, int count) {
+    std::vector<Model> levels;
     for (int level = 0; level < count; ++level) {
         Mount coarser = mount;
         const auto reduced = [&](int size) {
@@ -130,9 +76,9 @@ Result<std::vector<Lens>> make_lens_levels(const LensChoice& choice, const Mount
         };
         coarser.display_width_px = reduced(mount.display_width_px);
         coarser.display_height_px = reduced(mount.display_height_px);
-        Lens again = level > 0 ? levels[0]->on_pixels(coarser) : nullptr;
+        Model again = level > 0 ? levels[0]->on_pixels(coarser) : nullptr;
         if (!again) {
-            auto made = make_lens(choice, coarser);
+            auto made = make_lens(lens, coarser);
             if (!made) return made.error();
             again = std::move(*made);
         }

@@ -1,24 +1,23 @@
-// From what a user says of a lens to the lens.
+// A lens on a camera, for pictures of one size.
 #pragma once
+
+#include "petzval/lens.h"
 
 #include "kernel/model/lens_model.h"
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace petzval::kernel {
 
-// True for the ideal lens and lenses drawn as curves, also from files; false for prescriptions and names of
-// no lens.
-bool is_drawn(const std::string& name);
-
-// Errors: InvalidArgument naming an unknown lens (the message lists the known ones) or an aperture number out
-// of range.
+// Errors: InvalidArgument naming a camera number that the lens needs, an aperture it does not have, or a
+// focus too near for it.
+Result<std::unique_ptr<const LensModel>> make_lens(const Lens& lens, const Mount& mount);
+// Of a lens that is used once. Errors: also those of Lens::open().
 Result<std::unique_ptr<const LensModel>> make_lens(const LensChoice& choice, const Mount& mount);
 
 // The lens on the picture's pixels, and on pixels 2, 4, … times as wide, `count` in all. Errors: as above.
-Result<std::vector<std::unique_ptr<const LensModel>>> make_lens_levels(const LensChoice& choice,
-                                                                       const Mount& mount, int count);
+Result<std::vector<std::unique_ptr<const LensModel>>> make_lens_levels(const Lens& lens, const Mount& mount,
+                                                                       int count);
 
 }  // namespace petzval::kernel

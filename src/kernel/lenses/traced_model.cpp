@@ -32,16 +32,6 @@ constexpr int kFewestBands = 7, kMostBands = 36;
 
 Error refuse(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
-Status check_choice(const LensChoice& c) {
-    if (c.spherical != 1 || c.axial_colour != 1 || c.coma != 0 || c.astigmatism != 0 || c.distortion != 0)
-        return refuse(
-            "lens.spherical, lens.axial_colour, lens.coma, lens.astigmatism and lens.distortion shape lenses "
-            "drawn as "
-            "curves (lens list); \"" +
-            c.name + "\" is traced from its surfaces");
-    return Done{};
-}
-
 // The three traced wavelengths nearest to one, and the weights of the parabola through them over
 // 1/wavelength^2.
 struct Parabola {
@@ -112,7 +102,6 @@ TracedModel::TracedModel(const LensChoice& choice, const Mount& mount)
 
 Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Prescription& prescription,
                                                                const LensChoice& choice, const Mount& mount) {
-    if (const Status status = check_choice(choice); !status) return status.error();
     const auto first = optics::first_order(prescription, prescription.primary_um);
     if (!first) return first.error();
     if (!(first->focal_length_mm > 0)) return refuse(prescription.name + " does not form a real image");

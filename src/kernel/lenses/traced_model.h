@@ -23,8 +23,7 @@ class TracedModel final : public GeometricLens {
 public:
     // The lens is scaled to the camera's focal length.
     // Errors: InvalidArgument for an aperture wider than the lens has, a focus distance too near for it,
-    // glass without known dispersion limits, options that only curve lenses have; those of
-    // optics::TracedLens.
+    // glass without known dispersion limits; those of optics::TracedLens.
     static Result<std::unique_ptr<const GeometricLens>> make(const optics::Prescription& prescription,
                                                              const LensChoice& choice, const Mount& mount);
 

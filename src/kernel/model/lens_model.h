@@ -11,7 +11,7 @@
 
 #include "petzval/camera.h"
 #include "petzval/image.h"
-#include "petzval/lens.h"
+#include "petzval/lens_choice.h"
 #include "petzval/place.h"
 #include "petzval/result.h"
 

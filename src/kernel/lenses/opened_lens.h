@@ -1,0 +1,35 @@
+// What a Lens holds.
+#pragma once
+
+#include "petzval/lens.h"
+
+#include "kernel/model/lens_model.h"
+#include "lens_files/lens_file.h"
+
+#include <memory>
+#include <string>
+
+namespace petzval {
+
+struct Lens::Contents {
+    LensChoice choice;
+    LensModelKind kind = LensModelKind::Ideal;
+    // Shared by all that were opened from this one. Of lenses that ship as curves, and of the ideal one,
+    // whose curves are straight, it holds the curves alone.
+    std::shared_ptr<const lens_files::LensFile> file;
+    std::string key;
+};
+
+namespace kernel {
+
+// Null for lenses that are drawn.
+const optics::Prescription* prescription_of(const Lens& lens);
+// Null for lenses with surfaces.
+const optics::AberrationCurves* curves_of(const Lens& lens);
+
+// Names everything that decides the kernels of a lens on a camera: the lens, what of the camera and the
+// picture's size matters to it, and the program's build. Empty if the build cannot be told from others.
+std::string lens_key(const Lens& lens, const Mount& mount);
+
+}  // namespace kernel
+}  // namespace petzval
