@@ -122,6 +122,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
     report.warnings = std::move(frame.warnings);
     report.warnings.insert(report.warnings.end(), output->warnings.begin(), output->warnings.end());
+    if (lens.store && !lens.store->warning().empty()) report.warnings.push_back(lens.store->warning());
     report.largest_radius_px = double(input.farthest_coc_px);
     report.smallest_radius_px = double(input.nearest_coc_px);
     return report;

@@ -4,8 +4,10 @@
 #include "kernel/model/spread.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
@@ -19,14 +21,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMagic = 0x314e5245'4b5a5450u;  // "PTZKERN1", and the order of bytes
+constexpr std::uint64_t kMagic = 0x324e5245'4b5a5450u;  // "PTZKERN2", and the order of bytes
 constexpr std::size_t kPendingBytes = std::size_t(48) << 20;
 constexpr std::size_t kMostRecords = 1 << 22;
 constexpr int kLargestSide = 1 << 14;
 
+using LensName = std::array<char, 64>;
+
 struct Header {
     std::uint64_t magic = kMagic, records = 0, index_hash = 0;
+    LensName lens{};
 };
+
+// Nothing for a key that is empty or too long.
+std::optional<LensName> lens_name(const std::string& lens_key) {
+    LensName name{};
+    if (lens_key.empty() || lens_key.size() >= name.size()) return std::nullopt;
+    std::copy(lens_key.begin(), lens_key.end(), name.begin());
+    return name;
+}
 
 struct Record {
     double coc_radius_px = 0, field_x = 0, field_y = 0;
@@ -34,6 +47,13 @@ struct Record {
     std::uint64_t offset = 0, hash = 0;  // of the weights in the file
 
     Rect extent() const { return {x0, y0, x1, y1}; }
+    // Before anything is computed with these numbers.
+    bool is_sound(std::size_t file_size) const {
+        const auto in = [](std::int32_t n) { return n >= -kLargestSide && n <= kLargestSide; };
+        return in(x0) && in(y0) && in(x1) && in(y1) && !extent().empty() && x1 - x0 <= kLargestSide &&
+               y1 - y0 <= kLargestSide && offset <= file_size &&
+               floats() * sizeof(float) <= file_size - offset;
+    }
     // Neutral kernels keep one number per pixel, others r, g and b.
     std::size_t floats() const { return std::size_t(x1 - x0) * std::size_t(y1 - y0) * (neutral ? 1u : 3u); }
 };
@@ -60,6 +80,35 @@ PointSpread unpacked(const Record& r, const std::vector<float>& floats) {
             w = {floats[3 * i], floats[3 * i + 1], floats[3 * i + 2], 0}, w.a = alpha_of(w);
     }
     return kernel;
+}
+
+// Whether these are weights that a lens may have: finite, none negative, each channel's sum 1.
+bool are_weights(const Record& r, const std::vector<float>& floats) {
+    const std::size_t channels = r.neutral ? 1 : 3;
+    std::array<double, 3> sums{};
+    for (std::size_t i = 0; i < floats.size(); ++i) {
+        if (!(floats[i] >= 0) || !std::isfinite(floats[i])) return false;
+        sums[i % channels] += double(floats[i]);
+    }
+    return std::all_of(sums.begin(), sums.begin() + std::ptrdiff_t(channels),
+                       [](double sum) { return std::abs(sum - 1) < 1e-3; });
+}
+
+// Whether nobody but this user and the administrator can have put it there.
+bool is_ours(const struct stat& about) {
+    return (about.st_uid == geteuid() || about.st_uid == 0) && (about.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+bool is_ours_or_absent(const std::string& path) {
+    struct stat about {};
+    return stat(path.c_str(), &about) != 0 || is_ours(about);
+}
+
+// A folder that only this user may enter, if it is new. Failure shows when the segment is written.
+void make_private(const fs::path& folder) {
+    std::error_code problem;
+    fs::create_directories(folder.parent_path(), problem);
+    mkdir(folder.c_str(), S_IRWXU);
 }
 
 bool same_bits(const PointSpread& a, const PointSpread& b) {
@@ -130,15 +179,17 @@ struct KernelStore::Segment {
         return true;
     }
 
-    // Null for anything that is not a whole, undamaged segment.
-    static std::unique_ptr<Segment> opened(const std::string& path) {
+    // Null for anything that is not a whole, undamaged segment of this lens, written by us.
+    static std::unique_ptr<Segment> opened(const std::string& path, const LensName& lens) {
         auto segment = std::make_unique<Segment>();
-        segment->file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        segment->file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // pipes may never answer
         struct stat about {};
         Header header;
-        if (segment->file < 0 || fstat(segment->file, &about) != 0 ||
-            !segment->read(&header, sizeof header, 0) || header.magic != kMagic || header.records == 0 ||
-            header.records > kMostRecords)
+        if (segment->file < 0 || fstat(segment->file, &about) != 0 || !S_ISREG(about.st_mode) ||
+            !is_ours(about))
+            return nullptr;
+        if (!segment->read(&header, sizeof header, 0) || header.magic != kMagic || header.lens != lens ||
+            header.records == 0 || header.records > kMostRecords)
             return nullptr;
         const std::size_t index = std::size_t(header.records) * sizeof(Record),
                           size = std::size_t(about.st_size);
@@ -147,20 +198,23 @@ struct KernelStore::Segment {
         if (!segment->read(segment->records.data(), index, sizeof header) ||
             hash_of(segment->records.data(), index, kMagic) != header.index_hash)
             return nullptr;
-        for (const Record& r : segment->records) {
-            const Rect e = r.extent();
-            if (e.empty() || e.width() > kLargestSide || e.height() > kLargestSide || r.offset > size ||
-                r.floats() * sizeof(float) > size - r.offset)
-                return nullptr;
-        }
+        for (const Record& r : segment->records)
+            if (!r.is_sound(size)) return nullptr;
         futimens(segment->file, nullptr);  // used now
         return segment;
     }
 };
 
 KernelStore::KernelStore(std::string folder, const std::string& lens_key, std::size_t max_bytes)
-    : folder_(std::move(folder)), lens_folder_(folder_ + "/" + lens_key), max_bytes_(max_bytes) {
-    if (lens_key.empty() || folder_.empty())
+    : folder_(std::move(folder)),
+      lens_folder_(folder_ + "/" + lens_key),
+      lens_key_(lens_key),
+      max_bytes_(max_bytes) {
+    const bool ours = is_ours_or_absent(folder_) && is_ours_or_absent(lens_folder_);
+    if (!ours)
+        warning_ = "kernels are not kept in " + folder_ +
+                   ", where others may write: make it your own (chmod -R go-w), or give another folder";
+    if (!lens_name(lens_key_) || folder_.empty() || !ours)
         max_bytes_ = 0;
     else
         open_segments();
@@ -178,7 +232,7 @@ void KernelStore::open_segments() {
         if (i->path().extension() == ".kernels") paths.push_back(i->path());
     std::sort(paths.begin(), paths.end());
     for (const std::string& path : paths) {
-        auto segment = Segment::opened(path);
+        auto segment = Segment::opened(path, *lens_name(lens_key_));
         if (!segment) continue;
         for (std::size_t i = 0; i < segment->records.size(); ++i) {
             const Record& r = segment->records[i];
@@ -195,7 +249,7 @@ std::optional<PointSpread> KernelStore::find(const Key& key) const {
     std::vector<float> floats(record.floats());
     const std::size_t bytes = floats.size() * sizeof(float);
     if (!place->second.segment->read(floats.data(), bytes, record.offset) ||
-        hash_of(floats.data(), bytes, kMagic) != record.hash)
+        hash_of(floats.data(), bytes, kMagic) != record.hash || !are_weights(record, floats))
         return std::nullopt;
     ++found_;
     return unpacked(record, floats);
@@ -231,11 +285,12 @@ void KernelStore::write_pending() {
         offset += bytes;
     }
     Header header;
+    header.lens = *lens_name(lens_key_);
     header.records = records.size();
     header.index_hash = hash_of(records.data(), records.size() * sizeof(Record), kMagic);
 
-    std::error_code problem;
-    fs::create_directories(lens_folder_, problem);
+    make_private(folder_);
+    make_private(lens_folder_);
     const std::string name = lens_folder_ + "/" + own_name(), part = name + ".part";
     std::ofstream file(part, std::ios::binary);
     const auto write = [&](const void* from, std::size_t bytes) {
@@ -245,6 +300,8 @@ void KernelStore::write_pending() {
     write(records.data(), records.size() * sizeof(Record));
     for (const std::vector<float>& floats : weights) write(floats.data(), floats.size() * sizeof(float));
     file.close();
+    std::error_code problem;
+    fs::permissions(part, fs::perms::owner_read | fs::perms::owner_write, problem);
     if (file)
         fs::rename(part, name + ".kernels", problem);
     else

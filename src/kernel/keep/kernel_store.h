@@ -2,8 +2,10 @@
 //
 // A folder holds one folder per lens, named by everything that decides its kernels (lens_key(): lens,
 // options, camera, sizes, and the program's build). In it lie segments: each is written once, by one run,
-// under a name of its own and renamed into place, so processes never disturb each other. What is damaged or
-// unreadable in any way is as if it were not there. What is read back is what was written, bit for bit.
+// under a name of its own and renamed into place, so processes never disturb each other. A segment that is
+// damaged or unreadable in any way, of another lens, or holds what no lens can have, is as if it were not
+// there. What is read back is what was written, bit for bit. New folders are this user's alone; one that
+// others can write to is not used, for hashes do not hold against malice.
 #pragma once
 
 #include "kernel/model/lens_model.h"
@@ -40,6 +42,8 @@ public:
     void add(const Key& key, const PointSpread& kernel);
 
     std::size_t kernels_found() const { return found_; }
+    // One line for the user where the folder is not used because others may write to it; else empty.
+    const std::string& warning() const { return warning_; }
 
 private:
     struct Segment;
@@ -50,7 +54,7 @@ private:
     void open_segments();
     void write_pending();
 
-    std::string folder_, lens_folder_;
+    std::string folder_, lens_folder_, lens_key_, warning_;
     std::size_t max_bytes_;
     std::vector<std::unique_ptr<const Segment>> segments_;
     std::map<Key, Place> places_;

@@ -1,13 +1,15 @@
 #include "kernel/keep/kernel_store.h"
 
-#include "base/build_id.h"
+#include "base/content_hash.h"
 #include "base/parallel.h"
 #include "kernel/lenses/kernel_testing.h"
 
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <random>
+#include <sys/stat.h>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +105,112 @@ TEST_F(KernelStoreTest, DamageAnywhereIsAsIfNothingWereThere) {
                 EXPECT_TRUE(same_bits(*kernel, lens->point_spread(coc, kPlaces[1])));
             }
     }
+}
+
+// A file of the store, laid out as kernel_store.cpp says: header, records, weights.
+struct Forged {
+    fs::path path;
+    std::string bytes;
+
+    explicit Forged(fs::path segment) : path(std::move(segment)) {
+        std::ifstream in(path, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    static constexpr std::size_t kHeader = 88, kRecord = 64;  // bytes
+    static constexpr std::size_t kMagicAt = 0, kRecordsAt = 8, kIndexHashAt = 16;
+    static constexpr std::size_t kX0At = 28, kX1At = 36, kOffsetAt = 48, kHashAt = 56;  // in a record
+    template <typename T>
+    T at(std::size_t place) const {
+        T value;
+        std::memcpy(&value, bytes.data() + place, sizeof value);
+        return value;
+    }
+    template <typename T>
+    void set(std::size_t place, T value) {
+        std::memcpy(bytes.data() + place, &value, sizeof value);
+    }
+    // With hashes that fit, as anybody can make them, in a folder that is ours.
+    void write() {
+        const auto magic = at<std::uint64_t>(kMagicAt), records = at<std::uint64_t>(kRecordsAt);
+        for (std::size_t i = 0; i < records; ++i) {
+            const std::size_t record = kHeader + i * kRecord, next = record + kRecord + kOffsetAt;
+            const auto from = at<std::uint64_t>(record + kOffsetAt);
+            const std::size_t to = i + 1 < records ? at<std::uint64_t>(next) : bytes.size();
+            set(record + kHashAt, hash_of(bytes.data() + from, to - from, magic));
+        }
+        set(kIndexHashAt, hash_of(bytes.data() + kHeader, records * kRecord, magic));
+        const fs::path folder = path.parent_path();
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        fs::permissions(folder, fs::perms::owner_all);
+        fs::permissions(folder.parent_path(), fs::perms::owner_all);
+        std::ofstream(path, std::ios::binary) << bytes;
+        fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+    }
+};
+
+TEST_F(KernelStoreTest, ForgedWeightsAreNotUsed) {
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    forget();
+    const Forged whole(segments().at(0));
+    Forged(whole).write();
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    EXPECT_EQ(found(), 12u) << "the layout above is that of the store";
+    forget();
+    for (const float weight : {std::nanf(""), -0.5f, 9.0f, std::numeric_limits<float>::infinity()}) {
+        Forged forged = whole;
+        forged.set(whole.at<std::uint64_t>(Forged::kHeader + Forged::kOffsetAt), weight);
+        forged.write();
+        expect_the_kernels_of_the_lens(*kept_lens(), choice());
+        EXPECT_EQ(found(), 11u) << weight;
+        forget();
+    }
+    Forged huge = whole;
+    huge.set(Forged::kHeader + Forged::kX0At, std::numeric_limits<std::int32_t>::min());
+    huge.set(Forged::kHeader + Forged::kX1At, std::numeric_limits<std::int32_t>::max());
+    huge.write();
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    EXPECT_EQ(found(), 0u);
+}
+
+TEST_F(KernelStoreTest, ASegmentOfAnotherLensIsNotUsed) {
+    LensChoice other = choice();
+    other.name = "triplet";
+    {
+        const auto lens = kept(lens_of(other), std::make_shared<KernelStore>(folder_, "other", kRoomy), 0);
+        expect_the_kernels_of_the_lens(*lens, other);
+    }
+    const fs::path of_other = segments().at(0);
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    forget();
+    for (const auto& mine : fs::directory_iterator(folder_ + "/lens"))
+        fs::copy_file(of_other, mine.path(), fs::copy_options::overwrite_existing);
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    EXPECT_EQ(found(), 0u);
+}
+
+TEST_F(KernelStoreTest, AFolderThatOthersCanWriteToIsNotUsedAndThatIsSaid) {
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    EXPECT_EQ(store_->warning(), "");
+    forget();
+    EXPECT_EQ(fs::status(folder_).permissions(), fs::perms::owner_all) << "new ones are the user's alone";
+    for (const std::string& folder : {folder_, folder_ + "/lens"}) {
+        fs::permissions(folder, fs::perms::owner_all | fs::perms::others_write);
+        expect_the_kernels_of_the_lens(*kept_lens(), choice());
+        EXPECT_EQ(found(), 0u) << folder;
+        EXPECT_NE(store_->warning().find(folder_), std::string::npos);
+        forget();
+        fs::permissions(folder, fs::perms::owner_all);
+    }
+    EXPECT_EQ(segments().size(), 1u) << "nothing was written either";
+}
+
+TEST_F(KernelStoreTest, APipeAmongTheSegmentsIsNotWaitedFor) {
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    forget();
+    ASSERT_EQ(mkfifo((folder_ + "/lens/0.kernels").c_str(), 0600), 0);
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    EXPECT_EQ(found(), 12u);
 }
 
 TEST_F(KernelStoreTest, StaysWithinItsRoom) {
