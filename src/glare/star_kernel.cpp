@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "colour/spectrum.h"
 #include "kernel/draw/outline.h"
+#include "kernel/model/gamut.h"
 #include "kernel/model/spread.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "kernel/draw/ring_kernel.h"
 #include "kernel/lenses/make_lens.h"
 #include "kernel/lenses/opened_lens.h"
-#include "kernel/model/spread.h"
 #include "optics/aberrations.h"
 
 #include <algorithm>
@@ -87,9 +86,7 @@ double Axial::reach_um(double coc_um) const {
 
 kernel::PointSpread Axial::disc(double coc_um, double um_per_px) const {
     const auto rings = ring_bands(bands_, coc_um, um_per_px);
-    kernel::PointSpread disc = kernel::ring_kernel(rings, reach_of(rings));
-    kernel::map_into_gamut(disc);
-    return disc;
+    return kernel::ring_kernel(rings, reach_of(rings), kernel::RingColours::InGamut);
 }
 
 std::vector<kernel::Light> ring_light(const AxialBands& bands, double coc_um, double reach_um, int rings) {

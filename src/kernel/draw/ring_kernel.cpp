@@ -1,8 +1,11 @@
 #include "kernel/draw/ring_kernel.h"
 
+#include "kernel/model/gamut.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace petzval::kernel {
@@ -154,15 +157,22 @@ std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_
     return total;
 }
 
-PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px) {
+PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px, RingColours colours) {
     const int radius = int(std::ceil(reach_px - 0.5));  // pixels beyond the first that light touches
     if (radius <= 0) return single_pixel();
     const std::size_t bins = std::size_t(std::clamp(32 * reach_px, 64.0, 8192.0));
-    const RadialProfile profile(ring_energy(bands, reach_px, bins), reach_px / double(bins));
+    std::vector<Light> rings = ring_energy(bands, reach_px, bins);
+    if (colours == RingColours::InGamut) map_into_gamut(rings);
+    const RadialProfile profile(rings, reach_px / double(bins));
 
     const int width = 2 * radius + 1;
     PointSpread spread{{-radius, -radius, radius + 1, radius + 1}, Image<Rgba>(width, width), false};
-    const auto as_weight = [](const Rgb& c) { return Rgba{float(c[0]), float(c[1]), float(c[2]), 0}; };
+    // Second differences leave a rounding residue where there is no light.
+    const double least = colours == RingColours::InGamut ? 0 : -std::numeric_limits<double>::infinity();
+    const auto as_weight = [least](const Rgb& c) {
+        const auto weight = [least](double v) { return float(std::max(least, v)); };
+        return Rgba{weight(c[0]), weight(c[1]), weight(c[2]), 0};
+    };
     spread.weights(radius, radius) = as_weight(profile.in_middle_square());
     for (int y = 0; y <= radius; ++y)
         for (int x = std::max(y, 1); x <= radius; ++x) {

@@ -24,7 +24,12 @@ struct RingBand {
 // |landing| of all bands: exact energies, nothing sampled. Requires: reach_px > 0, bins >= 1.
 std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_px, std::size_t bins);
 
-// Channels sum to 1; colours are not mapped. reach_px: largest |landing| of all bands.
-PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px);
+// Channels sum to 1. reach_px: largest |landing| of all bands.
+enum class RingColours {
+    Raw,
+    InGamut,  // see gamut.h
+};
+PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px,
+                        RingColours colours = RingColours::Raw);
 
 }  // namespace petzval::kernel

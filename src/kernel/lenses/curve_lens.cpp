@@ -5,7 +5,7 @@
 #include "kernel/draw/ray_set.h"
 #include "kernel/draw/ring_kernel.h"
 #include "kernel/draw/sector_kernel.h"
-#include "kernel/model/spread.h"
+#include "kernel/model/gamut.h"
 
 #include <algorithm>
 #include <array>
@@ -153,15 +153,24 @@ double CurveLens::reach_px(double coc_radius_px) const {
            std::max(1.0, pixel_aspect_);
 }
 
-PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+bool CurveLens::is_same_around_the_axis(FieldPosition field) const {
     const bool on_axis = field.x == 0 && field.y == 0;
-    const bool same_around_the_axis =
-        on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0);
-    if (!same_around_the_axis || pupil_.has_texture()) return mesh_spread(coc_radius_px, field);
-    if (pupil_.is_disc(field) && pixel_aspect_ == 1) {
-        const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
-        return ring_kernel(rings.bands, rings.reach_px);
-    }
+    return (on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0)) &&
+           !pupil_.has_texture();
+}
+
+bool CurveLens::has_rings(FieldPosition field) const {
+    return is_same_around_the_axis(field) && pupil_.is_disc(field) && pixel_aspect_ == 1;
+}
+
+PointSpread CurveLens::ring_spread(double coc_radius_px, RingColours colours) const {
+    const Rings rings = rings_of(coc_radius_px, kLeastRingBands);
+    return ring_kernel(rings.bands, rings.reach_px, colours);
+}
+
+PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
+    if (!is_same_around_the_axis(field)) return mesh_spread(coc_radius_px, field);
+    if (has_rings(field)) return ring_spread(coc_radius_px, RingColours::Raw);
     const std::shared_ptr<const RingSweep> sweep = sweep_of(coc_radius_px);
     const std::vector<Point> outline = pupil_.outline(field, kChordPx / std::max(sweep->reach_px(), 4.0));
     if (!is_star_about_axis(outline)) return mesh_spread(coc_radius_px, field);
@@ -183,6 +192,7 @@ std::shared_ptr<const RingSweep> CurveLens::sweep_of(double coc_radius_px) const
 }
 
 PointSpread CurveLens::point_spread(double coc_radius_px, FieldPosition field) const {
+    if (has_rings(field)) return ring_spread(coc_radius_px, RingColours::InGamut);
     PointSpread spread = raw_point_spread(coc_radius_px, field);
     map_into_gamut(spread);
     return spread;

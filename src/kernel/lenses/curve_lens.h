@@ -60,6 +60,9 @@ private:
     };
     Rings rings_of(double coc_radius_px, int least_bands) const;
     std::shared_ptr<const RingSweep> sweep_of(double coc_radius_px) const;
+    bool is_same_around_the_axis(FieldPosition field) const;  // but for the pupil's outline
+    bool has_rings(FieldPosition field) const;                // discs are the same in every direction
+    PointSpread ring_spread(double coc_radius_px, RingColours colours) const;
     PointSpread mesh_spread(double coc_radius_px, FieldPosition field) const;
 
     std::string description_;

@@ -76,6 +76,32 @@ TEST(DiscCharacter, UncorrectedColourTurnsPurpleAtFocus) {
     EXPECT_TRUE(purple(halo)) << halo.r << " " << halo.g << " " << halo.b;
 }
 
+TEST(DiscCharacter, BlueAndVioletFringesKeepTheirLight) {
+    struct Case {
+        const char* lens;
+        double coc_px;
+    };
+    for (const auto& [name, coc] : {Case{"uncorrected", 30},
+                                    {"uncorrected", 12},
+                                    {"asphere", 28},
+                                    {"asphere", 0},
+                                    {"doublet", -30},
+                                    {"doublet-ccd", 0},
+                                    {"takumar", 12},
+                                    {"asphere-singlet", 12}}) {
+        const auto lens = lens_named(name);
+        const PointSpread raw = lens->raw_point_spread(coc, {}), shown = lens->point_spread(coc, {});
+        double of_raw = 0, of_shown = 0;
+        for (int y = raw.extent.y0; y < raw.extent.y1; ++y)
+            for (int x = raw.extent.x0; x < raw.extent.x1; ++x) {
+                const Rgba w = weight_at(raw, x, y);
+                if (w.b < 2 * std::max(w.r, w.g)) continue;
+                of_raw += double(w.b), of_shown += double(weight_at(shown, x, y).b);
+            }
+        EXPECT_NEAR(of_shown, of_raw, 0.03 * of_raw) << name << " " << coc;
+    }
+}
+
 TEST(DiscCharacter, DoubletNearHasASoftRedToVioletRimAndADarkerCentre) {
     const Disc disc("doublet", -24);
     EXPECT_LT(disc.core, 0.85f);

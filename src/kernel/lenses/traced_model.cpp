@@ -3,7 +3,7 @@
 #include "kernel/draw/band_groups.h"
 #include "kernel/draw/outline.h"
 #include "kernel/draw/ray_set.h"
-#include "kernel/model/spread.h"
+#include "kernel/model/gamut.h"
 #include "optics/traced_lens.h"
 
 #include <algorithm>

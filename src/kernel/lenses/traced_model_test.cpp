@@ -140,9 +140,10 @@ TEST(TracedModel, OnTheAxisItIsTheLensOfItsOwnAberrationCurves) {
 TEST(TracedModel, ItsRimsCutOppositeSidesInFrontAndBehind) {
     const auto lens = traced("retrofocus");
     const FieldPosition field{0.8, 0};
-    const double focused = moments(lens->point_spread(0, field)).x;
-    const double far = moments(lens->point_spread(40, field)).x - focused;
-    const double near = moments(lens->point_spread(-40, field)).x - focused;
+    // Before fringes are brought into gamut, which differs between red rims and blue ones.
+    const double focused = moments(lens->raw_point_spread(0, field)).x;
+    const double far = moments(lens->raw_point_spread(40, field)).x - focused;
+    const double near = moments(lens->raw_point_spread(-40, field)).x - focused;
     EXPECT_GT(std::abs(far), 0.5);
     EXPECT_NEAR(near, -far, 0.05 * std::abs(far));
 }

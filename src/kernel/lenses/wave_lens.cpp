@@ -3,6 +3,7 @@
 #include "base/fft.h"
 #include "base/parallel.h"
 #include "colour/spectrum.h"
+#include "kernel/model/gamut.h"
 #include "kernel/model/spread.h"
 
 #include <algorithm>

@@ -73,22 +73,4 @@ void normalise(PointSpread& spread) {
     }
 }
 
-void map_into_gamut(PointSpread& spread) {
-    if (spread.neutral) return;
-    for (std::size_t i = 0; i < spread.weights.size(); ++i) {
-        Rgba& w = spread.weights.pixels()[i];
-        const float least = std::min({w.r, w.g, w.b});
-        if (least >= 0) continue;
-        const float grey = luminance(w);
-        if (grey <= 0) {
-            w = {};
-            continue;
-        }
-        const float keep = grey / (grey - least);
-        const auto moved = [&](float v) { return std::max(0.0f, grey + keep * (v - grey)); };
-        w = {moved(w.r), moved(w.g), moved(w.b), 0};
-    }
-    normalise(spread);
-}
-
 }  // namespace petzval::kernel

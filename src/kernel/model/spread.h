@@ -1,4 +1,4 @@
-// Finishing a kernel: energy, alpha, and the mapping of colours that no screen has.
+// Finishing a kernel: energy and alpha.
 #pragma once
 
 #include "kernel/model/lens_model.h"
@@ -30,9 +30,5 @@ inline float alpha_of(const Rgba& w) { return w.r == w.g && w.g == w.b ? w.g : l
 // Scales r, g, b to sum to 1 each, sets a to alpha_of them, and notes whether all are equal.
 // Requires: each channel's sum is positive.
 void normalise(PointSpread& spread);
-
-// Texels with a negative channel move towards the grey of their luminance until none is negative (black where
-// the luminance itself is not positive); then normalise(). Neutral kernels come out as they went in.
-void map_into_gamut(PointSpread& spread);
 
 }  // namespace petzval::kernel
