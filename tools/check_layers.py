@@ -27,7 +27,7 @@ ALLOWED = {
     "device/cpu": MODEL | {"device", "engine/waist"},
     "engine/waist": MODEL,
     "engine/samples": MODEL | {"engine/waist"},
-    "engine/lights": WAIST | {"device/cpu"},
+    "engine/lights": WAIST,
     "engine/scatter": WAIST | {"engine/lights"},
     "engine/gather": WAIST | {"device/cpu"},
     "engine/gaussian": WAIST | {"device/cpu"},

@@ -12,8 +12,9 @@
 #include <memory>
 
 namespace petzval::engine {
+struct LightsPlan;
 struct ScatterPlan;
-}
+}  // namespace petzval::engine
 
 namespace petzval::device {
 
@@ -38,6 +39,11 @@ struct Control {
 struct Work {
     std::uint64_t bytes = 0, multiply_adds = 0;
     // Kernels of `taps` pixels in all, added to sums: RGBA weights and sums read, sums written.
+    Work& operator+=(Work other) {
+        bytes += other.bytes;
+        multiply_adds += other.multiply_adds;
+        return *this;
+    }
     static Work of_taps(std::size_t taps) { return {48 * taps, 4 * taps}; }
 };
 
@@ -58,6 +64,9 @@ public:
     // Writes the plan's rows of `out`, the whole frame. `atlas` is that of the plan's kernels.
     virtual Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
                            const Control& control) const = 0;
+    // Adds to the plan's rows of `out`, the whole frame.
+    virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
+                            const Control& control) const = 0;
 };
 
 }  // namespace petzval::device

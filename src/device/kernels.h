@@ -5,6 +5,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,22 +32,29 @@ struct KernelSet {
     std::vector<KernelAsk> asks;
 };
 
+// How kernels are drawn: many small ones on top of each other, or few that may be wide, shaded pixel by
+// pixel.
+enum class KernelUse { Stamped, ByPixel };
+
 // Where kernels come from. Safe to use from many threads; what it makes depends on the ask alone.
 class KernelSource {
 public:
     // name: says everything that decides the kernels; those of one name are the same.
-    explicit KernelSource(std::string name) : name_(std::move(name)) {}
+    KernelSource(std::string name, KernelUse use) : name_(std::move(name)), use_(use) {}
     virtual ~KernelSource() = default;
     KernelSource(const KernelSource&) = delete;
     KernelSource& operator=(const KernelSource&) = delete;
 
     // The kernels of asks that are cut from one kernel of the lens, in order: one each, or as many as there
     // are sectors.
-    virtual std::vector<std::vector<kernel::PointSpread>> make(std::span<const KernelAsk> asks) const = 0;
+    using Made = std::vector<std::shared_ptr<const kernel::PointSpread>>;
+    virtual std::vector<Made> make(std::span<const KernelAsk> asks) const = 0;
     const std::string& name() const { return name_; }
+    KernelUse use() const { return use_; }
 
 private:
     std::string name_;
+    KernelUse use_;
 };
 
 }  // namespace petzval::device

@@ -17,8 +17,7 @@ void HighlightsView::read(const engine::PlannedStrip& strip) {
                 Rgba& pixel = shown_.image(width + x, y);
                 pixel += h.colour, pixel.a = 1;
             }
-    spread_highlights(input, strip.highlight_kernels, strip.base, strip.highlights, strip.white,
-                      strip.scatter.rows, shown_.image.view().part(drawn));
+    draw_lights(strip, shown_.image.view().part(drawn));
     input.progress->advance(1);
 }
 

@@ -133,8 +133,7 @@ void LevelsView::read(const PlannedStrip& strip) {
         if (!input.progress->advance(0.8 / double(levels))) return;
     }
     const View<Rgba> bright = shown_.image.view().part(layout.highlights);
-    spread_highlights(input, strip.highlight_kernels, strip.base, strip.highlights, strip.white,
-                      strip.scatter.rows, bright);
+    draw_lights(strip, bright);
     shown_.panels.push_back({"HIGHLIGHTS  EACH WITH ITS WHOLE KERNEL", layout.highlights, kHighlightColour});
     draw_map(input, shown_.image, layout, shown_.image.view().part(layout.map));
     shown_.panels.push_back({"WHICH LEVEL DREW WHAT", layout.map, {}});

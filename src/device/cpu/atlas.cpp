@@ -7,10 +7,10 @@
 namespace petzval::device {
 namespace {
 
-std::shared_ptr<const StampSet> laid_out(const std::vector<kernel::PointSpread>& spreads) {
+std::shared_ptr<const StampSet> laid_out(const KernelSource::Made& spreads) {
     auto set = std::make_shared<StampSet>();
-    for (const kernel::PointSpread& spread : spreads) {
-        const engine::StampKernel& kernel = set->kernels.emplace_back(spread);
+    for (const auto& spread : spreads) {
+        const engine::StampKernel& kernel = set->kernels.emplace_back(*spread);
         set->taps += std::size_t(kernel.groups() * engine::StampKernel::kGroup * kernel.extent().height());
         set->bytes += kernel.bytes() + sizeof(kernel);
     }
@@ -72,6 +72,14 @@ StampAtlas::StampAtlas(const KernelSource& source, const KernelSet& set, Memory&
             kernels = laid_out(made[k]);
             table->add(asks[k], kernels);
         }
+    });
+}
+
+SpreadAtlas::SpreadAtlas(const KernelSource& source, const KernelSet& set, const Control& control)
+    : kernels_(set.asks.size()) {
+    parallel_for(int(kernels_.size()), control.workers, [&](int i) {
+        if (control.progress.cancelled()) return;
+        kernels_[std::size_t(i)] = source.make({&set.asks[std::size_t(i)], 1}).front().front();
     });
 }
 

@@ -43,4 +43,14 @@ private:
     std::vector<std::shared_ptr<const StampSet>> kernels_;  // in the order of the set
 };
 
+// Complete kernels as their source keeps them.
+class SpreadAtlas final : public Atlas {
+public:
+    SpreadAtlas(const KernelSource& source, const KernelSet& set, const Control& control);
+    const kernel::PointSpread& operator[](std::uint32_t kernel) const { return *kernels_[kernel]; }
+
+private:
+    std::vector<std::shared_ptr<const kernel::PointSpread>> kernels_;  // in the order of the set
+};
+
 }  // namespace petzval::device

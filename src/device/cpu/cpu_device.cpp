@@ -1,5 +1,6 @@
 #include "device/cpu/cpu_device.h"
 
+#include "device/cpu/add_lights.h"
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
 
@@ -11,11 +12,17 @@ public:
     const char* name() const override { return "cpu"; }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
                                        const Control& control) const override {
+        if (source.use() == KernelUse::ByPixel)
+            return std::make_shared<const SpreadAtlas>(source, set, control);
         return std::make_shared<const StampAtlas>(source, set, memory, control);
     }
     Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
                    const Control& control) const override {
         return composite_tiles(plan, dynamic_cast<const StampAtlas&>(atlas), out, control);
+    }
+    Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
+                    const Control& control) const override {
+        return add_planned_lights(plan, dynamic_cast<const SpreadAtlas&>(atlas), out, control);
     }
 };
 

@@ -139,13 +139,14 @@ private:
         const Rect here{0, rows.y0 - first, rows.width(), rows.y1 - first};  // in the rows of `input`
         const View<Rgba> all = out.part({0, first, out.width(), last});
         const double share = double(rows.height()) / frame_.height() / double(tiles.size());
+        GatherScratch scratch;
         parallel_for(int(tiles.size()), *input.workers, [&](int i) {
             const Rect& tile = tiles[std::size_t(i)];
             if (input.progress->cancelled() || tile.intersected(here).empty()) return;
             if (input.deep.empty() && !is_reached(input, tiles, ranges, tile))
                 copy_tile(input, tile, all);
             else
-                gather_tile(source, tile, all);
+                gather_tile(source, tile, scratch, all);
             input.progress->advance(share);
         });
         gather_s_ += seconds_since(gathering);

@@ -1,6 +1,7 @@
 #include "engine/gather/gather_tile.h"
 
 #include "device/cpu/gather_taps.h"
+#include "device/cpu/workspaces.h"
 
 #include <algorithm>
 #include <array>
@@ -297,9 +298,15 @@ private:
 
 }  // namespace
 
-void gather_tile(const GatherSource& source, const Rect& tile, View<Rgba> out) {
-    thread_local Workspace workspace;
-    TileGather(source, tile, workspace).run(out);
+struct GatherScratch::Pool {
+    device::Workspaces<Workspace> workspaces;
+};
+GatherScratch::GatherScratch() : pool_(std::make_unique<Pool>()) {}
+GatherScratch::~GatherScratch() = default;
+
+void gather_tile(const GatherSource& source, const Rect& tile, GatherScratch& scratch, View<Rgba> out) {
+    const auto workspace = scratch.pool().workspaces.take();
+    TileGather(source, tile, *workspace).run(out);
 }
 
 }  // namespace petzval::engine

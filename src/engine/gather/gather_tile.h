@@ -8,6 +8,8 @@
 
 #include "engine/gather/gather_cells.h"
 
+#include <memory>
+
 namespace petzval::engine {
 
 struct GatherSource {
@@ -20,6 +22,20 @@ struct GatherSource {
     bool opaque;                           // alpha is coverage: every pixel of the picture has alpha 1
 };
 
-void gather_tile(const GatherSource& source, const Rect& tile, View<Rgba> out);
+// Scratch of the workers that gather, kept from tile to tile.
+class GatherScratch {
+public:
+    GatherScratch();
+    ~GatherScratch();
+    GatherScratch(const GatherScratch&) = delete;
+    GatherScratch& operator=(const GatherScratch&) = delete;
+    struct Pool;
+    Pool& pool() { return *pool_; }
+
+private:
+    std::unique_ptr<Pool> pool_;
+};
+
+void gather_tile(const GatherSource& source, const Rect& tile, GatherScratch& scratch, View<Rgba> out);
 
 }  // namespace petzval::engine

@@ -1,8 +1,9 @@
 // Looks at what a run of the scatter engine makes on its way, in place of its result.
 #pragma once
 
-#include "engine/lights/highlight_spread.h"
+#include "device/device.h"
 #include "engine/lights/highlights.h"
+#include "engine/lights/plan.h"
 #include "engine/scatter/plan.h"
 #include "engine/scatter/scatter_kernels.h"
 
@@ -20,6 +21,9 @@ struct PlannedStrip {
     const HighlightKernels& highlight_kernels;
     float white;
 };
+
+// Adds the highlights of a strip to `out`, the whole frame.
+device::Work draw_lights(const PlannedStrip& strip, View<Rgba> out);
 
 // The frame is done as one strip.
 class PlanReader {

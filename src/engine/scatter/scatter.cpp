@@ -2,7 +2,6 @@
 #include "engine/scatter/scatter.h"
 
 #include "device/device.h"
-#include "engine/lights/highlight_spread.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
 #include "engine/scatter/plan_reader.h"
@@ -166,12 +165,7 @@ private:
         watch_.lap("atlas");
         if (!strip.progress->cancelled())
             watch_.lap("spread", device.composite(p.scatter, *atlas, out, control));
-        const Rect& rows = p.scatter.rows;
-        const int first_row = p.scatter.first_row;
-        const Rect in_frame{0, first_row + rows.y0, rows.width(), first_row + rows.y1};
-        const Work work = spread_highlights(strip, *highlight_kernels_, p.base, p.highlights, p.white, rows,
-                                            out.part(in_frame));
-        watch_.lap("highlights", {work.bytes, work.multiply_adds});
+        watch_.lap("highlights", draw_lights(p, out));
         strip.progress->advance(0.1 * share);
     }
 
@@ -184,6 +178,21 @@ private:
 };
 
 }  // namespace
+
+device::Work draw_lights(const PlannedStrip& strip, View<Rgba> out) {
+    if (strip.highlights.empty()) return {};
+    const Input& input = strip.input;
+    const device::Control control{*input.workers, *input.progress};
+    LightsPlanner planner(input, strip.highlight_kernels, strip.base, strip.highlights, strip.white,
+                          strip.scatter.rows, strip.scatter.first_row);
+    device::Work work;
+    LightsPlan plan;
+    while (!input.progress->cancelled() && planner.next(plan)) {
+        const auto atlas = input.device->atlas(strip.highlight_kernels, plan.kernels, *input.memory, control);
+        if (!input.progress->cancelled()) work += input.device->add_lights(plan, *atlas, out, control);
+    }
+    return work;
+}
 
 Result<Output> run_scatter(const Input& input) {
     Output output;

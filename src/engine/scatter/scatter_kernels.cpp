@@ -85,7 +85,7 @@ void scale(kernel::PointSpread& spread, Rgba by) {
 }  // namespace
 
 ScatterKernels::ScatterKernels(const LensOnPicture& lens, int width, int height, const LevelRule& rule)
-    : KernelSource("scatter"),
+    : KernelSource("scatter", device::KernelUse::Stamped),
       lens_(lens),
       width_(width),
       height_(height),
@@ -228,9 +228,8 @@ kernel::PointSpread ScatterKernels::skirt(const kernel::PointSpread& whole, cons
     return cut_out;
 }
 
-std::vector<std::vector<kernel::PointSpread>> ScatterKernels::make(
-    std::span<const device::KernelAsk> asks) const {
-    std::vector<std::vector<kernel::PointSpread>> made;
+std::vector<device::KernelSource::Made> ScatterKernels::make(std::span<const device::KernelAsk> asks) const {
+    std::vector<Made> made;
     const Place place{asks.front().level, asks.front().zone, asks.front().step};
     const kernel::PointSpread all = whole(place);
     for (const device::KernelAsk& ask : asks) {
@@ -246,10 +245,15 @@ std::vector<std::vector<kernel::PointSpread>> ScatterKernels::make(
             light_of_core_.try_emplace(place, sum_of(piece));
         }
         made.emplace_back();
-        if (ask.by_sector)
-            made.back() = sectors_of(piece, inner_sectors_, outer_sectors_, place.step < 0);
-        else
-            made.back().push_back(std::move(piece));
+        const auto keep = [&](kernel::PointSpread spread) {
+            made.back().push_back(std::make_shared<const kernel::PointSpread>(std::move(spread)));
+        };
+        if (!ask.by_sector) {
+            keep(std::move(piece));
+            continue;
+        }
+        for (auto& sector : sectors_of(piece, inner_sectors_, outer_sectors_, place.step < 0))
+            keep(std::move(sector));
     }
     return made;
 }

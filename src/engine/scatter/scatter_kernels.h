@@ -56,8 +56,7 @@ public:
         return std::size_t(levels_ * zones_x_ * zones_y_ * 2 * steps_ * pieces() * 2);
     }
 
-    std::vector<std::vector<kernel::PointSpread>> make(
-        std::span<const device::KernelAsk> asks) const override;
+    std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
 
     // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
     int skirt_levels(int level, float radius) const;

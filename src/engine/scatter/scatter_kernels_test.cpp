@@ -85,12 +85,12 @@ TEST(ScatterKernels, TheFirstToAskForAKernelDoesNotShapeIt) {
             const float middle = std::round(at * 16) / 16;
             const auto made = [&](const ScatterKernels& kernels, float off) {
                 const device::KernelAsk ask = kernels.ask(level + coarser, 0, middle + off, coarser, false);
-                return std::move(kernels.make({&ask, 1})[0][0]);
+                return kernels.make({&ask, 1})[0][0];
             };
-            const kernel::PointSpread a = made(one, -0.007f), b = made(other, 0.007f);
-            ASSERT_EQ(a.extent, b.extent) << "level " << level << " radius " << radius;
-            EXPECT_TRUE(
-                std::equal(a.weights.pixels(), a.weights.pixels() + a.weights.size(), b.weights.pixels()));
+            const auto a = made(one, -0.007f), b = made(other, 0.007f);
+            ASSERT_EQ(a->extent, b->extent) << "level " << level << " radius " << radius;
+            EXPECT_TRUE(std::equal(a->weights.pixels(), a->weights.pixels() + a->weights.size(),
+                                   b->weights.pixels()));
         }
     EXPECT_GT(skirts, 5);
 }
@@ -131,11 +131,10 @@ TEST(ScatterKernels, SectorsSumToTheKernel) {
         const auto made = kernels.make(asks);
         ASSERT_EQ(made[0].size(), 1U);
         ASSERT_EQ(made[1].size(), std::size_t(rule.sectors()));
-        for (std::size_t i = 0; i < made[0][0].weights.size(); ++i) {
+        for (std::size_t i = 0; i < made[0][0]->weights.size(); ++i) {
             float sum = 0;
-            for (const kernel::PointSpread& sector : made[1])
-                sum += sector.weights.pixels()[i].g / float(rule.sectors());
-            EXPECT_NEAR(sum, made[0][0].weights.pixels()[i].g, 1e-6);
+            for (const auto& sector : made[1]) sum += sector->weights.pixels()[i].g / float(rule.sectors());
+            EXPECT_NEAR(sum, made[0][0]->weights.pixels()[i].g, 1e-6);
         }
     }
 }

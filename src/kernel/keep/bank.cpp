@@ -72,11 +72,6 @@ FieldPosition KernelBank::middle_of(const Cells& cells, int cell) const {
             half_height_ * (2 * row + 1 - cells.rows) / cells.rows};
 }
 
-std::shared_ptr<const PointSpread> KernelBank::kernel(double coc_radius_px, FieldPosition field) const {
-    const int step = step_of(coc_radius_px);
-    return kernel_of(step, cell_of(cells_of(step), field));
-}
-
 std::shared_ptr<const PointSpread> KernelBank::kernel_of(int step, int cell) const {
     return cache_.get(key_of(step, cell), [&] { return made(step, cell); });
 }

@@ -34,7 +34,18 @@ public:
 
     // Thread-safe. Of two threads that ask for the same new kernel one makes it and the other waits for it.
     // The kernel stays alive as long as the caller holds it.
-    std::shared_ptr<const PointSpread> kernel(double coc_radius_px, FieldPosition field) const;
+    std::shared_ptr<const PointSpread> kernel(double coc_radius_px, FieldPosition field) const {
+        return kernel(place(coc_radius_px, field));
+    }
+    // What a kernel is asked for by: those of one place are one kernel.
+    struct Place {
+        int step = 0, cell = 0;
+    };
+    Place place(double coc_radius_px, FieldPosition field) const {
+        const int step = step_of(coc_radius_px);
+        return {step, cell_of(cells_of(step), field)};
+    }
+    std::shared_ptr<const PointSpread> kernel(Place place) const { return kernel_of(place.step, place.cell); }
 
     // Makes all kernels between two signed radii, for every cell, as far as the memory limit allows.
     void prepare(double least_coc_px, double largest_coc_px, Workers& workers) const;

@@ -1,9 +1,9 @@
-#include "engine/lights/pupil_shadow.h"
+#include "device/cpu/pupil_shadow.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace petzval::engine {
+namespace petzval::device {
 namespace {
 
 // How much of each cell a box around `middle` covers, its edges blurred by another box: a trapezoid.
@@ -117,4 +117,4 @@ float PupilShadow::visible(int x0, int y0) const {
     return inside_count > 0 ? inside / inside_count : all / float(parts_ * parts_);
 }
 
-}  // namespace petzval::engine
+}  // namespace petzval::device

@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace petzval::engine {
+namespace petzval::device {
 
 // On a grid whose cells are the taps of the highlight's disc, or equal parts of them where the disc has few.
 class PupilShadow {
@@ -34,4 +34,4 @@ private:
     Plane visible_;  // by tap
 };
 
-}  // namespace petzval::engine
+}  // namespace petzval::device

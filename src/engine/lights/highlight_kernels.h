@@ -1,0 +1,34 @@
+// Complete kernels of highlights: of pixels and of squares of them, at full resolution.
+#pragma once
+
+#include "device/kernels.h"
+#include "device/memory.h"
+#include "engine/lights/highlights.h"
+#include "engine/waist/engine.h"
+#include "kernel/keep/bank.h"
+
+#include <memory>
+#include <vector>
+
+namespace petzval::engine {
+
+class SquareLens;
+
+// An ask's piece says how large the square is and how finely radius and place are told; step and zone are
+// those of the bank that this names.
+class HighlightKernels final : public device::KernelSource, public device::Memory::Thing {
+public:
+    explicit HighlightKernels(const Input& input);
+    ~HighlightKernels() override;
+
+    // fine: radius and place of the kernel as near to the highlight's as anybody can tell.
+    device::KernelAsk ask(const Highlight& h, kernel::FieldPosition field, bool fine) const;
+    std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
+    std::size_t bytes() const override;
+
+private:
+    std::vector<std::unique_ptr<const SquareLens>> lenses_;
+    std::vector<std::unique_ptr<const kernel::KernelBank>> banks_;  // by piece
+};
+
+}  // namespace petzval::engine

@@ -1,0 +1,111 @@
+#include "engine/lights/plan.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace petzval::engine {
+namespace {
+
+// What is nearer by less than this is the highlight's own surface. (The next pixels of a surface that slopes
+// by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
+constexpr float kOwnSurfacePx = 0.02f;
+constexpr float kBrightDisc = 0.002f;     // share of white
+constexpr float kSlowBrightDisc = 0.03f;  // of lenses whose kernels take long to make
+constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
+
+Viewpoint own_viewpoint(const Highlight& h) {
+    const float middle = 0.5f * float(h.size - 1);
+    return {float(h.x) + middle, float(h.y) + middle, h.coc_px, h.size, kOwnSurfacePx};
+}
+
+// Highlights of one lamp see nearly the same: single pixels in a square so much smaller than their disc
+// that no shadow in it moves by more than half of that square share one viewpoint. Of what is nearer by less
+// than a part of its size a square cannot tell whether it is the lamp itself.
+Viewpoint shared_viewpoint(const Highlight& h, Quality quality) {
+    const float radius = std::abs(h.coc_px), two = quality == Quality::Draft ? 12 : 24;
+    const int square = quality == Quality::Final || h.size > 1 || radius < two ? 1
+                       : radius < 2.5f * two                                   ? 2
+                                                                               : 4;
+    if (square == 1) return own_viewpoint(h);
+    constexpr float kStepsPerPx = 8;
+    const float centre = 0.5f * float(square - 1);
+    const int first_x = h.x / square * square, first_y = h.y / square * square;
+    return {float(first_x) + centre, float(first_y) + centre,
+            std::round(h.coc_px * kStepsPerPx) / kStepsPerPx, 1, 0.25f * float(square)};
+}
+
+}  // namespace
+
+LightsPlanner::LightsPlanner(const Input& strip, const HighlightKernels& kernels, const CocSamples& samples,
+                             const std::vector<Highlight>& highlights, float white, const Rect& rows,
+                             int first_row)
+    : input_(strip),
+      kernels_(kernels),
+      highlights_(highlights),
+      casters_(samples, *strip.workers),
+      bright_disc_(white * (strip.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)),
+      rows_(rows),
+      first_row_(first_row) {
+    find_viewpoints();
+    const float largest = std::max(std::abs(strip.nearest_coc_px), std::abs(strip.farthest_coc_px));
+    sending_ = rows.grown(int(std::ceil(strip.lens(0).reach_px(double(largest)))) + 1 + kLargestSquare);
+}
+
+// Viewpoints that nobody shares are the highlight's own.
+void LightsPlanner::find_viewpoints() {
+    std::map<std::tuple<float, float, float, int>, std::size_t> known;
+    constexpr std::size_t kShared = std::size_t(-1);
+    std::vector<std::size_t> first;  // highlight of each viewpoint; those of shared ones are kShared
+    for (std::size_t i = 0; i < highlights_.size(); ++i) {
+        const Viewpoint v = shared_viewpoint(highlights_[i], input_.quality);
+        const auto [at, is_new] = known.try_emplace({v.y, v.x, v.coc_px, v.size}, viewpoints_.size());
+        if (is_new)
+            viewpoints_.push_back(v), first.push_back(i);
+        else
+            first[at->second] = kShared;
+        viewpoint_of_.push_back(at->second);
+    }
+    for (std::size_t v = 0; v < viewpoints_.size(); ++v)
+        if (first[v] != kShared) viewpoints_[v] = own_viewpoint(highlights_[first[v]]);
+    // In a deep picture, what lies nearer within one pixel is itself.
+    const float least = input_.deep_dims_itself ? same_pixel_px(input_.pixel_aspect) : 0;
+    for (Viewpoint& v : viewpoints_) v.own_surface_px = std::max(v.own_surface_px, least);
+}
+
+device::KernelAsk LightsPlanner::ask(const Highlight& h) const {
+    const float on_disc =
+        luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
+    return kernels_.ask(h, input_.field_at(h.x, h.y), on_disc > bright_disc_);
+}
+
+bool LightsPlanner::next(LightsPlan& plan) {
+    plan = {};
+    plan.rows = rows_, plan.first_row = first_row_, plan.casters = &casters_, plan.holdout = input_.holdout;
+    plan.stretch = float(std::max(1.0, input_.pixel_aspect));
+    std::vector<std::uint32_t> placed(viewpoints_.size(), 0);  // place in the plan, from 1 on
+    std::vector<device::KernelAsk> asks;
+    for (std::size_t bytes = 0; next_ < highlights_.size() && bytes < kBatchBytes; ++next_) {
+        const Highlight& h = highlights_[next_];
+        bytes += std::size_t(4 * h.coc_px * h.coc_px + 9) * sizeof(float);
+        if (h.y < sending_.y0 || h.y >= sending_.y1) continue;
+        std::uint32_t& viewpoint = placed[viewpoint_of_[next_]];
+        if (viewpoint == 0) {
+            plan.viewpoints.push_back(viewpoints_[viewpoint_of_[next_]]);
+            viewpoint = std::uint32_t(plan.viewpoints.size());
+        }
+        plan.lights.push_back({h, viewpoint - 1, 0});
+        asks.push_back(ask(h));
+    }
+    plan.kernels.asks = asks;
+    std::vector<device::KernelAsk>& set = plan.kernels.asks;
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+    for (std::size_t i = 0; i < asks.size(); ++i)
+        plan.lights[i].kernel =
+            std::uint32_t(std::lower_bound(set.begin(), set.end(), asks[i]) - set.begin());
+    return !plan.lights.empty() || next_ < highlights_.size();
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,77 @@
+// Which lights are spread on their own, each with its complete kernel and with the shadows of nearer things
+// inside it: flat data, no pixels of the result.
+#pragma once
+
+#include "device/kernels.h"
+#include "engine/lights/highlight_kernels.h"
+#include "engine/lights/highlights.h"
+#include "engine/lights/shadow_casters.h"
+#include "engine/waist/engine.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace petzval::engine {
+
+// Where shadows are looked for from: the middle of a highlight, or of a square of pixels that share one.
+struct Viewpoint {
+    float x = 0, y = 0;  // in pixels; the middle of pixel 0 is 0
+    float coc_px = 0;
+    int size = 1;              // of the highlight
+    float own_surface_px = 0;  // what is nearer by less is the highlight's own surface
+
+    // Offset of the first tap of its disc from a highlight's first pixel.
+    int first_tap() const {
+        return size / 2 - (size % 2 == 0 ? 1 : 0) - int(std::floor(std::abs(coc_px) + 0.5f));
+    }
+};
+
+// A highlight as it is drawn: places of what it is seen from and of its kernel in the plan's lists.
+struct PlannedLight {
+    Highlight highlight;
+    std::uint32_t viewpoint = 0, kernel = 0;
+};
+
+// A tap is dimmed by the share of its rays that nearer samples stop: the pixel q of a sample at radius c_q
+// lies on the ray from the highlight (s, c) through pupil point u = (q - s)/(c - c_q), so every nearer sample
+// darkens a square of that side around u in the pupil.
+struct LightsPlan {
+    Rect rows;                         // pixels to be drawn
+    int first_row = 0;                 // row of the frame that is row 0
+    std::vector<PlannedLight> lights;  // added in this order
+    std::vector<Viewpoint> viewpoints;
+    const ShadowCasters* casters = nullptr;
+    float stretch = 1;       // of the pupil, vertically, by pixels that are not square
+    CocSamplesView holdout;  // Input::holdout
+    device::KernelSet kernels;
+};
+
+// Plans the lights of a strip in batches whose kernels and shadows fit into memory together.
+class LightsPlanner {
+public:
+    // `samples` are what may stand in the way; `white` as in HighlightSplit; rows: the pixels to be drawn.
+    // The others outlive this.
+    LightsPlanner(const Input& strip, const HighlightKernels& kernels, const CocSamples& samples,
+                  const std::vector<Highlight>& highlights, float white, const Rect& rows, int first_row);
+    // False: there is nothing left to be drawn.
+    bool next(LightsPlan& plan);
+
+private:
+    device::KernelAsk ask(const Highlight& h) const;
+    void find_viewpoints();
+    void add(std::size_t highlight, LightsPlan& plan) const;
+
+    const Input& input_;
+    const HighlightKernels& kernels_;
+    const std::vector<Highlight>& highlights_;
+    ShadowCasters casters_;
+    float bright_disc_;  // a disc brighter than this shows a radius that is off by little
+    Rect rows_, sending_;
+    int first_row_;
+    std::vector<Viewpoint> viewpoints_;
+    std::vector<std::size_t> viewpoint_of_;  // by highlight
+    std::size_t next_ = 0;
+};
+
+}  // namespace petzval::engine
