@@ -16,7 +16,7 @@ enum class ScatterView {
     Result,
     Layers,  // what it takes the scene for: the surfaces seen, and those found behind them; after each, by
              // number, the depth layer it is composited in
-    Levels,  // what each level of detail drew, before it is composited (docs/published/hexadrive.md)
+    Levels,  // what each level of detail drew, before it is composited (docs/published.md)
     Highlights,  // the light that is spread by itself: as it was taken out of the picture, and as it is drawn
 };
 
@@ -24,7 +24,7 @@ struct ScatterOptions {
     ScatterView view = ScatterView::Result;
 };
 
-// A stop on the way of the published gather method (docs/published/gather.md); its buffer becomes the
+// A stop on the way of the published gather method (docs/published.md); its buffer becomes the
 // picture. Final is our engine, not the article's last step.
 enum class GatherStage {
     Final,      // the engine itself
@@ -50,7 +50,7 @@ struct GatherOptions {
 enum class GaussianStyle {
     Layered,  // light spreads from where it is, near and far apart: nothing in focus bleeds or is bled on
     Plain,    // every pixel mixes the sharp picture and two blurred ones by its own radius
-    Wgld,     // the same by depth, with the weights that were published (docs/published/gaussian.md)
+    Wgld,     // the same by depth, with the weights that were published (docs/published.md)
 };
 
 // A buffer of the Gaussian engine in place of its result.

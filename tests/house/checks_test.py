@@ -32,6 +32,13 @@ class Checks(unittest.TestCase):
         status, output = result_of(check, files)
         self.assertEqual(status, 0, output)
 
+    def test_a_dead_link_and_a_place_outside_of_the_clone_are_found(self):
+        links = "../tests/docs/check_links.py"
+        sound = {"docs/a.md": "# A b\n[b](b.md#the-b) `../README.md`\n", "docs/b.md": "# The b\n", "README.md": "\n"}
+        self.assert_clean(links, sound)
+        for line in ("[b](c.md)", "[b](b.md#the-c)", "[out](../../shared/a.md)", "see `../../scenes`"):
+            self.assert_found(links, sound | {"docs/a.md": line + "\n"}, "docs/a.md")
+
     def test_an_upward_include_is_found(self):
         self.assert_found("check_layers.py", {"src/image/a.cpp": '#include "engine/b.h"\n'}, "src/image/a.cpp:1")
         self.assert_clean("check_layers.py", {"src/engine/waist/a.cpp": '#include "image/b.h"\n'})

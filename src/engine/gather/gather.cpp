@@ -1,5 +1,5 @@
 // The preview engine: rings of the lens's kernels gathered at half resolution, near and far apart
-// (docs/published/gather.md).
+// (docs/published.md).
 #include "engine/gather/gather.h"
 
 #include "base/parallel.h"

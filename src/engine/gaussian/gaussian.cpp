@@ -1,5 +1,5 @@
 // The draft engine: the sharp picture mixed with a smaller and a larger Gaussian blur
-// (docs/published/gaussian.md). Always round, whatever the lens: it has the disc's second moment, not its
+// (docs/published.md). Always round, whatever the lens: it has the disc's second moment, not its
 // shape.
 #include "engine/gaussian/gaussian.h"
 

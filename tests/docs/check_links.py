@@ -1,0 +1,57 @@
+"""Every relative link of the pages leads somewhere in the clone, and no page names a place outside of it.
+
+Usage: check_links.py [FOLDER]. Looks at every .md of the repository: [text](target#heading) and `paths` in code.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+CODE = re.compile(r"`([^`\n]+)`")
+UPWARDS = re.compile(r"(?:\.\./)+[\w./-]*")
+FENCE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
+
+
+def anchors(page):
+    """The names of a page's headings, as GitHub makes them."""
+    headings = re.findall(r"^#+ (.*)$", FENCE.sub("", page.read_text()), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def wrong_links(root, page):
+    text = FENCE.sub("", page.read_text())
+    for target in LINK.findall(text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        path, _, heading = target.partition("#")
+        place = (page.parent / path).resolve() if path else page
+        if not place.is_relative_to(root):
+            yield f"({target}) leads out of the repository"
+        elif not place.exists():
+            yield f"({target}) leads nowhere"
+        elif heading and place.suffix == ".md" and heading not in anchors(place):
+            yield f"({target}): {place.name} has no such heading"
+    for code in CODE.findall(LINK.sub("", text)):
+        for path in UPWARDS.findall(code):
+            if not (page.parent / path).resolve().is_relative_to(root):
+                yield f"`{path}` is not in the repository"
+
+
+def pages_of(root):
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "*.md"], stdout=subprocess.PIPE, text=True)
+    names = listed.stdout.split("\0") if listed.returncode == 0 else []
+    found = [root / name for name in names if name and (root / name).exists()]
+    return found or [p for p in root.rglob("*.md") if "build" not in p.relative_to(root).parts]
+
+
+def main(folder=None):
+    root = pathlib.Path(folder or pathlib.Path(__file__).parents[2]).resolve()
+    pages = pages_of(root)
+    found = [f"{page.relative_to(root)}: {what}" for page in pages for what in wrong_links(root, page)]
+    print("\n".join(found) or f"docs: every link of {len(pages)} pages leads somewhere")
+    sys.exit(bool(found))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
