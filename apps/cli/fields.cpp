@@ -120,8 +120,8 @@ std::string in_flags(const std::string& text) {
             continue;
         }
         const std::string_view word(text.data() + at, end - at);
-        const auto row = std::lower_bound(kFlags.begin(), kFlags.end(), word,
-                                          [](const Row& r, std::string_view w) { return r.field < w; });
+        const auto* const row = std::lower_bound(
+            kFlags.begin(), kFlags.end(), word, [](const Row& r, std::string_view w) { return r.field < w; });
         const bool is_field = row != kFlags.end() && row->field == word && !is_in_path(text, at, end);
         said += is_field ? row->flag : word;
         at = end;

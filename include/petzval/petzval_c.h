@@ -13,6 +13,7 @@
 #ifndef PETZVAL_C_H
 #define PETZVAL_C_H
 
+/* This is C: NOLINTBEGIN(modernize-use-using,modernize-deprecated-headers,readability-identifier-naming) */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -156,4 +157,5 @@ PETZVAL_C_API void petzval_report_close(petzval_report* report);
 }
 #endif
 
+/* NOLINTEND(modernize-use-using,modernize-deprecated-headers,readability-identifier-naming) */
 #endif

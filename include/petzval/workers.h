@@ -16,6 +16,8 @@ class FunctionRef;
 template <typename Returned, typename... Arguments>
 class FunctionRef<Returned(Arguments...)> {
 public:
+    // Not for a FunctionRef itself; the address of a constant function is called as one.
+    // NOLINTBEGIN(bugprone-forwarding-reference-overload,cppcoreguidelines-pro-type-const-cast)
     template <typename Function>
     requires(!std::is_same_v<std::remove_cvref_t<Function>, FunctionRef> &&
              std::is_invocable_r_v<Returned, Function&, Arguments...>) FunctionRef(Function&& function)
@@ -24,6 +26,7 @@ public:
               return (*static_cast<std::remove_reference_t<Function>*>(f))(
                   std::forward<Arguments>(arguments)...);
           }) {}
+    // NOLINTEND(bugprone-forwarding-reference-overload,cppcoreguidelines-pro-type-const-cast)
     Returned operator()(Arguments... arguments) const {
         return call_(function_, std::forward<Arguments>(arguments)...);
     }

@@ -24,8 +24,8 @@ Struct taken(const Struct* given) {
 }
 
 // Errors: InvalidArgument naming the field that is missing or out of range; `name` is that of the picture.
-Result<ColourView> colour_view(const petzval_pixels* pixels, const char* name);
-Status check_plane(const petzval_plane* plane, int width, int height, const char* name);
+Result<ColourView> colour_view(const petzval_pixels* given, const char* name);
+Status check_plane(const petzval_plane* given, int width, int height, const char* name);
 
 // The pictures of a shot, read into ours.
 struct TakenShot {
