@@ -139,8 +139,10 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& asked, Progre
                                                  CancellableWorkers& workers) {
     const Clock clock;
     DefocusJob job = job_of_session(asked, settings, workers);
-    // What is kept is there while the frame is made.
-    if (job.max_memory_bytes > 0) job.max_memory_bytes -= usage().kept_bytes;
+    // What is kept is there while the frame is made. Frames beside this one may keep more than they will when
+    // they end; 0 would be no limit.
+    if (job.max_memory_bytes > 0)
+        job.max_memory_bytes -= std::min(usage().kept_bytes, job.max_memory_bytes - 1);
     if (const Status status = check_job(job); !status) return status.error();
     const auto engine = find_engine(job);
     if (!engine) return engine.error();
