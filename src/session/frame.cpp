@@ -112,7 +112,6 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
     note_radii();
     place_in_field(job);
     input.open_edges = open_edges(job);
-    input.frame_height = job.colour.height();
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
     input.gather = job.gather;
@@ -153,6 +152,8 @@ void PreparedFrame::note_radii() {
 
 void PreparedFrame::place_in_field(const DefocusJob& job) {
     static_cast<PixelField&>(input) = job.place.field();
+    const Rect &display = job.place.display_window, &data = job.place.data_window;
+    input.frame = {display.x0 - data.x0, display.y0 - data.y0, display.x1 - data.x0, display.y1 - data.y0};
 }
 
 }  // namespace petzval

@@ -74,10 +74,8 @@ Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job) {
 std::string MountedLens::key_of(const DefocusJob& job) {
     std::string key = key_of_kernels(job);
     if (key.empty()) return key;
-    const Rect &display = job.place.display_window, &data = job.place.data_window;
-    for (const int n : {display.x0, display.y0, display.x1, display.y1, data.x0, data.y0, data.x1, data.y1,
-                        int(job.quality)})
-        key += " " + std::to_string(n);
+    const Rect& display = job.place.display_window;
+    for (const int n : {display.width(), display.height(), int(job.quality)}) key += " " + std::to_string(n);
     return key + " " + job.engine + " " + job.kernel_cache_folder;
 }
 

@@ -33,17 +33,10 @@ Rgba dimmed(Rgba c, float share) { return {c.r * share, c.g * share, c.b * share
 
 }  // namespace
 
-Rect on_grid(const Rect& display_window, const Rect& data_window, int grid, bool whole) {
+Rect on_grid(const Rect& display_window, const Rect& data_window, int grid) {
     Rect window = data_window;
-    if (whole) {
-        window.x1 = std::max(window.x1, display_window.x1);
-        window.y1 = std::max(window.y1, display_window.y1);
-    }
-    const auto begin = [&](int display, int data) {
-        return whole && data > display ? display : data - beyond(data - display, grid);
-    };
-    window.x0 = begin(display_window.x0, data_window.x0);
-    window.y0 = begin(display_window.y0, data_window.y0);
+    window.x0 -= beyond(data_window.x0 - display_window.x0, grid);
+    window.y0 -= beyond(data_window.y0 - display_window.y0, grid);
     return window;
 }
 

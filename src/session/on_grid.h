@@ -1,9 +1,8 @@
 // Where a data window begins decides nothing: engines see a picture that stands on the grid of its display
 // window.
 //
-// Engines work in tiles, cells and blocks that stand on the first pixel they are given, and with kernels for
-// zones of what they are given. A data window that follows its contents from frame to frame (autocrop) would
-// shift all of them, and the picture would flicker.
+// Engines work in tiles, cells and blocks that stand on the first pixel they are given. A data window that
+// follows its contents from frame to frame (autocrop) would shift all of them, and the picture would flicker.
 #pragma once
 
 #include "petzval/defocus.h"
@@ -14,8 +13,8 @@
 namespace petzval {
 
 // The data window grown to the left and up, so that it begins a whole number of `grid` pixels from the first
-// column and row of the display window; or where `whole`, so that it holds all of the display window.
-Rect on_grid(const Rect& display_window, const Rect& data_window, int grid, bool whole);
+// column and row of the display window.
+Rect on_grid(const Rect& display_window, const Rect& data_window, int grid);
 
 // The pixels of the coarsest grid that any engine uses for radii up to this; a power of two. spreads_wider:
 // the lens's discs are wider than their radius, and their rims come on coarser grids.

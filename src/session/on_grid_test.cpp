@@ -7,11 +7,10 @@ namespace {
 
 TEST(OnGrid, AWindowBeginsAWholeNumberOfCellsFromTheDisplayWindow) {
     const Rect display{10, 20, 1010, 620};
-    EXPECT_EQ(on_grid(display, display, 64, false), display);
-    EXPECT_EQ(on_grid(display, {11, 20, 900, 600}, 64, false), (Rect{10, 20, 900, 600}));
-    EXPECT_EQ(on_grid(display, {74, 83, 900, 600}, 64, false), (Rect{74, 20, 900, 600}));
-    EXPECT_EQ(on_grid(display, {-10, 19, 900, 600}, 64, false), (Rect{-54, -44, 900, 600}));
-    EXPECT_EQ(on_grid(display, {74, -1, 900, 600}, 64, true), (Rect{10, -44, 1010, 620}));
+    EXPECT_EQ(on_grid(display, display, 64), display);
+    EXPECT_EQ(on_grid(display, {11, 20, 900, 600}, 64), (Rect{10, 20, 900, 600}));
+    EXPECT_EQ(on_grid(display, {74, 83, 900, 600}, 64), (Rect{74, 20, 900, 600}));
+    EXPECT_EQ(on_grid(display, {-10, 19, 900, 600}, 64), (Rect{-54, -44, 900, 600}));
 }
 
 TEST(OnGrid, TheGridIsAsCoarseAsAnyLevelForTheRadius) {

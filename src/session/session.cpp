@@ -68,8 +68,7 @@ Rect window_for(const DefocusJob& job, const Radii& radii, const kernel::LensMod
     if (is_whole || !shows_result || job.engine == "reference") return job.place.data_window;
     const float largest = largest_radius_px(job, radii);
     const bool spreads_wider = lens.reach_px(double(largest)) > 1.1 * double(largest) + 2;
-    return on_grid(job.place.display_window, job.place.data_window, grid_for(largest, spreads_wider),
-                   lens.varies_over_field());
+    return on_grid(job.place.display_window, job.place.data_window, grid_for(largest, spreads_wider));
 }
 
 // A job as a session makes it: with the settings of the session.

@@ -58,16 +58,19 @@ struct Layout {
 
 // Visits the kernels that a source is spread with: visit(zone's ask, share).
 template <typename Visit>
-void for_kernels(const ScatterKernels& kernels, const Source& s, int level, const Visit& visit) {
-    for (const auto& [zone, share] : kernels.zones_for(level, s.x, s.y(), s.radius))
+void for_kernels(const ScatterKernels& kernels, const Rect& frame, const Source& s, int level,
+                 const Visit& visit) {
+    for (const auto& [zone, share] : kernels.zones_for(frame, level, s.x, s.y(), s.radius))
         if (share > 0) visit(kernels.ask(level, zone, s.radius, s.skirt_of(), false), share);
 }
 
-device::KernelSet kernels_of(const ScatterKernels& kernels, const SourceArray& sources, int level) {
+device::KernelSet kernels_of(const ScatterKernels& kernels, const Rect& frame, const SourceArray& sources,
+                             int level) {
     std::set<device::KernelAsk> asks;
     for (const Source& s : sources.sources)
         if (!is_emptiness(s.layer))
-            for_kernels(kernels, s, level, [&](const device::KernelAsk& ask, float) { asks.insert(ask); });
+            for_kernels(kernels, frame, s, level,
+                        [&](const device::KernelAsk& ask, float) { asks.insert(ask); });
     return {{asks.begin(), asks.end()}};
 }
 
@@ -75,7 +78,7 @@ device::KernelSet kernels_of(const ScatterKernels& kernels, const SourceArray& s
 void accumulate(const PlannedStrip& strip, int level, View<Rgba> out) {
     const Input& input = strip.input;
     const SourceArray& sources = strip.scatter.levels[std::size_t(level)];
-    const device::KernelSet set = kernels_of(strip.kernels, sources, level);
+    const device::KernelSet set = kernels_of(strip.kernels, input.frame, sources, level);
     const device::StampAtlas atlas(strip.kernels, set, *input.memory, {*input.workers, *input.progress});
     parallel_for((out.height() + kBand - 1) / kBand, *input.workers, [&](int band) {
         if (input.progress->cancelled()) return;
@@ -86,11 +89,12 @@ void accumulate(const PlannedStrip& strip, int level, View<Rgba> out) {
         for (int y = rows.y0 - reach; y < rows.y1 + reach; ++y)
             for (const Source& s : sources.row(y)) {
                 if (is_emptiness(s.layer)) continue;
-                for_kernels(strip.kernels, s, level, [&](const device::KernelAsk& ask, float share) {
-                    const auto place = std::lower_bound(set.asks.begin(), set.asks.end(), ask);
-                    stamp(atlas[std::uint32_t(place - set.asks.begin())].kernels, s.x, s.y(), s.light * share,
-                          s.tilt_x, s.tilt_y, cells);
-                });
+                for_kernels(strip.kernels, input.frame, s, level,
+                            [&](const device::KernelAsk& ask, float share) {
+                                const auto place = std::lower_bound(set.asks.begin(), set.asks.end(), ask);
+                                stamp(atlas[std::uint32_t(place - set.asks.begin())].kernels, s.x, s.y(),
+                                      s.light * share, s.tilt_x, s.tilt_y, cells);
+                            });
             }
         for (int y = rows.y0; y < rows.y1; ++y) std::copy_n(cells[0].row(y), out.width(), out.row(y));
     });

@@ -135,7 +135,7 @@ private:
         prefilter_s_ += seconds_since(start);
 
         const auto gathering = std::chrono::steady_clock::now();
-        const GatherSource source{input, sizes_, kernels_, fill, levels, first, opaque_};
+        const GatherSource source{input, sizes_, kernels_, fill, levels, opaque_};
         const Rect here{0, rows.y0 - first, rows.width(), rows.y1 - first};  // in the rows of `input`
         const View<Rgba> all = out.part({0, first, out.width(), last});
         const double share = double(rows.height()) / frame_.height() / double(tiles.size());

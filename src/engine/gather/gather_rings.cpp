@@ -79,13 +79,13 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
 
 int RingSizes::levels() const { return 1 + *std::max_element(levels_.begin(), levels_.end()); }
 
-RingKernels::RingKernels(const Input& input, const RingSizes& sizes)
-    : input_(input), sizes_(sizes), reach_(std::size_t(sizes.levels()), 0) {
-    if (input.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
+RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
+    : lens_(lens.from(lens.frame.x0, lens.frame.y0)), sizes_(sizes), reach_(std::size_t(sizes.levels()), 0) {
+    if (lens.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
     for (int ring = 0; ring < sizes.count(); ++ring) {
         const int level = sizes.level(ring);
         const double reach =
-            input.lens(level).reach_px(std::abs(radius_in_cells(double(sizes.radius_px(ring)), level)));
+            lens.lens(level).reach_px(std::abs(radius_in_cells(double(sizes.radius_px(ring)), level)));
         int& cells = reach_[std::size_t(level)];
         cells = std::max(cells, int(std::ceil(reach + 0.5)));
     }
@@ -97,18 +97,18 @@ RingKernels::~RingKernels() {
 }
 
 int RingKernels::part_of(double x, double y) const {
-    const int px = std::clamp(int((x + 0.5) / input_.width() * parts_x_), 0, parts_x_ - 1);
-    const int py = std::clamp(int((y + 0.5) / input_.height() * parts_y_), 0, parts_y_ - 1);
+    const int px = std::clamp(int((x + 0.5) / lens_.frame.width() * parts_x_), 0, parts_x_ - 1);
+    const int py = std::clamp(int((y + 0.5) / lens_.frame.height() * parts_y_), 0, parts_y_ - 1);
     return py * parts_x_ + px;
 }
 
 std::unique_ptr<const RingKernel> RingKernels::made(int ring, int part) const {
     const int column = part % parts_x_, row = part / parts_x_;
-    const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
+    const double x = (column + 0.5) * lens_.frame.width() / parts_x_ - 0.5;
+    const double y = (row + 0.5) * lens_.frame.height() / parts_y_ - 0.5;
     const int level = sizes_.level(ring);
-    const kernel::PointSpread spread = input_.lens(level).point_spread(
-        radius_in_cells(double(sizes_.radius_px(ring)), level), input_.field_at(x, y));
+    const kernel::PointSpread spread = lens_.lens(level).point_spread(
+        radius_in_cells(double(sizes_.radius_px(ring)), level), lens_.field_at(x, y));
     auto made = std::make_unique<RingKernel>();
     made->neutral = spread.neutral;
     made->extent = spread.extent;

@@ -75,17 +75,17 @@ struct RingKernel {
     Rect extent;          // of where light lands, from its source
 };
 
-// Kernels of all rings for all parts of the picture, made when first asked for. Thread-safe. What a kernel
-// holds depends on its ring and part alone.
+// Kernels of all rings for all parts of the display window, made when first asked for. Thread-safe. What a
+// kernel holds depends on its ring and part alone.
 class RingKernels {
 public:
-    // Both outlive this.
-    RingKernels(const Input& input, const RingSizes& sizes);
+    // Lens and sizes outlive this.
+    RingKernels(const LensOnPicture& lens, const RingSizes& sizes);
     ~RingKernels();
     RingKernels(const RingKernels&) = delete;
     RingKernels& operator=(const RingKernels&) = delete;
 
-    int part_of(double x, double y) const;  // of a place in the picture, pixels
+    int part_of(double x, double y) const;  // of a place in the display window, pixels
     const RingKernel& at(int ring, int part) const;
     // Cells by which any kernel of a level reaches.
     int reach(int level) const { return reach_[std::size_t(level)]; }
@@ -93,7 +93,7 @@ public:
 private:
     std::unique_ptr<const RingKernel> made(int ring, int part) const;
 
-    const Input& input_;
+    const LensOnPicture lens_;  // of a picture that begins with the display window
     const RingSizes& sizes_;
     int parts_x_ = 1, parts_y_ = 1;
     std::vector<int> reach_;

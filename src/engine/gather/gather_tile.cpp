@@ -74,8 +74,9 @@ class TileGather {
 public:
     TileGather(const GatherSource& source, const Rect& tile, Workspace& workspace)
         : s_(source), tile_(tile), w_(workspace) {
-        part_ =
-            s_.kernels.part_of(0.5 * (tile.x0 + tile.x1 - 1), s_.first_row + 0.5 * (tile.y0 + tile.y1 - 1));
+        const Rect& frame = s_.input.frame;
+        part_ = s_.kernels.part_of(0.5 * (tile.x0 + tile.x1 - 1) - frame.x0,
+                                   0.5 * (tile.y0 + tile.y1 - 1) - frame.y0);
     }
 
     void run(View<Rgba> out) {

@@ -18,7 +18,6 @@ struct GatherSource {
     const RingKernels& kernels;
     const BlockFill& fill;
     const std::vector<CellLevel>& levels;  // [0] is for level 1
-    int first_row;                         // of the whole picture: the kernels are made for that
     bool opaque;                           // alpha is coverage: every pixel of the picture has alpha 1
 };
 

@@ -48,7 +48,7 @@ HighlightKernels::HighlightKernels(const Input& input)
     const kernel::BankOptions options{.columns = 32,
                                       .rows = 18,
                                       .largest_rim_step_px = 0.5,
-                                      .aspect = double(input.width()) / input.frame_height,
+                                      .aspect = double(input.frame.width()) / input.frame.height(),
                                       .relative_step = 0.005,
                                       .least_step_px = 0.0625,
                                       .max_bytes = std::size_t(64) << 20};

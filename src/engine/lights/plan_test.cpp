@@ -17,7 +17,7 @@ public:
         LensChoice choice;
         choice.cats_eye = 0.5;
         lenses_.push_back(std::move(kernel::make_lens(choice, {{50, 36, 1.4, 2}, kWidth, kHeight})).value());
-        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame_height = kHeight;
+        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
         input_.lens_levels = lenses_, input_.quality = quality, input_.farthest_coc_px = 40;
         input_.field_centre_x = 0.5 * kWidth, input_.field_centre_y = 0.5 * kHeight;
         input_.field_per_px = 2 / std::hypot(kWidth, kHeight);

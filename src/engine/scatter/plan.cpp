@@ -144,8 +144,7 @@ private:
     }
     void add_arrivals(const Found& found, bool by_sector, TileDraft& draft) {
         const Source& s = plan_.levels[std::size_t(found.level)].sources[found.source];
-        const int y = s.y() + (plan_.first_row >> found.level);
-        for (const auto& [zone, share] : kernels_.zones_for(found.level, s.x, y, s.radius)) {
+        for (const auto& [zone, share] : kernels_.zones_for(plan_.frame, found.level, s.x, s.y(), s.radius)) {
             if (share <= 0) continue;
             const std::size_t number =
                 kernels_.number_of(kernels_.ask(found.level, zone, s.radius, s.skirt_of(), by_sector));
@@ -254,7 +253,8 @@ LevelRule level_rule(const Input& input) {
 ScatterPlan make_plan(const Input& strip, const CocSamples& samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels) {
     ScatterPlan plan;
-    plan.rows = rows, plan.first_row = first_row, plan.rule = rule, plan.holdout = strip.holdout;
+    plan.rows = rows, plan.first_row = first_row, plan.frame = strip.frame;
+    plan.rule = rule, plan.holdout = strip.holdout;
     plan.levels =
         make_sources(samples, strip.coc_px, connected, strip.open_edges, rule, kernels, *strip.workers);
     fill_tiles(kernels, *strip.progress, *strip.workers, plan);

@@ -124,6 +124,7 @@ struct ScatterPlan {
 
     Rect rows;          // pixels to be drawn
     int first_row = 0;  // row of the frame that is row 0
+    Rect frame;         // the display window, in pixels of the strip
     LevelRule rule;
     std::vector<SourceArray> levels;
     std::vector<Tile> tiles;

@@ -42,12 +42,12 @@ public:
     const ScatterKernels& kernels() const { return *kernels_; }
     const ScatterPlan& plan() { return plan(colour_.rect()); }
     const ScatterPlan& plan(const Rect& rows) {
-        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame_height = colour_.height();
+        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
         const auto [low, high] = std::minmax_element(coc_px_.pixels(), coc_px_.pixels() + coc_px_.size());
         input_.nearest_coc_px = std::min(0.0f, *low), input_.farthest_coc_px = std::max(0.0f, *high);
         input_.progress = &progress_;
         const LevelRule rule = level_rule(input_);
-        kernels_ = std::make_unique<ScatterKernels>(input_, colour_.width(), colour_.height(), rule);
+        kernels_ = std::make_unique<ScatterKernels>(input_, rule);
         const SampleSet set = complete_samples(input_);
         plan_ = make_plan(input_, set.samples, set.connected, rows, 0, rule, *kernels_);
         return plan_;

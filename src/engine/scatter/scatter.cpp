@@ -113,8 +113,7 @@ public:
           watch_(watch),
           rule_(level_rule(frame)),
           kernels_(frame.memory->get<ScatterKernels>(
-              "scatter",
-              [&] { return std::make_shared<ScatterKernels>(frame, frame.width(), frame.height(), rule_); })),
+              "scatter", [&] { return std::make_shared<ScatterKernels>(frame, rule_); })),
           highlight_kernels_(frame.memory->get<HighlightKernels>(
               "highlights", [&] { return std::make_shared<HighlightKernels>(frame); })),
           split_(frame.colour, frame.coc_px, bright_rule(frame), *frame.workers) {

@@ -84,11 +84,9 @@ void scale(kernel::PointSpread& spread, Rgba by) {
 
 }  // namespace
 
-ScatterKernels::ScatterKernels(const LensOnPicture& lens, int width, int height, const LevelRule& rule)
+ScatterKernels::ScatterKernels(const LensOnPicture& lens, const LevelRule& rule)
     : KernelSource("scatter", device::KernelUse::Stamped),
-      lens_(lens),
-      width_(width),
-      height_(height),
+      lens_(lens.from(lens.frame.x0, lens.frame.y0)),
       levels_(int(lens.lens_levels.size())),
       steps_(int(std::ceil(place_of(rule.largest_radius()))) + 2),
       inner_sectors_(rule.inner_sectors),
@@ -114,14 +112,15 @@ ScatterKernels::ScatterKernels(const LensOnPicture& lens, int width, int height,
     for (auto& levels : skirt_levels_) levels = -1;
 }
 
-std::array<ScatterKernels::ZoneShare, 4> ScatterKernels::zones_for(int level, int x, int y,
+std::array<ScatterKernels::ZoneShare, 4> ScatterKernels::zones_for(const Rect& frame, int level, int x, int y,
                                                                    float radius) const {
     if (zones_x_ * zones_y_ == 1) return {{{0, 1}}};
+    x += -frame.x0 >> level, y += -frame.y0 >> level;
     constexpr float kHidesTheChoice = 3;  // cells of radius
     constexpr int kNarrow = 2;            // cells beyond the radius
     const bool nearly_sharp = std::abs(radius) < kHidesTheChoice;
-    const double px = std::ldexp(x + 0.5, level) / width_ * zones_x_ - 0.5;
-    const double py = std::ldexp(y + 0.5, level) / height_ * zones_y_ - 0.5;
+    const double px = std::ldexp(x + 0.5, level) / lens_.frame.width() * zones_x_ - 0.5;
+    const double py = std::ldexp(y + 0.5, level) / lens_.frame.height() * zones_y_ - 0.5;
     const auto zone = [&](double row, double column) {
         return std::clamp(int(std::floor(row)), 0, zones_y_ - 1) * zones_x_ +
                std::clamp(int(std::floor(column)), 0, zones_x_ - 1);
@@ -172,8 +171,8 @@ float ScatterKernels::radius_of(int step) const {
 
 kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
     const int column = at_place.zone % zones_x_, row = at_place.zone / zones_x_;
-    const double x = (column + 0.5) * width_ / zones_x_ - 0.5;
-    const double y = (row + 0.5) * height_ / zones_y_ - 0.5;
+    const double x = (column + 0.5) * lens_.frame.width() / zones_x_ - 0.5;
+    const double y = (row + 0.5) * lens_.frame.height() / zones_y_ - 0.5;
     const kernel::LensModel& lens = lens_.lens(at_place.level);
     const auto made = [&](float r) { return lens.point_spread(double(r), lens_.field_at(x, y)); };
     const float asked = radius_of(at_place.step), side = at_place.step < 0 ? -1 : 1;

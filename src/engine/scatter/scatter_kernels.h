@@ -22,22 +22,21 @@
 namespace petzval::engine {
 
 // Radii are stepped by 1/16 cell, narrow ones more finely. Lenses that vary over the field have one set of
-// kernels for each of 9 x 6 zones of the picture. Safe to use from many threads: which thread makes a kernel
-// does not change it.
+// kernels for each of 9 x 6 zones of the display window. Safe to use from many threads: which thread makes a
+// kernel does not change it.
 class ScatterKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
-    // Of a picture of this size; places are in its pixels.
-    ScatterKernels(const LensOnPicture& lens, int width, int height, const LevelRule& rule);
+    ScatterKernels(const LensOnPicture& lens, const LevelRule& rule);
 
-    // The zones whose kernels the source in cell (x, y) of a level takes, so that nothing steps where zones
-    // meet: one of the four whose middles are nearest, each as often as bilinear interpolation weighs it.
-    // Among nearly sharp sources that choice would be seen: where aberrations make the kernels of those wide,
-    // they take their share of each; where not, the nearest.
+    // The zones whose kernels the source in cell (x, y) of a level takes, in a picture with this frame, so
+    // that nothing steps where zones meet: one of the four whose middles are nearest, each as often as
+    // bilinear interpolation weighs it. Among nearly sharp sources that choice would be seen: where
+    // aberrations make the kernels of those wide, they take their share of each; where not, the nearest.
     struct ZoneShare {
         int zone = 0;
         float share = 0;  // 0: not taken
     };
-    std::array<ZoneShare, 4> zones_for(int level, int x, int y, float radius) const;
+    std::array<ZoneShare, 4> zones_for(const Rect& frame, int level, int x, int y, float radius) const;
     bool has_zones() const { return zones_x_ * zones_y_ > 1; }
     // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
     // a skirt; n: the skirt of the kernel n levels finer.
@@ -86,8 +85,7 @@ private:
     int find_skirt_levels(int level, int step) const;
     int skirt_levels_for(float farthest) const;  // of light that reaches so many cells
 
-    LensOnPicture lens_;
-    int width_, height_;
+    LensOnPicture lens_;                                  // of a picture that begins with the display window
     int levels_, zones_x_ = 1, zones_y_ = 1, steps_ = 0;  // steps_: kernels on either side of focus
     int inner_sectors_, outer_sectors_;
     float core_begin_, core_end_;  // cells from the middle where cores fade out

@@ -19,22 +19,22 @@ TEST(ScatterKernels, ZonesBlendIntoEachOtherByBilinearShares) {
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
     lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 2, 2}, kWidth, kHeight})).value());
     LensOnPicture lens;
-    lens.lens_levels = lenses;
-    const ScatterKernels table(lens, kWidth, kHeight, LevelRule{});
+    lens.lens_levels = lenses, lens.frame = {0, 0, kWidth, kHeight};
+    const ScatterKernels table(lens, LevelRule{});
     // The mean column of a small box grows evenly from the middle of the first zone to that of the last.
     for (int x = 30; x + kBox < kWidth - 30; x += 7)
         for (const int y : {60, 177}) {
             int column = 0, row = 0;
             for (int v = y; v < y + kBox; ++v)
                 for (int u = x; u < x + kBox; ++u) {
-                    const int zone = table.zones_for(0, u, v, 5)[0].zone;
+                    const int zone = table.zones_for(lens.frame, 0, u, v, 5)[0].zone;
                     column += zone % 9, row += zone / 9;
                 }
             EXPECT_NEAR(double(column) / (kBox * kBox), (x + 0.5 * kBox) / 60 - 0.5, 0.06);
             EXPECT_NEAR(double(row) / (kBox * kBox), (y + 0.5 * kBox) / 60 - 0.5, 0.06);
         }
-    EXPECT_EQ(table.zones_for(0, 0, 0, 5)[0].zone, 0);
-    EXPECT_EQ(table.zones_for(0, kWidth - 1, kHeight - 1, 5)[0].zone, 53);
+    EXPECT_EQ(table.zones_for(lens.frame, 0, 0, 0, 5)[0].zone, 0);
+    EXPECT_EQ(table.zones_for(lens.frame, 0, kWidth - 1, kHeight - 1, 5)[0].zone, 53);
 }
 
 TEST(ScatterKernels, NearlySharpSourcesOfAnAberratedLensTakeTheirShareOfEachZone) {
@@ -45,10 +45,10 @@ TEST(ScatterKernels, NearlySharpSourcesOfAnAberratedLensTakeTheirShareOfEachZone
         std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
         lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 1.4, 2}, kWidth, kHeight})).value());
         LensOnPicture lens;
-        lens.lens_levels = lenses;
-        const ScatterKernels table(lens, kWidth, kHeight, LevelRule{});
+        lens.lens_levels = lenses, lens.frame = {0, 0, kWidth, kHeight};
+        const ScatterKernels table(lens, LevelRule{});
         std::array<double, 3> sum{};
-        for (const auto& [zone, share] : table.zones_for(0, x, y, 0.5f)) {
+        for (const auto& [zone, share] : table.zones_for(lens.frame, 0, x, y, 0.5f)) {
             const int column = zone % 9, row = zone / 9;
             sum[0] += double(share), sum[1] += double(share) * column, sum[2] += double(share) * row;
         }
@@ -72,8 +72,8 @@ TEST(ScatterKernels, TheFirstToAskForAKernelDoesNotShapeIt) {
             std::move(kernel::make_lens(choice, {{105, 36, 2.1, 4.8}, 3840 >> level, 2160 >> level}))
                 .value());
     LensOnPicture lens;
-    lens.lens_levels = lenses;
-    const ScatterKernels one(lens, 3840, 2160, LevelRule{}), other(lens, 3840, 2160, LevelRule{});
+    lens.lens_levels = lenses, lens.frame = {0, 0, 3840, 2160};
+    const ScatterKernels one(lens, LevelRule{}), other(lens, LevelRule{});
     int skirts = 0;
     for (int level = 0; level < 4; ++level)
         for (float radius = 2; radius < 8; radius += 0.5f) {
@@ -104,8 +104,8 @@ TEST(ScatterKernels, AsksAreNumberedInTheirOrder) {
             std::move(kernel::make_lens(choice, {{105, 36, 2.1, 4.8}, 3840 >> level, 2160 >> level}))
                 .value());
     LensOnPicture lens;
-    lens.lens_levels = lenses;
-    const ScatterKernels kernels(lens, 3840, 2160, LevelRule{});
+    lens.lens_levels = lenses, lens.frame = {0, 0, 3840, 2160};
+    const ScatterKernels kernels(lens, LevelRule{});
     device::KernelAsk last = kernels.ask_of(0);
     EXPECT_EQ(kernels.number_of(last), 0U);
     for (std::size_t number = 1; number < kernels.asks(); ++number) {
@@ -122,9 +122,9 @@ TEST(ScatterKernels, SectorsSumToTheKernel) {
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
     lenses.push_back(std::move(kernel::make_lens(choice, {{105, 36, 2.1, 4.8}, 960, 540})).value());
     LensOnPicture lens;
-    lens.lens_levels = lenses;
+    lens.lens_levels = lenses, lens.frame = {0, 0, 960, 540};
     const LevelRule rule;
-    const ScatterKernels kernels(lens, 960, 540, rule);
+    const ScatterKernels kernels(lens, rule);
     for (const float radius : {-6.0f, -1.5f, 0.0f, 3.3f, 7.9f}) {
         const device::KernelAsk asks[] = {kernels.ask(0, 0, radius, 0, false),
                                           kernels.ask(0, 0, radius, 0, true)};

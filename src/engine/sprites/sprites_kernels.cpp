@@ -72,13 +72,13 @@ SpriteKernels::SpriteKernels(const Input& input, std::span<const Sprite> sprites
 }
 
 void SpriteKernels::choose_parts(std::span<const Sprite> sprites, float largest_px) {
-    const double across = std::abs(input_.field_at(input_.width(), 0).x - input_.field_at(0, 0).x);
+    const double across = std::abs(input_.field_at(input_.frame.width(), 0).x - input_.field_at(0, 0).x);
     const double rim_px = input_.lens(0).reach_px(double(largest_px)) * across;
     int columns =
         int(std::clamp(std::ceil(rim_px / kRimStepPx), double(kFewestColumns), double(kMostColumns)));
     for (;; columns = std::max(kFewestColumns, columns * 2 / 3)) {
         parts_x_ = columns;
-        parts_y_ = std::max(6, columns * input_.height() / input_.width());
+        parts_y_ = std::max(6, columns * input_.frame.height() / input_.frame.width());
         if (columns == kFewestColumns || bytes_for(sprites) <= kMostBytes) return;
     }
 }
@@ -131,8 +131,10 @@ Stamping SpriteKernels::stamping(float x, float y, float coc_px) const {
         return quarters - cell * phases_;
     };
     const int phase_x = place(x, s.x), phase_y = place(y, s.y);
-    const int px = std::clamp(int(x / float(input_.width()) * float(parts_x_)), 0, parts_x_ - 1);
-    const int py = std::clamp(int(y / float(input_.height()) * float(parts_y_)), 0, parts_y_ - 1);
+    const int px = std::clamp(
+        int((x - float(input_.frame.x0)) / float(input_.frame.width()) * float(parts_x_)), 0, parts_x_ - 1);
+    const int py = std::clamp(
+        int((y - float(input_.frame.y0)) / float(input_.frame.height()) * float(parts_y_)), 0, parts_y_ - 1);
     const int side = coc_px < 0 ? 0 : 1;
     s.kernel =
         (((py * parts_x_ + px) * 2 + side) * steps_ + step) * phases_ * phases_ + phase_y * phases_ + phase_x;
@@ -145,8 +147,8 @@ kernel::PointSpread SpriteKernels::spread(int kernel) const {
     const double signed_radius = (side ? 1 : -1) * double(radius_of(step));
     const int level = level_of(radius_of(step));
     const int column = part % parts_x_, row = part / parts_x_;
-    const double x = (column + 0.5) * input_.width() / parts_x_ - 0.5;
-    const double y = (row + 0.5) * input_.height() / parts_y_ - 0.5;
+    const double x = input_.frame.x0 + (column + 0.5) * input_.frame.width() / parts_x_ - 0.5;
+    const double y = input_.frame.y0 + (row + 0.5) * input_.frame.height() / parts_y_ - 0.5;
     const int right = phase % phases_, down = phase / phases_;
     const float by_x = float(right) / float(phases_), by_y = float(down) / float(phases_);
     const double radius_cells = radius_in_cells(signed_radius, level, moving_blur(by_x, by_y));

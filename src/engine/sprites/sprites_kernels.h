@@ -1,5 +1,5 @@
-// Kernels for drawing lights: by radius, part of the picture and place within a pixel, made when first asked
-// for.
+// Kernels for drawing lights: by radius, part of the display window and place within a pixel, made when first
+// asked for.
 #pragma once
 
 #include "device/cpu/stamp.h"

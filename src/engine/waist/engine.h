@@ -90,9 +90,17 @@ struct LensOnPicture : PixelField {
     // The lens on pixels 1, 2, 4, … times as wide: lens_levels[n]. At least one; the last stands for all
     // beyond.
     std::span<const std::unique_ptr<const kernel::LensModel>> lens_levels;
+    Rect frame;  // the display window, in pixels of the picture: zones of the lens are parts of it
 
     const kernel::LensModel& lens(int level) const {
         return *lens_levels[std::min(std::size_t(level), lens_levels.size() - 1)];
+    }
+    // Of a picture that begins at pixel (x, y) of this one.
+    LensOnPicture from(int x, int y) const {
+        LensOnPicture lens = *this;
+        lens.field_centre_x -= x, lens.field_centre_y -= y;
+        lens.frame = {frame.x0 - x, frame.y0 - y, frame.x1 - x, frame.y1 - y};
+        return lens;
     }
 };
 
@@ -114,9 +122,7 @@ struct Input : LensOnPicture {
     CocSamplesView holdout;
     OpenEdges open_edges;
     float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
-    // The whole frame's height and the row of it that is row 0 here, when an engine works on part of a frame.
-    int frame_height = 0, first_row = 0;
-    const device::Device* device = nullptr;  // what draws; never null
+    const device::Device* device = nullptr;         // what draws; never null
     // What may outlive this frame, of this lens, size and quality alone; never null.
     device::Memory* memory = nullptr;
     // What looks at scatter's plan in place of a result; null: nobody.
@@ -144,7 +150,7 @@ struct Input : LensOnPicture {
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
         if (!depth_m.empty()) part.depth_m = depth_m.part(r);
         part.deep = deep.rows(y0, y1), part.holdout = holdout.rows(y0, y1);
-        part.field_centre_y -= y0, part.first_row += y0;
+        static_cast<LensOnPicture&>(part) = from(0, y0);
         if (y0 > 0) part.open_edges.top = true;
         if (y1 < height()) part.open_edges.bottom = true;
         return part;
