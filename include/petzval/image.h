@@ -25,6 +25,7 @@ struct Rect {
     bool empty() const { return x1 <= x0 || y1 <= y0; }
     bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
     Rect grown(int by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
+    Rect moved(int x, int y) const { return {x0 + x, y0 + y, x1 + x, y1 + y}; }
     Rect intersected(const Rect& o) const {
         return {x0 > o.x0 ? x0 : o.x0, y0 > o.y0 ? y0 : o.y0, x1 < o.x1 ? x1 : o.x1, y1 < o.y1 ? y1 : o.y1};
     }

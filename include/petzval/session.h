@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace petzval {
@@ -35,6 +36,10 @@ struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
     // True cancels; asked often, by any thread at any time: a flag that another thread sets.
     std::function<bool()> cancelled = {};
+    // Makes this part of the frame alone, in pixels of the display window as the data window is; the image is
+    // that part, bit for bit as in the whole. Costs the part with region_margin_px() around it, but for
+    // glare, which takes the whole frame. Views and stages that are shown instead of a result are made whole.
+    std::optional<Rect> region = {};
 };
 
 struct SessionUsage {
@@ -58,6 +63,10 @@ public:
     // camera); all that is chosen is the look's. Errors: also those of add_falloff(), add_glare() and
     // expand_highlights().
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
+
+    // How many pixels around a region are looked at for it: four of the largest radius, as far as the lens
+    // throws light at it, and a few. Errors: those of defocus().
+    Result<int> region_margin_px(const DefocusJob& job);
 
     SessionUsage usage() const;
     // Lets go of what was not used longest until at most so many bytes are kept.

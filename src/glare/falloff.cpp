@@ -88,29 +88,34 @@ Result<Picture> add_falloff(View<const Rgba> picture, const FalloffSettings& set
             return cats_eye(field) * traced(field);
         };
     }
-    const auto reaching = [&](double x, double y) {  // picture coordinates, px
-        const double right = x + data.x0 - display.x0 - half_width;
-        const double up = half_height - (y + data.y0 - display.y0) / settings.place.pixel_aspect;
+    const auto reaching = [&](double x, double y) {  // pixels from the display window's corner
+        const double right = x - half_width;
+        const double up = half_height - y / settings.place.pixel_aspect;
         const double tangent = std::hypot(right, up) * mm_per_px / camera.focal_length_mm;
         const double cos_squared = 1 / (1 + tangent * tangent);
         return cos_squared * cos_squared * opening({right / half_diagonal, up / half_diagonal});
     };
 
     const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
-    const double step = std::max(1.0, double(picture.width()) / kGridColumns);
-    Plane grid(int(picture.width() / step) + 2, int(picture.height() / step) + 2);
+    // The grid stands on the display window: where the data window begins decides nothing.
+    const double step = std::max(1.0, double(display.width()) / kGridColumns);
+    const int left = data.x0 - display.x0, top = data.y0 - display.y0;
+    const int first_column = int(std::floor((left + 0.5) / step));
+    const int first_row = int(std::floor((top + 0.5) / step));
+    Plane grid(int(picture.width() / step) + 3, int(picture.height() / step) + 3);
     parallel_for(grid.height(), *workers, [&](int j) {
-        for (int i = 0; i < grid.width(); ++i) grid(i, j) = float(reaching(i * step, j * step));
+        for (int i = 0; i < grid.width(); ++i)
+            grid(i, j) = float(reaching((first_column + i) * step, (first_row + j) * step));
     });
     Picture out = Picture::uninitialised(picture.width(), picture.height());
     parallel_for(out.height(), *workers, [&](int y) {
-        const double gy = (y + 0.5) / step;
-        const int j = int(gy);
-        const float t = float(gy - j);
+        const double gy = (top + y + 0.5) / step;
+        const int row = int(std::floor(gy)), j = row - first_row;
+        const float t = float(gy - row);
         for (int x = 0; x < out.width(); ++x) {
-            const double gx = (x + 0.5) / step;
-            const int i = int(gx);
-            const float s = float(gx - i);
+            const double gx = (left + x + 0.5) / step;
+            const int column = int(std::floor(gx)), i = column - first_column;
+            const float s = float(gx - column);
             const float share = (1 - t) * ((1 - s) * grid(i, j) + s * grid(i + 1, j)) +
                                 t * ((1 - s) * grid(i, j + 1) + s * grid(i + 1, j + 1));
             const Rgba c = picture(x, y);

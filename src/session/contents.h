@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -32,7 +33,8 @@ struct Session::Contents {
     }
 
     // A defocus alone. Errors: those of Session::defocus(). Throws Cancelled.
-    Result<DefocusReport> defocus(const DefocusJob& asked, Progress& progress, CancellableWorkers& workers);
+    Result<DefocusReport> defocus(const DefocusJob& given, const std::optional<Rect>& region,
+                                  Progress& progress, CancellableWorkers& workers);
 
     // Runs body(progress, workers), which gives a report, for one frame.
     template <typename Body>

@@ -51,21 +51,47 @@ Rgba sampled(const Picture& picture, double x, double y) {
             std::clamp(sum.b, least.b, most.b), std::clamp(sum.a, least.a, most.a)};
 }
 
+// Where what is seen at (x, y) comes from, in pixels.
+struct Origin {
+    double x = 0, y = 0;
+};
+Origin origin_of(int x, int y, const PixelField& field, double amount) {
+    const double right = x + 0.5 - field.field_centre_x;
+    const double down = (y + 0.5 - field.field_centre_y) / field.pixel_aspect;
+    const double target = field.field_per_px * std::hypot(right, down);
+    const double scale = target > 0 ? undistorted(target, amount) / target : 1;
+    return {field.field_centre_x + scale * right - 0.5,
+            field.field_centre_y + scale * down * field.pixel_aspect - 0.5};
+}
+
 }  // namespace
 
 Picture distorted(const Picture& picture, const PixelField& field, double amount, Workers& workers) {
     Picture result = Picture::uninitialised(picture.width(), picture.height());
     parallel_for(picture.height(), workers, [&](int y) {
-        const double down = (y + 0.5 - field.field_centre_y) / field.pixel_aspect;
         for (int x = 0; x < picture.width(); ++x) {
-            const double right = x + 0.5 - field.field_centre_x;
-            const double target = field.field_per_px * std::hypot(right, down);
-            const double scale = target > 0 ? undistorted(target, amount) / target : 1;
-            result(x, y) = sampled(picture, field.field_centre_x + scale * right - 0.5,
-                                   field.field_centre_y + scale * down * field.pixel_aspect - 0.5);
+            const Origin from = origin_of(x, y, field, amount);
+            result(x, y) = sampled(picture, from.x, from.y);
         }
     });
     return result;
+}
+
+Rect before_distortion(const Rect& pixels, const PixelField& field, double amount) {
+    constexpr int kBetween = 3;  // pixels that sampled() looks at, and one
+    const Origin first = origin_of(pixels.x0, pixels.y0, field, amount);
+    double left = first.x, right = first.x, top = first.y, bottom = first.y;
+    const auto include = [&](int x, int y) {
+        const Origin from = origin_of(x, y, field, amount);
+        left = std::min(left, from.x), right = std::max(right, from.x);
+        top = std::min(top, from.y), bottom = std::max(bottom, from.y);
+    };
+    // What lies inside of a border stays inside of it.
+    for (int x = pixels.x0; x < pixels.x1; ++x) include(x, pixels.y0), include(x, pixels.y1 - 1);
+    for (int y = pixels.y0; y < pixels.y1; ++y) include(pixels.x0, y), include(pixels.x1 - 1, y);
+    return Rect{int(std::floor(left)), int(std::floor(top)), int(std::ceil(right)) + 1,
+                int(std::ceil(bottom)) + 1}
+        .grown(kBetween);
 }
 
 }  // namespace petzval

@@ -13,4 +13,7 @@ namespace petzval {
 // Requires: -0.3 <= amount <= 0.3.
 Picture distorted(const Picture& picture, const PixelField& field, double amount, Workers& workers);
 
+// The pixels that these show: their least rectangle, with those that lie between it and its neighbours.
+Rect before_distortion(const Rect& pixels, const PixelField& field, double amount);
+
 }  // namespace petzval

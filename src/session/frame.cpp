@@ -152,8 +152,8 @@ void PreparedFrame::note_radii() {
 
 void PreparedFrame::place_in_field(const DefocusJob& job) {
     static_cast<PixelField&>(input) = job.place.field();
-    const Rect &display = job.place.display_window, &data = job.place.data_window;
-    input.frame = {display.x0 - data.x0, display.y0 - data.y0, display.x1 - data.x0, display.y1 - data.y0};
+    const Rect& data = job.place.data_window;
+    input.frame = job.place.display_window.moved(-data.x0, -data.y0);
 }
 
 }  // namespace petzval

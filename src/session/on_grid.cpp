@@ -48,7 +48,7 @@ int grid_for(float largest_radius_px, bool spreads_wider) {
 
 WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
     const Rect& data = asked.place.data_window;
-    inside_ = {data.x0 - window.x0, data.y0 - window.y0, data.x1 - window.x0, data.y1 - window.y0};
+    inside_ = data.moved(-window.x0, -window.y0);
     job_.place.data_window = window;
     widen_colour(asked);
     job_.colour = colour_;
@@ -105,13 +105,6 @@ DeepPicture WiderJob::widened(const DeepPicture& deep, bool is_matte) const {
             first.push_back(samples.size());
         }
     return {colour_.width(), colour_.height(), std::move(first), std::move(samples)};
-}
-
-Picture WiderJob::cut(const Picture& image) const {
-    Picture part = Picture::uninitialised(inside_.width(), inside_.height());
-    for (int y = 0; y < part.height(); ++y)
-        std::copy_n(image.view().row(y + inside_.y0) + inside_.x0, part.width(), part.row(y));
-    return part;
 }
 
 }  // namespace petzval

@@ -29,8 +29,6 @@ public:
     WiderJob(const WiderJob&) = delete;
     WiderJob& operator=(const WiderJob&) = delete;
     const DefocusJob& job() const { return job_; }
-    // The part of a picture of this job that the one it was made from asked for.
-    Picture cut(const Picture& image) const;
 
 private:
     void widen_colour(const DefocusJob& asked);

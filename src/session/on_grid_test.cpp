@@ -34,9 +34,6 @@ TEST(OnGrid, BeyondAnEdgeInsideTheFrameIsEmptinessBeyondOthersTheBorderWithoutIt
     EXPECT_EQ(image(10, 32).a, 1);  // to the left: outside it
     EXPECT_LT(image(10, 34).r, 1.1f);
     EXPECT_EQ(wider.job().depth_m(10, 10), 3);
-    Picture drawn(82, 40);
-    drawn(62, 34).r = 7;
-    EXPECT_EQ(wider.cut(drawn)(0, 4).r, 7);
 }
 
 }  // namespace

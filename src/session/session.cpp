@@ -8,6 +8,7 @@
 #include "session/distort.h"
 #include "session/engines.h"
 #include "session/frame.h"
+#include "session/frame_part.h"
 #include "session/on_grid.h"
 #include "views/plan_view.h"
 
@@ -59,16 +60,43 @@ float largest_radius_px(const DefocusJob& job, const Radii& radii) {
     return largest;
 }
 
+bool shows_result(const DefocusJob& job) {
+    return job.scatter.view == ScatterView::Result && job.gather.stage == GatherStage::Final &&
+           job.gaussian.view == GaussianView::Result;
+}
+
+int grid_for(float largest_radius_px, const kernel::LensModel& lens) {
+    const double reach = lens.reach_px(double(largest_radius_px));
+    return petzval::grid_for(largest_radius_px, reach > 1.1 * double(largest_radius_px) + 2);
+}
+
 // What an engine is to see of the frame. The reference has no grid; views show the data window alone.
 Rect window_for(const DefocusJob& job, const Radii& radii, const kernel::LensModel& lens) {
-    const bool shows_result = job.scatter.view == ScatterView::Result &&
-                              job.gather.stage == GatherStage::Final &&
-                              job.gaussian.view == GaussianView::Result;
     const bool is_whole = job.place.data_window == job.place.display_window;
-    if (is_whole || !shows_result || job.engine == "reference") return job.place.data_window;
-    const float largest = largest_radius_px(job, radii);
-    const bool spreads_wider = lens.reach_px(double(largest)) > 1.1 * double(largest) + 2;
-    return on_grid(job.place.display_window, job.place.data_window, grid_for(largest, spreads_wider));
+    if (is_whole || !shows_result(job) || job.engine == "reference") return job.place.data_window;
+    return on_grid(job.place.display_window, job.place.data_window,
+                   grid_for(largest_radius_px(job, radii), lens));
+}
+
+// Pixels of a picture that the result has.
+struct Asked {
+    Rect pixels;
+    bool is_region = false;  // the rest is not to be made
+};
+
+// The pixels that an engine is to see for those that are asked for.
+Rect seen_pixels(const Asked& asked, const DefocusJob& job, const engine::Input& input) {
+    const Rect all = input.colour.rect();
+    if (!asked.is_region) return all;
+    // What is shown instead of a result takes its measures from all it sees, and so do the zones of sprites.
+    if (!shows_result(job) || (job.engine == "sprites" && input.lens(0).varies_over_field())) return all;
+    const float largest = std::max(-input.nearest_coc_px, input.farthest_coc_px);
+    const int margin = region_margin_px(double(largest), input.lens(0).reach_px(double(largest)));
+    constexpr int kTiles = 128;  // pixels of the largest
+    const Rect from = job.lens.distortion != 0
+                          ? before_distortion(asked.pixels, input, job.lens.distortion).intersected(all)
+                          : asked.pixels;
+    return pixels_for(from, margin, std::max(kTiles, grid_for(largest, input.lens(0))), all);
 }
 
 // A job as a session makes it: with the settings of the session.
@@ -81,8 +109,9 @@ DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, Workers& wor
     return job;
 }
 
-Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& chosen, const Radii& radii,
-                                 MountedLens& lens, const Clock& clock, Progress& progress) {
+Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, const engine::Engine& chosen,
+                                 const Radii& radii, MountedLens& lens, const Clock& clock,
+                                 Progress& progress) {
     const double lens_ready = clock.seconds();
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
     engine::Input& input = frame.input;
@@ -97,9 +126,13 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
             return fits.error();
         input.plan_reader = view.get();
     }
+    const Rect seen = seen_pixels(asked, job, input);
+    std::optional<FramePart> part;
+    if (seen != input.colour.rect()) part.emplace(input, seen);
+    const engine::Input& drawn = part ? part->input() : input;
     const double prepared = clock.seconds();
 
-    Result<engine::Output> output = chosen.run(input);
+    Result<engine::Output> output = chosen.run(drawn);
     if (!output) return output.error();
     DefocusReport report;
     report.image = std::move(output->image);
@@ -110,7 +143,9 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const engine::Engine& ch
         output->warnings = std::move(shown.warnings);
     }
     if (job.lens.distortion != 0 && report.panels.empty())
-        report.image = distorted(report.image, job.place.field(), job.lens.distortion, *job.workers);
+        report.image = distorted(report.image, drawn, job.lens.distortion, *job.workers);
+    if (report.panels.empty() && asked.pixels != seen)
+        report.image = part_of(report.image, asked.pixels.moved(-seen.x0, -seen.y0));
     report.engine = chosen.name;
     report.device = input.device->name();
     report.lens = lens.levels.front()->description();
@@ -134,15 +169,17 @@ Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
-Result<DefocusReport> Session::Contents::defocus(const DefocusJob& asked, Progress& progress,
-                                                 CancellableWorkers& workers) {
+Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const std::optional<Rect>& region,
+                                                 Progress& progress, CancellableWorkers& workers) {
     const Clock clock;
-    DefocusJob job = job_of_session(asked, settings, workers);
+    DefocusJob job = job_of_session(given, settings, workers);
     // What is kept is there while the frame is made. Frames beside this one may keep more than they will when
     // they end; 0 would be no limit.
     if (job.max_memory_bytes > 0)
         job.max_memory_bytes -= std::min(usage().kept_bytes, job.max_memory_bytes - 1);
     if (const Status status = check_job(job); !status) return status.error();
+    if (region)
+        if (const Status status = check_region(*region, job); !status) return status.error();
     const auto engine = find_engine(job);
     if (!engine) return engine.error();
     const auto radii = Radii::make(job);
@@ -157,16 +194,30 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& asked, Progre
         lens = lens_for(wider->job());
         if (!lens) return lens.error();
     }
-    auto report = made_frame(wider ? wider->job() : job, **engine, *radii, **lens, clock, progress);
-    if (wider && report) report->image = wider->cut(report->image);
+    const Rect asked = region ? region->intersected(job.place.data_window) : job.place.data_window;
+    auto report =
+        made_frame(wider ? wider->job() : job, {asked.moved(-window.x0, -window.y0), region.has_value()},
+                   **engine, *radii, **lens, clock, progress);
     trim(most_kept_bytes());
     return report;
 }
 
 Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& control) {
     return contents_->unless_cancelled(control, [&](Progress& progress, CancellableWorkers& workers) {
-        return contents_->defocus(job, progress, workers);
+        return contents_->defocus(job, control.region, progress, workers);
     });
+}
+
+Result<int> Session::region_margin_px(const DefocusJob& asked) {
+    DefocusJob job = asked;
+    if (const Status status = check_job(job); !status) return status.error();
+    const auto radii = Radii::make(job);
+    if (!radii) return radii.error();
+    if (const Status status = open_lens(job); !status) return status.error();
+    const auto lens = contents_->lens_for(job);
+    if (!lens) return lens.error();
+    const double largest = double(largest_radius_px(job, *radii));
+    return petzval::region_margin_px(largest, (*lens)->levels.front()->reach_px(largest));
 }
 
 SessionUsage Session::usage() const { return contents_->usage(); }

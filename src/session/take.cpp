@@ -4,8 +4,10 @@
 #include "petzval/glare.h"
 
 #include "session/contents.h"
+#include "session/frame_part.h"
 #include "session/mounted_lens.h"
 
+#include <optional>
 #include <utility>
 
 namespace petzval {
@@ -71,23 +73,38 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
 }
 
 Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look, const Control& control) {
-    return contents_->unless_cancelled(control, [&](Progress& progress, CancellableWorkers& workers) {
-        DefocusJob job = with_look(rendered, look);
-        job.workers = &workers;
-        if (const Status opened = open_lens(job); !opened) return Result<DefocusReport>(opened.error());
-        if (!look.expand_highlights) return lit(contents_->defocus(job, progress, workers), job, look);
-        if (job.deep && !job.deep->empty())
-            return Result<DefocusReport>(
-                Error{ErrorCode::InvalidArgument,
-                      "plate.expand_highlights is for flat plates, not for deep pictures"});
-        const auto expanded = expand_highlights(job.colour, look.expansion);
-        if (!expanded) return Result<DefocusReport>(expanded.error());
-        job.colour = *expanded;
-        auto report = lit(contents_->defocus(job, progress, workers), job, look);
-        if (report && report->panels.empty())
-            report->image = compress_highlights(report->image, *expanded, rendered.colour, look.expansion);
-        return report;
-    });
+    return contents_->unless_cancelled(
+        control, [&](Progress& progress, CancellableWorkers& workers) -> Result<DefocusReport> {
+            DefocusJob job = with_look(rendered, look);
+            job.workers = &workers;
+            if (const Status opened = open_lens(job); !opened) return opened.error();
+            if (control.region)
+                if (const Status fine = check_region(*control.region, job); !fine) return fine.error();
+            Picture expanded;
+            if (look.expand_highlights) {
+                if (job.deep && !job.deep->empty())
+                    return Error{ErrorCode::InvalidArgument,
+                                 "plate.expand_highlights is for flat plates, not for deep pictures"};
+                auto plate = expand_highlights(job.colour, look.expansion);
+                if (!plate) return plate.error();
+                job.colour = expanded = std::move(*plate);
+            }
+            const Rect all = job.place.data_window;
+            const Rect asked = control.region ? control.region->intersected(all) : all;
+            // Glare spreads over the whole frame: a region of it is cut from that.
+            const Rect made = has_glare(look.glare) ? all : asked;
+            auto report =
+                contents_->defocus(job, made == all ? std::nullopt : std::optional(made), progress, workers);
+            job.place.data_window = made;
+            report = lit(std::move(report), job, look);
+            if (!report || !report->panels.empty()) return report;
+            if (made != asked) report->image = part_of(report->image, asked.moved(-made.x0, -made.y0));
+            const Rect pixels = asked.moved(-all.x0, -all.y0);
+            if (look.expand_highlights)
+                report->image = compress_highlights(report->image, expanded.view().part(pixels),
+                                                    rendered.colour.part(pixels), look.expansion);
+            return report;
+        });
 }
 
 }  // namespace petzval

@@ -5,8 +5,9 @@ namespace petzval::conformance {
 namespace {
 
 // What an engine looks at around a pixel, for radii up to largest_px: what spreads there, what hides that,
-// and what filling looks at behind it; and the neighbourhoods in which lights are told from surfaces.
-constexpr int margin_px(int largest_px) { return 4 * largest_px + 32; }
+// and what filling looks at behind it; the neighbourhoods in which lights are told from surfaces; and the
+// tile of scatter that is composited alike.
+constexpr int margin_px(int largest_px) { return 4 * largest_px + 96; }
 
 class DataWindow : public testing::TestWithParam<std::string> {};
 
@@ -32,31 +33,31 @@ int changes(const Picture& part, const Picture& whole, const Rect& inside, const
 
 TEST_P(DataWindow, AnyCropOfItLeavesWhatIsFartherFromItsBorderAsItWas) {
     constexpr int kLargest = 12;
-    Shot shot = flat(330, 300, {}, 3);
+    Shot shot = flat(400, 370, {}, 3);
     paint_rectangles(shot.colour, 4);
     std::mt19937 random(6);
     for (int i = 0; i < 30; ++i) {
-        const int x = int(random() % 320), y = int(random() % 290);
+        const int x = int(random() % 390), y = int(random() % 360);
         const float coc = float(int(random() % (2 * kLargest + 1)) - kLargest);
         shot.colour(x, y) = {40, 30, 20, 1};
-        for (int v = y; v < std::min(300, y + 25); ++v)
-            for (int u = x + 2; u < std::min(330, x + 19); ++u) shot.coc_px(u, v) = coc;
+        for (int v = y; v < std::min(370, y + 25); ++v)
+            for (int u = x + 2; u < std::min(400, x + 19); ++u) shot.coc_px(u, v) = coc;
     }
     const Picture whole = rendered(shot.job(GetParam()));
     for (const auto& [left, top] : {std::pair{1, 0}, {0, 1}, {4, 2}, {7, 13}, {8, 8}, {31, 5}, {64, 64}}) {
-        const Rect window{left, top, 330, 300};
+        const Rect window{left, top, 397, 366};
         const Picture part = rendered(cropped(shot, GetParam(), window));
-        const Rect inside = Rect{left, top, 330, 300}.grown(-margin_px(kLargest)).intersected(window);
+        const Rect inside = window.grown(-margin_px(kLargest));
         EXPECT_EQ(changes(part, whole, inside, window), 0) << "cropped by " << left << ", " << top;
     }
 }
 
 TEST_P(DataWindow, SoItIsForALensThatDiffersOverTheField) {
-    Shot shot = flat(200, 170, {}, 6);
+    Shot shot = flat(390, 330, {}, 6);
     paint_rectangles(shot.colour, 4);
     DefocusJob whole = shot.job(GetParam());
     whole.lens.cats_eye = 0.7;
-    const Rect window{5, 9, 197, 168};
+    const Rect window{5, 9, 387, 328};
     DefocusJob part = cropped(shot, GetParam(), window);
     part.lens.cats_eye = 0.7;
     const Rect inside = window.grown(-margin_px(6));

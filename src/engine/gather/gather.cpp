@@ -44,7 +44,8 @@ Range range_of(const Input& input, const Rect& tile) {
     return range;
 }
 
-bool is_opaque(const Input& input) {
+bool is_opaque(const Input& part) {
+    const Input& input = part.all();
     if (!input.deep.empty()) return false;
     for (int y = 0; y < input.height(); ++y)
         for (int x = 0; x < input.width(); ++x)

@@ -40,9 +40,10 @@ DepthMix::DepthMix(const Input& input, float largest_px) : in_(input) {
     double near = o.depth_near_m, far = o.depth_far_m;
     if (near == 0 && far == 0) {
         near = std::numeric_limits<double>::infinity();
-        for (int y = 0; y < input.height(); ++y)
-            for (int x = 0; x < input.width(); ++x) {
-                const double z = double(input.depth_m(x, y));
+        const View<const float> depth_m = input.all().depth_m;
+        for (int y = 0; y < depth_m.height(); ++y)
+            for (int x = 0; x < depth_m.width(); ++x) {
+                const double z = double(depth_m(x, y));
                 if (z > 0 && std::isfinite(z)) near = std::min(near, z), far = std::max(far, z);
             }
         if (!std::isfinite(near)) near = 0;

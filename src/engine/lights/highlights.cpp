@@ -58,11 +58,11 @@ float white_of(View<const Rgba> picture, Workers& workers) {
 
 }  // namespace
 
-HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
-                               Workers& workers)
-    : rule_(rule), width_(picture.width()), height_(picture.height()) {
-    find_contested(coc_px, workers);
-    const Plane reciprocal = reciprocal_cells(picture, kCell, workers);
+HighlightSplit::HighlightSplit(const Input& input, const HighlightRule& rule)
+    : rule_(rule), width_(input.width()), height_(input.height()) {
+    Workers& workers = *input.workers;
+    find_contested(input.coc_px, workers);
+    const Plane reciprocal = reciprocal_cells(input.colour, kCell, workers);
     surroundings_ = Plane(reciprocal.width(), reciprocal.height());
     parallel_for(reciprocal.height(), workers, [&](int y) {
         for (int x = 0; x < reciprocal.width(); ++x) {
@@ -71,7 +71,7 @@ HighlightSplit::HighlightSplit(View<const Rgba> picture, View<const float> coc_p
             surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
         }
     });
-    white_ = white_of(picture, workers);
+    white_ = white_of(input.all().colour, workers);
 }
 
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all

@@ -46,9 +46,8 @@ constexpr float same_pixel_px(double pixel_aspect) {
 // lamps hardly raise them, surfaces do. Light without alpha (additive glow) is taken out whole.
 class HighlightSplit {
 public:
-    // coc_px: the nearest radius of every pixel of the picture.
-    HighlightSplit(View<const Rgba> picture, View<const float> coc_px, const HighlightRule& rule,
-                   Workers& workers);
+    // Of the input's picture, by the nearest radius of each of its pixels; white is that of the whole frame.
+    HighlightSplit(const Input& input, const HighlightRule& rule);
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
     float white() const { return white_; }

@@ -296,7 +296,7 @@ Result<Output> run_reference(const Input& input) {
     };
 
     CocSamples samples = stated_samples(input);
-    const std::vector<BrightPoint> points = take_bright_points(samples, input.colour, *input.workers);
+    const std::vector<BrightPoint> points = take_bright_points(samples, input);
     // A ray may come from as far as the largest radius on either side of focus.
     const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
     if (const Status fits = surfaces_fit(input, samples, margin); !fits) return fits.error();

@@ -116,7 +116,7 @@ public:
               "scatter", [&] { return std::make_shared<ScatterKernels>(frame, rule_); })),
           highlight_kernels_(frame.memory->get<HighlightKernels>(
               "highlights", [&] { return std::make_shared<HighlightKernels>(frame); })),
-          split_(frame.colour, frame.coc_px, bright_rule(frame), *frame.workers) {
+          split_(frame, bright_rule(frame)) {
         watch_.lap("split", {bytes_of(frame.colour) + bytes_of(frame.coc_px)});
     }
     Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_); }

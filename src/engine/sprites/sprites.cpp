@@ -41,7 +41,7 @@ Parted part(const Input& input) {
                              .least_floor = 1,
                              .floor_at_1px = 0,
                              .contested_floor = 1};
-    const HighlightSplit split(input.colour, input.coc_px, rule, *input.workers);
+    const HighlightSplit split(input, rule);
     std::vector<std::vector<Sprite>> rows{std::size_t(input.height())};
     parallel_for(input.height(), *input.workers, [&](int y) {
         for (int x = 0; x < input.width(); ++x) {

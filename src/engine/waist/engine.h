@@ -99,7 +99,7 @@ struct LensOnPicture : PixelField {
     LensOnPicture from(int x, int y) const {
         LensOnPicture lens = *this;
         lens.field_centre_x -= x, lens.field_centre_y -= y;
-        lens.frame = {frame.x0 - x, frame.y0 - y, frame.x1 - x, frame.y1 - y};
+        lens.frame = frame.moved(-x, -y);
         return lens;
     }
 };
@@ -121,6 +121,8 @@ struct Input : LensOnPicture {
     // none.
     CocSamplesView holdout;
     OpenEdges open_edges;
+    // What this is a part of, for what an engine must know of all the frame; null: it is all of it.
+    const Input* whole = nullptr;
     float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
     const device::Device* device = nullptr;         // what draws; never null
     // What may outlive this frame, of this lens, size and quality alone; never null.
@@ -143,9 +145,12 @@ struct Input : LensOnPicture {
 
     int width() const { return colour.width(); }
     int height() const { return colour.height(); }
-    // Rows y0…y1-1 as an input of their own. The edges towards the other rows count as open.
+    const Input& all() const { return whole ? *whole : *this; }
+    // Rows y0…y1-1 as an input of their own, while this one lasts. The edges towards the other rows count as
+    // open.
     Input rows(int y0, int y1) const {
         Input part = *this;
+        part.whole = &all();
         const Rect r{0, y0, width(), y1};
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
         if (!depth_m.empty()) part.depth_m = depth_m.part(r);

@@ -1,0 +1,71 @@
+#include "session/frame_part.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval {
+namespace {
+
+engine::CocSamples part_of(const engine::CocSamplesView& whole, const Rect& pixels) {
+    engine::CocSamples part;
+    if (whole.empty()) return part;
+    part.width = pixels.width();
+    part.first.push_back(0);
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+        for (int x = pixels.x0; x < pixels.x1; ++x) {
+            const auto samples = whole.at(x, y);
+            part.samples.insert(part.samples.end(), samples.begin(), samples.end());
+            part.first.push_back(part.samples.size());
+        }
+    return part;
+}
+
+}  // namespace
+
+int region_margin_px(double largest_radius_px, double reach_px) {
+    constexpr double kMost = 1 << 20;  // of any picture
+    return int(std::ceil(std::min(kMost, 4 * std::max(largest_radius_px, reach_px)))) + 32;
+}
+
+Rect pixels_for(const Rect& region, int margin_px, int grid, const Rect& frame) {
+    const Rect seen = region.grown(margin_px).intersected(frame);
+    const auto up = [grid](int at) { return (at + grid - 1) / grid * grid; };
+    return Rect{seen.x0 / grid * grid, seen.y0 / grid * grid, up(seen.x1), up(seen.y1)}.intersected(frame);
+}
+
+Status check_region(const Rect& region, const DefocusJob& job) {
+    const auto refuse = [](const char* why) { return Error{ErrorCode::InvalidArgument, why}; };
+    if (job.scatter.view != ScatterView::Result)
+        return refuse("control.region is for results, not for layers, levels and highlights");
+    if (region.intersected(job.place.data_window).empty())
+        return refuse("control.region lies outside of the data window");
+    return Done{};
+}
+
+Picture part_of(const Picture& image, const Rect& pixels) {
+    Picture part = Picture::uninitialised(pixels.width(), pixels.height());
+    for (int y = 0; y < part.height(); ++y)
+        std::copy_n(image.row(y + pixels.y0) + pixels.x0, part.width(), part.row(y));
+    return part;
+}
+
+FramePart::FramePart(const engine::Input& whole, const Rect& pixels)
+    : deep_(part_of(whole.deep, pixels)), holdout_(part_of(whole.holdout, pixels)), input_(whole) {
+    static_cast<engine::LensOnPicture&>(input_) = whole.from(pixels.x0, pixels.y0);
+    input_.whole = &whole;
+    input_.colour = whole.colour.part(pixels);
+    input_.coc_px = whole.coc_px.part(pixels);
+    if (!whole.depth_m.empty()) input_.depth_m = whole.depth_m.part(pixels);
+    if (!whole.deep.empty()) input_.deep = deep_;
+    if (!whole.holdout.empty()) input_.holdout = holdout_;
+    // Where the part ends and the frame does not, the scene goes on.
+    const Rect all = whole.colour.rect();
+    engine::OpenEdges& open = input_.open_edges;
+    open.left = open.left || pixels.x0 > all.x0, open.top = open.top || pixels.y0 > all.y0;
+    open.right = open.right || pixels.x1 < all.x1, open.bottom = open.bottom || pixels.y1 < all.y1;
+    points_.assign(whole.points.begin(), whole.points.end());
+    for (LightPoint& p : points_) p.x -= float(pixels.x0), p.y -= float(pixels.y0);
+    input_.points = points_;
+}
+
+}  // namespace petzval
