@@ -41,6 +41,7 @@ ALLOWED = {
     "lens_sheet": LENS | {"lens_facts", "files"},
     "files": PIXELS | {"colour", "optics", "depth", "names"},
     "ocio": PIXELS,
+    "shot": PIXELS | {"optics", "depth", "names", "look", "session", "files"},
     "lens_facts": LENS,
     "c": PIXELS | {"lens_facts", "look", "session"},
     "session": WAIST | ENGINES | {"device/cpu", "views", "look", "glare"},
@@ -85,6 +86,7 @@ PUBLIC = {
     "result": "base",
     "scene": "scene",
     "session": "session",
+    "shot": "shot",
     "version": "base",
     "workers": "base",
 }

@@ -2,45 +2,7 @@
 
 #include "console.h"
 
-#include <cmath>
-#include <numbers>
-
 namespace petzval::cli {
-namespace {
-
-std::optional<FoundNumber> chosen(const std::optional<double>& flag, const char* name,
-                                  const std::optional<FoundNumber>& file) {
-    return flag ? FoundNumber{*flag, name} : file;
-}
-
-// The field of view a ties the sensor width s to the focal length f: tan(a/2) = s / 2f.
-void complete_by_field_of_view(FoundCamera& camera) {
-    if (!camera.horizontal_fov_deg ||
-        camera.focal_length_mm.has_value() == camera.sensor_width_mm.has_value())
-        return;
-    const FoundNumber& fov = *camera.horizontal_fov_deg;
-    const double sensor_per_focal = 2 * std::tan(fov.value * std::numbers::pi / 360);
-    const std::string origin = "field of view " + plain(fov.value) + " deg, " + fov.origin;
-    if (camera.sensor_width_mm)
-        camera.focal_length_mm = FoundNumber{camera.sensor_width_mm->value / sensor_per_focal, origin};
-    else
-        camera.sensor_width_mm = FoundNumber{camera.focal_length_mm->value * sensor_per_focal, origin};
-}
-
-struct MissingNumber {
-    std::string what, flag, example;
-};
-
-std::vector<MissingNumber> missing_numbers(const FoundCamera& found) {
-    std::vector<MissingNumber> missing;
-    if (!found.focal_length_mm) missing.push_back({"focal length", "--focal-length", "50mm"});
-    if (!found.sensor_width_mm) missing.push_back({"sensor width", "--sensor-width", "36mm"});
-    if (!found.f_number) missing.push_back({"f-number", "--fstop", "2.8"});
-    if (!found.focus_distance_m) missing.push_back({"focus distance", "--focus", "3m"});
-    return missing;
-}
-
-}  // namespace
 
 void CameraFlags::add_to(Verb& verb, const std::string& owner) {
     FlagGroup(verb, "Camera (numbers of the " + owner + " hold unless given here)")
@@ -66,6 +28,11 @@ std::vector<std::string> CameraFlags::given() const {
     if (focus_distance_m) names.emplace_back("--focus");
     if (image_scale) names.emplace_back("--image-scale");
     return names;
+}
+
+CameraChoice CameraFlags::choice() const {
+    return {focal_length_mm, sensor_width_mm, f_number, focus_distance_m,
+            image_scale.value_or(ImageScale::Rendered)};
 }
 
 bool CameraFlags::any() const { return !given().empty(); }
@@ -115,38 +82,13 @@ CocControls FocusFlags::controls() const {
     return controls;
 }
 
-FoundCamera merged_camera(const FoundCamera& file, const CameraFlags& flags, double unit_scale_m) {
-    FoundCamera merged = file;
-    merged.focal_length_mm = chosen(flags.focal_length_mm, "--focal-length", file.focal_length_mm);
-    merged.sensor_width_mm = chosen(flags.sensor_width_mm, "--sensor-width", file.sensor_width_mm);
-    merged.f_number = chosen(flags.f_number, "--fstop", file.f_number);
-    merged.focus_distance_m = chosen(flags.focus_distance_m, "--focus", file.focus_distance_m);
-    if (merged.focus_distance_m && merged.focus_distance_m->scene_units && unit_scale_m != 1) {
-        merged.focus_distance_m->value *= unit_scale_m;
-        merged.focus_distance_m->origin += ", " + plain(unit_scale_m) + " m each";
-    }
-    complete_by_field_of_view(merged);
-    return merged;
-}
-
-Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale, const std::string& input,
-                               const std::string& output) {
-    const auto missing = missing_numbers(found);
-    if (missing.empty())
-        return Camera{.focal_length_mm = found.focal_length_mm->value,
-                      .sensor_width_mm = found.sensor_width_mm->value,
-                      .f_number = found.f_number->value,
-                      .focus_distance_m = found.focus_distance_m->value,
-                      .image_scale = image_scale};
-    std::vector<std::string> whats, flags;
-    std::string example = "petzval defocus " + input + " -o " + output;
-    for (const MissingNumber& number : missing) {
-        whats.push_back("no " + number.what);
-        flags.push_back(number.flag);
-        example += " " + number.flag + " " + number.example;
-    }
-    return Error{ErrorCode::InvalidArgument,
-                 input + ": " + listed(whats) + "; give " + listed(flags) + ", for example: " + example};
+std::string camera_example(const FoundCamera& found, const std::string& input, const std::string& output) {
+    std::string example = ", for example: petzval defocus " + input + " -o " + output;
+    if (!found.focal_length_mm) example += " --focal-length 50mm";
+    if (!found.sensor_width_mm) example += " --sensor-width 36mm";
+    if (!found.f_number) example += " --fstop 2.8";
+    if (!found.focus_distance_m) example += " --focus 3m";
+    return example;
 }
 
 std::string camera_line(const FoundCamera& camera, ImageScale image_scale) {

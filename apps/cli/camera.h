@@ -1,9 +1,9 @@
-// The camera of a command: numbers from flags before numbers from the file, each with its origin.
+// The camera of a command: its flags, and how its numbers are spoken of.
 #pragma once
 
 #include "petzval/camera.h"
 #include "petzval/files.h"
-#include "petzval/result.h"
+#include "petzval/shot.h"
 
 #include "flags.h"
 #include "values.h"
@@ -24,11 +24,12 @@ struct CameraFlags {
     bool any() const;
     // Names of those given, for messages.
     std::vector<std::string> given() const;
+    CameraChoice choice() const;
 };
 
 // What only `defocus` knows: a pixel to focus on and the artist's controls.
 struct FocusFlags {
-    std::optional<Pixel> focus_at;          // in pixels of the display window
+    std::optional<PixelPosition> focus_at;  // in pixels of the display window
     std::optional<WorldPoint> focus_point;  // of the world, in scene units
     std::optional<Interval> focus_range_m;
     std::optional<double> max_radius_px, near_scale, far_scale, focus_falloff;
@@ -40,14 +41,8 @@ struct FocusFlags {
     CocControls controls() const;
 };
 
-// Flags over file. Origins of flags are their names. A distance that the file has in the renderer's unit is
-// multiplied by `unit_scale_m`, metres per unit. With the field of view and one of focal length and sensor
-// width known, the other follows.
-FoundCamera merged_camera(const FoundCamera& file, const CameraFlags& flags, double unit_scale_m = 1);
-
-// "no f-number and no focus distance: give --fstop and --focus, for example: petzval …", or a whole camera.
-Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale, const std::string& input,
-                               const std::string& output);
+// What to add to a message on missing camera numbers: ", for example: petzval defocus … --fstop 2.8".
+std::string camera_example(const FoundCamera& found, const std::string& input, const std::string& output);
 
 // "camera: 85 mm (file: focalLength), sensor 36 mm (--sensor-width), f/4 (--fstop), focus 4 m (--focus)"
 std::string camera_line(const FoundCamera& camera, ImageScale image_scale);

@@ -27,8 +27,8 @@ struct CompareFlags {
 };
 
 // The picture over the whole display window, empty where the file has no pixels.
-Picture over_display_window(const Frame& frame) {
-    return through_window(frame.colour, frame.place.data_window, frame.place.display_window, Rgba{});
+Picture over_display_window(const Picture& colour, const Place& place) {
+    return through_window(colour, place.data_window, place.display_window, Rgba{});
 }
 
 std::string size_text(int width, int height) {
@@ -59,7 +59,7 @@ Result<Plane> read_mask(const std::string& path) {
     options.need_depth = false;
     auto frame = read_frame(path, options);
     if (!frame) return frame.error();
-    const Picture colour = over_display_window(*frame);
+    const Picture colour = over_display_window(frame->colour, frame->place);
     Plane mask(colour.width(), colour.height());
     for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = luminance(colour.pixels()[i]);
     return mask;
@@ -111,15 +111,15 @@ Status compare_files(const CompareFlags& flags) {
     const Stopwatch watch;
     InputFlags test_input = flags.reference;
     test_input.path = flags.test;
-    auto first = load_input(flags.reference, CameraFlags{});
+    auto first = load_shot(flags.reference.source());
     if (!first) return first.error();
-    auto second = load_input(test_input, CameraFlags{});
+    auto second = load_shot(test_input.source());
     if (!second) return second.error();
-    const std::size_t broken = first->frame.non_finite_colour + second->frame.non_finite_colour;
-    for (const Input* input : {&*first, &*second})
-        for (const auto& line : input->warnings) warning(line);
-    const Picture reference = over_display_window(first->frame);
-    const Picture test = over_display_window(second->frame);
+    const std::size_t broken = first->non_finite_colour + second->non_finite_colour;
+    for (const Shot* shot : {&*first, &*second})
+        for (const auto& line : shot->warnings) warning(line);
+    const Picture reference = over_display_window(first->colour, first->place);
+    const Picture test = over_display_window(second->colour, second->place);
     Plane mask;
     if (!flags.mask.empty()) {
         auto read = read_mask(flags.mask);

@@ -7,7 +7,6 @@
 #include "defocus_flags.h"
 #include "interrupt.h"
 #include "light_report.h"
-#include "points_file.h"
 #include "verbs.h"
 
 #include <algorithm>
@@ -26,7 +25,6 @@ public:
 
 private:
     Status read();
-    Status read_lights();
     Status choose_camera();
     Status grow();
     Status compute();
@@ -36,18 +34,17 @@ private:
     Status write();
     Status finish();
     void warn(const std::vector<std::string>& lines);
+    void tell_new_warnings();
 
-    ImageScale image_scale() const { return flags_.camera.image_scale.value_or(ImageScale::Rendered); }
     double permissible_radius_px() const { return flags_.focus.permissible_radius_px.value_or(1); }
     bool needs_camera() const { return !flags_.input.depth_is_coc() && flags_.view != ViewKind::Depth; }
 
     DefocusFlags& flags_;
     Stopwatch total_;
     Json report_ = new_report("defocus");
-    Input input_;
-    PointsFile points_;
-    Camera camera_;
-    std::optional<Lens> lens_;  // once read
+    Shot shot_;
+    std::size_t warnings_told_ = 0;  // of the shot
+    std::optional<Lens> lens_;       // once read
     std::optional<ExpandedPlate> plate_;
     ViewSource view_;  // what compute() made and write() needs
 };
@@ -64,8 +61,8 @@ Status Run::operator()() {
             if (Status fine = check_output(path, inputs); !fine) return fine;
     if (flags_.ocio.is_on())
         if (Status fine = flags_.ocio.try_out(); !fine) return fine;
-    for (const auto step : {&Run::read, &Run::read_lights, &Run::choose_camera, &Run::grow, &Run::compute,
-                            &Run::add_glare, &Run::write, &Run::finish}) {
+    for (const auto step : {&Run::read, &Run::choose_camera, &Run::grow, &Run::compute, &Run::add_glare,
+                            &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
@@ -80,47 +77,33 @@ Status Run::read() {
     const auto lens = Lens::open(flags_.lens.choice());
     if (!lens) return lens.error();
     lens_ = *lens;
-    auto loaded = load_input(flags_.input, flags_.camera);
-    if (!loaded) return loaded.error();
-    input_ = std::move(*loaded);
-    for (const auto& line : input_.detected_in_picture()) note(line);
-    warn(input_.warnings);
-    if (flags_.input.transfer && !input_.frame.display_referred &&
-        *kind_of_output(flags_.output) != FileKind::Png)
+    ShotSource source = flags_.input.source(flags_.camera);
+    source.lights = flags_.engine_options.points;
+    auto shot = load_shot(source);
+    if (!shot) return shot.error();
+    shot_ = std::move(*shot);
+    for (const auto& line : detected_in_picture(shot_)) note(line);
+    tell_new_warnings();
+    if (flags_.input.transfer && !shot_.display_referred && *kind_of_output(flags_.output) != FileKind::Png)
         return Error{ErrorCode::InvalidArgument, "--transfer is for PNG; neither " + flags_.input.path +
                                                      " nor " + flags_.output + " is one"};
     if (Status done = expand_plate(); !done) return done;
     report_["seconds"]["read"] = watch.seconds();
-    report_["detected"] = input_.detected;
-    report_["non_finite"] = {{"colour", input_.frame.non_finite_colour}, {"depth", input_.depth.non_finite}};
-    report_["depth"] = depth_json(input_.depth, flags_.input.depth_kind.value_or(DepthKind::Planar));
+    report_["detected"] = shot_.detected;
+    report_["non_finite"] = {{"colour", shot_.non_finite_colour}, {"depth", shot_.depth_report.non_finite}};
+    report_["depth"] = depth_json(shot_.depth_report, flags_.input.depth_kind.value_or(DepthKind::Planar));
     return Done{};
 }
 
 Status Run::expand_plate() {
     if (!flags_.plate.expand) return Done{};
-    if (!input_.frame.deep.empty())
+    if (!shot_.deep.empty())
         return Error{ErrorCode::InvalidArgument,
                      "--expand-highlights is for flat plates, not for deep pictures"};
-    auto plate = ExpandedPlate::take(input_.frame.colour, flags_.plate.expansion());
+    auto plate = ExpandedPlate::take(shot_.colour, flags_.plate.expansion());
     if (!plate) return plate.error();
     plate_ = std::move(*plate);
     note("highlights: " + flags_.plate.in_words());
-    return Done{};
-}
-
-Status Run::read_lights() {
-    const std::string& path = flags_.engine_options.points;
-    if (path.empty()) return Done{};
-    auto points = read_points(path, input_.frame.place.data_window);
-    if (!points) return points.error();
-    points_ = std::move(*points);
-    if (points_.has_depth && flags_.input.depth_is_coc())
-        return Error{
-            ErrorCode::InvalidFile,
-            path + ": depth is of no use with --depth-kind coc-px; give a column coc, radii in pixels"};
-    note(path + ": " + std::to_string(points_.points.size()) + " points by " +
-         (points_.has_depth ? "depth" : "radius"));
     return Done{};
 }
 
@@ -131,23 +114,26 @@ void Run::warn(const std::vector<std::string>& lines) {
     }
 }
 
+void Run::tell_new_warnings() {
+    warn({shot_.warnings.begin() + std::ptrdiff_t(warnings_told_), shot_.warnings.end()});
+    warnings_told_ = shot_.warnings.size();
+}
+
 Status Run::choose_camera() {
     if (!needs_camera()) return Done{};
     if (flags_.focus.focus_at)
-        if (Status done = focus_on_pixel(input_, *flags_.focus.focus_at); !done) return done;
-    if (flags_.focus.focus_point) {
-        const auto line =
-            focus_on_point(input_, *flags_.focus.focus_point, flags_.input.unit_scale_m.value_or(1));
-        if (!line) return line.error();
-        if (!line->empty()) warn({*line});
-    }
-    auto camera = complete_camera(input_.camera, image_scale(), flags_.input.path, flags_.output);
-    if (!camera) return camera.error();
-    camera_ = *camera;
-    note(camera_line(input_.camera, image_scale()));
-    report_["camera"] = camera_json(input_.camera, image_scale());
-    const auto limits =
-        focus_limits(camera_, input_.frame.place.display_window.width(), permissible_radius_px());
+        if (Status done = focus_on_pixel(shot_, *flags_.focus.focus_at); !done) return done;
+    if (flags_.focus.focus_point)
+        if (Status done = focus_on_point(shot_, *flags_.focus.focus_point); !done) return done;
+    tell_new_warnings();
+    const auto camera = complete_camera(shot_.camera, shot_.image_scale);
+    if (!camera)
+        return Error{ErrorCode::InvalidArgument,
+                     flags_.input.path + ": " + camera.error().message +
+                         camera_example(shot_.camera, flags_.input.path, flags_.output)};
+    note(camera_line(shot_.camera, shot_.image_scale));
+    report_["camera"] = camera_json(shot_.camera, shot_.image_scale);
+    const auto limits = focus_limits(*camera, shot_.place.display_window.width(), permissible_radius_px());
     if (limits) report_["focus_limits"] = limits_json(*limits, permissible_radius_px());
     return Done{};
 }
@@ -157,15 +143,14 @@ Status Run::grow() {
     if (!flags_.overscan_px) return Done{};
     int by_px = *flags_.overscan_px;
     if (by_px == kAutomatic) {
-        const auto radii = circle_of_confusion(flags_.job(input_, camera_));
-        if (!radii) return radii.error();
-        float largest = 0;
-        for (std::size_t i = 0; i < radii->size(); ++i)
-            if (input_.frame.colour.pixels()[i] != Rgba{})
-                largest = std::max(largest, std::abs(radii->pixels()[i]));
-        by_px = int(std::ceil(double(largest) * std::max(1.0, flags_.lens.choice().aperture.squeeze))) + 1;
+        Look look;
+        look.coc = flags_.focus.controls();
+        look.lens = flags_.lens.choice();
+        const auto reach = reach_px(shot_, look);
+        if (!reach) return reach.error();
+        by_px = *reach;
     }
-    const auto grown = grow_empty_sides(input_, by_px);
+    const auto grown = grow_empty_sides(shot_, by_px);
     if (!grown) return grown.error();
     note(*grown ? "overscan: " + plain(by_px) + " pixels more on each side that ends inside the frame"
                 : "overscan: the picture fills its frame on every side, so there is nothing to grow");
@@ -173,16 +158,15 @@ Status Run::grow() {
 }
 
 Status Run::compute() {
-    DefocusJob job = flags_.job(input_, camera_);
+    auto sharp = flags_.view == ViewKind::Depth ? Result<DefocusJob>(DefocusJob{}) : rendered(shot_);
+    if (!sharp) return sharp.error();
+    DefocusJob job = flags_.job(std::move(*sharp));
     job.opened_lens = lens_;
     report_["lens"] = lens_json(job.lens, "");
     report_["lens"].update(character_json(job.lens));
     report_["parameters"] = flags_.parameters_json(job);
     if (flags_.view == ViewKind::Depth) return Done{};
-    if (is_rendered(flags_.view)) {
-        job.points = &points_.points;
-        return render(std::move(job));
-    }
+    if (is_rendered(flags_.view)) return render(std::move(job));
     const Stopwatch watch;
     auto coc = circle_of_confusion(job);
     if (!coc) return coc.error();
@@ -222,7 +206,7 @@ Status Run::render(DefocusJob job) {
     note(done->engine + " on " + done->device + ", " + done->lens + ": radius " +
          plain(done->smallest_radius_px, 3) + " to " + plain(done->largest_radius_px, 3) + " px, " +
          plain(seconds, 3) + " s");
-    input_.frame.colour = std::move(done->image);
+    shot_.colour = std::move(done->image);
     view_.panels = std::move(done->panels);
     return Done{};
 }
@@ -230,8 +214,8 @@ Status Run::render(DefocusJob job) {
 Status Run::add_glare() {
     report_["glare"] = flags_.glare.json();
     const Stopwatch watch;
-    Status done = flags_.glare.apply(input_.frame, input_.camera, *lens_, flags_.run.threads);
-    if (done && plate_) input_.frame.colour = plate_->back(input_.frame.colour);
+    Status done = flags_.glare.apply(shot_, *lens_, flags_.run.threads);
+    if (done && plate_) shot_.colour = plate_->back(shot_.colour);
     report_["seconds"]["glare"] = watch.seconds();
     return done;
 }
@@ -239,16 +223,16 @@ Status Run::add_glare() {
 Status Run::write() {
     const Stopwatch watch;
     std::vector<std::string> warnings;
-    ViewSettings settings{.output = flags_.output,
-                          .overwrite = !flags_.overwrite.no_clobber,
-                          .develop = flags_.develop.settings(input_.frame.display_referred,
-                                                             flags_.input.transfer, flags_.run.threads),
-                          .ocio = &flags_.ocio,
-                          .camera = input_.camera,
-                          .permissible_radius_px = permissible_radius_px(),
-                          .depth = input_.depth,
-                          .attributes = {},
-                          .warnings = &warnings};
+    ViewSettings settings{
+        .output = flags_.output,
+        .overwrite = !flags_.overwrite.no_clobber,
+        .develop = flags_.develop.settings(shot_.display_referred, flags_.input.transfer, flags_.run.threads),
+        .ocio = &flags_.ocio,
+        .camera = shot_.camera,
+        .permissible_radius_px = permissible_radius_px(),
+        .depth = shot_.depth_report,
+        .attributes = {},
+        .warnings = &warnings};
     if (*kind_of_output(flags_.output) == FileKind::Png)
         report_["parameters"]["display"] = {{"exposure_stops", settings.develop.exposure_stops},
                                             {"contrast", settings.develop.contrast},
@@ -256,7 +240,8 @@ Status Run::write() {
                                             {"ocio", flags_.ocio.view}};
     if (flags_.plate.expand)
         settings.attributes.emplace_back("petzval:expandHighlights", flags_.plate.in_words());
-    if (Status done = write_view(flags_.view, input_.frame, view_, settings); !done) return done;
+    Frame frame = to_frame(std::move(shot_));
+    if (Status done = write_view(flags_.view, frame, view_, settings); !done) return done;
     warn(warnings);
     report_["seconds"]["write"] = watch.seconds();
     detail("peak memory: " + plain(double(peak_memory_bytes()) / (1 << 20), 4) + " MiB");

@@ -146,12 +146,8 @@ void DefocusFlags::check_display() const {
 }
 
 std::vector<std::string> DefocusFlags::input_files() const {
-    std::vector<std::string> files{input.path};
-    if (!input.read.depth_file.empty()) files.push_back(input.read.depth_file);
-    if (!input.behind.empty()) files.push_back(input.behind);
+    std::vector<std::string> files = input.files();
     if (!engine_options.points.empty()) files.push_back(engine_options.points);
-    if (!input.holdout.empty()) files.push_back(input.holdout);
-    files.insert(files.end(), input.merge.begin(), input.merge.end());
     for (std::string& file : lens.input_files()) files.push_back(std::move(file));
     return files;
 }
@@ -169,16 +165,7 @@ std::string DefocusFlags::default_kernel_cache() {
     return home.empty() ? "off" : home + "/.cache/petzval/kernels";
 }
 
-DefocusJob DefocusFlags::job(const Input& loaded, const Camera& complete) const {
-    DefocusJob job;
-    job.colour = loaded.frame.colour.view();
-    job.depth_m = loaded.frame.depth.view();
-    job.depth_is_coc = input.depth_is_coc();
-    if (!loaded.frame.deep.empty()) job.deep = &loaded.frame.deep;
-    if (!loaded.behind.empty()) job.behind = &loaded.behind;
-    if (!loaded.holdout.empty()) job.holdout = &loaded.holdout;
-    job.place = loaded.frame.place;
-    job.camera = complete;
+DefocusJob DefocusFlags::job(DefocusJob job) const {
     job.coc = focus.controls();
     job.lens = lens.choice();
     job.engine = engine;

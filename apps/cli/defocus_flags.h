@@ -52,9 +52,9 @@ struct DefocusFlags {
     void add_to(Verb& verb);
     void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
     std::vector<std::string> input_files() const;
-    // Requires: `loaded` outlives the job; the camera is complete unless radii are given.
     static std::string default_kernel_cache();
-    DefocusJob job(const Input& loaded, const Camera& complete) const;
+    // The job with what the flags choose.
+    DefocusJob job(DefocusJob rendered) const;
     // Those that the report has no other place for.
     Json parameters_json(const DefocusJob& job) const;
 

@@ -40,25 +40,25 @@ Status develop_file(const DevelopVerbFlags& flags) {
     if (Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
     const auto lens = Lens::open(flags.lens.choice());
     if (!lens) return lens.error();
-    auto input = load_input(flags.input, flags.camera);
-    if (!input) return input.error();
-    for (const auto& line : input->detected_in_picture()) note(line);
-    for (const auto& line : input->warnings) warning(line);
+    auto shot = load_shot(flags.input.source(flags.camera));
+    if (!shot) return shot.error();
+    for (const auto& line : detected_in_picture(*shot)) note(line);
+    for (const auto& line : shot->warnings) warning(line);
     const double read_s = total.seconds();
-    Status glared = flags.glare.apply(input->frame, input->camera, *lens, flags.run.threads);
+    Status glared = flags.glare.apply(*shot, *lens, flags.run.threads);
     if (!glared) return glared;
     const double glare_s = total.seconds() - read_s;
     DevelopSettings settings =
-        flags.develop.settings(input->frame.display_referred, flags.input.transfer, flags.run.threads);
+        flags.develop.settings(shot->display_referred, flags.input.transfer, flags.run.threads);
     settings.dither = !flags.no_dither;
-    const Frame& frame = input->frame;
-    Picture shown = through_window(frame.colour, frame.place.data_window, frame.place.display_window, Rgba{});
+    const Place& place = shot->place;
+    Picture shown = through_window(shot->colour, place.data_window, place.display_window, Rgba{});
     if (flags.ocio.is_on()) {
         std::string used;
         std::vector<std::string> said;
         if (Status fine = flags.ocio.show(shown, settings, used, said); !fine) return fine;
         for (const std::string& line : said) warning(line);
-        input->warnings.insert(input->warnings.end(), said.begin(), said.end());
+        shot->warnings.insert(shot->warnings.end(), said.begin(), said.end());
         note(used);
     }
     Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
@@ -68,9 +68,9 @@ Status develop_file(const DevelopVerbFlags& flags) {
     Json report = new_report("develop");
     report["input"] = flags.input.path;
     report["output"] = flags.output;
-    report["detected"] = input->detected;
-    report["warnings"] = input->warnings;
-    report["non_finite"]["colour"] = input->frame.non_finite_colour;
+    report["detected"] = shot->detected;
+    report["warnings"] = shot->warnings;
+    report["non_finite"]["colour"] = shot->non_finite_colour;
     report["parameters"] = {{"exposure_stops", flags.develop.exposure_stops.value_or(0)},
                             {"contrast", settings.contrast},
                             {"tone", name_of(settings.tone)},

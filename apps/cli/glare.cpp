@@ -89,15 +89,15 @@ void GlareFlags::check(const LensChoice& lens) const {
         throw UsageError("--bloom, --star, --ghosts and --veil together take more than all light");
 }
 
-Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const Lens& lens, int threads) const {
+Status GlareFlags::apply(Shot& shot, const Lens& lens, int threads) const {
     if (given().empty()) return Done{};
-    const Camera camera = known_numbers(found);
+    const Camera camera = known_numbers(shot.camera);
     if (vignetting) {
         auto dimmed =
-            add_falloff(frame.colour.view(),
-                        {.camera = camera, .opened_lens = lens, .place = frame.place, .threads = threads});
+            add_falloff(shot.colour.view(),
+                        {.camera = camera, .opened_lens = lens, .place = shot.place, .threads = threads});
         if (!dimmed) return dimmed.error();
-        frame.colour = std::move(*dimmed);
+        shot.colour = std::move(*dimmed);
     }
     GlareSettings settings;
     settings.bloom = bloom.value_or(0);
@@ -105,18 +105,18 @@ Status GlareFlags::apply(Frame& frame, const FoundCamera& found, const Lens& len
     settings.star = star.value_or(0);
     settings.star_radius = star_radius.value_or(settings.star_radius);
     settings.star_quality = star_quality.value_or(settings.star_quality);
-    settings.diffraction_px = diffraction_px(camera, frame.place.display_window.width());
+    settings.diffraction_px = diffraction_px(camera, shot.place.display_window.width());
     settings.ghosts = ghosts.value_or(0);
     settings.coating = coating.value_or(settings.coating);
     settings.camera = camera;
     settings.veil = veil.value_or(0);
     settings.threshold = threshold.value_or(settings.threshold);
     settings.opened_lens = lens;
-    settings.place = frame.place;
+    settings.place = shot.place;
     settings.threads = threads;
-    auto glared = add_glare(frame.colour.view(), settings);
+    auto glared = add_glare(shot.colour.view(), settings);
     if (!glared) return glared.error();
-    frame.colour = std::move(*glared);
+    shot.colour = std::move(*glared);
     return Done{};
 }
 

@@ -1,9 +1,9 @@
 // Glare and falloff of a command: what `defocus` does after the blur and `develop` before the tone curve.
 #pragma once
 
-#include "petzval/files.h"
 #include "petzval/glare.h"
 #include "petzval/result.h"
+#include "petzval/shot.h"
 
 #include "flags.h"
 #include "report.h"
@@ -26,9 +26,9 @@ struct GlareFlags {
     // Names of those given, for messages.
     std::vector<std::string> given() const;
 
-    // Changes frame.colour; nothing if no flag was given. Camera numbers that are missing are an error only
+    // Changes shot.colour; nothing if no flag was given. Camera numbers that are missing are an error only
     // where a part needs them. Errors: those of add_falloff and add_glare.
-    Status apply(Frame& frame, const FoundCamera& found, const Lens& lens, int threads) const;
+    Status apply(Shot& shot, const Lens& lens, int threads) const;
     Json json() const;  // null if no flag was given
 };
 

@@ -59,9 +59,9 @@ std::string window_text(const Rect& r) {
            "," + std::to_string(r.y0);
 }
 
-void describe_parts(const Frame& frame, std::ostream& out) {
-    for (std::size_t i = 0; i < frame.parts.size(); ++i) {
-        const PartSummary& part = frame.parts[i];
+void describe_parts(const Shot& shot, std::ostream& out) {
+    for (std::size_t i = 0; i < shot.parts.size(); ++i) {
+        const PartSummary& part = shot.parts[i];
         out << "  part " << i << (part.name.empty() ? "" : " \"" + part.name + "\"") << ": " << part.type;
         if (!part.compression.empty()) out << ", " << part.compression;
         if (!part.view.empty()) out << ", view " << part.view;
@@ -69,8 +69,8 @@ void describe_parts(const Frame& frame, std::ostream& out) {
     }
 }
 
-void describe_depth(const Input& input, const InputFlags& flags, std::ostream& out) {
-    if (input.frame.depth.empty()) {
+void describe_depth(const Shot& shot, const InputFlags& flags, std::ostream& out) {
+    if (shot.depth_plane().empty()) {
         out << "depth\n  none\n";
         return;
     }
@@ -79,9 +79,10 @@ void describe_depth(const Input& input, const InputFlags& flags, std::ostream& o
         out << "\n";
         return;
     }
-    out << ", " << plain(flags.unit_scale_m.value_or(1)) << " m per unit: " << plain(input.depth.nearest_m)
-        << " m to " << plain(input.depth.farthest_finite_m) << " m, " << input.depth.misses << " of "
-        << input.frame.depth.size() << " pixels are misses\n";
+    out << ", " << plain(flags.unit_scale_m.value_or(1))
+        << " m per unit: " << plain(shot.depth_report.nearest_m) << " m to "
+        << plain(shot.depth_report.farthest_finite_m) << " m, " << shot.depth_report.misses << " of "
+        << shot.colour.size() << " pixels are misses\n";
 }
 
 void describe_camera(const FoundCamera& camera, std::ostream& out) {
@@ -106,72 +107,67 @@ void describe_list(const char* heading, const std::vector<std::string>& lines, s
 }
 
 // Nothing where a camera number is missing.
-std::optional<FocusLimits> limits_of(const Input& input, const InspectFlags& flags) {
-    const ImageScale scale = flags.camera.image_scale.value_or(ImageScale::Rendered);
-    const auto camera = complete_camera(input.camera, scale, "", "");
+std::optional<FocusLimits> limits_of(const Shot& shot, const InspectFlags& flags) {
+    const auto camera = complete_camera(shot.camera, shot.image_scale);
     if (!camera) return std::nullopt;
-    const auto limits =
-        focus_limits(*camera, input.frame.place.display_window.width(), flags.permissible_radius_px);
+    const auto limits = focus_limits(*camera, shot.place.display_window.width(), flags.permissible_radius_px);
     return limits ? std::optional(*limits) : std::nullopt;
 }
 
-std::string description(const Input& input, const InspectFlags& all, const DynamicRange& range) {
+std::string description(const Shot& shot, const InspectFlags& all, const DynamicRange& range) {
     const InputFlags& flags = all.input;
     std::ostringstream out;
-    const Frame& frame = input.frame;
-    out << one_line(flags.path) << "\n  display window " << window_text(frame.place.display_window);
-    if (frame.place.pixel_aspect != 1) out << ", pixel aspect " << plain(frame.place.pixel_aspect);
-    if (frame.display_referred) out << ", display-referred";
+    out << one_line(flags.path) << "\n  display window " << window_text(shot.place.display_window);
+    if (shot.place.pixel_aspect != 1) out << ", pixel aspect " << plain(shot.place.pixel_aspect);
+    if (shot.display_referred) out << ", display-referred";
     out << "\n";
-    describe_parts(frame, out);
-    describe_list("detected", input.detected_in_picture(), out);
-    describe_depth(input, flags, out);
-    describe_camera(input.camera, out);
-    if (const auto limits = limits_of(input, all)) describe_limits(*limits, all.permissible_radius_px, out);
+    describe_parts(shot, out);
+    describe_list("detected", detected_in_picture(shot), out);
+    describe_depth(shot, flags, out);
+    describe_camera(shot.camera, out);
+    if (const auto limits = limits_of(shot, all)) describe_limits(*limits, all.permissible_radius_px, out);
     describe_range(range, out);
-    if (frame.non_finite_colour > 0) out << "non-finite colour values\n  " << frame.non_finite_colour << "\n";
-    describe_list("warnings", input.warnings, out);
+    if (shot.non_finite_colour > 0) out << "non-finite colour values\n  " << shot.non_finite_colour << "\n";
+    describe_list("warnings", shot.warnings, out);
     describe_list("advice", range.advice, out);
     return printable(out.str());
 }
 
-Json report_of(const Input& input, const InspectFlags& all, const DynamicRange& range) {
+Json report_of(const Shot& shot, const InspectFlags& all, const DynamicRange& range) {
     const InputFlags& flags = all.input;
     Json report = new_report("inspect");
-    const Frame& frame = input.frame;
     report["input"] = flags.path;
-    report["display_window"] = window_json(frame.place.display_window);
-    report["data_window"] = window_json(frame.place.data_window);
-    report["pixel_aspect"] = frame.place.pixel_aspect;
-    report["display_referred"] = frame.display_referred;
-    report["has_alpha"] = frame.has_alpha;
+    report["display_window"] = window_json(shot.place.display_window);
+    report["data_window"] = window_json(shot.place.data_window);
+    report["pixel_aspect"] = shot.place.pixel_aspect;
+    report["display_referred"] = shot.display_referred;
+    report["has_alpha"] = shot.has_alpha;
     report["parts"] = Json::array();
-    for (const PartSummary& part : frame.parts) report["parts"].push_back(part_json(part));
-    report["depth"] = frame.depth.empty()
+    for (const PartSummary& part : shot.parts) report["parts"].push_back(part_json(part));
+    report["depth"] = shot.depth_plane().empty()
                           ? Json(nullptr)
-                          : depth_json(input.depth, flags.depth_kind.value_or(DepthKind::Planar));
-    report["deep_samples"] = frame.deep.sample_count();
-    report["camera"] = camera_json(input.camera, ImageScale::Rendered);
-    const auto limits = limits_of(input, all);
+                          : depth_json(shot.depth_report, flags.depth_kind.value_or(DepthKind::Planar));
+    report["deep_samples"] = shot.deep.sample_count();
+    report["camera"] = camera_json(shot.camera, ImageScale::Rendered);
+    const auto limits = limits_of(shot, all);
     report["focus_limits"] = limits ? limits_json(*limits, all.permissible_radius_px) : Json(nullptr);
     report["dynamic_range"] = range_json(range);
-    report["detected"] = input.detected;
-    report["warnings"] = input.warnings;
+    report["detected"] = shot.detected;
+    report["warnings"] = shot.warnings;
     for (const std::string& line : range.advice) report["warnings"].push_back(line);
-    report["non_finite"] = {{"colour", frame.non_finite_colour}, {"depth", input.depth.non_finite}};
+    report["non_finite"] = {{"colour", shot.non_finite_colour}, {"depth", shot.depth_report.non_finite}};
     return report;
 }
 
 Status inspect(const InspectFlags& flags) {
     const Stopwatch watch;
-    const auto input = load_input(flags.input, flags.camera);
-    if (!input) return input.error();
-    const DynamicRange range =
-        measure_dynamic_range(input->frame.colour.view(), input->frame.display_referred);
-    if (flags.run.json != "-" && !print(description(*input, flags, range)))
+    const auto shot = load_shot(flags.input.source(flags.camera));
+    if (!shot) return shot.error();
+    const DynamicRange range = measure_dynamic_range(shot->colour.view(), shot->display_referred);
+    if (flags.run.json != "-" && !print(description(*shot, flags, range)))
         return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
     if (flags.run.json.empty()) return Done{};
-    Json report = report_of(*input, flags, range);
+    Json report = report_of(*shot, flags, range);
     report["seconds"]["read"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
     return write_report(report, flags.run.json);

@@ -3,7 +3,6 @@
 #include "petzval/version.h"
 
 #include "fields.h"
-#include "input.h"
 #include "output.h"
 
 #include <cmath>
@@ -51,7 +50,7 @@ Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
     Json json = Json::object(), origins = Json::object();
     const auto add = [&](const char* key, const std::optional<FoundNumber>& found) {
         json[key] = found ? number(found->value) : Json(nullptr);
-        if (found) origins[key] = found->origin;
+        if (found) origins[key] = in_flags(found->origin);
     };
     add("focal_length_mm", camera.focal_length_mm);
     add("sensor_width_mm", camera.sensor_width_mm);

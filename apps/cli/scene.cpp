@@ -195,7 +195,7 @@ Status make_scene(const MakeFlags& flags) {
         if (Status fine = check_output(path, {}); !fine) return fine;
     const SceneSummary& summary = *find_scene(flags.name);
     const FoundCamera camera =
-        merged_camera(camera_of_scene(summary.camera, "scene " + flags.name), flags.camera);
+        merged_camera(camera_of_scene(summary.camera, "scene " + flags.name), flags.camera.choice());
     const ImageScale image_scale = flags.camera.image_scale.value_or(summary.camera.image_scale);
     SceneSettings settings = flags.scene;
     settings.camera = complete(camera, image_scale);

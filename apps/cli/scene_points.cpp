@@ -1,10 +1,10 @@
 // petzval scene points: lights without a picture, for defocus --engine sprites --points.
 #include "petzval/scene.h"
+#include "petzval/shot.h"
 
 #include "console.h"
 #include "flags.h"
 #include "output.h"
-#include "points_file.h"
 #include "report.h"
 #include "run_flags.h"
 #include "values.h"
@@ -82,9 +82,9 @@ Status make_file(const PointsFlags& flags) {
     const std::string camera = plain(s.focal_length_mm) + " mm on a sensor " + plain(s.sensor_width_mm) +
                                " mm wide, " + std::to_string(s.width) + " x " + std::to_string(s.height) +
                                " px";
-    Status done = write_points(
-        flags.output, *points,
-        {"petzval scene points " + flags.name + ", seed " + std::to_string(s.seed), "seen by " + camera});
+    Status done = write_text(flags.output, lights_text(*points, {"petzval scene points " + flags.name +
+                                                                     ", seed " + std::to_string(s.seed),
+                                                                 "seen by " + camera}));
     if (!done) return done;
     note("wrote " + flags.output + ": " + std::to_string(points->size()) + " points, seen by " + camera);
     if (flags.run.json.empty()) return Done{};

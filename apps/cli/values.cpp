@@ -125,13 +125,13 @@ Result<Interval> parse_range_m(const std::string& text) {
     return Interval{*near, *far};
 }
 
-Result<Pixel> parse_pixel(const std::string& text) {
+Result<PixelPosition> parse_pixel(const std::string& text) {
     const auto parts = split_at_comma(text);
     constexpr int kMost = 1 << 24;
     const auto x = parse_integer(parts ? parts->first : "", -kMost, kMost, "");
     const auto y = parse_integer(parts ? parts->second : "", -kMost, kMost, "");
     if (!x || !y) return no("must be a pixel, column and row from the top left, as 480,270");
-    return Pixel{*x, *y};
+    return PixelPosition{*x, *y};
 }
 
 Result<WorldPoint> parse_place(const std::string& text) {

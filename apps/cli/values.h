@@ -6,6 +6,7 @@
 
 #include "petzval/names.h"
 #include "petzval/result.h"
+#include "petzval/shot.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +18,6 @@ namespace petzval::cli {
 
 struct Interval {
     double low = 0, high = 0;
-};
-struct Pixel {
-    int x = 0, y = 0;
-};
-struct WorldPoint {
-    double x = 0, y = 0, z = 0;
 };
 
 // A number, "inf" included; never NaN.
@@ -44,7 +39,7 @@ Result<Interval> parse_range(const std::string& text);
 // "1.5m,3m": two lengths, the nearer first.
 Result<Interval> parse_range_m(const std::string& text);
 // "480,270".
-Result<Pixel> parse_pixel(const std::string& text);
+Result<PixelPosition> parse_pixel(const std::string& text);
 // "1.5,0,-3": three finite numbers.
 Result<WorldPoint> parse_place(const std::string& text);
 

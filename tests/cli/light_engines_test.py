@@ -167,9 +167,12 @@ class LightEngines(CommandLineTest):
             where = "points.csv:%d:" % line if line else "points.csv"
             self.refuse(3, "defocus", "black.exr", "-o", "no.exr", *CAMERA, "--engine", "sprites", "--points",
                         "points.csv", says=[where, says])
-        # Without an end, and without a line.
+        # Without an end.
         self.refuse(3, "defocus", "black.exr", "-o", "no.exr", *CAMERA, "--engine", "sprites", "--points", "/dev/zero",
-                    says=["/dev/zero:1", "characters in a line"])
+                    says=["/dev/zero", "not a regular file"])
+        self.points("1" * 5000)
+        self.refuse(3, "defocus", "black.exr", "-o", "no.exr", *CAMERA, "--engine", "sprites", "--points", "points.csv",
+                    says=["points.csv:1", "characters in a line"])
         self.refuse(3, "defocus", "black.exr", "-o", "no.exr", *CAMERA, "--engine", "sprites", "--points", "none.csv",
                     says=["none.csv"])
 

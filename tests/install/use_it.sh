@@ -32,17 +32,22 @@ for consumer in consumer $(echo "$components" | tr ';' '\n' | sed 's/./consumer_
     "$compiler" -std=c++20 -Wall -Wextra -Werror "$here/$consumer.cpp" -o "$stage/$consumer" \
         $(pkg-config --cflags --libs "$module")
     echo "$consumer found by find_package:"
-    "$stage/cmake/$consumer"
+    "$stage/cmake/$consumer" "$stage"
     echo "$consumer found by pkg-config:"
-    "$stage/$consumer"
+    "$stage/$consumer" "$stage"
 done
 
-# Every block of code of the page about the library, as its readers would compile it.
+# Every block of code of the page about the library, as its readers would compile it, run beside a beauty.exr.
 python3 "$here/../docs/library_blocks.py" "$here/../../docs/library.md" "$stage/blocks"
 for block in "$stage"/blocks/*.cpp; do
+    module=petzval
+    if grep -q petzval/shot.h "$block"; then
+        module=petzval-files
+        [ -e "$stage/beauty.exr" ] || continue
+    fi
     # shellcheck disable=SC2046
-    "$compiler" -std=c++20 -Wall -Wextra -Werror "$block" -o "${block%.cpp}" $(pkg-config --cflags --libs petzval)
-    "${block%.cpp}"
+    "$compiler" -std=c++20 -Wall -Wextra -Werror "$block" -o "${block%.cpp}" $(pkg-config --cflags --libs $module)
+    (cd "$stage" && "${block%.cpp}")
 done
 for block in "$stage"/blocks/*.c; do
     # shellcheck disable=SC2046

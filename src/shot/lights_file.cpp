@@ -1,18 +1,17 @@
-#include "points_file.h"
-
-#include "output.h"
+#include "petzval/shot.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-namespace petzval::cli {
+namespace petzval {
 namespace {
 
 constexpr const char* kAccepted = "x, y, depth or coc, r, g, b, and size, vx, vy if wanted";
@@ -52,7 +51,12 @@ class Reader {
 public:
     Reader(std::string path, const Rect& data_window) : path_(std::move(path)), data_window_(data_window) {}
 
-    Result<PointsFile> read() {
+    Result<Lights> read() {
+        std::error_code missing;
+        const auto kind = std::filesystem::status(path_, missing).type();
+        if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+            return Error{ErrorCode::InvalidFile,
+                         path_ + ": is not a regular file; pipes and devices cannot be read"};
         std::ifstream in(path_, std::ios::binary);
         if (!in) return Error{ErrorCode::InvalidFile, path_ + ": cannot be read"};
         std::vector<char> text(kLongestLine + 1);
@@ -144,17 +148,16 @@ private:
     Rect data_window_;
     std::size_t line_ = 0;
     std::vector<Column> order_;
-    PointsFile result_;
+    Lights result_;
 };
 
 }  // namespace
 
-Result<PointsFile> read_points(const std::string& path, const Rect& data_window) {
+Result<Lights> read_lights(const std::string& path, const Rect& data_window) {
     return Reader(path, data_window).read();
 }
 
-Status write_points(const std::string& path, const std::vector<LightPoint>& points,
-                    const std::vector<std::string>& comment) {
+std::string lights_text(const std::vector<LightPoint>& points, const std::vector<std::string>& comment) {
     std::string text;
     text.reserve(points.size() * 72 + 256);
     for (const std::string& line : comment) text += "# " + line + "\n";
@@ -170,7 +173,7 @@ Status write_points(const std::string& path, const std::vector<LightPoint>& poin
         }
         text += '\n';
     }
-    return write_text(path, text);
+    return text;
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval

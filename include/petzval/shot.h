@@ -1,0 +1,160 @@
+// A shot: what was rendered, read from files and made ready for a session. Component petzval::files.
+//
+//     petzval::ShotSource source{.path = "beauty.exr"};
+//     source.camera.f_number = 2;
+//     auto shot = petzval::read_shot(source);               // pictures, depth in metres, camera, lights
+//     auto rendered = petzval::rendered(*shot);             // what Session::take() is given; borrows the
+//     shot
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/deep.h"
+#include "petzval/defocus.h"
+#include "petzval/depth.h"
+#include "petzval/export.h"
+#include "petzval/files.h"
+#include "petzval/image.h"
+#include "petzval/light_point.h"
+#include "petzval/look.h"
+#include "petzval/place.h"
+#include "petzval/result.h"
+#include "petzval/session.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace petzval {
+
+// Planar depth in metres; +infinity for a miss.
+struct DepthMetres {
+    Plane plane;
+};
+// Signed radii of the circle of confusion in pixels, + is far.
+struct RadiiPx {
+    Plane plane;
+};
+// By what each pixel's blur is known; monostate where the file says nothing and nothing was asked for.
+using ShotDepth = std::variant<std::monostate, DepthMetres, RadiiPx>;
+
+// The camera numbers of a user. Those that are given win over the file's.
+struct CameraChoice {
+    std::optional<double> focal_length_mm = {}, sensor_width_mm = {}, f_number = {}, focus_distance_m = {};
+    ImageScale image_scale = ImageScale::Rendered;
+};
+
+// Where a shot is to be found. Messages name these fields as read.layer, depth.kind, shot.behind,
+// camera.f_number.
+struct ShotSource {
+    std::string path;  // EXR or PNG
+    // What to take from `path`; its threads or workers read all files of the shot.
+    ReadOptions read = {};
+    // What depth means in all files of the shot: kind, unit, range. The camera's numbers and the threads are
+    // filled in. CocPx: radii in pixels.
+    DepthSettings depth = {};
+    // What the picture hides: RGBA and Z or deep, of the same data window. Empty: not known.
+    std::string behind = {};
+    std::string holdout = {};             // a matte that stays sharp and hides what is behind it
+    std::vector<std::string> merge = {};  // more pictures of the shot, sorted in by depth
+    std::string lights = {};              // CSV, see read_lights()
+    CameraChoice camera = {};
+};
+
+struct Shot {
+    std::string path;
+    Place place;
+    Picture colour;  // scene-linear Rec.709, premultiplied; the size of the data window, as all pictures here
+    bool has_alpha = false;  // false: colour.a is 1 everywhere
+    ShotDepth depth;
+    DeepPicture deep;  // all samples of a deep input or of several files, else empty
+    // Hidden layers, and a matte; empty where there are none. All three know depth in the unit of `depth`.
+    DeepPicture behind, holdout;
+    std::vector<LightPoint> lights;  // in pixels of the data window
+    FoundCamera camera;              // the user's numbers over the file's, each with its origin
+    FoundCamera camera_of_file;
+    ImageScale image_scale = ImageScale::Rendered;
+    double unit_scale_m = 1;  // metres per unit of the scene
+    DepthReport depth_report;
+    bool display_referred = false;      // read from PNG: 1.0 is clipped highlights
+    std::size_t non_finite_colour = 0;  // values that were replaced
+    std::vector<PartSummary> parts;
+    std::vector<std::string> detected, warnings;  // one line each, for logs and reports
+    std::shared_ptr<const CarriedContent> carried;
+
+    bool has_radii() const { return std::holds_alternative<RadiiPx>(depth); }
+    // Metres or radii; empty where there are none.
+    PETZVAL_API View<const float> depth_plane() const;
+};
+
+// Errors: InvalidArgument for settings that contradict each other (depth.kind without its depth.range, …).
+PETZVAL_API Status check(const ShotSource& source);
+
+// All that the source names. `control` is asked between files and by loops; its progress is called once per
+// file. Errors: those of check(), read_frame() and depth_to_planar_metres(); InvalidFile where a file does
+// not fit the picture (another window, lights by depth where there are radii), Cancelled.
+PETZVAL_API Result<Shot> read_shot(const ShotSource& source, const Control& control = {});
+
+// The user's numbers over the file's; origins of the user's are field names, as camera.f_number. A distance
+// that the file has in scene units is multiplied by `unit_scale_m`. With the field of view and one of focal
+// length and sensor width known, the other follows.
+PETZVAL_API FoundCamera merged_camera(const FoundCamera& file, const CameraChoice& user,
+                                      double unit_scale_m = 1);
+// Errors: InvalidArgument naming every number that is missing: "no f-number; give camera.f_number".
+PETZVAL_API Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale);
+
+// What a session takes: all of the shot but its choices, borrowed. A camera number may be missing where radii
+// are given; it is 0 then. Errors: those of complete_camera().
+PETZVAL_API Result<DefocusJob> rendered(const Shot& shot);
+
+// A pixel of the display window, counted from its top left.
+struct PixelPosition {
+    int x = 0, y = 0;
+};
+// Sets the focus distance to the depth that the pixel shows. Errors: InvalidArgument for a pixel that the
+// data window does not have, for a shot without depth in metres.
+PETZVAL_API Status focus_on_pixel(Shot& shot, PixelPosition pixel);
+
+// A point of the world, in scene units.
+struct WorldPoint {
+    double x = 0, y = 0, z = 0;
+};
+// The same by a point of the world and the file's worldToCamera. A point behind OpenEXR's camera is taken as
+// one in front of a camera that looks along -z, with a warning in shot.warnings. Errors: InvalidArgument
+// without a matrix, or for a point in the plane of the lens.
+PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
+
+// How far the light of this look reaches beyond the picture, in pixels: the largest radius of what is not
+// empty. Errors: those of rendered() and circle_of_confusion().
+PETZVAL_API Result<int> reach_px(const Shot& shot, const Look& look);
+// Adds so many pixels of emptiness on each side where the data window ends inside the display window;
+// elsewhere the scene goes on beyond the frame, unknown. Returns whether there is such a side. Errors:
+// InvalidArgument for more pixels than any picture may have.
+PETZVAL_API Result<bool> grow_empty_sides(Shot& shot, int by_px);
+
+// What write_exr() takes: shot.colour in its place with all that the input carried, metres as its depth.
+PETZVAL_API Frame to_frame(Shot shot);
+
+// Lights in a CSV file. The first line that is not empty names the columns, in any order: x, y (pixels of the
+// display window, centres at +0.5), depth (metres, planar) or coc (signed radius, px), r, g, b
+// (scene-linear), and if wanted size (diameter, px); vx and vy are read over. '#' begins a comment; values
+// may be inf or nan.
+struct Lights {
+    std::vector<LightPoint> points;  // in pixels of the data window
+    bool has_depth = false;          // false: radii
+};
+// Errors: InvalidFile with the path and the line (missing, no header, a column missing, twice or unknown, a
+// value missing, too many, or not a number).
+PETZVAL_API Result<Lights> read_lights(const std::string& path, const Rect& data_window);
+// Lights by depth as the text of such a file: read_lights() reads the same floats again. `comment`: lines
+// without '#'.
+PETZVAL_API std::string lights_text(const std::vector<LightPoint>& points,
+                                    const std::vector<std::string>& comment);
+
+// Reads the pictures that a look names (aperture_image, kernel_image_far, kernel_image_near) into its lens.
+// Errors: those of read_png() and read_frame(), with the field before the file.
+PETZVAL_API Status read_lens_images(Look& look, int threads = 0);
+
+}  // namespace petzval

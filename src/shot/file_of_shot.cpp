@@ -1,0 +1,51 @@
+#include "shot/file_of_shot.h"
+
+#include <cmath>
+#include <utility>
+
+namespace petzval::shot {
+namespace {
+
+// Radii as they are; what is not a number is sharp.
+DepthReport check_radii(View<float> radii) {
+    DepthReport report;
+    for (int y = 0; y < radii.height(); ++y)
+        for (int x = 0; x < radii.width(); ++x)
+            if (!std::isfinite(radii(x, y))) radii(x, y) = 0, ++report.non_finite;
+    if (report.non_finite > 0)
+        report.warnings.push_back(std::to_string(report.non_finite) +
+                                  " radii of the depth channel are not finite and count as 0 (sharp)");
+    return report;
+}
+
+}  // namespace
+
+Result<DepthReport> make_depth(Frame& frame, const DepthSettings& settings) {
+    if (settings.kind == DepthKind::CocPx) return check_radii(frame.depth.view());
+    if (frame.depth.empty()) return DepthReport{};
+    auto report = depth_to_planar_metres(frame.depth.view(), frame.place, settings);
+    if (!report || frame.deep.empty()) return report;
+    const auto deep = deep_to_planar_metres(frame.deep, frame.place, settings);
+    if (!deep) return deep.error();
+    return report;
+}
+
+Result<FileOfShot> read_file(const std::string& path, const ReadOptions& read, const DepthSettings& depth) {
+    auto frame = read_frame(path, read);
+    if (!frame) return frame.error();
+    auto report = make_depth(*frame, depth);
+    if (!report)
+        return Error{report.error().code, path + ": " + report.error().message, report.error().field};
+    return FileOfShot{std::move(*frame), std::move(*report)};
+}
+
+DeepPicture samples_of(Frame& frame) {
+    return frame.deep.empty() ? deep_from_flat(frame.colour, frame.depth) : std::move(frame.deep);
+}
+
+bool is_too_large(const Rect& r) {
+    const auto size = [](int low, int high) { return double(high) - double(low); };
+    return size(r.x0, r.x1) * size(r.y0, r.y1) > double(ReadOptions{}.max_pixels);
+}
+
+}  // namespace petzval::shot

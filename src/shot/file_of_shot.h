@@ -1,0 +1,41 @@
+// One picture file of a shot, its depth made what the whole shot knows depth by.
+#pragma once
+
+#include "petzval/files.h"
+#include "petzval/shot.h"
+
+#include <string>
+
+namespace petzval::shot {
+
+struct FileOfShot {
+    Frame frame;  // its depth, also that of deep samples: planar metres, or radii where depth.kind says so
+    DepthReport depth;
+};
+
+// Errors: those of read_frame() and depth_to_planar_metres(), with the path.
+Result<FileOfShot> read_file(const std::string& path, const ReadOptions& read, const DepthSettings& depth);
+// The same for depth that is there already. Ray depth needs the camera in `settings`.
+Result<DepthReport> make_depth(Frame& frame, const DepthSettings& settings);
+
+// All that a file shows: its deep samples, or one per pixel. Uses up the samples.
+DeepPicture samples_of(Frame& frame);
+
+// More pixels than read_frame() ever takes.
+bool is_too_large(const Rect& window);
+
+// A shot while it is read.
+struct Reading {
+    const ShotSource& source;
+    Workers& workers;
+    DepthSettings depth;  // with the camera's numbers
+    Shot& shot;
+    Plane& plane;  // of shot.depth
+};
+
+// What stands beside the picture in files of their own. Errors: those of read_shot().
+Status merge_files(Reading& reading);
+Status read_holdout(Reading& reading);
+Status read_behind(Reading& reading);
+
+}  // namespace petzval::shot

@@ -1,0 +1,147 @@
+#include "petzval/names.h"
+#include "petzval/shot.h"
+
+#include "base/cancel.h"
+#include "base/parallel.h"
+#include "shot/file_of_shot.h"
+
+#include <utility>
+
+namespace petzval {
+namespace {
+
+using shot::Reading;
+
+Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message)}; }
+
+// The picture itself: what a frame holds, its depth aside.
+Shot shot_of(Frame& frame, const ShotSource& source) {
+    Shot shot;
+    shot.path = source.path;
+    shot.place = frame.place;
+    shot.colour = std::move(frame.colour);
+    shot.has_alpha = frame.has_alpha;
+    shot.deep = std::move(frame.deep);
+    shot.camera_of_file = frame.camera;
+    shot.camera = merged_camera(frame.camera, source.camera, source.depth.unit_scale_m);
+    shot.image_scale = source.camera.image_scale;
+    shot.unit_scale_m = source.depth.unit_scale_m;
+    shot.display_referred = frame.display_referred;
+    shot.non_finite_colour = frame.non_finite_colour;
+    shot.parts = std::move(frame.parts);
+    shot.detected = std::move(frame.detected);
+    shot.warnings = std::move(frame.warnings);
+    shot.carried = std::move(frame.carried);
+    if (const std::size_t broken = shot.non_finite_colour; broken > 0)
+        shot.warnings.push_back(
+            std::to_string(broken) +
+            " colour values are not finite: NaN and -infinity count as 0, infinity as 65504");
+    return shot;
+}
+
+void put_camera(DepthSettings& depth, const FoundCamera& camera) {
+    if (camera.focal_length_mm) depth.focal_length_mm = camera.focal_length_mm->value;
+    if (camera.sensor_width_mm) depth.sensor_width_mm = camera.sensor_width_mm->value;
+}
+
+Status read_given_lights(Reading& r) {
+    auto lights = read_lights(r.source.lights, r.shot.place.data_window);
+    if (!lights) return lights.error();
+    if (lights->has_depth && r.depth.kind == DepthKind::CocPx)
+        return Error{ErrorCode::InvalidFile,
+                     r.source.lights +
+                         ": depth is of no use with depth.kind coc-px; give a column coc, radii in pixels"};
+    r.shot.detected.push_back("lights: " + r.source.lights + ", " + std::to_string(lights->points.size()) +
+                              " points by " + (lights->has_depth ? "depth" : "radius"));
+    r.shot.lights = std::move(lights->points);
+    return Done{};
+}
+
+Result<Shot> read(const ShotSource& source, Progress& progress, CancellableWorkers& workers) {
+    ReadOptions options = source.read;
+    options.workers = &workers;
+    auto frame = read_frame(source.path, options);
+    if (!frame) return frame.error();
+    DepthSettings depth = source.depth;
+    depth.workers = &workers;
+    put_camera(depth, merged_camera(frame->camera, source.camera, depth.unit_scale_m));
+    auto report = shot::make_depth(*frame, depth);
+    if (!report) return report.error();
+    Shot shot = shot_of(*frame, source);
+    shot.depth_report = std::move(*report);
+    for (const std::string& line : shot.depth_report.warnings) shot.warnings.push_back(line);
+
+    Plane plane = std::move(frame->depth);
+    Reading reading{source, workers, depth, shot, plane};
+    const double files = double(1 + source.merge.size() + !source.holdout.empty() + !source.behind.empty() +
+                                !source.lights.empty());
+    double done = 1;
+    progress.advance(done / files);
+    for (const auto& [given, step] : {std::pair{!source.merge.empty(), &shot::merge_files},
+                                      {!source.holdout.empty(), &shot::read_holdout},
+                                      {!source.behind.empty(), &shot::read_behind},
+                                      {!source.lights.empty(), &read_given_lights}}) {
+        if (!given) continue;
+        workers.check();
+        if (Status fine = step(reading); !fine) return fine.error();
+        progress.advance(++done / files);
+    }
+    if (depth.kind == DepthKind::CocPx)
+        shot.depth = RadiiPx{std::move(plane)};
+    else if (!plane.empty())
+        shot.depth = DepthMetres{std::move(plane)};
+    return shot;
+}
+
+}  // namespace
+
+View<const float> Shot::depth_plane() const {
+    if (const auto* metres = std::get_if<DepthMetres>(&depth)) return metres->plane;
+    if (const auto* radii = std::get_if<RadiiPx>(&depth)) return radii->plane;
+    return {};
+}
+
+Status check(const ShotSource& source) {
+    const DepthKind kind = source.depth.kind;
+    const bool ranged = kind == DepthKind::Normalized || kind == DepthKind::Device;
+    const bool has_range = source.depth.range_near && source.depth.range_far;
+    const std::string name = name_of(kind);
+    if (ranged && !has_range)
+        return invalid("depth.kind " + name + " needs depth.range NEAR,FAR, as depth.range 0.1,100");
+    if (!ranged && has_range)
+        return invalid("depth.range is for depth.kind normalized or device; depth here is " + name);
+    if (kind == DepthKind::CocPx && source.depth.unit_scale_m != 1)
+        return invalid("depth.unit_scale_m has no meaning with depth.kind coc-px: radii are in pixels");
+    return Done{};
+}
+
+Result<Shot> read_shot(const ShotSource& source, const Control& control) {
+    if (Status fine = check(source); !fine) return fine.error();
+    const std::shared_ptr<Workers> workers = workers_of(source.read.threads, source.read.workers);
+    Progress progress(control.progress, control.cancelled);
+    CancellableWorkers cancellable(*workers, progress);
+    const Error cancelled{ErrorCode::Cancelled, "cancelled"};
+    try {
+        auto shot = read(source, progress, cancellable);
+        // A reader that was stopped says that its file is damaged.
+        if (progress.cancelled()) return cancelled;
+        return shot;
+    } catch (const Cancelled&) {
+        return cancelled;
+    }
+}
+
+Frame to_frame(Shot shot) {
+    Frame frame;
+    frame.place = shot.place;
+    frame.colour = std::move(shot.colour);
+    frame.has_alpha = shot.has_alpha;
+    if (auto* metres = std::get_if<DepthMetres>(&shot.depth)) frame.depth = std::move(metres->plane);
+    frame.camera = std::move(shot.camera);
+    frame.display_referred = shot.display_referred;
+    frame.parts = std::move(shot.parts);
+    frame.carried = std::move(shot.carried);
+    return frame;
+}
+
+}  // namespace petzval

@@ -1,0 +1,133 @@
+// Which camera number wins, what follows from others, and where the shot is focused.
+#include "petzval/shot.h"
+
+#include "files/wording.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace petzval {
+namespace {
+
+Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message)}; }
+
+std::optional<FoundNumber> chosen(const std::optional<double>& user, const char* field,
+                                  const std::optional<FoundNumber>& file) {
+    return user ? FoundNumber{*user, field} : file;
+}
+
+// The field of view a ties the sensor width s to the focal length f: tan(a/2) = s / 2f.
+void complete_by_field_of_view(FoundCamera& camera) {
+    if (!camera.horizontal_fov_deg ||
+        camera.focal_length_mm.has_value() == camera.sensor_width_mm.has_value())
+        return;
+    const FoundNumber& fov = *camera.horizontal_fov_deg;
+    const double sensor_per_focal = 2 * std::tan(fov.value * std::numbers::pi / 360);
+    const std::string origin = "field of view " + number(fov.value) + " deg, " + fov.origin;
+    if (camera.sensor_width_mm)
+        camera.focal_length_mm = FoundNumber{camera.sensor_width_mm->value / sensor_per_focal, origin};
+    else
+        camera.sensor_width_mm = FoundNumber{camera.focal_length_mm->value * sensor_per_focal, origin};
+}
+
+double value_of(const std::optional<FoundNumber>& found) { return found ? found->value : 0; }
+
+// The numbers that are known; those that are not are 0.
+Camera known_numbers(const FoundCamera& found, ImageScale image_scale) {
+    return {value_of(found.focal_length_mm), value_of(found.sensor_width_mm), value_of(found.f_number),
+            value_of(found.focus_distance_m), image_scale};
+}
+
+// "a", "a and b", "a, b and c".
+std::string and_listed(const std::vector<std::string>& words) {
+    std::string all;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        all += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+    return all;
+}
+
+}  // namespace
+
+FoundCamera merged_camera(const FoundCamera& file, const CameraChoice& user, double unit_scale_m) {
+    FoundCamera merged = file;
+    merged.focal_length_mm = chosen(user.focal_length_mm, "camera.focal_length_mm", file.focal_length_mm);
+    merged.sensor_width_mm = chosen(user.sensor_width_mm, "camera.sensor_width_mm", file.sensor_width_mm);
+    merged.f_number = chosen(user.f_number, "camera.f_number", file.f_number);
+    merged.focus_distance_m = chosen(user.focus_distance_m, "camera.focus_distance_m", file.focus_distance_m);
+    if (merged.focus_distance_m && merged.focus_distance_m->scene_units && unit_scale_m != 1) {
+        merged.focus_distance_m->value *= unit_scale_m;
+        merged.focus_distance_m->origin += ", " + number(unit_scale_m) + " m each";
+    }
+    complete_by_field_of_view(merged);
+    return merged;
+}
+
+Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale) {
+    std::vector<std::string> missing, fields;
+    const auto need = [&](const std::optional<FoundNumber>& n, const char* what, const char* field) {
+        if (n) return;
+        missing.push_back(std::string("no ") + what);
+        fields.emplace_back(field);
+    };
+    need(found.focal_length_mm, "focal length", "camera.focal_length_mm");
+    need(found.sensor_width_mm, "sensor width", "camera.sensor_width_mm");
+    need(found.f_number, "f-number", "camera.f_number");
+    need(found.focus_distance_m, "focus distance", "camera.focus_distance_m");
+    if (missing.empty()) return known_numbers(found, image_scale);
+    return Error{ErrorCode::InvalidArgument, and_listed(missing) + "; give " + and_listed(fields), fields[0]};
+}
+
+Result<DefocusJob> rendered(const Shot& shot) {
+    DefocusJob job;
+    job.camera = known_numbers(shot.camera, shot.image_scale);
+    if (!shot.has_radii()) {
+        const auto complete = complete_camera(shot.camera, shot.image_scale);
+        if (!complete) return complete.error();
+    }
+    job.colour = shot.colour;
+    (shot.has_radii() ? job.coc_px : job.depth_m) = shot.depth_plane();
+    if (!shot.deep.empty()) job.deep = &shot.deep;
+    if (!shot.behind.empty()) job.behind = &shot.behind;
+    if (!shot.holdout.empty()) job.holdout = &shot.holdout;
+    if (!shot.lights.empty()) job.points = &shot.lights;
+    job.place = shot.place;
+    return job;
+}
+
+Status focus_on_pixel(Shot& shot, PixelPosition pixel) {
+    const Rect &display = shot.place.display_window, &data = shot.place.data_window;
+    const auto* depth = std::get_if<DepthMetres>(&shot.depth);
+    const std::string name = "focus.at " + std::to_string(pixel.x) + "," + std::to_string(pixel.y);
+    if (!depth) return invalid(name + ": the picture has no depth in metres");
+    const int x = pixel.x + display.x0 - data.x0, y = pixel.y + display.y0 - data.y0;
+    if (!depth->plane.rect().contains(x, y))
+        return invalid(
+            name + " is outside the picture, which covers columns " + std::to_string(data.x0 - display.x0) +
+            " to " + std::to_string(data.x1 - display.x0 - 1) + " and rows " +
+            std::to_string(data.y0 - display.y0) + " to " + std::to_string(data.y1 - display.y0 - 1));
+    shot.camera.focus_distance_m = FoundNumber{depth->plane(x, y), name};
+    return Done{};
+}
+
+Status focus_on_point(Shot& shot, WorldPoint point) {
+    const std::string name = "focus.point " + number(point.x) + "," + number(point.y) + "," + number(point.z);
+    if (!shot.camera.camera_from_world)
+        return invalid(name +
+                       ": the input has no worldToCamera matrix; give camera.focus_distance_m or focus.at");
+    const auto& m = *shot.camera.camera_from_world;
+    const auto column = [&](std::size_t k) {
+        return point.x * m[k] + point.y * m[4 + k] + point.z * m[8 + k] + m[12 + k];
+    };
+    const double depth = column(2) / column(3) * shot.unit_scale_m;
+    if (!std::isfinite(depth) || depth == 0)
+        return invalid(name + " lies in the plane of the lens by the file's worldToCamera");
+    shot.camera.focus_distance_m = FoundNumber{std::abs(depth), name};
+    if (depth < 0)
+        shot.warnings.push_back(name +
+                                " lies on the camera's -z, where OpenEXR's cameras look along +z; taken as " +
+                                number(-depth) + " m in front of it");
+    return Done{};
+}
+
+}  // namespace petzval
