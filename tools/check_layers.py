@@ -29,7 +29,7 @@ ALLOWED = {
     "engine/samples": MODEL | {"engine/waist"},
     "engine/lights": WAIST,
     "engine/scatter": WAIST | {"engine/lights"},
-    "engine/gather": WAIST | {"device/cpu"},
+    "engine/gather": WAIST,
     "engine/gaussian": WAIST | {"device/cpu"},
     "engine/sprites": WAIST | {"device/cpu", "engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": LENS | {"engine/waist"},
@@ -50,6 +50,7 @@ ALLOWED = {
 TESTS = {
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
+    "engine/gather": {"kernel/lenses"},
     "session": {"lens_facts"},
 }
 # Devices know plans, the data that engines leave, and nothing else of engines.

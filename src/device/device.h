@@ -12,6 +12,7 @@
 #include <memory>
 
 namespace petzval::engine {
+struct GatherPlan;
 struct LightsPlan;
 struct ScatterPlan;
 }  // namespace petzval::engine
@@ -64,6 +65,9 @@ public:
     // Writes the plan's rows of `out`, the whole frame. `atlas` is that of the plan's kernels.
     virtual Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
                            const Control& control) const = 0;
+    // Writes the plan's tiles of `out`, the whole frame.
+    virtual void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
+                        const Control& control) const = 0;
     // Adds to the plan's rows of `out`, the whole frame.
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                             const Control& control) const = 0;

@@ -32,9 +32,9 @@ struct KernelSet {
     std::vector<KernelAsk> asks;
 };
 
-// How kernels are drawn: many small ones on top of each other, or few that may be wide, shaded pixel by
-// pixel.
-enum class KernelUse { Stamped, ByPixel };
+// How kernels are drawn: many small ones on top of each other; few that may be wide, shaded pixel by pixel;
+// or read tap by tap for every pixel of a tile.
+enum class KernelUse { Stamped, ByPixel, Gathered };
 
 // Where kernels come from. Safe to use from many threads; what it makes depends on the ask alone.
 class KernelSource {

@@ -118,5 +118,17 @@ TEST_P(EverySession, EndsWhereverItIsAskedTo) {
 INSTANTIATE_TEST_SUITE_P(Engines, EverySession, testing::ValuesIn(engine_names()),
                          [](const auto& engine) { return engine.param; });
 
+TEST(Session, AGatherFindsTheKernelsOfTheFrameBefore) {
+    const Shot shot = noise_at_several_depths();
+    DefocusJob job = shot.job("gather");
+    job.lens.cats_eye = 0.5;
+    Session session;
+    ASSERT_TRUE(session.defocus(job));
+    const std::size_t kept = session.usage().kept_bytes;
+    EXPECT_GT(kept, 0u);
+    ASSERT_TRUE(session.defocus(job));
+    EXPECT_EQ(session.usage().kept_bytes, kept) << "kernels were made again, or under another name";
+}
+
 }  // namespace
 }  // namespace petzval::conformance

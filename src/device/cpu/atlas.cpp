@@ -5,9 +5,8 @@
 #include <utility>
 
 namespace petzval::device {
-namespace {
 
-std::shared_ptr<const StampSet> laid_out(const KernelSource::Made& spreads) {
+std::shared_ptr<const StampSet> StampSet::laid_out(const KernelSource::Made& spreads) {
     auto set = std::make_shared<StampSet>();
     for (const auto& spread : spreads) {
         const engine::StampKernel& kernel = set->kernels.emplace_back(*spread);
@@ -18,26 +17,28 @@ std::shared_ptr<const StampSet> laid_out(const KernelSource::Made& spreads) {
     return set;
 }
 
-}  // namespace
-
-std::shared_ptr<const StampSet> StampTable::find(const KernelAsk& ask) const {
+template <typename Kernel>
+std::shared_ptr<const Kernel> KernelTable<Kernel>::find(const KernelAsk& ask) const {
     const std::lock_guard lock(mutex_);
     const auto known = kernels_.find(ask);
     return known == kernels_.end() ? nullptr : known->second;
 }
 
-void StampTable::add(const KernelAsk& ask, std::shared_ptr<const StampSet> kernels) {
+template <typename Kernel>
+void KernelTable<Kernel>::add(const KernelAsk& ask, std::shared_ptr<const Kernel> kernel) {
     const std::lock_guard lock(mutex_);
-    const std::size_t bytes = kernels->bytes;
-    if (kernels_.try_emplace(ask, std::move(kernels)).second) bytes_ += bytes;
+    const std::size_t bytes = kernel->bytes;
+    if (kernels_.try_emplace(ask, std::move(kernel)).second) bytes_ += bytes;
 }
 
-std::size_t StampTable::bytes() const {
+template <typename Kernel>
+std::size_t KernelTable<Kernel>::bytes() const {
     const std::lock_guard lock(mutex_);
     return bytes_;
 }
 
-void StampTable::trim(std::size_t max_bytes) {
+template <typename Kernel>
+void KernelTable<Kernel>::trim(std::size_t max_bytes) {
     const std::lock_guard lock(mutex_);
     for (auto at = kernels_.begin(); at != kernels_.end() && bytes_ > max_bytes;) {
         if (at->second.use_count() > 1) {
@@ -49,11 +50,12 @@ void StampTable::trim(std::size_t max_bytes) {
     }
 }
 
-StampAtlas::StampAtlas(const KernelSource& source, const KernelSet& set, Memory& memory,
-                       const Control& control)
+template <typename Kernel>
+LaidOutAtlas<Kernel>::LaidOutAtlas(const KernelSource& source, const KernelSet& set, const std::string& use,
+                                   Memory& memory, const Control& control)
     : kernels_(set.asks.size()) {
-    const auto table = memory.get<StampTable>(source.name() + " for stamping",
-                                              [] { return std::make_shared<StampTable>(); });
+    const auto table = memory.get<KernelTable<Kernel>>(
+        source.name() + " for " + use, [] { return std::make_shared<KernelTable<Kernel>>(); });
     // Asks cut from one kernel of the lens are made together.
     std::vector<std::vector<std::size_t>> missing;
     for (std::size_t i = 0; i < set.asks.size(); ++i) {
@@ -68,12 +70,15 @@ StampAtlas::StampAtlas(const KernelSource& source, const KernelSet& set, Memory&
         for (const std::size_t i : missing[std::size_t(group)]) asks.push_back(set.asks[i]);
         const auto made = source.make(asks);
         for (std::size_t k = 0; k < asks.size(); ++k) {
-            auto& kernels = kernels_[missing[std::size_t(group)][k]];
-            kernels = laid_out(made[k]);
-            table->add(asks[k], kernels);
+            auto& kernel = kernels_[missing[std::size_t(group)][k]];
+            kernel = Kernel::laid_out(made[k]);
+            table->add(asks[k], kernel);
         }
     });
 }
+
+template class LaidOutAtlas<StampSet>;
+template class LaidOutAtlas<TapKernel>;
 
 SpreadAtlas::SpreadAtlas(const KernelSource& source, const KernelSet& set, const Control& control)
     : kernels_(set.asks.size()) {

@@ -3,6 +3,7 @@
 #include "device/cpu/add_lights.h"
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
+#include "device/cpu/gather.h"
 
 namespace petzval::device {
 namespace {
@@ -12,13 +13,23 @@ public:
     const char* name() const override { return "cpu"; }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
                                        const Control& control) const override {
-        if (source.use() == KernelUse::ByPixel)
-            return std::make_shared<const SpreadAtlas>(source, set, control);
-        return std::make_shared<const StampAtlas>(source, set, memory, control);
+        switch (source.use()) {
+            case KernelUse::ByPixel:
+                return std::make_shared<const SpreadAtlas>(source, set, control);
+            case KernelUse::Gathered:
+                return std::make_shared<const TapAtlas>(source, set, "gathering", memory, control);
+            case KernelUse::Stamped:
+                break;
+        }
+        return std::make_shared<const StampAtlas>(source, set, "stamping", memory, control);
     }
     Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
                    const Control& control) const override {
         return composite_tiles(plan, dynamic_cast<const StampAtlas&>(atlas), out, control);
+    }
+    void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
+                const Control& control) const override {
+        gather_tiles(plan, dynamic_cast<const TapAtlas&>(atlas), out, control);
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {

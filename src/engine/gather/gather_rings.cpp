@@ -1,17 +1,16 @@
 #include "engine/gather/gather_rings.h"
 
-#include "device/cpu/gather_taps.h"
-
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
+#include <memory>
 
 namespace petzval::engine {
 namespace {
 
 // A disc of this radius lies within its pixel: light that is out of focus by less stays where it is.
 constexpr float kWithinPixelPx = 0.5f;
-constexpr int kPartsX = 9, kPartsY = 6;
+constexpr int kZonesX = 9, kZonesY = 6;
 
 std::vector<float> steps_down_from(float largest_px, float ratio) {
     std::vector<float> radii;
@@ -80,8 +79,11 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
 int RingSizes::levels() const { return 1 + *std::max_element(levels_.begin(), levels_.end()); }
 
 RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
-    : lens_(lens.from(lens.frame.x0, lens.frame.y0)), sizes_(sizes), reach_(std::size_t(sizes.levels()), 0) {
-    if (lens.lens(0).varies_over_field()) parts_x_ = kPartsX, parts_y_ = kPartsY;
+    : KernelSource("gather", device::KernelUse::Gathered),
+      lens_(lens.from(lens.frame.x0, lens.frame.y0)),
+      sizes_(sizes),
+      reach_(std::size_t(sizes.levels()), 0) {
+    if (lens.lens(0).varies_over_field()) zones_x_ = kZonesX, zones_y_ = kZonesY;
     for (int ring = 0; ring < sizes.count(); ++ring) {
         const int level = sizes.level(ring);
         const double reach =
@@ -89,55 +91,29 @@ RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
         int& cells = reach_[std::size_t(level)];
         cells = std::max(cells, int(std::ceil(reach + 0.5)));
     }
-    kernels_ = std::vector<std::atomic<const RingKernel*>>(std::size_t(sizes.count() * parts_x_ * parts_y_));
 }
 
-RingKernels::~RingKernels() {
-    for (auto& kernel : kernels_) delete kernel.load();
+int RingKernels::zone_of(double x, double y) const {
+    const int column = std::clamp(int((x + 0.5) / lens_.frame.width() * zones_x_), 0, zones_x_ - 1);
+    const int row = std::clamp(int((y + 0.5) / lens_.frame.height() * zones_y_), 0, zones_y_ - 1);
+    return row * zones_x_ + column;
 }
 
-int RingKernels::part_of(double x, double y) const {
-    const int px = std::clamp(int((x + 0.5) / lens_.frame.width() * parts_x_), 0, parts_x_ - 1);
-    const int py = std::clamp(int((y + 0.5) / lens_.frame.height() * parts_y_), 0, parts_y_ - 1);
-    return py * parts_x_ + px;
+device::KernelAsk RingKernels::ask(int ring, int zone) const {
+    return {.level = sizes_.level(ring), .zone = zone, .step = std::bit_cast<int>(sizes_.radius_px(ring))};
 }
 
-std::unique_ptr<const RingKernel> RingKernels::made(int ring, int part) const {
-    const int column = part % parts_x_, row = part / parts_x_;
-    const double x = (column + 0.5) * lens_.frame.width() / parts_x_ - 0.5;
-    const double y = (row + 0.5) * lens_.frame.height() / parts_y_ - 0.5;
-    const int level = sizes_.level(ring);
-    const kernel::PointSpread spread = lens_.lens(level).point_spread(
-        radius_in_cells(double(sizes_.radius_px(ring)), level), lens_.field_at(x, y));
-    auto made = std::make_unique<RingKernel>();
-    made->neutral = spread.neutral;
-    made->extent = spread.extent;
-    const Rect& e = spread.extent;
-    for (int dy = 1 - e.y1; dy < kGatherRows - e.y0; ++dy)
-        for (int dx = 1 - e.x1; dx <= -e.x0; ++dx) {
-            std::array<Rgba, kGatherRows> rows;  // of output: each lies its number further from what is read
-            for (int k = 0; k < kGatherRows; ++k)
-                if (const int v = k - dy - e.y0; v >= 0 && v < e.height())
-                    rows[std::size_t(k)] = spread.weights(-dx - e.x0, v);
-            if (rows == std::array<Rgba, kGatherRows>{}) continue;
-            made->steps.push_back({dx, dy});
-            for (const Rgba& w : rows)
-                if (spread.neutral)
-                    made->weights.push_back(w.r);
-                else
-                    made->weights.insert(made->weights.end(), {w.r, w.g, w.b, w.a});
-        }
+std::vector<device::KernelSource::Made> RingKernels::make(std::span<const device::KernelAsk> asks) const {
+    std::vector<Made> made;
+    for (const device::KernelAsk& ask : asks) {
+        const int column = ask.zone % zones_x_, row = ask.zone / zones_x_;
+        const double x = (column + 0.5) * lens_.frame.width() / zones_x_ - 0.5;
+        const double y = (row + 0.5) * lens_.frame.height() / zones_y_ - 0.5;
+        const double radius = radius_in_cells(double(std::bit_cast<float>(ask.step)), ask.level);
+        made.push_back({std::make_shared<const kernel::PointSpread>(
+            lens_.lens(ask.level).point_spread(radius, lens_.field_at(x, y)))});
+    }
     return made;
-}
-
-const RingKernel& RingKernels::at(int ring, int part) const {
-    std::atomic<const RingKernel*>& slot = kernels_[std::size_t(ring * parts_x_ * parts_y_ + part)];
-    if (const RingKernel* kernel = slot.load(std::memory_order_acquire)) return *kernel;
-    std::unique_ptr<const RingKernel> kernel = made(ring, part);
-    const RingKernel* expected = nullptr;
-    if (slot.compare_exchange_strong(expected, kernel.get(), std::memory_order_acq_rel))
-        return *kernel.release();
-    return *expected;  // another thread was first, with the same kernel
 }
 
 }  // namespace petzval::engine

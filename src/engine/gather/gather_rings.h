@@ -5,12 +5,12 @@
 // so that the second moment of what arrives is that of the source's own disc.
 #pragma once
 
+#include "device/kernels.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
 namespace petzval::engine {
@@ -63,41 +63,24 @@ private:
     float steps_per_px_ = 0;
 };
 
-// One kernel as the inner loop wants it (device/cpu/gather_taps.h): which cells it reads for a few rows of
-// output at once, and the weight each has in them.
-struct RingKernel {
-    struct Step {
-        int dx, dy;  // from the first of the rows to what is read, cells
-    };
-    std::vector<Step> steps;
-    std::vector<float> weights;
-    bool neutral = true;  // one weight per row for all channels, else r, g, b and a for coverage
-    Rect extent;          // of where light lands, from its source
-};
-
-// Kernels of all rings for all parts of the display window, made when first asked for. Thread-safe. What a
-// kernel holds depends on its ring and part alone.
-class RingKernels {
+// Kernels of rings for 9 x 6 zones of the display window, where the lens differs over it. An ask's step is
+// the ring's radius, so that rings of one radius share kernels whatever rings are beside them.
+class RingKernels final : public device::KernelSource {
 public:
-    // Lens and sizes outlive this.
     RingKernels(const LensOnPicture& lens, const RingSizes& sizes);
-    ~RingKernels();
-    RingKernels(const RingKernels&) = delete;
-    RingKernels& operator=(const RingKernels&) = delete;
 
-    int part_of(double x, double y) const;  // of a place in the display window, pixels
-    const RingKernel& at(int ring, int part) const;
+    int zones() const { return zones_x_ * zones_y_; }
+    int zone_of(double x, double y) const;  // of a place in the display window, pixels
+    device::KernelAsk ask(int ring, int zone) const;
+    std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
     // Cells by which any kernel of a level reaches.
     int reach(int level) const { return reach_[std::size_t(level)]; }
 
 private:
-    std::unique_ptr<const RingKernel> made(int ring, int part) const;
-
     const LensOnPicture lens_;  // of a picture that begins with the display window
-    const RingSizes& sizes_;
-    int parts_x_ = 1, parts_y_ = 1;
+    RingSizes sizes_;
+    int zones_x_ = 1, zones_y_ = 1;
     std::vector<int> reach_;
-    mutable std::vector<std::atomic<const RingKernel*>> kernels_;
 };
 
 }  // namespace petzval::engine

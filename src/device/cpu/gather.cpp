@@ -1,5 +1,6 @@
-#include "engine/gather/gather_tile.h"
+#include "device/cpu/gather.h"
 
+#include "base/parallel.h"
 #include "device/cpu/gather_taps.h"
 #include "device/cpu/workspaces.h"
 
@@ -8,12 +9,19 @@
 #include <cmath>
 #include <cstddef>
 
-namespace petzval::engine {
+namespace petzval::device {
 namespace {
+
+using engine::CellLevel;
+using engine::CellLight;
+using engine::GatherPlan;
+using engine::kGatherGroup;
+using engine::kGatherRows;
+using engine::OpenEdges;
+using engine::RingSizes;
 
 constexpr int kPlanes = 6;
 enum PlaneName { kRed, kGreen, kBlue, kCovered, kAlpha, kBeyond };
-constexpr int kTentBorder = 1;  // cells around a tile that enlarging reads
 
 // Planes side by side in one block of memory that is kept from tile to tile.
 class Planes {
@@ -63,29 +71,19 @@ struct Workspace {
     Combined cells, tile;
 };
 
-Rect cells_of(const Rect& tile, int level) {
-    if (level == 0) return tile;
-    return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
-                ((tile.y1 - 1) >> level) + 1}
-        .grown(kTentBorder);
-}
-
 class TileGather {
 public:
-    TileGather(const GatherSource& source, const Rect& tile, Workspace& workspace)
-        : s_(source), tile_(tile), w_(workspace) {
-        const Rect& frame = s_.input.frame;
-        part_ = s_.kernels.part_of(0.5 * (tile.x0 + tile.x1 - 1) - frame.x0,
-                                   0.5 * (tile.y0 + tile.y1 - 1) - frame.y0);
-    }
+    TileGather(const GatherPlan& plan, const GatherPlan::Tile& tile, const TapAtlas& atlas,
+               Workspace& workspace)
+        : plan_(plan), atlas_(atlas), zone_(tile.zone), tile_(tile.pixels), w_(workspace) {}
 
     void run(View<Rgba> out) {
         w_.tile.reset(tile_.width(), tile_.height());
-        const int rings = s_.sizes.count();
+        const int rings = plan_.sizes.count();
         for (int begin = 0; begin < rings;) {
             int end = begin;
-            while (end < rings && s_.sizes.level(end) == s_.sizes.level(begin)) ++end;
-            group(begin, end, s_.sizes.level(begin));
+            while (end < rings && plan_.sizes.level(end) == plan_.sizes.level(begin)) ++end;
+            group(begin, end, plan_.sizes.level(begin));
             begin = end;
         }
         write(out);
@@ -94,8 +92,8 @@ public:
 private:
     // Rings begin…end-1, all of one level.
     void group(int begin, int end, int level) {
-        target_ = cells_of(tile_, level);
-        window_ = target_.grown(s_.kernels.reach(level));
+        target_ = GatherPlan::cells_of(tile_, level);
+        window_ = target_.grown(plan_.reach[std::size_t(level)]);
         find_arrivals(begin, end, level);
         if (std::all_of(w_.arrivals.begin() + begin, w_.arrivals.begin() + end,
                         [](const auto& arrivals) { return arrivals.empty(); }))
@@ -111,7 +109,7 @@ private:
     }
 
     void find_arrivals(int begin, int end, int level) {
-        w_.arrivals.resize(std::size_t(s_.sizes.count()));
+        w_.arrivals.resize(std::size_t(plan_.sizes.count()));
         for (int ring = begin; ring < end; ++ring) w_.arrivals[std::size_t(ring)].clear();
         has_beyond_ = false;
         level == 0 ? find_in_picture(begin, end) : find_in_cells(begin, end, level);
@@ -124,32 +122,33 @@ private:
 
     // Whether what lies outside at (x, y) goes on as the nearest cell inside; else there is emptiness.
     bool goes_on(int x, int y, int width, int height) const {
-        const OpenEdges& open = s_.input.open_edges;
+        const OpenEdges& open = plan_.strip.open_edges;
         return (x >= 0 || open.left) && (x < width || open.right) && (y >= 0 || open.top) &&
                (y < height || open.bottom);
     }
 
     void find_in_picture(int begin, int end) {
-        const int width = s_.input.width(), height = s_.input.height();
+        const int width = plan_.strip.width(), height = plan_.strip.height();
         for (int y = window_.y0; y < window_.y1; ++y)
             for (int x = window_.x0; x < window_.x1; ++x) {
                 const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
                 const bool outside = u != x || v != y, on = !outside || goes_on(x, y, width, height);
-                for_each_sample(s_.input, s_.fill, u, v, [&](Rgba colour, float coc_px, float covered) {
-                    const RingSizes::Mix mix = s_.sizes.mix(coc_px);
-                    const auto add = [&](int ring, float share) {
-                        if (share <= 0 || ring < begin || ring >= end) return;
-                        arrive(ring, x, y, outside ? Rgba{} : share * colour,
-                               outside && on ? 0 : share * covered, outside && on ? share * covered : 0);
-                    };
-                    add(mix.inner, 1 - mix.outer_share);
-                    add(mix.outer, mix.outer_share);
-                });
+                engine::for_each_sample(
+                    plan_.strip, plan_.fill, u, v, [&](Rgba colour, float coc_px, float covered) {
+                        const RingSizes::Mix mix = plan_.sizes.mix(coc_px);
+                        const auto add = [&](int ring, float share) {
+                            if (share <= 0 || ring < begin || ring >= end) return;
+                            arrive(ring, x, y, outside ? Rgba{} : share * colour,
+                                   outside && on ? 0 : share * covered, outside && on ? share * covered : 0);
+                        };
+                        add(mix.inner, 1 - mix.outer_share);
+                        add(mix.outer, mix.outer_share);
+                    });
             }
     }
 
     void find_in_cells(int begin, int end, int level) {
-        const CellLevel& cells = s_.levels[std::size_t(level - 1)];
+        const CellLevel& cells = plan_.levels[std::size_t(level - 1)];
         for (int y = window_.y0; y < window_.y1; ++y) {
             const int v = std::clamp(y, 0, cells.height() - 1);
             if (!cells.has_any(v)) continue;
@@ -172,11 +171,11 @@ private:
     // The light of one ring, at every cell of its reach within the target.
     void gather_ring(int ring) {
         const std::vector<Arrival>& arrivals = w_.arrivals[std::size_t(ring)];
-        const RingKernel& kernel = s_.kernels.at(ring, part_);
+        const TapKernel& kernel = atlas_[plan_.kernel(ring, zone_)];
         Rect lit{arrivals.front().x, arrivals.front().y, arrivals.front().x, arrivals.front().y};
         w_.window.shape(kPlanes, window_.width(), window_.height() + kGatherRows);
         // Alpha is coverage where all is opaque; what lies beyond the picture is seldom near.
-        const int planes = has_beyond_ || !s_.opaque ? kPlanes : kAlpha;
+        const int planes = has_beyond_ || !plan_.opaque ? kPlanes : kAlpha;
         w_.window.clear(planes);
         for (const Arrival& a : arrivals) {
             const std::array<float, kPlanes> values{a.colour.r, a.colour.g, a.colour.b,
@@ -194,23 +193,24 @@ private:
         if (reached_.empty()) return;
         w_.gathered.shape(kPlanes, target_.width() + kGatherGroup, target_.height() + kGatherRows);
         w_.offsets.clear();
-        for (const RingKernel::Step& step : kernel.steps)
+        for (const TapKernel::Step& step : kernel.steps)
             w_.offsets.push_back(std::ptrdiff_t(step.dy) * w_.window.width() + step.dx);
         sum_taps(kernel);
     }
 
-    void sum_taps(const RingKernel& kernel) {
+    void sum_taps(const TapKernel& kernel) {
         const int in_x = reached_.x0 + target_.x0 - window_.x0, in_y = reached_.y0 + target_.y0 - window_.y0;
         const int groups = (reached_.width() + kGatherGroup - 1) / kGatherGroup;
-        const StepJob job{w_.offsets.data(), kernel.weights.data(), int(kernel.steps.size()),
-                          kernel.neutral,    groups * kGatherGroup, reached_.height(),
-                          w_.window.width(), w_.gathered.width()};
+        const engine::StepJob job{w_.offsets.data(), kernel.weights.data(), int(kernel.steps.size()),
+                                  kernel.neutral,    groups * kGatherGroup, reached_.height(),
+                                  w_.window.width(), w_.gathered.width()};
         const auto plane = [&](int k) {
-            return TapPlane{w_.window.row(k, in_y) + in_x, w_.gathered.row(k, reached_.y0) + reached_.x0};
+            return engine::TapPlane{w_.window.row(k, in_y) + in_x,
+                                    w_.gathered.row(k, reached_.y0) + reached_.x0};
         };
         gather_two(job, plane(kRed), 0, plane(kGreen), 1);
         gather_two(job, plane(kBlue), 2, plane(kCovered), 3);
-        if (has_beyond_ || !s_.opaque) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
+        if (has_beyond_ || !plan_.opaque) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
     }
 
     // Of each cell's lens, the area that the ring arrives with, or what is left.
@@ -219,7 +219,7 @@ private:
             const float *covered = w_.gathered.row(kCovered, y), *beyond = w_.gathered.row(kBeyond, y);
             const float* light[4] = {w_.gathered.row(kRed, y), w_.gathered.row(kGreen, y),
                                      w_.gathered.row(kBlue, y),
-                                     w_.gathered.row(s_.opaque ? kCovered : kAlpha, y)};
+                                     w_.gathered.row(plan_.opaque ? kCovered : kAlpha, y)};
             float* const sum[4] = {into.planes.row(0, y), into.planes.row(1, y), into.planes.row(2, y),
                                    into.planes.row(3, y)};
             float* free = into.planes.row(Combined::kFree, y);
@@ -281,33 +281,44 @@ private:
             for (int x = 0; x < tile_.width(); ++x) {
                 const float taken = 1 - free[x];
                 const float scale = taken > kLeastArea ? 1 / taken : 0;
-                out(tile_.x0 + x, tile_.y0 + y) = Rgba{r[x], g[x], b[x], a[x]} * scale;
+                out(tile_.x0 + x, plan_.first_row + tile_.y0 + y) = Rgba{r[x], g[x], b[x], a[x]} * scale;
             }
         }
     }
 
     static constexpr float kLeastArea = 1e-6f;
 
-    const GatherSource& s_;
+    const GatherPlan& plan_;
+    const TapAtlas& atlas_;
+    int zone_;
     Rect tile_;
     Workspace& w_;
-    int part_ = 0;
     Rect target_, window_;  // cells of the level: where light is wanted, where it may come from
     Rect reached_;          // cells of the target that the ring reaches
     bool has_beyond_ = false;
 };
 
-}  // namespace
-
-struct GatherScratch::Pool {
-    device::Workspaces<Workspace> workspaces;
-};
-GatherScratch::GatherScratch() : pool_(std::make_unique<Pool>()) {}
-GatherScratch::~GatherScratch() = default;
-
-void gather_tile(const GatherSource& source, const Rect& tile, GatherScratch& scratch, View<Rgba> out) {
-    const auto workspace = scratch.pool().workspaces.take();
-    TileGather(source, tile, *workspace).run(out);
+void copy_tile(const GatherPlan& plan, const Rect& tile, View<Rgba> out) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+        std::copy_n(plan.strip.colour.row(y) + tile.x0, tile.width(), out.row(plan.first_row + y) + tile.x0);
 }
 
-}  // namespace petzval::engine
+}  // namespace
+
+void gather_tiles(const GatherPlan& plan, const TapAtlas& atlas, View<Rgba> out, const Control& control) {
+    Workspaces<Workspace> workspaces;
+    const double share = control.share / double(plan.tiles.size());
+    parallel_for(int(plan.tiles.size()), control.workers, [&](int i) {
+        if (control.progress.cancelled()) return;
+        const GatherPlan::Tile& tile = plan.tiles[std::size_t(i)];
+        if (tile.is_sharp) {
+            copy_tile(plan, tile.pixels, out);
+        } else {
+            const auto workspace = workspaces.take();
+            TileGather(plan, tile, atlas, *workspace).run(out);
+        }
+        control.progress.advance(share);
+    });
+}
+
+}  // namespace petzval::device

@@ -1,0 +1,59 @@
+// What a gather draws: light by ring on every level, and the tiles that gather it.
+#pragma once
+
+#include "device/kernels.h"
+#include "engine/gather/gather_cells.h"
+#include "engine/gather/gather_fill.h"
+#include "engine/gather/gather_rings.h"
+#include "engine/waist/engine.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace petzval::engine {
+
+// Rings are taken from the nearest to the farthest. Each takes of every pixel's lens the area it arrives
+// with, or what is left: what is near hides what is far, whatever its colour. What nothing took goes to what
+// was seen, in proportion. Rings of one level that follow each other are combined on that level's grid and
+// enlarged together (bilinear, the tent).
+struct GatherPlan {
+    static constexpr int kTile = 128;
+    static constexpr int kTentBorder = 1;  // cells around a tile that enlarging reads
+    // The cells of a level that a tile needs.
+    static Rect cells_of(const Rect& tile, int level) {
+        if (level == 0) return tile;
+        return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
+                    ((tile.y1 - 1) >> level) + 1}
+            .grown(kTentBorder);
+    }
+
+    // Pixels of the result, gathered with the kernels of one zone.
+    struct Tile {
+        Rect pixels;
+        int zone = 0;
+        bool is_sharp = false;  // no blurred light lands here: it stays as it was
+    };
+
+    explicit GatherPlan(const RingSizes& rings) : sizes(rings) {}
+
+    Input strip;          // what light comes from; pixels here are its own
+    int first_row = 0;    // row of the frame that is its row 0
+    bool opaque = false;  // alpha is coverage: every pixel of the picture has alpha 1
+    RingSizes sizes;
+    BlockFill fill;
+    std::vector<CellLevel> levels;  // [0] is level 1
+    std::vector<int> reach;         // cells by which any kernel of a level reaches
+    std::vector<Tile> tiles;
+    device::KernelSet kernels;
+    // The place of a ring's kernel in `kernels`, by zone; of rings that reach a tile of the zone.
+    std::vector<std::uint32_t> places;
+    std::uint32_t kernel(int ring, int zone) const {
+        return places[std::size_t(zone * sizes.count() + ring)];
+    }
+};
+
+// rows: the pixels of the strip to be drawn.
+GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, const RingSizes& sizes,
+                       const RingKernels& kernels);
+
+}  // namespace petzval::engine

@@ -1,0 +1,99 @@
+// What is planned, told from the plan alone: nothing is drawn here.
+#include "engine/gather/plan.h"
+
+#include "kernel/lenses/make_lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 384;  // 5 x 3 tiles
+
+class Planned {
+public:
+    explicit Planned(const LensChoice& choice = {}) {
+        for (int level = 0; level < 6; ++level) {
+            const kernel::Mount mount{{50, 36, 1.4, 2}, kWidth >> level, kHeight >> level};
+            lenses_.push_back(std::move(kernel::make_lens(choice, mount)).value());
+        }
+        input_.lens_levels = lenses_;
+        input_.field_centre_x = 0.5 * kWidth, input_.field_centre_y = 0.5 * kHeight;
+        input_.field_per_px = 2 / std::hypot(kWidth, kHeight);
+        input_.frame = colour_.rect();
+    }
+    void put(const Rect& pixels, float coc_px) {
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            for (int x = pixels.x0; x < pixels.x1; ++x) coc_px_(x, y) = coc_px;
+        input_.nearest_coc_px = std::min(input_.nearest_coc_px, coc_px);
+        input_.farthest_coc_px = std::max(input_.farthest_coc_px, coc_px);
+    }
+    GatherPlan plan() {
+        input_.colour = colour_, input_.coc_px = coc_px_;
+        const RingSizes sizes(input_.nearest_coc_px, input_.farthest_coc_px, ring_rule(Quality::Standard));
+        const RingKernels kernels(input_, sizes);
+        zones = kernels.zones();
+        return plan_gather(input_, colour_.rect(), 0, sizes, kernels);
+    }
+    int zones = 0;
+
+private:
+    Picture colour_{kWidth, kHeight, Rgba{0.5f, 0.5f, 0.5f, 1}};
+    Plane coc_px_{kWidth, kHeight};
+    std::vector<std::unique_ptr<const kernel::LensModel>> lenses_;
+    Input input_;
+};
+
+TEST(GatherPlan, TilesThatNoBlurReachesStayAsTheyWere) {
+    Planned shot;
+    shot.put({10, 10, 60, 60}, 8);
+    const GatherPlan plan = shot.plan();
+    ASSERT_EQ(plan.tiles.size(), 15u);
+    for (const GatherPlan::Tile& tile : plan.tiles)
+        EXPECT_EQ(tile.is_sharp, tile.pixels.x0 >= 256 || tile.pixels.y0 >= 256) << tile.pixels.x0;
+}
+
+TEST(GatherPlan, EveryTileHasTheKernelsOfTheRingsThatReachIt) {
+    LensChoice cats_eye;
+    cats_eye.cats_eye = 0.8;
+    Planned shot(cats_eye);
+    shot.put({0, 0, 640, 384}, 3);
+    shot.put({500, 300, 560, 340}, 40);
+    const GatherPlan plan = shot.plan();
+    EXPECT_EQ(shot.zones, 54);
+    const RingSizes::Mix wide = plan.sizes.mix(40);
+    const int reach = plan.reach[std::size_t(plan.sizes.level(wide.outer))] << plan.sizes.level(wide.outer);
+    int with = 0, without = 0;
+    for (const GatherPlan::Tile& tile : plan.tiles) {
+        const bool near = !Rect{500, 300, 560, 340}.grown(reach).intersected(tile.pixels).empty();
+        const bool has = plan.kernel(wide.outer, tile.zone) < plan.kernels.asks.size();
+        EXPECT_TRUE(has || !near) << tile.pixels.x0 << ", " << tile.pixels.y0;
+        ++(has ? with : without);
+        for (int ring = 0; ring < plan.sizes.count(); ++ring) {
+            const bool is_coarse = plan.sizes.level(ring) > 0;
+            EXPECT_TRUE(is_coarse || plan.kernel(ring, tile.zone) < plan.kernels.asks.size());
+        }
+    }
+    EXPECT_GT(with, 0);
+    EXPECT_GT(without, 0) << "kernels that nobody asks for are made";
+    EXPECT_TRUE(std::is_sorted(plan.kernels.asks.begin(), plan.kernels.asks.end()));
+}
+
+TEST(GatherPlan, RingsOfOneRadiusShareAKernelWhateverLiesBeside) {
+    Planned far, both;
+    far.put({0, 0, 640, 384}, 30);
+    both.put({0, 0, 640, 384}, 30);
+    both.put({0, 0, 100, 100}, -17);
+    const GatherPlan one = far.plan(), other = both.plan();
+    const std::set<device::KernelAsk> known(other.kernels.asks.begin(), other.kernels.asks.end());
+    for (const device::KernelAsk& ask : one.kernels.asks) EXPECT_TRUE(known.contains(ask));
+}
+
+}  // namespace
+}  // namespace petzval::engine
