@@ -77,6 +77,7 @@ PUBLIC = {
     "lens_report": "lens_sheet",
     "light_point": "image",
     "look": "look",
+    "look_check": "look",
     "look_json": "look",
     "names": "names",
     "ocio": "ocio",

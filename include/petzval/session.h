@@ -60,8 +60,9 @@ public:
     Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
     // A whole frame, in the order of physics: a plate's highlights given back, blur, light lost towards the
     // corners, glare, and back into the plate's range. `rendered` says what there is (pictures, place,
-    // camera); all that is chosen is the look's. Errors: also those of add_falloff(), add_glare() and
-    // expand_highlights().
+    // camera); all that is chosen is the look's. Choices without effect are listed in the report's warnings
+    // and not refused, as one look serves drafts and final frames; check() tells them beforehand. Errors:
+    // also those of add_falloff(), add_glare(), expand_highlights() and of check(), before any work.
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
 
     // How many pixels around a region are looked at for it: four of the largest radius, as far as the lens

@@ -2,6 +2,7 @@
 // back into the plate's range.
 #include "petzval/dynamic_range.h"
 #include "petzval/glare.h"
+#include "petzval/look_check.h"
 
 #include "session/contents.h"
 #include "session/frame_part.h"
@@ -73,7 +74,9 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
 }
 
 Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look, const Control& control) {
-    return contents_->unless_cancelled(
+    const LookCheck checked = check(look);
+    if (!checked.possible) return checked.possible.error();
+    auto taken = contents_->unless_cancelled(
         control, [&](Progress& progress, CancellableWorkers& workers) -> Result<DefocusReport> {
             DefocusJob job = with_look(rendered, look);
             job.workers = &workers;
@@ -105,6 +108,9 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                                                     rendered.colour.part(pixels), look.expansion);
             return report;
         });
+    if (taken)
+        for (const Error& idle : checked.idle) taken->warnings.push_back(idle.message);
+    return taken;
 }
 
 }  // namespace petzval

@@ -77,5 +77,19 @@ TEST(Take, SaysWhatItCannotTake) {
     EXPECT_NE(taken.error().message.find("brush"), std::string::npos);
 }
 
+TEST(Take, ListsChoicesWithoutEffectAndRefusesContradictions) {
+    const Rendered r;
+    Session session;
+    Look look;
+    look.engine = "gaussian";
+    look.lens.aperture.blades = 5;
+    const auto taken = session.take(r.job, look);
+    ASSERT_TRUE(taken);
+    ASSERT_EQ(taken->warnings.size(), 1u);
+    EXPECT_EQ(taken->warnings[0].find("lens.blades has no effect"), 0u);
+    look.glare.bloom = look.glare.veil = 0.7;
+    EXPECT_FALSE(session.take(r.job, look));
+}
+
 }  // namespace
 }  // namespace petzval
