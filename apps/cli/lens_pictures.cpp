@@ -58,27 +58,26 @@ struct PictureFlags {
     }
 };
 
-// Numbers that are not given are the lens's own: also its format, that of a normal lens (36 mm for 50 mm)
-// where none is stated. So --focal-length alone mounts the lens, scaled, on the sensor it was made for: in
-// pixels its aberrations grow along. With the sensor scaled by the same factor the kernel stays what it was.
+// Numbers that are not given are the lens's own: also its format. So --focal-length alone mounts the lens,
+// scaled, on the sensor it was made for: in pixels its aberrations grow along. With the sensor scaled by the
+// same factor the kernel stays what it was.
 Result<LensMount> mount_of(const PictureFlags& flags, const Lens& lens) {
     LensMount mount;
     mount.width_px = flags.width_px;
     mount.height_px = flags.height_px.value_or(std::max(1, flags.width_px * 9 / 16));
-    double focal_length_mm = 50, f_number = 2, sensor_width_mm = 0;
+    double focal_length_mm = 50, f_number = 2, sensor_width_mm = 36;
     if (lens.kind() != LensModelKind::Ideal) {
         const auto facts = lens_facts(lens);
         if (!facts) return facts.error();
         if (facts->efl_mm > 0) focal_length_mm = facts->efl_mm;
-        sensor_width_mm = facts->sensor_width_mm;
+        if (facts->sensor_width_mm > 0) sensor_width_mm = facts->sensor_width_mm;
         // Rounded up, so that the lens has it.
         if (facts->f_number > 0) f_number = facts->f_number * (1 + 1e-9);
     }
     Camera& camera = mount.camera;
     camera.focal_length_mm = flags.camera.focal_length_mm.value_or(focal_length_mm);
     camera.f_number = flags.camera.f_number.value_or(f_number);
-    camera.sensor_width_mm =
-        flags.camera.sensor_width_mm.value_or(sensor_width_mm > 0 ? sensor_width_mm : 0.72 * focal_length_mm);
+    camera.sensor_width_mm = flags.camera.sensor_width_mm.value_or(sensor_width_mm);
     camera.focus_distance_m = flags.camera.focus_distance_m.value_or(0);
     camera.image_scale = flags.camera.image_scale.value_or(ImageScale::Rendered);
     return mount;

@@ -134,6 +134,7 @@ void add_prescription(Json& report, const LensFacts& f) {
     report["image_distance_mm"] = number(f.image_distance_mm);
     report["magnification"] = number(f.magnification);
     report["field_deg"] = number(f.field_deg);
+    report["sensor_width_mm"] = number(f.sensor_width_mm);
     report["wavelengths_um"] = {{"short", f.short_um}, {"primary", f.primary_um}, {"long", f.long_um}};
     report["seidel_field_deg"] = number(f.seidel_field_deg);
     report["seidel"] = seidel_json(f.seidel);
@@ -168,6 +169,7 @@ std::string first_order_text(const LensFacts& f) {
                 f.exit_pupil_diameter_mm);
     text += row("first to last glass%12.6g mm    Petzval radius     %12.6g mm", f.vertex_length_mm,
                 f.petzval_radius_mm);
+    text += row("format             %12.6g mm wide", f.sensor_width_mm);
     if (std::isfinite(f.object_distance_mm))
         text += row("object at          %12.6g mm    magnification      %12.6g", f.object_distance_mm,
                     f.magnification);

@@ -57,7 +57,8 @@ struct LensFacts {
     bool has_prescription = false;
 
     double efl_mm = 0, bfl_mm = 0, f_number = 0;
-    double sensor_width_mm = 0;          // of the format that curves were drawn for; 0: not stated
+    double sensor_width_mm = 0;          // of the format it was made for: as stated, or of the 3:2 frame that
+                                         // its field fills, or 0.72 focal lengths; 0 for the ideal lens
     double front_focal_position_mm = 0;  // from the first vertex
     double entrance_pupil_position_mm = 0, entrance_pupil_diameter_mm = 0;  // from the first vertex
     double exit_pupil_position_mm = 0, exit_pupil_diameter_mm = 0;          // from the last vertex

@@ -2,6 +2,7 @@
 
 #include "kernel/lenses/aberration_curves.h"
 #include "kernel/lenses/opened_lens.h"
+#include "lens_files/expected_values.h"
 #include "lens_files/shelf.h"
 #include "optics/aberrations.h"
 #include "optics/seidel.h"
@@ -76,6 +77,7 @@ void add_first_order(LensFacts& facts, const optics::Prescription& lens, const o
     facts.image_distance_mm = first.image_distance_mm;
     facts.magnification = first.magnification;
     facts.field_deg = optics::field_angle_deg(lens, first);
+    facts.sensor_width_mm = optics::format_width_mm(lens, first);
     facts.short_um = lens.short_um;
     facts.primary_um = lens.primary_um;
     facts.long_um = lens.long_um;
@@ -143,6 +145,8 @@ Result<LensFacts> facts_of(const lens_files::LensFile& file) {
     facts.notes = lens.notes;
     facts.warnings = file.warnings;
     facts.has_prescription = true;
+    if (const std::string problem = lens_files::f_number_problem(lens); !problem.empty())
+        facts.warnings.push_back(problem);
     add_first_order(facts, lens, *first);
     add_seidel(facts, lens, *first);
     const auto lsa = optics::longitudinal_aberration(lens, *first, wavelengths_of(lens), zones());

@@ -40,6 +40,17 @@ TEST(LensFacts, SumsAreThoseOfTheSurfaces) {
     EXPECT_NEAR(sum.c2, facts.seidel.c2, 1e-15);
 }
 
+TEST(LensFacts, ALensHasTheFormatThatIsStatedOrThatItsFieldFills) {
+    EXPECT_EQ(lens_facts("preset-ccd-doublet-8mm")->sensor_width_mm, 4.8);
+    EXPECT_EQ(lens_facts("doublet-ccd")->sensor_width_mm, 4.8);
+    // 37.5 degrees of 100 mm reach 76.7 mm, half the diagonal of 127.7 x 85.1 mm.
+    const auto wide = lens_facts("retrofocus").value();
+    EXPECT_NEAR(wide.sensor_width_mm, 1.277 * wide.efl_mm, 1e-3 * wide.efl_mm);
+    const auto unstated = lens_facts("asphere-singlet").value();
+    EXPECT_NEAR(unstated.sensor_width_mm, 0.72 * unstated.efl_mm, 1e-9);
+    EXPECT_EQ(lens_facts("ideal")->sensor_width_mm, 0);
+}
+
 TEST(LensFacts, AnUnknownNameListsTheLensesAndADamagedFileItsLine) {
     const auto unknown = lens_facts("no-such-lens");
     ASSERT_FALSE(unknown);

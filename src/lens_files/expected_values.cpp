@@ -3,6 +3,7 @@
 #include "lens_files/readers.h"
 #include "optics/aberrations.h"
 #include "optics/seidel.h"
+#include "optics/traced_lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <sstream>
 
 namespace petzval::lens_files {
 namespace {
@@ -354,6 +356,17 @@ Status Checker::check(const Json& entry) {
 bool ExpectedCheck::passed() const {
     if (!comparable) return true;
     return one_sided ? ours >= published : std::abs(difference()) <= allowed;
+}
+
+std::string f_number_problem(const optics::Prescription& lens) {
+    const auto traced = optics::TracedLens::make(lens, {});
+    const auto share = traced ? optics::axial_open_share(*traced) : Result<double>(traced.error());
+    if (!share || *share >= 1) return {};
+    std::ostringstream text;
+    text.precision(3);
+    text << "its clear apertures pass no more than f/" << traced->f_number() / *share << " where it says f/"
+         << traced->f_number();
+    return text.str();
 }
 
 Result<std::vector<ExpectedCheck>> check_expected(const Json& lens_entry, const optics::Prescription& lens) {

@@ -24,6 +24,10 @@ struct ExpectedCheck {
     bool passed() const;
 };
 
+// What is wrong with a lens that has not the f-number it states: its clear apertures cut the light of the
+// middle of the field first. Empty: nothing, or it could not be traced.
+std::string f_number_problem(const optics::Prescription& lens);
+
 // Allowed is the entry's "tolerance"; else |its "difference"| + half the last printed digit; 5e-6 for Seidel
 // sums of single surfaces; never below 1e-12 of the value, which is as far as double precision carries
 // through a lens. Errors: InvalidFile "line N: …" for a quantity that is not known or has another form.

@@ -64,6 +64,20 @@ TEST(ExpectedValues, AWrongNumberIsNoticed) {
     EXPECT_FALSE(passes(R"({"quantity": "back_focus_over_focal_length_at_least", "value": 1.2})"));
 }
 
+TEST(ExpectedValues, AnFNumberThatClearAperturesCannotPassIsNoticed) {
+    // f = 100 mm at f/5 fills 10 mm of the surfaces.
+    const auto problem = [](const std::string& clear) {
+        const std::string lens = R"({"aperture": {"type": "F_NUMBER", "value": 5}, "surfaces": [
+            {"radius": 51.68, "thickness": 0, "medium": {"nd": 1.5168, "Vd": 64.2}, "stop": true},
+            {"radius": null, "thickness": 100, "semi_aperture": )";
+        return f_number_problem(read_json_lens(lens + clear + "}]}")->lens);
+    };
+    EXPECT_EQ(problem("10.2"), "");
+    EXPECT_EQ(problem("9.9"), "");  // rounding
+    EXPECT_NE(problem("5").find("pass no more than f/9"), std::string::npos) << problem("5");
+    EXPECT_NE(problem("5").find("says f/5"), std::string::npos);
+}
+
 TEST(ExpectedValues, AnUnknownQuantityIsNamed) {
     const Json entry = parse_json(
                            "{\"surfaces\": [{\"radius\": 9, \"thickness\": 1, \"medium\": {\"nd\": 1.5}}],\n"

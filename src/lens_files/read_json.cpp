@@ -153,6 +153,11 @@ Status Reader::field(const std::string& key, const Json& value) {
         lens.paraxial_field_deg = *size;
         return Done{};
     }
+    if (key == "sensor_width_mm") {
+        if (!(*size > 0)) return at_line(value.line, quoted(key) + " must be above 0");
+        lens.sensor_width_mm = *size;
+        return Done{};
+    }
     lens.field = key == "max_field_deg" ? *size : *size * mm_;
     lens.field_kind = key == "max_field_deg"       ? FieldKind::AngleDeg
                       : key == "max_object_height" ? FieldKind::ObjectHeight
@@ -300,7 +305,7 @@ Status Reader::top_level(const Json& root) {
         else if (key == "aperture")
             status = aperture(value);
         else if (key == "max_field_deg" || key == "field_used_for_traces_deg" || key == "max_object_height" ||
-                 key == "max_image_height")
+                 key == "max_image_height" || key == "sensor_width_mm")
             status = field(key, value);
         else if (key == "wavelengths_um")
             status = wavelengths(value);

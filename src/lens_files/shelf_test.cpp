@@ -1,5 +1,6 @@
 #include "lens_files/shelf.h"
 
+#include "lens_files/expected_values.h"
 #include "lens_files/glass_catalogue.h"
 #include "lens_files/json.h"
 #include "optics/traced_lens.h"
@@ -28,6 +29,11 @@ TEST(Shelf, EveryLensReadsFocusesAndPassesLightUpToItsField) {
             EXPECT_TRUE(beam->ray(0, 0).reached) << share;
         }
     }
+}
+
+TEST(Shelf, TheClearAperturesOfEveryLensPassItsFNumber) {
+    for (const ShelfItem& item : shelf())
+        EXPECT_EQ(f_number_problem(find_lens(std::string(item.name)).value().lens), "") << item.name;
 }
 
 TEST(Shelf, EveryLensNamesItsSourceAndTellsItsHistory) {

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kPrimary_nm = 587.5618;
-// Fields that a flat frame can hold; a fisheye's goes on beyond.
-constexpr double kWidestField_deg = 60, kLeastField_deg = 1;
+constexpr double kLeastField_deg = 1;
 constexpr int kZones = 40, kHeights = 256, kSlices = 93;
 
 std::vector<kernel::RingBand> ring_bands(const AxialBands& bands, double coc_um, double um_per_px) {
@@ -181,8 +180,7 @@ Result<Subject> Subject::make(const std::string& name_or_file, Workers& workers)
     if (f.f_number > 0) subject.f_number_ = f.f_number * (1 + 1e-9);
     const double format = f.sensor_width_mm > 0 ? f.sensor_width_mm / subject.focal_length_mm_ : 0.72;
     double corner = 0.5 * std::hypot(1.0, 2.0 / 3) * format;
-    if (f.has_prescription)
-        corner = std::tan(std::clamp(f.field_deg, kLeastField_deg, kWidestField_deg) * kDegree);
+    if (f.has_prescription && f.field_deg < kLeastField_deg) corner = std::tan(kLeastField_deg * kDegree);
     subject.corner_deg_ = std::atan(corner) / kDegree;
     const double width_mm = 2 * corner * subject.focal_length_mm_ / std::hypot(1.0, 2.0 / 3);
     subject.sensor_width_mm_ = std::ceil(1000 * width_mm) / 1000;

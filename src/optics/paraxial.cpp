@@ -1,5 +1,6 @@
 #include "optics/paraxial.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -152,6 +153,14 @@ double field_angle_deg(const Prescription& lens, const FirstOrder& first) {
             return degrees(std::atan(lens.field / std::abs(first.magnification * from_pupil)));
     }
     return 0;
+}
+
+double format_width_mm(const Prescription& lens, const FirstOrder& first) {
+    if (lens.sensor_width_mm > 0) return lens.sensor_width_mm;
+    const double field_deg = std::min(field_angle_deg(lens, first), 60.0);
+    if (!(field_deg > 0)) return 0.72 * first.focal_length_mm;
+    const double corner_mm = first.focal_length_mm * std::tan(radians(field_deg));
+    return 2 * corner_mm / std::hypot(1.0, 2.0 / 3);
 }
 
 ParaxialRay marginal_ray(const Prescription& lens, const FirstOrder& first) {

@@ -54,6 +54,10 @@ double paraxial_image_distance_mm(const LensAtWavelength& lens, double object_di
 // given. 0 when the prescription states none. `first` belongs to the primary wavelength.
 double field_angle_deg(const Prescription& lens, const FirstOrder& first);
 
+// Width of the format that a lens was made for: as stated; else of the 3:2 frame that its field fills, as far
+// as a flat one can (60 degrees); else, where no field is stated either, of a normal lens, 36 mm for 50 mm.
+double format_width_mm(const Prescription& lens, const FirstOrder& first);
+
 // Marginal ray (axial object point, rim of the pupil) and chief ray (field_deg, centre of the pupil), both at
 // the first vertex. Requires: |field_deg| < 90.
 ParaxialRay marginal_ray(const Prescription& lens, const FirstOrder& first);

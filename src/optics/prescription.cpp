@@ -66,6 +66,8 @@ Status check(const Prescription& lens) {
         return wrong("field", lens.field, "0 to " + std::to_string(int(most)));
     if (!(lens.paraxial_field_deg >= 0 && lens.paraxial_field_deg < 90))
         return wrong("paraxial field in degrees", lens.paraxial_field_deg, "0 to below 90");
+    if (!(lens.sensor_width_mm >= 0 && lens.sensor_width_mm <= kLongest_mm))
+        return wrong("sensor width in mm", lens.sensor_width_mm, "positive, or 0 where not stated");
     const bool at_infinity = std::isinf(lens.object_distance_mm);
     if (at_infinity && lens.field_kind == FieldKind::ObjectHeight)
         return wrong("object distance in mm", lens.object_distance_mm, "finite for a field given as height");
@@ -86,6 +88,7 @@ Prescription scaled(Prescription lens, double factor) {
         for (AsphereTerm& term : surface.asphere) term.coefficient *= std::pow(factor, 1 - term.power);
     }
     lens.object_distance_mm *= factor;
+    lens.sensor_width_mm *= factor;
     if (lens.aperture_kind == ApertureKind::EntrancePupilDiameter ||
         lens.aperture_kind == ApertureKind::StopRadius)
         lens.aperture *= factor;

@@ -58,6 +58,7 @@ struct Prescription {
     // 0: both mean little for the whole field of a fisheye.
     double paraxial_field_deg = 0;
     double object_distance_mm = std::numeric_limits<double>::infinity();  // from the first vertex, > 0
+    double sensor_width_mm = 0;  // of the format it was made for; 0: not stated
     double short_um = kLineF_um, primary_um = kLineD_um, long_um = kLineC_um;
     bool dispersion_known = true;
 };

@@ -96,6 +96,26 @@ Result<Beam> TracedLens::beam(double wavelength_um, const ObjectPoint& object) c
                       sensor_mm_);
 }
 
+Result<double> axial_open_share(const TracedLens& lens) {
+    const Prescription& p = lens.prescription();
+    const auto beam = lens.beam(p.primary_um, 0.0);
+    if (!beam) return beam.error();
+    constexpr double kRounding = 1.02;
+    const double stop_clear_mm = p.surfaces[std::size_t(p.stop)].clear_radius_mm;
+    const auto passes = [&](double share) {
+        const SensorRay ray = beam->ray(0, share);
+        return ray.reached && ray.clearance <= kRounding &&
+               share * lens.stop_radius_mm() <= kRounding * stop_clear_mm;
+    };
+    if (passes(1)) return 1.0;
+    double inside = 0, outside = 1;
+    for (int step = 0; step < 20; ++step) {
+        const double between = 0.5 * (inside + outside);
+        (passes(between) ? inside : outside) = between;
+    }
+    return inside;
+}
+
 double best_focus_shift_mm(std::span<const Beam> axial_beams, std::span<const double> weights) {
     // Mean over the stop of (y + d * slope)^2, with dA = r dr; smallest at d = -<y slope>/<slope^2>.
     constexpr int kZones = 64;

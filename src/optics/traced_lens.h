@@ -59,6 +59,11 @@ private:
     double focus_distance_mm_ = 0;
 };
 
+// Share of the stop's radius, 0…1, that light from the middle of the field fills before a rim of the glass,
+// the stop's own included, cuts it: a lens that truly has its f-number gives 1. Rims that cut less than 2 %
+// of the radius count as the rounding of printed clear apertures. Errors: from TracedLens::beam.
+Result<double> axial_open_share(const TracedLens& lens);
+
 // Shift of the sensor, + away from the lens, at which the light of the axial beams has the smallest mean
 // square radius. One weight per beam (beams of several wavelengths); all beams must be on the axis.
 double best_focus_shift_mm(std::span<const Beam> axial_beams, std::span<const double> weights);

@@ -2,7 +2,8 @@
 //
 // usage: petzval_validate_lenses [LENSES.json]
 // Without a file: the lenses that ship. With one: a lens file, or a list {"lenses": […]} of them. Exit status
-// 1 when a number is not reproduced or a lens not read; 3 when the file is no list of lenses.
+// 1 when a number is not reproduced, a lens not read or its f-number more than its clear apertures pass; 3
+// when the file is no list of lenses.
 #include "lens_files/expected_values.h"
 #include "lens_files/glass_catalogue.h"
 #include "lens_files/readers.h"
@@ -22,7 +23,8 @@ using lens_files::ExpectedCheck;
 using lens_files::Json;
 
 struct Totals {
-    int lenses = 0, unread = 0, lenses_with_values = 0, numbers = 0, failed = 0, informative = 0;
+    int lenses = 0, unread = 0, too_small = 0, lenses_with_values = 0, numbers = 0, failed = 0,
+        informative = 0;
     double worst_share = 0;  // of what is allowed
     std::string worst;
 };
@@ -31,6 +33,7 @@ struct Table {
     std::string id, kind;
     std::vector<ExpectedCheck> checks;
     std::string problem;  // why the lens could not be read, or not checked to the end
+    std::string f_number_problem;
 };
 
 // Differences below what double precision carries through a lens are shown as 0.
@@ -100,13 +103,14 @@ void print_glass_summary() {
 
 Table table_of(const Json& entry) {
     const Json* id = entry.find("id");
-    Table table{id ? id->string : "line " + std::to_string(entry.line), {}, {}, {}};
+    Table table{id ? id->string : "line " + std::to_string(entry.line), {}, {}, {}, {}};
     const auto file = lens_files::read_json_lens(entry);
     if (!file) {
         table.problem = file.error().message;
         return table;
     }
     table.kind = file->lens.name;
+    table.f_number_problem = lens_files::f_number_problem(file->lens);
     const auto checks = lens_files::check_expected(entry, file->lens);
     if (checks)
         table.checks = *checks;
@@ -178,6 +182,12 @@ int main(int argc, char** argv) {
             std::fprintf(stderr, "petzval_validate_lenses: %s: %s\n", table.id.c_str(),
                          table.problem.c_str());
         }
+        if (!table.f_number_problem.empty()) {
+            ++totals.too_small;
+            std::printf("\n### %s\n\n**NO**: %s.\n", table.id.c_str(), table.f_number_problem.c_str());
+            std::fprintf(stderr, "petzval_validate_lenses: %s: %s\n", table.id.c_str(),
+                         table.f_number_problem.c_str());
+        }
         if (table.checks.empty()) continue;
         ++totals.lenses_with_values;
         print(table, totals);
@@ -188,6 +198,8 @@ int main(int argc, char** argv) {
         "more for information. The largest share of what is allowed is %.2f (%s).\n",
         totals.numbers, totals.lenses_with_values, totals.lenses, totals.numbers - totals.failed,
         totals.failed, totals.informative, totals.worst_share, totals.worst.c_str());
+    std::printf("\nClear apertures that pass the f-number: %d of %d lenses.\n",
+                totals.lenses - totals.unread - totals.too_small, totals.lenses);
     print_glass_summary();
-    return totals.failed > 0 || totals.unread > 0;
+    return totals.failed > 0 || totals.unread > 0 || totals.too_small > 0;
 }
