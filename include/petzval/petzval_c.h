@@ -34,7 +34,7 @@ typedef enum petzval_status {
     PETZVAL_UNSUPPORTED = 3,      /* understood, but this build or engine cannot do it */
     PETZVAL_OUTPUT_FAILED = 4,
     PETZVAL_OUT_OF_MEMORY = 5, /* of the machine, or more than the session may take */
-    PETZVAL_CANCELLED = 6,     /* the progress callback asked to stop */
+    PETZVAL_CANCELLED = 6,     /* a callback asked to stop */
     PETZVAL_INTERNAL = 7       /* a fault of ours */
 } petzval_status;
 
@@ -51,17 +51,42 @@ PETZVAL_C_API const char* petzval_version(void);
 
 typedef struct petzval_session petzval_session;
 
+/* Threads that a host lends. Both functions are called by any thread that asks for a frame, as long as the
+ * session lives; results never depend on who runs what. */
+typedef struct petzval_workers {
+    size_t size;
+    void* host;
+    /* How many bodies of one run may be under way at the same time, the calling thread's included: at least
+     * 1, and always the same. */
+    int (*width)(void* host);
+    /* Calls body(context, i) once for each i in 0…count-1, on any threads, in any order, and returns when all
+     * have returned. Bodies need no other body to be under way. */
+    void (*run)(void* host, int count, void (*body)(void* context, int index), void* context);
+} petzval_workers;
+
 typedef struct petzval_session_settings {
     size_t size;
-    int threads;               /* 0: all that this process may use */
-    uint64_t max_memory_bytes; /* for everything, what is kept between frames included; 0: no limit */
-    const char* kernel_folder; /* kernels that take long are kept here between runs; null: nowhere */
+    int threads;                    /* 0: all that this process may use */
+    uint64_t max_memory_bytes;      /* for everything, what is kept between frames included; 0: no limit */
+    const char* kernel_folder;      /* kernels that take long are kept here between runs; null: nowhere */
+    const petzval_workers* workers; /* in place of `threads`; copied; null: our own */
 } petzval_session_settings;
 
 /* settings may be null: all threads, no limits. */
 PETZVAL_C_API petzval_status petzval_session_open(const petzval_session_settings* settings,
                                                   petzval_session** session);
 PETZVAL_C_API void petzval_session_close(petzval_session* session); /* no call may be under way */
+
+typedef struct petzval_usage {
+    size_t size;
+    uint64_t kept_bytes; /* kernels kept between frames */
+    int lenses;          /* mounted on cameras, and kept */
+} petzval_usage;
+
+/* usage->size says how much of it is written. */
+PETZVAL_C_API petzval_status petzval_session_usage(const petzval_session* session, petzval_usage* usage);
+/* Lets go of what was not used longest until at most so many bytes are kept. */
+PETZVAL_C_API petzval_status petzval_session_trim(petzval_session* session, uint64_t bytes);
 
 /* --- Names
  * ---------------------------------------------------------------------------------------------------- */
@@ -119,6 +144,29 @@ typedef struct petzval_camera {
     int thin_lens; /* 0: the picture's sensor stands one focal length behind the pinhole, as renderers do */
 } petzval_camera;
 
+/* One thing seen in one pixel: premultiplied by its own coverage a, from depth to depth_back (equal for a
+ * surface); metres, or radii where the shot gives radii. This struct and petzval_light never grow. */
+typedef struct petzval_deep_sample {
+    float r, g, b, a, depth, depth_back;
+} petzval_deep_sample;
+
+/* Any number of samples in each pixel, nearest first, rows top to bottom. Those of pixel i = y * width + x
+ * are first[i]…first[i + 1] - 1; first has width * height + 1 entries, the last one being sample_count. */
+typedef struct petzval_deep {
+    size_t size;
+    int width, height;
+    const uint64_t* first;
+    const petzval_deep_sample* samples;
+    uint64_t sample_count;
+} petzval_deep;
+
+/* A light for the engine "sprites": its place in pixels of the picture (centres at +0.5, may lie outside),
+ * what it adds to the one pixel it lights when in focus, its depth (metres) or where that is NaN its signed
+ * radius, and its own width in pixels. */
+typedef struct petzval_light {
+    float x, y, r, g, b, depth_m, radius_px, diameter_px;
+} petzval_light;
+
 /* What was rendered. Only read. */
 typedef struct petzval_shot {
     size_t size;
@@ -129,6 +177,12 @@ typedef struct petzval_shot {
     const petzval_camera* camera;             /* may be null with radii_px and an ideal lens */
     petzval_rect display_window, data_window; /* both empty: the picture is the frame */
     double pixel_aspect;                      /* width / height of a pixel; 0: 1 */
+    /* All null where there are none; of the picture's size. */
+    const petzval_deep* deep;    /* all samples of a deep picture; colour and depth are its front view */
+    const petzval_deep* behind;  /* hidden layers: what the visible surfaces hide */
+    const petzval_deep* holdout; /* a matte that is not blurred and dims what lies behind it */
+    const petzval_light* lights;
+    uint64_t light_count;
 } petzval_shot;
 
 /* --- A frame
@@ -140,15 +194,25 @@ typedef struct petzval_control {
     /* Share done, 0…1, never falling, one call at a time, from any thread; 0 returned cancels. May be null.
      */
     int (*progress)(void* host, double done);
+    /* Asked often, by any thread at any time: 1 cancels. May be null. */
+    int (*cancelled)(void* host);
+    /* The part of the frame to be made, in pixels as the windows are; empty: all of the data window. It is
+     * the crop of the whole, bit for bit. */
+    petzval_rect region;
 } petzval_control;
 
 typedef struct petzval_report petzval_report;
 
-/* look null: the defaults; control and report may be null. `out` is of the size of the picture, or of the
- * region, and may be the memory of the input. Nothing is written to `out` unless PETZVAL_OK is returned. */
+/* look null: the defaults; control and report may be null. `out` is of the size of the picture, or of what of
+ * it lies in the region, and may be the memory of the input. Nothing is written to `out` unless PETZVAL_OK is
+ * returned. */
 PETZVAL_C_API petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot,
                                              const petzval_look* look, const petzval_control* control,
                                              const petzval_pixels* out, petzval_report** report);
+/* Pixels around a region that are looked at for it: a host that has no more than those gets the same
+ * region. */
+PETZVAL_C_API petzval_status petzval_region_margin_px(petzval_session* session, const petzval_shot* shot,
+                                                      const petzval_look* look, int* margin_px);
 /* Engine, lens, device, radii, seconds by stage, warnings. Lives as long as the report. */
 PETZVAL_C_API const char* petzval_report_json(const petzval_report* report);
 PETZVAL_C_API void petzval_report_close(petzval_report* report);

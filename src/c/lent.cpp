@@ -1,6 +1,8 @@
 #include "c/lent.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 namespace petzval::c {
 namespace {
@@ -51,7 +53,66 @@ Status take_depth(const petzval_shot& shot, TakenShot& into) {
     return Done{};
 }
 
+// Samples are read once, so that a host that changes them meanwhile breaks nothing.
+Status take_deep(const petzval_deep* given, const TakenShot& shot, const char* name, DeepPicture& into) {
+    if (!given) return Done{};
+    const petzval_deep deep = taken(given);
+    const int width = shot.colour.width(), height = shot.colour.height();
+    if (deep.width != width || deep.height != height)
+        return refused(std::string(name) + " is not of the size of colour");
+    if (!deep.first || (!deep.samples && deep.sample_count > 0))
+        return refused(std::string(name) + ": first or samples is null");
+    const std::size_t pixels = std::size_t(width) * std::size_t(height);
+    std::vector<std::size_t> first(deep.first, deep.first + pixels + 1);
+    if (first.front() != 0 || first.back() != deep.sample_count ||
+        !std::is_sorted(first.begin(), first.end()))
+        return refused(std::string(name) + ": first must rise from 0 to sample_count");
+    std::vector<DeepSample> samples;
+    samples.reserve(first.back());
+    for (std::size_t i = 0; i < first.back(); ++i) {
+        const petzval_deep_sample& s = deep.samples[i];
+        samples.push_back({{s.r, s.g, s.b, s.a}, s.depth, s.depth_back});
+    }
+    into = DeepPicture(width, height, std::move(first), std::move(samples));
+    return Done{};
+}
+
+Status take_lights(const petzval_shot& shot, TakenShot& into) {
+    if (shot.light_count == 0) return Done{};
+    if (!shot.lights) return refused("lights is null");
+    for (std::uint64_t i = 0; i < shot.light_count; ++i) {
+        const petzval_light& l = shot.lights[i];
+        into.lights.push_back({l.x, l.y, l.r, l.g, l.b, l.depth_m, l.radius_px, l.diameter_px});
+    }
+    into.job.points = &into.lights;
+    return Done{};
+}
+
+// A host's functions behind our interface.
+class LentWorkers final : public Workers {
+public:
+    explicit LentWorkers(const petzval_workers& lent)
+        : lent_(lent), width_(std::max(1, lent.width(lent.host))) {}
+    int width() const override { return width_; }
+    void run(int count, FunctionRef<void(int)> body) override {
+        lent_.run(
+            lent_.host, count,
+            [](void* context, int index) { (*static_cast<FunctionRef<void(int)>*>(context))(index); }, &body);
+    }
+
+private:
+    petzval_workers lent_;
+    int width_;
+};
+
 }  // namespace
+
+Result<std::shared_ptr<Workers>> workers_of(const petzval_workers* given) {
+    if (!given) return std::shared_ptr<Workers>();
+    const petzval_workers lent = taken(given);
+    if (!lent.width || !lent.run) return refused("workers: width or run is null");
+    return std::shared_ptr<Workers>(std::make_shared<LentWorkers>(lent));
+}
 
 Result<ColourView> colour_view(const petzval_pixels* given, const char* name) {
     if (!given) return refused(std::string(name) + " is null");
@@ -93,7 +154,19 @@ Status TakenShot::take(const petzval_shot* given, TakenShot& into) {
         return refused("data_window is not of the picture's size");
     if (shot.pixel_aspect != 0) into.job.place.pixel_aspect = shot.pixel_aspect;
     if (shot.camera) into.job.camera = camera_of(taken(shot.camera));
-    return Done{};
+    struct Deep {
+        const petzval_deep* given;
+        const char* name;
+        DeepPicture& own;
+        const DeepPicture*& of_job;
+    };
+    for (const Deep& d : {Deep{shot.deep, "deep", into.deep, into.job.deep},
+                          Deep{shot.behind, "behind", into.behind, into.job.behind},
+                          Deep{shot.holdout, "holdout", into.holdout, into.job.holdout}}) {
+        if (Status ok = take_deep(d.given, into, d.name, d.own); !ok) return ok;
+        if (d.given) d.of_job = &d.own;
+    }
+    return take_lights(shot, into);
 }
 
 }  // namespace petzval::c

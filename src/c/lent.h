@@ -1,13 +1,18 @@
-// What a C host lends, as the library takes it: pictures.
+// What a C host lends, as the library takes it: pictures, samples, lights, threads.
 #pragma once
 
+#include "petzval/deep.h"
+#include "petzval/light_point.h"
 #include "petzval/petzval_c.h"
 #include "petzval/pixel_view.h"
 #include "petzval/result.h"
 #include "petzval/session.h"
+#include "petzval/workers.h"
 
 #include <cstddef>
 #include <cstring>
+#include <memory>
+#include <vector>
 
 namespace petzval::c {
 
@@ -31,9 +36,14 @@ Status check_plane(const petzval_plane* given, int width, int height, const char
 struct TakenShot {
     Picture colour;
     Plane depth;
-    DefocusJob job;  // of `colour` and `depth`
+    DeepPicture deep, behind, holdout;
+    std::vector<LightPoint> lights;
+    DefocusJob job;  // of all these
     // Errors: InvalidArgument naming the field.
     static Status take(const petzval_shot* given, TakenShot& into);
 };
+
+// Errors: InvalidArgument naming the function that is missing.
+Result<std::shared_ptr<Workers>> workers_of(const petzval_workers* given);
 
 }  // namespace petzval::c

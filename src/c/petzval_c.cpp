@@ -10,6 +10,8 @@
 #include "c/lent.h"
 #include "c/report_text.h"
 
+#include <algorithm>
+#include <cstring>
 #include <exception>
 #include <iterator>
 #include <memory>
@@ -84,12 +86,16 @@ petzval_status guarded(const Body& body) noexcept {
     }
 }
 
-SessionSettings settings_of(const petzval_session_settings* given) {
+// Errors: those of lent workers.
+Result<SessionSettings> settings_of(const petzval_session_settings* given) {
     const petzval_session_settings s = c::taken(given);
     SessionSettings settings;
     settings.threads = s.threads;
     settings.max_memory_bytes = std::size_t(s.max_memory_bytes);
     if (s.kernel_folder) settings.kernel_cache_folder = s.kernel_folder;
+    auto workers = c::workers_of(s.workers);
+    if (!workers) return workers.error();
+    settings.workers = std::move(*workers);
     return settings;
 }
 
@@ -97,6 +103,9 @@ Control control_of(const petzval_control* given) {
     const petzval_control c = c::taken(given);
     Control control;
     if (c.progress) control.progress = [c](double done) { return c.progress(c.host, done) != 0; };
+    if (c.cancelled) control.cancelled = [c] { return c.cancelled(c.host) != 0; };
+    const Rect region{c.region.x0, c.region.y0, c.region.x1, c.region.y1};
+    if (!region.empty()) control.region = region;
     return control;
 }
 
@@ -117,11 +126,15 @@ petzval_status take_frame(petzval_session* session, const petzval_shot* given, c
     if (!into) return fail(into.error());
     c::TakenShot shot;
     if (const Status taken = c::TakenShot::take(given, shot); !taken) return fail(taken.error());
-    if (into->width != shot.colour.width() || into->height != shot.colour.height())
-        return fail(PETZVAL_INVALID_ARGUMENT, "out and the shot's colour must be of one size");
+    const Control how = control_of(control);
+    const Rect data = shot.job.place.data_window, asked = how.region ? how.region->intersected(data) : data;
+    if (!asked.empty() && (into->width != asked.width() || into->height != asked.height()))
+        return fail(PETZVAL_INVALID_ARGUMENT, how.region
+                                                  ? "out must be of the size of what lies in control.region"
+                                                  : "out and the shot's colour must be of one size");
     const Look chosen = look ? look->look : Look{};
     if (const Status ok = check_pictures(chosen); !ok) return fail(ok.error());
-    const auto frame = session->session.take(shot.job, chosen, control_of(control));
+    const auto frame = session->session.take(shot.job, chosen, how);
     if (!frame) return fail(frame.error());
     if (report) {
         auto made = std::make_unique<petzval_report>();
@@ -163,12 +176,33 @@ petzval_status petzval_session_open(const petzval_session_settings* settings, pe
     if (!session) return missing("session");
     *session = nullptr;
     return guarded([&] {
-        *session = new petzval_session{Session(settings_of(settings))};
+        auto taken = settings_of(settings);
+        if (!taken) return fail(taken.error());
+        *session = new petzval_session{Session(std::move(*taken))};
         return PETZVAL_OK;
     });
 }
 
 void petzval_session_close(petzval_session* session) { delete session; }
+
+petzval_status petzval_session_usage(const petzval_session* session, petzval_usage* usage) {
+    if (!session) return missing("session");
+    if (!usage) return missing("usage");
+    return guarded([&] {
+        const SessionUsage used = session->session.usage();
+        const petzval_usage whole{usage->size, used.kept_bytes, used.lenses};
+        std::memcpy(usage, &whole, std::min(usage->size, sizeof whole));
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_session_trim(petzval_session* session, uint64_t bytes) {
+    if (!session) return missing("session");
+    return guarded([&] {
+        session->session.trim(std::size_t(bytes));
+        return PETZVAL_OK;
+    });
+}
 
 const char* petzval_engine_name(int index) {
     static const std::vector<std::string> names = engine_names();
@@ -229,6 +263,21 @@ petzval_status petzval_defocus(petzval_session* session, const petzval_shot* sho
     if (report) *report = nullptr;
     if (!session) return missing("session");
     return guarded([&] { return take_frame(session, shot, look, control, out, report); });
+}
+
+petzval_status petzval_region_margin_px(petzval_session* session, const petzval_shot* given,
+                                        const petzval_look* look, int* margin_px) {
+    if (!session) return missing("session");
+    if (!margin_px) return missing("margin_px");
+    return guarded([&] {
+        c::TakenShot shot;
+        if (const Status taken = c::TakenShot::take(given, shot); !taken) return fail(taken.error());
+        const auto margin =
+            session->session.region_margin_px(with_look(shot.job, look ? look->look : Look{}));
+        if (!margin) return fail(margin.error());
+        *margin_px = *margin;
+        return PETZVAL_OK;
+    });
 }
 
 const char* petzval_report_json(const petzval_report* report) { return report ? report->json.c_str() : ""; }

@@ -171,6 +171,147 @@ static void test_what_is_wrong_is_said_and_nothing_is_written(petzval_session* s
     petzval_session_close(NULL);
 }
 
+/* A pool of one thread, which counts. */
+typedef struct pool {
+    int runs, bodies;
+} pool;
+static int pool_width(void* host) {
+    (void)host;
+    return 3;
+}
+static void pool_run(void* host, int count, void (*body)(void* context, int index), void* context) {
+    int i;
+    ((pool*)host)->runs += 1;
+    for (i = count - 1; i >= 0; --i) {
+        body(context, i);
+        ((pool*)host)->bodies += 1;
+    }
+}
+
+static void test_threads_may_be_lent(petzval_session* own) {
+    static picture in, out, lent_out;
+    pool counted = {0, 0};
+    petzval_workers workers = {0};
+    petzval_session_settings settings = {0};
+    petzval_session* session = NULL;
+    paint(&in, 0);
+    workers.size = sizeof workers;
+    workers.host = &counted;
+    workers.width = pool_width;
+    settings.size = sizeof settings;
+    settings.workers = &workers;
+    expect(petzval_session_open(&settings, &session) == PETZVAL_INVALID_ARGUMENT && session == NULL,
+           "workers that cannot run are refused");
+    workers.run = pool_run;
+    expect(petzval_session_open(&settings, &session) == PETZVAL_OK, "lent workers");
+    expect(defocus(session, NULL, &in, &lent_out, 0, NULL, NULL) == PETZVAL_OK, "a frame by them");
+    expect(counted.runs > 0 && counted.bodies > counted.runs, "they did the work");
+    expect(defocus(own, NULL, &in, &out, 0, NULL, NULL) == PETZVAL_OK, "the same by our own");
+    expect(memcmp(&out, &lent_out, sizeof out) == 0, "whoever works, the bits are the same");
+    petzval_session_close(session);
+}
+
+static void test_a_region_is_a_crop_of_the_whole(petzval_session* session) {
+    static picture in, out;
+    enum { X = 14, Y = 11, W = 9, H = 6 };
+    float part[H][W][4];
+    petzval_pixels colour, into;
+    const petzval_plane plane = radii_plane();
+    petzval_shot shot = {0};
+    petzval_control control = {0};
+    int x, y, same = 1, margin = 0;
+    paint(&in, 0);
+    colour = pixels_of(&in, 0);
+    shot.size = sizeof shot;
+    shot.colour = &colour;
+    shot.radii_px = &plane;
+    into = pixels_of(&out, 0);
+    expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "the whole");
+    into.width = W;
+    into.height = H;
+    into.r = &part[0][0][0];
+    into.g = &part[0][0][1];
+    into.b = &part[0][0][2];
+    into.a = &part[0][0][3];
+    into.row_stride = sizeof part[0];
+    control.size = sizeof control;
+    control.region.x0 = X;
+    control.region.y0 = Y;
+    control.region.x1 = X + W;
+    control.region.y1 = Y + H;
+    expect(petzval_defocus(session, &shot, NULL, &control, &into, NULL) == PETZVAL_OK, "a region");
+    for (y = 0; y < H; ++y)
+        for (x = 0; x < W; ++x) same = same && memcmp(part[y][x], out.rgba[Y + y][X + x], sizeof part[0][0]) == 0;
+    expect(same, "bit for bit");
+    control.region.x1 += 1;
+    expect(petzval_defocus(session, &shot, NULL, &control, &into, NULL) == PETZVAL_INVALID_ARGUMENT,
+           "out of another size is refused");
+    expect(petzval_region_margin_px(session, &shot, NULL, &margin) == PETZVAL_OK && margin > 20 && margin < 100,
+           "it says what it looks at");
+}
+
+static int stop(void* host) {
+    ++*(int*)host;
+    return 1;
+}
+
+static void test_what_lies_behind_and_lights(petzval_session* session) {
+    static picture in, out, bare;
+    static uint64_t first[WIDTH * HEIGHT + 1];
+    static petzval_deep_sample samples[WIDTH * HEIGHT];
+    petzval_pixels colour, into = pixels_of(&out, 0);
+    const petzval_plane plane = radii_plane();
+    petzval_shot shot = {0};
+    petzval_deep behind = {0};
+    petzval_light light = {10.5f, 10.5f, 50, 50, 50, NAN, 4, 0};
+    petzval_look* look = NULL;
+    petzval_control control = {0};
+    petzval_usage usage = {0};
+    int i, asked = 0;
+    paint(&in, 0);
+    colour = pixels_of(&in, 0);
+    shot.size = sizeof shot;
+    shot.colour = &colour;
+    shot.radii_px = &plane;
+    for (i = 0; i < WIDTH * HEIGHT; ++i) {
+        const petzval_deep_sample s = {0.2f, 0.4f, 0.6f, 1, 9, 9};
+        radii[i / WIDTH][i % WIDTH] = i % WIDTH < 24 ? -6 : 9;
+        samples[i] = s;
+        first[i + 1] = (uint64_t)i + 1;
+    }
+    expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "as seen");
+    bare = out;
+    behind.size = sizeof behind;
+    behind.width = WIDTH;
+    behind.height = HEIGHT;
+    behind.first = first;
+    behind.samples = samples;
+    behind.sample_count = WIDTH * HEIGHT;
+    shot.behind = &behind;
+    expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "with what lies behind");
+    expect(memcmp(&out, &bare, sizeof out) != 0, "which is seen past the edge");
+    behind.sample_count = 7;
+    expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_INVALID_ARGUMENT,
+           "samples that are not counted right are refused");
+    shot.behind = NULL;
+    shot.lights = &light;
+    shot.light_count = 1;
+    expect(petzval_look_new(&look) == PETZVAL_OK && petzval_look_set(look, "engine", "sprites") == PETZVAL_OK,
+           "sprites");
+    expect(petzval_defocus(session, &shot, look, NULL, &into, NULL) == PETZVAL_OK, "a light");
+    control.size = sizeof control;
+    control.host = &asked;
+    control.cancelled = stop;
+    expect(petzval_defocus(session, &shot, look, &control, &into, NULL) == PETZVAL_CANCELLED && asked > 0,
+           "cancelled by being asked");
+    usage.size = sizeof usage;
+    expect(petzval_session_usage(session, &usage) == PETZVAL_OK && usage.lenses > 0, "what is kept");
+    expect(petzval_session_trim(session, 0) == PETZVAL_OK && petzval_session_usage(session, &usage) == PETZVAL_OK &&
+               usage.kept_bytes == 0,
+           "may be let go");
+    petzval_look_close(look);
+}
+
 /* A host that was built when settings held a size and nothing else. */
 static void test_structs_of_older_hosts(void) {
     struct {
@@ -210,6 +351,9 @@ int main(void) {
     test_a_frame_may_be_made_in_place(session);
     test_looks(session);
     test_what_is_wrong_is_said_and_nothing_is_written(session);
+    test_threads_may_be_lent(session);
+    test_a_region_is_a_crop_of_the_whole(session);
+    test_what_lies_behind_and_lights(session);
     petzval_session_close(session);
     test_structs_of_older_hosts();
     test_names();
