@@ -110,6 +110,17 @@ float HighlightSplit::floor_at(int x, int y, float coc_px) const {
     return white_ * std::min(open, rule_.contested_floor * std::max(1.0f, radius / kRisesFromPx));
 }
 
+Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
+    const float brightness = luminance(light), least = white_ * rule_.lamp_floor * light.a;
+    if (brightness <= least || light.a <= kLeastAlpha) return light;
+    const float around = light.a * surroundings_(x / kCell, y / kCell);
+    const float bound = least + rule_.lamp_factor * around;
+    if (brightness <= bound) return light;
+    // The brighter, the more surely it says nothing of the surface: from the bound down to what is around.
+    const Rgba scaled = light * (std::max(around, bound * (bound / brightness)) / brightness);
+    return {scaled.r, scaled.g, scaled.b, light.a};
+}
+
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};

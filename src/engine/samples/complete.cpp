@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/lamps.h"
 #include "engine/samples/layers.h"
 
 #include <algorithm>
@@ -75,23 +76,29 @@ CocSamples deep_completed(const Input& input) {
 
 }  // namespace
 
-CocSamples completed(const Input& input, View<const unsigned char> connected) {
+CocSamples completed(const Input& input, View<const unsigned char> connected,
+                     const std::function<Rgba(int, int)>& dim) {
     if (!input.deep.empty()) return deep_completed(input);
-    auto mixtures = unmix_silhouettes(input.colour, input.coc_px, connected, *input.workers);
+    const LitPicture picture{input.colour, dim};
+    auto mixtures = unmix_silhouettes(picture, input.coc_px, connected, *input.workers);
     const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
-    const auto hidden = fill_hidden(input.colour, input.coc_px, connected, mixtures, input.nearest_coc_px,
+    const auto hidden = fill_hidden(picture, input.coc_px, connected, mixtures, input.nearest_coc_px,
                                     input.farthest_coc_px, shared_from_px, *input.workers);
 
-    unmix_nearer(mixtures, input.colour, hidden, *input.workers);
+    unmix_nearer(mixtures, picture, hidden, *input.workers);
+    const HiddenLamps lamps =
+        picture.dim_at ? lamps_behind(picture, input.coc_px, mixtures, *input.workers) : HiddenLamps{};
 
     // Counted first, then written, so that rows can be done in parallel.
     const int width = input.width(), height = input.height();
-    const auto samples_at = [&](int x, int y, const auto& emit) {
+    const auto surfaces_at = [&](int x, int y, const auto& emit) {
         if (const Mixture* m = mixtures.at(x, y)) {
-            if (m->near_share > kLeastShare) emit(sample(m->near_colour, m->near_coc_px, m->near_share));
+            if (m->near_share > kLeastShare || m->lights_near)
+                emit(sample(m->near_colour, m->near_coc_px, m->near_share));
             const auto behind = hidden.at(x, y);
             for (const Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
             if (behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
+            if (m->far_light != Rgba{}) emit(CocSample{unhidden_light(*m), m->lamp_coc_px, m->lamp_coc_px});
         } else {
             emit(sample(input.colour(x, y), input.coc_px(x, y), 1));
             for (const Hidden& h : hidden.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
@@ -100,7 +107,8 @@ CocSamples completed(const Input& input, View<const unsigned char> connected) {
     std::vector<std::size_t> first_of_row(std::size_t(height) + 1, 0);
     parallel_for(height, *input.workers, [&](int y) {
         std::size_t n = 0;
-        for (int x = 0; x < width; ++x) samples_at(x, y, [&](const CocSample&) { ++n; });
+        for (int x = 0; x < width; ++x) surfaces_at(x, y, [&](const CocSample&) { ++n; });
+        n += lamps.row(y).size();
         first_of_row[std::size_t(y) + 1] = n;
     });
     std::partial_sum(first_of_row.begin(), first_of_row.end(), first_of_row.begin());
@@ -110,9 +118,12 @@ CocSamples completed(const Input& input, View<const unsigned char> connected) {
     all.samples.resize(first_of_row.back());
     parallel_for(height, *input.workers, [&](int y) {
         std::size_t at = first_of_row[std::size_t(y)];
+        auto lamp = lamps.row(y).begin();
         for (int x = 0; x < width; ++x) {
             all.first[std::size_t(y) * std::size_t(width) + std::size_t(x)] = at;
-            samples_at(x, y, [&](const CocSample& s) { all.samples[at++] = s; });
+            surfaces_at(x, y, [&](const CocSample& s) { all.samples[at++] = s; });
+            if (lamp != lamps.row(y).end() && lamp->x == x)
+                all.samples[at++] = {lamp->light, lamp->coc_px, lamp->coc_px, 0}, ++lamp;
         }
     });
     all.first.back() = all.samples.size();

@@ -6,13 +6,17 @@
 
 #include "engine/waist/engine.h"
 
+#include <functional>
+
 namespace petzval::engine {
 
 // Every sample of every pixel, nearest first. A deep input says it all itself; of a flat one, pixels at
 // silhouettes are taken apart into what they show of each surface, and what is hidden near silhouettes is
 // filled in (engine/samples/hidden.h). What a flat pixel leaves uncovered (alpha below 1) lies at the far end
 // as emptiness: covered, transparent black. `connected`: connections(input.coc_px).
-CocSamples completed(const Input& input, View<const unsigned char> connected);
+// `dim`: LitPicture::dim_at of input.colour.
+CocSamples completed(const Input& input, View<const unsigned char> connected,
+                     const std::function<Rgba(int, int)>& dim);
 
 // From samples that dim each other (Input::deep_dims_itself) to shares of the lens: what a ray straight
 // through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front

@@ -82,9 +82,9 @@ private:
 
 class Filler {
 public:
-    Filler(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
+    Filler(const LitPicture& picture, View<const float> coc, View<const unsigned char> connected,
            const Sparse<Mixture>& mixtures, float largest, float farthest, Workers& workers)
-        : colour_(colour),
+        : picture_(picture),
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
@@ -124,7 +124,7 @@ private:
     }
     Rgba known_colour(int x, int y) const {
         const Mixture* m = mixtures_.at(x, y);
-        return m ? m->far_colour : colour_(x, y);
+        return m ? m->far_colour : picture_.dim(x, y);
     }
 
     // Per block of pixels: distance to each silhouette of a surface in the block, less the blur of what lies
@@ -319,7 +319,7 @@ private:
         return votes.result();
     }
 
-    View<const Rgba> colour_;
+    const LitPicture& picture_;
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Sparse<Mixture>& mixtures_;
@@ -369,14 +369,15 @@ private:
 
 }  // namespace
 
-HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc, View<const unsigned char> connected,
-                         const Sparse<Mixture>& mixtures, float nearest_coc_px, float farthest_coc_px,
-                         float shared_from_px, Workers& workers) {
+HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
+                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
+                         float nearest_coc_px, float farthest_coc_px, float shared_from_px,
+                         Workers& workers) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
     if (mixtures.values.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
-    const Filler filler(colour, coc, connected, mixtures, largest, farthest_coc_px, workers);
+    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
     layers.ranges = Image<Range>::uninitialised(width, height);

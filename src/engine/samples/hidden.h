@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,14 +22,24 @@ inline Rgba comparable(Rgba c) {
             c.a};
 }
 
+// A picture, and what its surfaces look like without the lamps on them, pixel by pixel (HighlightSplit::dim).
+struct LitPicture {
+    View<const Rgba> colour;
+    std::function<Rgba(int, int)> dim_at;  // empty: it shows no lamps
+    Rgba dim(int x, int y) const { return dim_at ? dim_at(x, y) : colour(x, y); }
+};
+
 // A pixel of a silhouette taken apart. The renderer filtered its colour over the pixel and beyond, but its
-// depth is that of one point:  colour = near_colour + (1 - near_share) far_colour.
+// depth is that of one point:
+//     colour = near_colour + (1 - near_share) far_colour + far_light.
 struct Mixture {
-    bool shows_far = false;  // that point lies on the farther surface
-    float near_share = 0;    // 0…1: coverage of the nearer surface
-    Rgba near_colour;        // premultiplied by near_share
-    Rgba far_colour;         // of the farther surface, as if it filled the pixel
-    float near_coc_px = 0, far_coc_px = 0;
+    bool shows_far = false;    // that point lies on the farther surface
+    bool lights_near = false;  // lamps light the nearer surface
+    float near_share = 0;      // 0…1: coverage of the nearer surface
+    Rgba near_colour;          // premultiplied by near_share; with light of lamps on it
+    Rgba far_colour;           // of the farther surface, as if it filled the pixel; without lamps
+    Rgba far_light;            // of lamps behind the nearer surface, as the pixel shows it; a is 0
+    float near_coc_px = 0, far_coc_px = 0, lamp_coc_px = 0;
     // What is known of the nearer surface beforehand: its colour where it fills pixels, the variance of that
     // (mean of the channels), and the share that the shape of the silhouette tells.
     Rgba near_clean;
@@ -51,7 +62,8 @@ struct Sparse {
 // that has none, from its pixels least like the far side); the share is the one expected of all that explain
 // the pixel, and what it leaves unexplained is the farther surface's detail. Of those that show the nearer
 // surface hardly anything of the farther one is to be seen: it is filled in first, then unmix_nearer().
-Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc_px,
+// Light of lamps goes to one side whole: to that whose pixels nearby show more of it.
+Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
                                   View<const unsigned char> connected, Workers& workers);
 
 // A sample behind the visible one that takes up `share` of its pixel; colour is premultiplied by that and by
@@ -76,7 +88,7 @@ struct HiddenLayers {
 };
 
 // Takes apart the pixels of silhouettes that show the nearer surface, before what is hidden behind them.
-void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
+void unmix_nearer(Sparse<Mixture>& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers);
 
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
@@ -87,7 +99,7 @@ void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const Hidd
 // Neighbours share what was found where it is blurred by shared_from_px or more: squares of 2,
 // of 4 at twice, of 8 at six times that. Where nothing was found nothing is shared: that is the pixel's own
 // distance from the silhouette.
-HiddenLayers fill_hidden(View<const Rgba> colour, View<const float> coc_px,
+HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
                          float nearest_coc_px, float farthest_coc_px, float shared_from_px, Workers& workers);
 

@@ -49,9 +49,10 @@ Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float 
             d.coc(x, y) = middle >= left && middle < right ? kNearPx : kFarPx;
         }
     const Image<unsigned char> connected = connections(d.coc, one_thread());
-    d.mixtures = unmix_silhouettes(d.colour, d.coc, connected, one_thread());
-    d.hidden = fill_hidden(d.colour, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, one_thread());
-    unmix_nearer(d.mixtures, d.colour, d.hidden, one_thread());
+    const LitPicture picture{d.colour, {}};
+    d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread());
+    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, one_thread());
+    unmix_nearer(d.mixtures, picture, d.hidden, one_thread());
     return d;
 }
 
@@ -111,6 +112,31 @@ TEST(Hidden, TheDarkSideOfAWireLeavesNoMarkBehindIt) {
     // Bright along one side, dark along the other: neither is what the wall behind looks like.
     const Paint wire = [](int x, int y) { return grey(x - y < 4 ? 0.7f : 0.02f); };
     EXPECT_LT(background_error(behind_wire([](int, int) { return grey(0.4f); }, wire, 6)), 0.03);
+}
+
+TEST(Hidden, ALampBehindAnEdgeShinesFromBehindIt) {
+    // It shines through the pixels along a wire's edge, also through those that show the wire.
+    Drawn d;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const bool wire = x >= 20 && x < 28;
+            d.colour(x, y) = grey(wire ? 0.1f : 0.04f), d.coc(x, y) = wire ? kNearPx : kFarPx;
+        }
+    d.colour(19, 24) = grey(30), d.colour(20, 24) = grey(60);
+    const LitPicture picture{d.colour, [&](int x, int y) { return grey(std::min(d.colour(x, y).g, 0.2f)); }};
+    const Image<unsigned char> connected = connections(d.coc, one_thread());
+    d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread());
+    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, one_thread());
+    unmix_nearer(d.mixtures, picture, d.hidden, one_thread());
+    for (const int x : {19, 20}) {
+        ASSERT_TRUE(d.mixtures.at(x, 24));
+        const Mixture& m = *d.mixtures.at(x, 24);
+        EXPECT_NEAR(m.far_light.g, d.colour(x, 24).g - 0.2f, 0.01f) << x;
+        EXPECT_LT(m.near_colour.g, 0.3f) << x;
+        EXPECT_FLOAT_EQ(m.lamp_coc_px, kFarPx) << x;
+    }
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 20; x < 28; ++x) EXPECT_LT(d.background(x, y).g, 0.3f) << "not painted behind the wire";
 }
 
 TEST(Hidden, LightOfALampBeforeANightSkyIsTheLamps) {

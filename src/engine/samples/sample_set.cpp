@@ -5,10 +5,10 @@
 
 namespace petzval::engine {
 
-SampleSet complete_samples(const Input& input) {
+SampleSet complete_samples(const Input& input, const std::function<Rgba(int, int)>& dim) {
     SampleSet set;
     set.connected = connections(input.coc_px, *input.workers);
-    set.samples = completed(input, set.connected);
+    set.samples = completed(input, set.connected, dim);
     return set;
 }
 

@@ -3,6 +3,8 @@
 
 #include "engine/waist/engine.h"
 
+#include <functional>
+
 namespace petzval::engine {
 
 struct SampleSet {
@@ -11,6 +13,7 @@ struct SampleSet {
         connected;  // of the pixels of what the picture shows (engine/samples/connectivity.h)
 };
 
-SampleSet complete_samples(const Input& input);
+// `dim`: what a pixel of input.colour shows without lamps (LitPicture::dim_at); empty: it shows none.
+SampleSet complete_samples(const Input& input, const std::function<Rgba(int, int)>& dim = {});
 
 }  // namespace petzval::engine

@@ -84,29 +84,30 @@ struct Sides {
 // show them).
 constexpr float kOtherSide = 0.5f;
 
-Sides look_around(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
+Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
                   int y, float threshold) {
     Sides s;
     const Rect window = Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(coc.rect());
-    const float own_light = std::max(0.0f, luminance(colour(x, y))) + kDark;
+    const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + kDark;
     float tent_total = 0;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
             const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
             const bool near = coc(u, v) <= threshold;
+            const Rgba colour = picture.dim(u, v);
             // Far pixels count little, and pixels much brighter than this one too: a lamp nearby is not this
             // surface.
-            const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour(u, v)))));
+            const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour))));
             if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) {
                 const float tent = (u == x ? 2.0f : 1.0f) * (v == y ? 2.0f : 1.0f);
                 tent_total += tent;
                 if (near) s.near_share_by_shape += tent;
             }
             if (near) {
-                if (!touching(u, v)) s.near_clean.add(colour(u, v), weight);
+                if (!touching(u, v)) s.near_clean.add(colour, weight);
                 if (d2 < s.near_closest) s.near_closest = d2, s.near_coc = coc(u, v);
             } else {
-                (touching(u, v) ? s.far_mixed : s.far_clean).add(colour(u, v), weight);
+                (touching(u, v) ? s.far_mixed : s.far_clean).add(colour, weight);
                 if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
             }
         }
@@ -119,13 +120,13 @@ Sides look_around(View<const Rgba> colour, View<const float> coc, View<const uns
 
 // The colour of a thin thing that has no clean pixel: its pixels nearby count as they differ from the far
 // side.
-Guess least_like(Rgba far_colour, View<const Rgba> colour, View<const float> coc, int x, int y,
+Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> coc, int x, int y,
                  float threshold) {
     Pool pool;
     for (int v = std::max(0, y - 2); v <= std::min(coc.height() - 1, y + 2); ++v)
         for (int u = std::max(0, x - 2); u <= std::min(coc.width() - 1, x + 2); ++u)
             if (coc(u, v) <= threshold)
-                pool.add(colour(u, v), distance2(comparable(colour(u, v)), far_colour) + 1e-9f);
+                pool.add(picture.dim(u, v), distance2(comparable(picture.dim(u, v)), far_colour) + 1e-9f);
     return pool.guess();
 }
 
@@ -166,24 +167,63 @@ Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) 
     return {share / total, light_only(far.colour + (1 / total) * step)};
 }
 
-Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const unsigned char> touching, int x,
-                    int y) {
+// Lamps behind the nearer surface, as the pixels around one tell: the share of the light of lamps in it that
+// is theirs, and their radius.
+struct LampsBehind {
+    float share = 0, coc_px = 0;
+};
+
+// The side whose pixels nearby are lit brighter has the lamp. But one that lights only a few of the nearer
+// surface's pixels, and none that touches no silhouette, is hardly part of it: it shows past its edge.
+LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
+                       int x, int y, float threshold) {
+    constexpr int kLampReach = 2;
+    constexpr float kFewLit = 0.15f, kManyLit = 0.5f;
+    const Rect window =
+        Rect{x - kLampReach, y - kLampReach, x + kLampReach + 1, y + kLampReach + 1}.intersected(coc.rect());
+    float near = 0, far = 0, far_coc = 0;
+    int nearer = 0, lit = 0;
+    bool clean = false;
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u) {
+            const float light = luminance(picture.colour(u, v) - picture.dim(u, v));
+            if (coc(u, v) <= threshold) {
+                ++nearer, lit += light > 0, clean = clean || (light > 0 && !touching(u, v));
+                near = std::max(near, light);
+            } else if (light > far) {
+                far = light, far_coc = coc(u, v);
+            }
+        }
+    const float share_lit = float(lit) / float(std::max(1, nearer));
+    near *= clean ? 1 : std::clamp((share_lit - kFewLit) / (kManyLit - kFewLit), kFewLit, 1.0f);
+    const float t = std::clamp((far / std::max(1e-9f, near + far) - 0.35f) / 0.3f, 0.0f, 1.0f);
+    return {t * t * (3 - 2 * t), far_coc};
+}
+
+Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
+                    int x, int y) {
     float low = coc(x, y), high = coc(x, y);
     for (int v = std::max(0, y - 1); v <= std::min(coc.height() - 1, y + 1); ++v)
         for (int u = std::max(0, x - 1); u <= std::min(coc.width() - 1, x + 1); ++u)
             low = std::min(low, coc(u, v)), high = std::max(high, coc(u, v));
     const float threshold = 0.5f * (low + high);
-    const Sides s = look_around(colour, coc, touching, x, y, threshold);
+    const Sides s = look_around(picture, coc, touching, x, y, threshold);
     const Guess far = (s.far_clean.empty() ? s.far_mixed : s.far_clean).guess();
     const Guess near =
-        s.near_clean.empty() ? least_like(far.colour, colour, coc, x, y, threshold) : s.near_clean.guess();
+        s.near_clean.empty() ? least_like(far.colour, picture, coc, x, y, threshold) : s.near_clean.guess();
     Mixture m;
     m.shows_far = coc(x, y) > threshold;
     m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
     m.far_colour = far.colour;
     m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
+    const Rgba c = picture.dim(x, y);
+    const Rgba lamps = picture.colour(x, y) - c;
+    if (lamps != Rgba{}) {
+        const LampsBehind behind = find_lamps(picture, coc, touching, x, y, threshold);
+        m.far_light = behind.share * lamps, m.lamp_coc_px = behind.coc_px;
+        m.lights_near = behind.share < 1;
+    }
     if (!m.shows_far) return m;
-    const Rgba c = colour(x, y);
     const Explained e = expected(comparable(c), near, far, s.near_share_by_shape);
     m.near_share = e.near_share, m.far_colour = e.far_colour;
     const float far_share = 1 - m.near_share;
@@ -193,10 +233,11 @@ Mixture taken_apart(View<const Rgba> colour, View<const float> coc, View<const u
         const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
         m.far_colour = {left.r, left.g, left.b, far.colour.a};
     }
+    m.near_colour += lamps - m.far_light;
     return m;
 }
 
-// Takes the nearer surface's part of a pixel of colour c, given what lies behind it.
+// Takes the nearer surface's part of a pixel of colour c without lamps, given what lies behind it.
 void put_in_front(Mixture& m, Rgba c, Rgba behind) {
     float share =
         expected(comparable(c), {m.near_clean, m.near_variance}, {comparable(behind), 0}, m.share_by_shape)
@@ -220,7 +261,7 @@ Rgba composited(std::span<const Hidden> hidden) {
 
 }  // namespace
 
-Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc,
+Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> coc,
                                   View<const unsigned char> connected, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     auto touching = Image<unsigned char>::uninitialised(width, height);
@@ -231,7 +272,7 @@ Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc
     parallel_for(height, workers, [&](int y) {
         for (int x = 0; x < width; ++x) {
             mixtures.index(x, y) = touching(x, y) ? int(rows[std::size_t(y)].size()) : -1;
-            if (touching(x, y)) rows[std::size_t(y)].push_back(taken_apart(colour, coc, touching, x, y));
+            if (touching(x, y)) rows[std::size_t(y)].push_back(taken_apart(picture, coc, touching, x, y));
         }
     });
     std::vector<int> before;
@@ -247,15 +288,18 @@ Sparse<Mixture> unmix_silhouettes(View<const Rgba> colour, View<const float> coc
     return mixtures;
 }
 
-void unmix_nearer(Sparse<Mixture>& mixtures, View<const Rgba> colour, const HiddenLayers& hidden,
+void unmix_nearer(Sparse<Mixture>& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers) {
+    const View<const Rgba> colour = picture.colour;
     parallel_for(colour.height(), workers, [&](int y) {
         for (int x = 0; x < colour.width(); ++x) {
             if (mixtures.index(x, y) < 0) continue;
             Mixture& m = mixtures.values[std::size_t(mixtures.index(x, y))];
             if (m.shows_far) continue;
             if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
-            put_in_front(m, colour(x, y), m.far_colour);
+            const Rgba dim = picture.dim(x, y);
+            put_in_front(m, dim, m.far_colour);
+            m.near_colour += colour(x, y) - dim - m.far_light;
         }
     });
 }

@@ -4,6 +4,7 @@
 #include "device/device.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
+#include "engine/samples/lamps.h"
 #include "engine/scatter/plan_reader.h"
 
 #include <algorithm>
@@ -72,10 +73,11 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
     };
     StripPlan plan;
-    // What is spread onto a row, and beyond that what decides what lies hidden there.
+    // What is spread onto a row, and beyond that what decides what lies hidden there: the other end of a lamp
+    // comes from as far again.
     const double reach = std::min(input.lens(0).reach_px(largest), double(input.height()));
-    plan.halo =
-        whole_units(1.2 * reach + 4.0 * (1 << coarsest) + 2 * std::min(largest, double(input.height())) + 16);
+    plan.halo = whole_units(1.2 * reach + 4.0 * (1 << coarsest) +
+                            2 * std::min(largest, double(input.height())) + 2 * kWidestLampPx + 16);
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     // The caller's colour and depth, the radii and the result exist besides.
     const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) + kFixedWorkingBytes;
@@ -125,18 +127,20 @@ public:
     void draw(const Rect& rows, int halo, double share, View<Rgba> out) {
         const int first = std::max(0, rows.y0 - halo);
         const Input strip = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
-        planned(strip, complete(strip), rows, first, [&](const PlannedStrip& p) { draw(p, share, out); });
+        planned(strip, complete(strip, first), rows, first,
+                [&](const PlannedStrip& p) { draw(p, share, out); });
     }
     void show(PlanReader& reader) {
-        SampleSet set = complete(frame_);
+        SampleSet set = complete(frame_, 0);
         if (!reader.read(frame_, set)) return;
         planned(frame_, std::move(set), frame_.colour.rect(), 0,
                 [&](const PlannedStrip& p) { reader.read(p); });
     }
 
 private:
-    SampleSet complete(const Input& strip) {
-        SampleSet set = complete_samples(strip);
+    SampleSet complete(const Input& strip, int first_row) {
+        SampleSet set = complete_samples(
+            strip, [&](int x, int y) { return split_.dim(x, first_row + y, strip.colour(x, y)); });
         watch_.lap("complete", {bytes_of(strip.colour) + bytes_of(strip.coc_px) + bytes_of(set.samples)});
         return set;
     }

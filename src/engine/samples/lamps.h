@@ -1,0 +1,42 @@
+// Lamps that an edge cuts: what shows of one goes on behind the edge by the lamp's own shape.
+#pragma once
+
+#include "petzval/image.h"
+#include "petzval/workers.h"
+
+#include "engine/samples/hidden.h"
+
+#include <span>
+#include <vector>
+
+namespace petzval::engine {
+
+// The light of lamps behind a silhouette as where nothing hides them; of what is hidden by more than half,
+// nobody knows.
+Rgba unhidden_light(const Mixture& mixture);
+
+// Light of a lamp that a nearer surface hides.
+struct HiddenLamp {
+    int x = 0;
+    float coc_px = 0;
+    Rgba light;  // a is 0
+};
+
+// By rows of the picture, ascending x, at most one of a pixel.
+struct HiddenLamps {
+    std::vector<std::vector<HiddenLamp>> rows;
+    std::span<const HiddenLamp> row(int y) const {
+        return rows.empty() ? std::span<const HiddenLamp>{} : rows[std::size_t(y)];
+    }
+};
+
+// No lamp is looked at farther than this from where an edge cuts it: what is wider is a lit surface.
+constexpr int kWidestLampPx = 32;
+
+// A lamp is taken to be as deep, across the edge that cuts it, as it is wide along that, and point-symmetric:
+// its other end is the mirror image of what shows of it. So it never holds more than twice the light that
+// shows, and fades as it slips behind the edge. `mixtures` as unmix_nearer() leaves them.
+HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc_px, const Sparse<Mixture>& mixtures,
+                         Workers& workers);
+
+}  // namespace petzval::engine
