@@ -47,15 +47,15 @@ struct RayWindow {
 
 void draw_rays(Svg& svg, const Subject& subject, const RayWindow& w, int wavelengths, int zones) {
     svg.rect(w.corner, w.width, w.height, "night").open_window(w.corner, w.width, w.height).open_light();
-    // A sensor nearer to the lens shows what lies in front of focus: a negative radius.
     const double coc_um = 1000 * w.depth_mm / (2 * subject.f_number());
     for (const colour::SpectralBand& band : colour::spectral_bands(wavelengths)) {
-        const auto near_side = subject.axis().height_um(band.wavelength_nm, -coc_um);
+        const auto at_sensor = subject.axis().height_um(band.wavelength_nm, 0);
+        // The radius of light from beyond infinity is that on a sensor moved away from the lens.
         const auto far_side = subject.axis().height_um(band.wavelength_nm, coc_um);
         for (int i = 0; i < zones; ++i) {
             const double rho = std::sqrt((i + 0.5) / zones);
             for (const int side : {-1, 1})
-                svg.ray(w.place(-w.depth_mm, side * near_side(rho)),
+                svg.ray(w.place(-w.depth_mm, side * (2 * at_sensor(rho) - far_side(rho))),
                         w.place(w.depth_mm, side * far_side(rho)), slice_colour(band.r, band.g, band.b), 0.9,
                         wavelengths == 3 ? 0.62 : 0.30);
         }

@@ -48,6 +48,7 @@ double AxialBand::height_um(double rho, double coc_um) const {
     const double at = rho * double(at_focus_um.size() - 1);
     const std::size_t i = std::min(std::size_t(at), at_focus_um.size() - 2);
     const double t = at - double(i);
+    const std::vector<double>& per_um = coc_um < 0 ? per_um_near : per_um_far;
     return (1 - t) * (at_focus_um[i] + coc_um * per_um[i]) +
            t * (at_focus_um[i + 1] + coc_um * per_um[i + 1]);
 }
@@ -57,11 +58,13 @@ AxialBands Axial::bands(int count) const {
     for (const colour::SpectralBand& slice : colour::spectral_bands(count)) {
         AxialBand& band = bands.emplace_back();
         band.weight = {slice.r, slice.g, slice.b};
-        const auto sharp = height_um(slice.wavelength_nm, 0), blurred = height_um(slice.wavelength_nm, 1);
+        const auto sharp = height_um(slice.wavelength_nm, 0);
+        const auto near = height_um(slice.wavelength_nm, -1), far = height_um(slice.wavelength_nm, 1);
         for (int i = 0; i <= kHeights; ++i) {
             const double rho = double(i) / kHeights;
             band.at_focus_um.push_back(sharp(rho));
-            band.per_um.push_back(blurred(rho) - band.at_focus_um.back());
+            band.per_um_near.push_back(band.at_focus_um.back() - near(rho));
+            band.per_um_far.push_back(far(rho) - band.at_focus_um.back());
         }
     }
     return bands;

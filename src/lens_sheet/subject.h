@@ -22,10 +22,11 @@ namespace petzval::lens_sheet {
 using RayLens = std::shared_ptr<const kernel::GeometricLens>;
 
 // A slice of the spectrum on the axis: where light through each height of the pupil lands, which is linear in
-// the source's radius.
+// the source's radius, in front of the focus at infinity and beyond it.
 struct AxialBand {
     kernel::Light weight;
-    std::vector<double> at_focus_um, per_um;  // at even steps of the height, from the middle to the rim
+    // At even steps of the height, from the middle to the rim.
+    std::vector<double> at_focus_um, per_um_near, per_um_far;
 
     double height_um(double rho, double coc_um) const;
 };

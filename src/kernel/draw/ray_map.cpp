@@ -84,6 +84,7 @@ Displacement& Displacement::add(double factor, const Displacement& other) {
 RayMap& RayMap::add(double factor, const RayMap& other) {
     offset_mm.add(factor, other.offset_mm);
     slope.add(factor, other.slope);
+    per_coc.add(factor, other.per_coc);
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += factor * other.light[i];
     return *this;
 }
@@ -134,6 +135,25 @@ RayMap RayMapFitter::fit(const optics::Beam& beam) const {
     set(odd_.solve(targets[3]), map.slope.across);
     set(even_.solve(targets[4]), map.light);
     return map;
+}
+
+Displacement RayMapFitter::landing(const optics::Beam& beam, const optics::SensorRay& chief,
+                                   double shift_mm) const {
+    std::array<std::vector<double>, 2> targets;
+    for (const Sample& s : samples_) {
+        const optics::SensorRay ray = ray_through(beam, s.pupil);
+        const auto& p = s.primary;
+        const Point at = ray.reached
+                             ? on_picture(ray.x_mm - chief.x_mm, ray.y_mm - chief.y_mm)
+                             : on_picture(p.x_mm + shift_mm * p.slope_x,
+                                          p.y_mm - chief_.y_mm + shift_mm * (p.slope_y - chief_.slope_y));
+        targets[0].push_back(s.weight * at.x), targets[1].push_back(s.weight * at.y);
+    }
+    Displacement place;
+    const auto along = even_.solve(targets[0]), across = odd_.solve(targets[1]);
+    std::copy(along.begin(), along.end(), place.along.begin());
+    std::copy(across.begin(), across.end(), place.across.begin());
+    return place;
 }
 
 OpenStop OpenStop::of(const optics::Beam& beam, int corners) {

@@ -54,6 +54,8 @@ struct OpenStop {
 struct RayMap {
     Displacement offset_mm;  // landing place, from where the chief ray of the primary wavelength lands
     Displacement slope;      // what a sensor moved by 1 mm away from the lens adds
+    Displacement
+        per_coc;  // what an object adds that is out of focus, per signed radius: about the pupil point
     std::array<double, kEvenTerms> light{};  // per area of the stop
 
     RayMap& add(double factor, const RayMap& other);
@@ -70,6 +72,10 @@ public:
     }
     // Requires: usable(). Rays that do not get through at this wavelength count as those of the primary one.
     RayMap fit(const optics::Beam& beam) const;
+    // Where the light of another object in the same direction lands, in mm from the chief ray of its primary
+    // wavelength. Rays that do not get through count as those of the object in focus on a sensor moved by
+    // shift_mm.
+    Displacement landing(const optics::Beam& beam, const optics::SensorRay& chief, double shift_mm) const;
 
 private:
     struct Sample {

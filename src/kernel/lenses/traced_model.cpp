@@ -21,6 +21,8 @@ constexpr int kOutlineCorners = 96;       // of what the rims leave open
 // Wavelengths traced; parabolas join three neighbours.
 constexpr double kTraced_nm[] = {420, 455, 495, 540, 590, 640, 690};
 constexpr double kMiddle_nm = 555;
+// The nearer object: its radius, of the pupil's.
+constexpr double kNearCoc = 0.2;
 constexpr double kProbed_nm[] = {430, 490, 550, 610, 670};  // wavelengths that count
 constexpr int kRayBands = 62;
 constexpr double kRayWidth =
@@ -64,7 +66,7 @@ double light_at(const RayMap& map, const PupilPowers& powers) {
 
 // Where the middle of the light lands, along the field's direction.
 struct Middle {
-    double offset_mm = 0, slope = 0;
+    double offset_mm = 0, slope = 0, per_coc = 0;
 };
 
 Middle middle_of(const RayMap& map, const OpenStop& open) {
@@ -81,9 +83,10 @@ Middle middle_of(const RayMap& map, const OpenStop& open) {
                                 (to_corner.x * to_corner.x + to_corner.y * to_corner.y);
             sum.offset_mm += here * map.offset_mm.at(powers).x;
             sum.slope += here * map.slope.at(powers).x;
+            sum.per_coc += here * map.per_coc.at(powers).x;
             light += here;
         }
-    if (light > 0) sum.offset_mm /= light, sum.slope /= light;
+    if (light > 0) sum.offset_mm /= light, sum.slope /= light, sum.per_coc /= light;
     return sum;
 }
 
@@ -126,6 +129,7 @@ std::unique_ptr<const LensModel> TracedModel::on_pixels(const Mount& mount) cons
     same->mount_.display_height_px = mount.display_height_px;
     same->px_per_mm_ *= factor;
     same->reach_offset_px_ *= factor;
+    same->coc_at_infinity_px_ *= factor;
     return same;
 }
 
@@ -166,9 +170,26 @@ Status TracedModel::trace(const optics::Prescription& lens) {
     }
     image_slope_ = traced->image_side_slope();
 
+    place_near_object(*traced);
     trace_fields(*traced);
     if (nodes_.empty()) return refuse(lens.name + ": no light passes to the middle of the picture");
     return Done{};
+}
+
+// A ray from an object at distance z through the rim of an entrance pupil of radius R lands B R (1/F - 1/z)
+// from the middle, F the distance in focus and B = R / image_slope, near the axis. That is the signed radius.
+void TracedModel::place_near_object(const optics::TracedLens& lens) {
+    const double pupil_mm = mount_.camera.focal_length_mm / (2 * lens.f_number());
+    const double per_vergence = pupil_mm * pupil_mm / image_slope_;
+    const double in_focus = mount_.camera.focus_distance_m > 0 ? 1e-3 / mount_.camera.focus_distance_m : 0;
+    coc_at_infinity_px_ = px_per_mm_ * per_vergence * in_focus;
+    // Nothing comes nearer than the front of the lens.
+    const double nearest_mm =
+        std::max(0.0, lens.first_order().entrance_pupil_position_mm) + 0.5 * mount_.camera.focal_length_mm;
+    const double vergence = std::min(in_focus + kNearCoc * pupil_mm / per_vergence, 1 / nearest_mm);
+    if (!(vergence > in_focus)) return;
+    near_distance_mm_ = 1 / vergence;
+    near_coc_mm_ = per_vergence * (in_focus - vergence);
 }
 
 void TracedModel::trace_fields(const optics::TracedLens& lens) {
@@ -205,17 +226,60 @@ std::optional<TracedModel::Node> TracedModel::traced_node(const optics::TracedLe
     const RayMapFitter fitter(*primary, open);
     if (!fitter.usable()) return std::nullopt;
     Node node{{}, open.corners};
-    const Middle of_primary = middle_of(fitter.fit(*primary), open);
+    std::vector<RayMap> all{fitter.fit(*primary)};
     for (const double nm : wavelength_nm_) {
         const auto beam = lens.beam(nm / 1000, field_rad);
         if (!beam) return std::nullopt;
-        RayMap& map = node.maps.emplace_back(fitter.fit(*beam));
+        all.push_back(fitter.fit(*beam));
+    }
+    const auto per_coc = traced_per_coc(lens, field_rad, fitter, all);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].per_coc = per_coc[i];
+    const Middle of_primary = middle_of(all[0], open);
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        RayMap& map = node.maps.emplace_back(all[i]);
         if (choice_.lateral_colour == 1) continue;
         const Middle here = middle_of(map, open);
         map.offset_mm.along[0] += (choice_.lateral_colour - 1) * (here.offset_mm - of_primary.offset_mm);
         map.slope.along[0] += (choice_.lateral_colour - 1) * (here.slope - of_primary.slope);
+        map.per_coc.along[0] += (choice_.lateral_colour - 1) * (here.per_coc - of_primary.per_coc);
     }
     return node;
+}
+
+// Of the primary wavelength and of those traced. It hardly changes with colour: three are enough.
+std::vector<Displacement> TracedModel::traced_per_coc(const optics::TracedLens& lens, double field_rad,
+                                                      const RayMapFitter& fitter,
+                                                      const std::vector<RayMap>& maps) const {
+    std::vector<Displacement> result(maps.size());
+    for (std::size_t i = 0; i < maps.size(); ++i) result[i].add(1 / image_slope_, maps[i].slope);
+    const optics::ObjectPoint object{field_rad, near_distance_mm_};
+    const double primary_nm = 1000 * lens.prescription().primary_um;
+    if (near_coc_mm_ == 0) return result;  // as on a sensor that moves
+    const auto primary = lens.beam(primary_nm / 1000, object);
+    if (!primary) return result;
+    const optics::SensorRay chief = primary->ray(0, 0);
+    if (!chief.reached) return result;
+    const auto traced = [&](const optics::Beam& beam, const RayMap& in_focus) {
+        Displacement added = fitter.landing(beam, chief, near_coc_mm_ / image_slope_);
+        added.add(-1, in_focus.offset_mm);
+        return Displacement{}.add(1 / near_coc_mm_, added);
+    };
+    std::vector<double> few_nm;
+    std::vector<Displacement> few;
+    for (std::size_t i = 0; i < wavelength_nm_.size();
+         i += std::max<std::size_t>(1, wavelength_nm_.size() / 2)) {
+        const auto beam = lens.beam(wavelength_nm_[i] / 1000, object);
+        if (!beam) return result;
+        few_nm.push_back(wavelength_nm_[i]);
+        few.push_back(traced(*beam, maps[i + 1]));
+    }
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const Parabola parabola(few_nm, i == 0 ? primary_nm : wavelength_nm_[i - 1]);
+        result[i] = {};
+        for (std::size_t k = 0; k < std::min<std::size_t>(3, few.size()); ++k)
+            result[i].add(parabola.weight[k], few[parabola.first + k]);
+    }
+    return result;
 }
 
 void TracedModel::measure() {
@@ -224,8 +288,10 @@ void TracedModel::measure() {
             for (const Point& corner : node.open) {
                 const PupilPowers powers((1 / std::max(1.0, std::hypot(corner.x, corner.y))) * corner);
                 const Point offset = map.offset_mm.at(powers), slope = map.slope.at(powers);
+                const Point per_coc = map.per_coc.at(powers);
                 reach_offset_px_ = std::max(reach_offset_px_, px_per_mm_ * std::hypot(offset.x, offset.y));
-                reach_per_coc_ = std::max(reach_per_coc_, std::hypot(slope.x, slope.y) / image_slope_);
+                reach_per_coc_ = std::max({reach_per_coc_, std::hypot(slope.x, slope.y) / image_slope_,
+                                           std::hypot(per_coc.x, per_coc.y)});
             }
 }
 
@@ -259,7 +325,9 @@ RayMap TracedModel::map_at(const Node& node, double wavelength_nm) const {
 Displacement TracedModel::landing(const RayMap& map, double coc_radius_px) const {
     Displacement px;
     px.add(px_per_mm_, map.offset_mm);
-    px.add(coc_radius_px / image_slope_, map.slope);
+    const double of_objects_px = std::min(coc_radius_px, coc_at_infinity_px_);
+    px.add(of_objects_px, map.per_coc);
+    px.add((coc_radius_px - of_objects_px) / image_slope_, map.slope);
     return px;
 }
 
@@ -375,7 +443,7 @@ std::vector<PupilRay> TracedModel::rays(int count, FieldPosition field, std::uin
                        [&](std::size_t band, Point pupil) {
                            const PupilPowers powers(pupil);
                            const double passed = pupil_.transmission(axis.from_axis(pupil), kRayWidth);
-                           return RayLanding{picture((1 / image_slope_) * maps[band].slope.at(powers)),
+                           return RayLanding{picture(maps[band].per_coc.at(powers)),
                                              picture(px_per_mm_ * maps[band].offset_mm.at(powers)),
                                              light_at(maps[band], powers) * passed};
                        });

@@ -1,8 +1,10 @@
 // A lens given by its prescription, as engines use it.
 //
 // Rays are traced for a row of field positions and wavelengths from the axis to the corner of the picture;
-// between them, and over the stop, polynomials stand for them. Defocus moves the sensor: a source of signed
-// CoC radius c is spread as by a sensor that stands c / (slope of the marginal ray) beyond its image.
+// between them, and over the stop, polynomials stand for them. They come from the plane in focus and from an
+// object in front of it, at the distance of a signed CoC radius of a fifth of the pupil's: what light does
+// that is out of focus is linear in the radius, as rays run straight in front of a lens. Beyond the radius of
+// infinity, where no object can be, the sensor moves: by (what is beyond) / (slope of the marginal ray).
 // Vignetting comes from the clear apertures of all surfaces. Kernels are centred on the chief ray of the
 // primary wavelength, so lateral colour shows and distortion does not move the picture.
 #pragma once
@@ -49,6 +51,7 @@ private:
     };
     TracedModel(const LensChoice& choice, const Mount& mount);
     Status trace(const optics::Prescription& lens);
+    void place_near_object(const optics::TracedLens& lens);
     void trace_fields(const optics::TracedLens& lens);
     void measure();
     Node at(double field_size) const;
@@ -63,12 +66,18 @@ private:
     };
     Fineness fineness(const Node& node, const std::vector<Point>& outline, double coc_radius_px) const;
     std::optional<Node> traced_node(const optics::TracedLens& lens, double field_rad) const;
+    std::vector<Displacement> traced_per_coc(const optics::TracedLens& lens, double field_rad,
+                                             const RayMapFitter& fitter,
+                                             const std::vector<RayMap>& maps) const;
 
     std::string description_;
     Pupil pupil_;
     LensChoice choice_;
     Mount mount_;
     double px_per_mm_ = 0, image_slope_ = 1;
+    double near_distance_mm_ = 0,
+           near_coc_mm_ = 0;  // of the nearer object, its radius on the sensor; 0: none
+    double coc_at_infinity_px_ = 0;
     std::vector<double> wavelength_nm_;
     std::vector<Node> nodes_;  // even steps of field size, from 0
     double node_step_ = 0;
