@@ -81,6 +81,7 @@ PUBLIC = {
     "look_json": "look",
     "names": "names",
     "ocio": "ocio",
+    "output": "files",
     "place": "image",
     "petzval": "session",
     "petzval_c": "c",

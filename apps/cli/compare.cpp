@@ -111,6 +111,8 @@ Status compare_files(const CompareFlags& flags) {
     const Stopwatch watch;
     InputFlags test_input = flags.reference;
     test_input.path = flags.test;
+    if (Status fine = check_outputs({flags.run.json}, {flags.reference.path, flags.test, flags.mask}); !fine)
+        return fine;
     auto first = load_shot(flags.reference.source());
     if (!first) return first.error();
     auto second = load_shot(test_input.source());

@@ -56,9 +56,7 @@ Status Run::operator()() {
         report_["skipped"] = *reason;
         return finish();
     }
-    for (const std::string& path : {flags_.output, flags_.run.json})
-        if (!path.empty() && path != "-")
-            if (Status fine = check_output(path, inputs); !fine) return fine;
+    if (Status fine = check_outputs({flags_.output, flags_.run.json}, inputs); !fine) return fine;
     if (flags_.ocio.is_on())
         if (Status fine = flags_.ocio.try_out(); !fine) return fine;
     for (const auto step : {&Run::read, &Run::choose_camera, &Run::grow, &Run::compute, &Run::add_glare,

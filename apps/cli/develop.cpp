@@ -37,7 +37,7 @@ Status develop_file(const DevelopVerbFlags& flags) {
         note(*reason);
         return Done{};
     }
-    if (Status fine = check_output(flags.output, {flags.input.path}); !fine) return fine;
+    if (Status fine = check_outputs({flags.output, flags.run.json}, flags.input.files()); !fine) return fine;
     const auto lens = Lens::open(flags.lens.choice());
     if (!lens) return lens.error();
     auto shot = load_shot(flags.input.source(flags.camera));

@@ -161,6 +161,7 @@ Json report_of(const Shot& shot, const InspectFlags& all, const DynamicRange& ra
 
 Status inspect(const InspectFlags& flags) {
     const Stopwatch watch;
+    if (Status fine = check_outputs({flags.run.json}, flags.input.files()); !fine) return fine;
     const auto shot = load_shot(flags.input.source(flags.camera));
     if (!shot) return shot.error();
     const DynamicRange range = measure_dynamic_range(shot->colour.view(), shot->display_referred);

@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM: remembered, asked for between pieces of work, never acted on in the middle of a file.
+// Ctrl-C, SIGTERM and SIGHUP: remembered, asked for between pieces of work, never acted on in the middle of a
+// file.
 #pragma once
 
 namespace petzval::cli {

@@ -170,9 +170,8 @@ Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
         note(*reason);
         return std::optional<Mounted>();
     }
-    for (const std::string& path : {flags.output, flags.run.json})
-        if (!path.empty() && path != "-")
-            if (Status fine = check_output(path, flags.lens.input_files()); !fine) return fine.error();
+    const Status fine = check_outputs({flags.output, flags.run.json}, flags.lens.input_files());
+    if (!fine) return fine.error();
     if (Status done = flags.lens.load(0); !done) return done.error();
     const auto lens = Lens::open(flags.lens.choice());
     if (!lens) return lens.error();

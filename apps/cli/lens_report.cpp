@@ -79,11 +79,7 @@ Status report_one(const LensReportFlags& flags) {
         note(*reason);
         return Done{};
     }
-    std::error_code ignored;
-    const bool is_file = fs::is_regular_file(lens, ignored);
-    if (const Status fine = check_output(path, is_file ? std::vector{lens} : std::vector<std::string>{});
-        !fine)
-        return fine;
+    if (const Status fine = check_outputs({path, flags.run.json}, {lens}); !fine) return fine;
     const auto page = lens_report(lens);
     if (!page) return page.error();
     if (const Status written = write_text(path, *page); !written) return written;
@@ -112,7 +108,10 @@ Status report_many(const LensReportFlags& flags) {
     if (!pages) return pages.error();
     if (const Status made = make_folder(flags.output); !made) return made;
     const fs::path folder = flags.output;
-    if (const Status fine = check_output((folder / "index.html").string(), flags.lenses); !fine) return fine;
+    std::vector<std::string> outputs{flags.run.json};
+    for (const auto& names : {*pages, {"comparison.html", "contact-sheet.svg", "index.html"}})
+        for (const std::string& name : names) outputs.push_back((folder / name).string());
+    if (const Status fine = check_outputs(outputs, flags.lenses); !fine) return fine;
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens report");
     std::vector<LensCard> cards;
     std::vector<std::string> written;

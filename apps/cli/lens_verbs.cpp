@@ -70,6 +70,7 @@ Json summary_json(const LensSummary& lens) {
 }
 
 Status list_lenses(const RunFlags& run) {
+    if (Status fine = check_outputs({run.json}, {}); !fine) return fine;
     std::string text;
     Json lenses = Json::array();
     for (const LensSummary& lens : lens_list()) {
@@ -245,6 +246,7 @@ std::string facts_text(const LensFacts& facts) {
 
 Status show_lens(const std::string& name, const RunFlags& run) {
     const Stopwatch watch;
+    if (Status fine = check_outputs({run.json}, {name}); !fine) return fine;
     const auto facts = lens_facts(name);
     if (!facts) return facts.error();
     for (const std::string& line : facts->warnings) warning(line);

@@ -7,36 +7,14 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
 namespace petzval::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-Error cannot_write(const std::string& path, const std::string& why) {
-    return {ErrorCode::OutputFailed, "cannot write " + path + ": " + why};
-}
-
-std::string folder_of(const std::string& path) {
-    const fs::path folder = fs::path(path).parent_path();
-    return folder.empty() ? "." : folder.string();
-}
-
-bool write_all(int file, const std::string& text) {
-    for (std::size_t done = 0; done < text.size();) {
-        const ssize_t n = ::write(file, text.data() + done, text.size() - done);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return false;
-        done += std::size_t(n);
-    }
-    return ::fsync(file) == 0;
-}
 
 }  // namespace
 
@@ -46,21 +24,6 @@ Result<FileKind> kind_of_output(const std::string& path) {
     if (extension == ".exr") return FileKind::Exr;
     if (extension == ".png") return FileKind::Png;
     return Error{ErrorCode::InvalidArgument, "-o " + path + ": the name must end in .exr or .png"};
-}
-
-Status check_output(const std::string& path, const std::vector<std::string>& inputs) {
-    std::error_code ignored;
-    const std::string folder = folder_of(path);
-    if (!fs::exists(folder, ignored)) return cannot_write(path, "there is no folder " + folder);
-    if (!fs::is_directory(folder, ignored)) return cannot_write(path, folder + " is not a folder");
-    if (fs::is_directory(path, ignored)) return cannot_write(path, "it is a folder");
-    // The file is replaced by renaming, so that the folder is what must be writable.
-    if (::access(folder.c_str(), W_OK) != 0) return cannot_write(path, std::strerror(errno));
-    for (const std::string& input : inputs)
-        if (fs::equivalent(path, input, ignored))
-            return Error{ErrorCode::InvalidArgument,
-                         "the output " + path + " would replace the input; give another name"};
-    return Done{};
 }
 
 void OverwriteFlags::add_to(Verb& verb, bool with_update) {
@@ -137,21 +100,10 @@ Status write_grey_png(const std::string& path, View<const float> plane, bool ove
 }
 
 Status write_text(const std::string& path, const std::string& text) {
-    if (path == "-")
-        return print(text) ? Status(Done{}) : cannot_write("standard output", std::strerror(errno));
-    std::string beside = path + ".XXXXXX";
-    const int file = ::mkstemp(beside.data());
-    if (file < 0) return cannot_write(path, std::strerror(errno));
-    const bool written = write_all(file, text);
-    int failed = written ? 0 : errno;
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    ::fchmod(file, 0666 & ~mask);  // mkstemp gives 0600; a result is as readable as any other file
-    if (::close(file) != 0 && failed == 0) failed = errno;
-    if (failed == 0 && ::rename(beside.c_str(), path.c_str()) != 0) failed = errno;
-    if (failed == 0) return Done{};
-    ::unlink(beside.c_str());
-    return cannot_write(path, std::strerror(failed));
+    if (path != "-") return petzval::write_text(path, text);
+    if (print(text)) return Done{};
+    return Error{ErrorCode::OutputFailed,
+                 std::string("cannot write standard output: ") + std::strerror(errno)};
 }
 
 }  // namespace petzval::cli

@@ -3,6 +3,7 @@
 
 #include "petzval/develop.h"
 #include "petzval/files.h"
+#include "petzval/output.h"
 #include "petzval/result.h"
 
 #include "flags.h"
@@ -17,10 +18,6 @@ enum class FileKind { Exr, Png };
 
 // From the name's extension. Errors: InvalidArgument naming what is accepted.
 Result<FileKind> kind_of_output(const std::string& path);
-
-// Fails before minutes of work are spent: the folder is there and may be written, the name is not a folder,
-// and the file is none of the inputs. Errors: OutputFailed, InvalidArgument.
-Status check_output(const std::string& path, const std::vector<std::string>& inputs);
 
 // What to do with files that are already there.
 struct OverwriteFlags {
@@ -51,7 +48,7 @@ Status write_developed(const std::string& path, View<const Rgba> picture, const 
                        bool overwrite);
 // A plane as 16-bit grey: 0…1 becomes 0…65535, anything else the nearer end, NaN 0.
 Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite);
-// Text beside its final name, synced, renamed; "-" is standard output.
+// petzval::write_text(); "-" is standard output.
 Status write_text(const std::string& path, const std::string& text);
 
 }  // namespace petzval::cli

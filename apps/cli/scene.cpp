@@ -191,8 +191,9 @@ Status make_scene(const MakeFlags& flags) {
         note(*reason);
         return Done{};
     }
-    for (const std::string& path : outputs)
-        if (Status fine = check_output(path, {}); !fine) return fine;
+    auto all = outputs;
+    all.push_back(flags.run.json);
+    if (Status fine = check_outputs(all, {}); !fine) return fine;
     const SceneSummary& summary = *find_scene(flags.name);
     const FoundCamera camera =
         merged_camera(camera_of_scene(summary.camera, "scene " + flags.name), flags.camera.choice());
@@ -213,6 +214,7 @@ Status make_scene(const MakeFlags& flags) {
 }
 
 Status list_scenes(const RunFlags& run) {
+    if (Status fine = check_outputs({run.json}, {}); !fine) return fine;
     std::string text;
     Json scenes = Json::array();
     for (const SceneSummary& scene : scene_list()) {

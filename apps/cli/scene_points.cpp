@@ -75,7 +75,7 @@ Status make_file(const PointsFlags& flags) {
         note(*reason);
         return Done{};
     }
-    if (Status fine = check_output(flags.output, {}); !fine) return fine;
+    if (Status fine = check_outputs({flags.output, flags.run.json}, {}); !fine) return fine;
     const PointSettings& s = flags.settings;
     const auto points = make_points(flags.name, s);
     if (!points) return points.error();

@@ -6,6 +6,7 @@
 #include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/output.h"
 #include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
@@ -114,10 +115,6 @@ struct WriteOptions {
     int threads = 0;                // as in ReadOptions
     Workers* workers = nullptr;
 };
-
-// Removes every output of this process that is not finished; for a signal handler, which may call it at any
-// time (async-signal-safe). The process must not write on afterwards.
-PETZVAL_API void remove_unfinished_outputs();
 
 // Replaces colour (and alpha when has_alpha) of the carried part by frame.colour, keeps every other channel,
 // part and attribute, and writes a flat EXR. If frame.depth is not empty and nothing is carried, it is

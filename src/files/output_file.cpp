@@ -1,7 +1,8 @@
 #include "files/output_file.h"
 
-#include "petzval/files.h"
+#include "petzval/output.h"
 
+#include "files/unfinished.h"
 #include "files/wording.h"
 
 #include <array>
@@ -15,6 +16,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace petzval {
 namespace {
@@ -52,11 +54,43 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// Where a symbolic link leads, so that writing through it keeps the link.
-std::string followed(const std::string& path) {
+// Where an output goes.
+struct Target {
+    std::string path;  // links followed, so that writing through one keeps it
+    bool exists = false;
+    mode_t mode = 0666;
+
+    std::string folder() const { return folder_of(path); }
+    std::string name() const { return path.substr(path.rfind('/') + 1); }
+};
+
+// Errors: OutputFailed for what no file may be written to.
+Result<Target> target_of(const std::string& path) {
+    if (path.empty()) return output_failed("(no name)", "an output file needs a name");
     std::error_code failed;
     const std::filesystem::path real = std::filesystem::canonical(path, failed);
-    return failed ? path : real.string();
+    if (failed && std::filesystem::is_symlink(path, failed))
+        return output_failed(path, "is a link that leads nowhere; give the name of a file");
+    Target target{real.empty() ? path : real.string()};
+    struct stat status = {};
+    target.exists = ::stat(target.path.c_str(), &status) == 0;
+    if (!target.exists) return target;
+    if (S_ISDIR(status.st_mode)) return output_failed(path, "is a folder; a file name is needed");
+    if (!S_ISREG(status.st_mode))
+        return output_failed(path, "is a pipe or device; only regular files can be written");
+    target.mode = status.st_mode & 0777;
+    // Renaming replaces even a read-only file; someone who protected it does not expect that.
+    if (::access(target.path.c_str(), W_OK) != 0) return output_failed(path, std::strerror(errno));
+    return target;
+}
+
+bool is_one_file(const std::string& a, const std::string& b) {
+    std::error_code missing;
+    if (std::filesystem::equivalent(a, b, missing)) return true;
+    const auto of = [&](const std::string& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, missing), missing);
+    };
+    return of(a) == of(b);
 }
 
 }  // namespace
@@ -69,33 +103,22 @@ void remove_unfinished_outputs() {
 }
 
 Result<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path, bool overwrite) {
-    if (path.empty()) return output_failed("(no name)", "an output file needs a name");
+    const auto target = target_of(path);
+    if (!target) return target.error();
+    if (target->exists && !overwrite) return output_failed(path, "exists already and may not be overwritten");
     std::unique_ptr<OutputFile> file(new OutputFile);
     file->path_ = path;
-    file->target_ = followed(path);
+    file->target_ = target->path;
     file->overwrite_ = overwrite;
-    struct stat status = {};
-    const bool exists = ::stat(file->target_.c_str(), &status) == 0;
-    if (exists && S_ISDIR(status.st_mode))
-        return output_failed(path, "is a directory; a file name is needed");
-    if (exists && !S_ISREG(status.st_mode))
-        return output_failed(path, "is a pipe or device; only regular files can be written");
-    if (exists && !overwrite) return output_failed(path, "exists already and may not be overwritten");
-
-    const std::string folder = folder_of(file->target_);
-    const std::string name = file->target_.substr(file->target_.rfind('/') + 1);
-    // Renaming replaces even a read-only file; someone who protected it does not expect that.
-    if (exists && ::access(file->target_.c_str(), W_OK) != 0)
-        return output_failed(path, std::strerror(errno));
-    static std::atomic<unsigned> counter{0};
+    remove_leftovers(target->folder());
     for (int attempt = 0; attempt < 100 && file->descriptor_ < 0; ++attempt) {
-        file->unfinished_path_ = folder + "/." + name.substr(0, 200) + "." + std::to_string(::getpid()) +
-                                 "-" + std::to_string(counter++) + ".unfinished";
-        const mode_t mode = exists ? status.st_mode & 0777 : 0666;
+        file->unfinished_path_ = target->folder() + "/" + unfinished_name(target->name());
         file->descriptor_ =
-            ::open(file->unfinished_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+            ::open(file->unfinished_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, target->mode);
         if (file->descriptor_ < 0 && errno != EEXIST)
             return output_failed(path, "cannot be written: " + std::string(std::strerror(errno)));
+        if (file->descriptor_ >= 0 && !claim_unfinished(file->descriptor_))
+            ::close(std::exchange(file->descriptor_, -1));
     }
     if (file->descriptor_ < 0) return output_failed(path, "cannot be written: no free name beside it");
     file->slot_ = remember(file->unfinished_path_);
@@ -158,6 +181,42 @@ Status OutputFile::rename_to_target() {
         return error();
     }
     return Done{};
+}
+
+Status check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    const auto is_file = [](const std::string& path) { return !path.empty() && path != "-"; };
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const std::string& path = outputs[i];
+        if (!is_file(path)) continue;
+        const auto target = target_of(path);
+        if (!target) return target.error();
+        const std::string folder = target->folder();
+        struct stat status = {};
+        if (::stat(folder.c_str(), &status) != 0)
+            return output_failed(path, "cannot be written: there is no folder " + folder);
+        if (!S_ISDIR(status.st_mode))
+            return output_failed(path, "cannot be written: " + folder + " is not a folder");
+        // The file is replaced by renaming, so that the folder is what must be writable.
+        if (::access(folder.c_str(), W_OK) != 0)
+            return output_failed(path, "cannot be written: " + std::string(std::strerror(errno)));
+        std::error_code missing;
+        for (const std::string& input : inputs)
+            if (is_file(input) && std::filesystem::equivalent(path, input, missing))
+                return Error{ErrorCode::InvalidArgument,
+                             "the output " + path + " would replace the input; give another name"};
+        for (std::size_t j = 0; j < i; ++j)
+            if (is_file(outputs[j]) && is_one_file(path, outputs[j]))
+                return Error{ErrorCode::InvalidArgument, "the output " + path + " would replace the output " +
+                                                             outputs[j] + "; give another name"};
+    }
+    return Done{};
+}
+
+Status write_text(const std::string& path, const std::string& text, bool overwrite) {
+    const auto file = OutputFile::create(path, overwrite);
+    if (!file) return file.error();
+    (*file)->write_at(0, text.data(), text.size());
+    return (*file)->commit();
 }
 
 }  // namespace petzval

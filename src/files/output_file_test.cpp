@@ -97,6 +97,79 @@ TEST(OutputFile, PlacesThatCannotBeWrittenAreErrorsThatNameThem) {
     EXPECT_TRUE(S_ISCHR(status.st_mode));
 }
 
+TEST(OutputFile, ALinkThatLeadsNowhereIsNeitherFollowedNorReplaced) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink(folder / "nothing", folder / "link");
+    const auto file = OutputFile::create(folder / "link", true);
+    ASSERT_FALSE(file);
+    EXPECT_THAT(file.error().message, HasSubstr("leads nowhere"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(OutputFile, WhatADeadProcessLeftIsRemovedAndWhatALivingOneWritesIsNot) {
+    const TemporaryFolder folder;
+    const TemporaryFolder elsewhere;
+    write_bytes(folder / ".a.exr.999999-0.unfinished", "left");
+    for (const char* theirs : {".a.unfinished", "a.1-2.unfinished", ".a.x-2.unfinished", "b.exr"})
+        write_bytes(folder / theirs, "theirs");
+    std::filesystem::create_symlink(elsewhere.path(), folder / ".l.1-1.unfinished");
+    int from_child[2], to_child[2];
+    ASSERT_TRUE(::pipe(from_child) == 0 && ::pipe(to_child) == 0);
+    const pid_t child = ::fork();
+    char byte = 0;
+    if (child == 0) {
+        const auto file = OutputFile::create(folder / "c.exr", true);
+        if (::write(from_child[1], "x", 1) != 1 || ::read(to_child[0], &byte, 1) != 1) ::_exit(1);
+        ::_exit(file && (*file)->commit() ? 0 : 1);
+    }
+    ASSERT_EQ(::read(from_child[0], &byte, 1), 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / ".a.exr.999999-0.unfinished"));  // the child saw to it
+    write_bytes(folder / ".d.exr.999999-1.unfinished", "left");
+    {
+        const auto file = OutputFile::create(folder / "e.exr", true);
+        EXPECT_FALSE(std::filesystem::exists(folder / ".d.exr.999999-1.unfinished"));
+    }
+    ASSERT_EQ(::write(to_child[1], "x", 1), 1);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "c.exr"));
+    EXPECT_EQ(folder.files(), 6u);
+    for (const int end : {from_child[0], from_child[1], to_child[0], to_child[1]}) ::close(end);
+}
+
+TEST(Outputs, NeverReplaceAnInputOrEachOther) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "in", "in");
+    std::filesystem::create_symlink(folder / "in", folder / "link");
+    std::filesystem::create_hard_link(folder / "in", folder / "twin");
+    for (const char* name : {"in", "link", "twin"}) {
+        const Status fine = check_outputs({folder / name}, {folder / "in"});
+        ASSERT_FALSE(fine) << name;
+        EXPECT_THAT(fine.error().message, HasSubstr("would replace the input"));
+    }
+    const Status twice = check_outputs({folder / "new", folder.path() + "/./new"}, {});
+    ASSERT_FALSE(twice);
+    EXPECT_THAT(twice.error().message, HasSubstr("would replace the output"));
+    EXPECT_TRUE(check_outputs({folder / "new", "-", "", "-"}, {folder / "in", "-"}));
+    EXPECT_TRUE(check_outputs({folder / "new"}, {"new"}));  // a word that is no file
+}
+
+TEST(Outputs, PlacesThatCannotBeWrittenAreKnownBeforehand) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    std::filesystem::create_symlink(folder / "nothing", folder / "link");
+    for (const std::string& path : {folder.path(), folder / "no/a.exr", folder / "pipe", folder / "link"}) {
+        const Status fine = check_outputs({path}, {});
+        ASSERT_FALSE(fine) << path;
+        EXPECT_EQ(fine.error().code, ErrorCode::OutputFailed);
+        EXPECT_THAT(fine.error().message, HasSubstr(path));
+        EXPECT_FALSE(write_text(path, "text")) << path;
+    }
+    EXPECT_EQ(folder.files(), 2u);
+}
+
 // A limit on the size of files stands for a full disk: writes fail half-way with the same kind of error.
 class FullDisk {
 public:
