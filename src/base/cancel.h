@@ -28,4 +28,9 @@ private:
     const Progress& progress_;
 };
 
+// For loops that are no parallel_for. Throws Cancelled where these are CancellableWorkers that are cancelled.
+inline void check_cancelled(const Workers& workers) {
+    if (const auto* cancellable = dynamic_cast<const CancellableWorkers*>(&workers)) cancellable->check();
+}
+
 }  // namespace petzval

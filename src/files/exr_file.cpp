@@ -1,5 +1,6 @@
 #include "files/exr_file.h"
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "files/exr_prescan.h"
 #include "files/wording.h"
@@ -112,6 +113,8 @@ std::string compression_name(int compression) {
 Status guarded(const std::string& path, const std::function<Status()>& body) {
     try {
         return body();
+    } catch (const Cancelled&) {
+        throw;
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::OutOfMemory, printable(path, 4096) + ": does not fit into memory"};
     } catch (const std::system_error& e) {
@@ -151,7 +154,7 @@ Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t
     exr.workers = &workers;
     exr.file = file;
     const Status opened = guarded(path, [&]() -> Status {
-        exr.stream = std::make_unique<ExrInputStream>(file);
+        exr.stream = std::make_unique<ExrInputStream>(file, workers);
         // A file whose table of chunks is unfinished is still being written or was cut off: no
         // reconstruction.
         exr.parts = std::make_unique<Imf::MultiPartInputFile>(*exr.stream, exr_threads(workers), false);

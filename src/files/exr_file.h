@@ -32,7 +32,7 @@ struct ExrFile {
 std::vector<NumericAttribute> numeric_attributes(const Imf::Header& header);
 std::string compression_name(int compression);
 
-// Runs `body`, turning everything OpenEXR may throw into InvalidFile for `path`.
+// Runs `body`, turning everything OpenEXR may throw into InvalidFile for `path`. Lets Cancelled through.
 Status guarded(const std::string& path, const std::function<Status()>& body);
 
 // How many threads of OpenEXR may work on one file beside as many workers; 0: it is read or written on the

@@ -25,7 +25,7 @@ Status read_luminance_chroma(const ExrFile& exr, const ColourChoice& choice, Pic
                          ": luminance and chroma (Y RY BY) can be read from the first part "
                          "only; convert it to RGB"};
     return guarded(exr.file->path(), [&]() -> Status {
-        ExrInputStream stream(exr.file);
+        ExrInputStream stream(exr.file, *exr.workers);
         const std::string& y = choice.luminance;
         const std::string layer = y.size() > 2 ? y.substr(0, y.size() - 2) : "";
         Imf::RgbaInputFile file(stream, layer);

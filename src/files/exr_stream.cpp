@@ -1,5 +1,7 @@
 #include "files/exr_stream.h"
 
+#include "base/cancel.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -13,14 +15,15 @@ constexpr std::size_t kWriteBehind = 1 << 20;
 
 }  // namespace
 
-ExrInputStream::ExrInputStream(std::shared_ptr<const InputFile> file)
-    : Imf::IStream(file->path().c_str()), file_(std::move(file)) {}
+ExrInputStream::ExrInputStream(std::shared_ptr<const InputFile> file, const Workers& workers)
+    : Imf::IStream(file->path().c_str()), file_(std::move(file)), workers_(workers) {}
 
 bool ExrInputStream::read(char to[], int bytes) {
     const std::uint64_t wanted = std::uint64_t(std::max(bytes, 0));
     if (position_ > file_->bytes() || wanted > file_->bytes() - position_)
         throw Iex::InputExc("it ends too early");
     const bool held = position_ >= buffer_start_ && position_ + wanted <= buffer_start_ + buffer_.size();
+    if (!held) check_cancelled(workers_);
     if (!held && wanted < kReadAhead) {
         buffer_start_ = position_;
         buffer_.resize(std::size_t(std::min(kReadAhead, file_->bytes() - position_)));

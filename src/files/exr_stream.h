@@ -2,6 +2,8 @@
 // because OpenEXR's destructors swallow it.
 #pragma once
 
+#include "petzval/workers.h"
+
 #include "files/input_file.h"
 #include "files/output_file.h"
 
@@ -14,7 +16,8 @@ namespace petzval {
 
 class ExrInputStream : public Imf::IStream {
 public:
-    explicit ExrInputStream(std::shared_ptr<const InputFile> file);
+    // Reading ends with Cancelled once the workers are cancelled (base/cancel.h): they outlive it.
+    ExrInputStream(std::shared_ptr<const InputFile> file, const Workers& workers);
 
     bool read(char to[], int bytes) override;
     std::uint64_t tellg() override { return position_; }
@@ -22,6 +25,7 @@ public:
 
 private:
     std::shared_ptr<const InputFile> file_;
+    const Workers& workers_;
     std::uint64_t position_ = 0, buffer_start_ = 0;
     std::vector<char> buffer_;  // headers are read byte by byte
 };

@@ -266,6 +266,18 @@ TEST_F(Shots, ReadingEndsWhenNobodyWantsIt) {
     EXPECT_EQ(asked.error().code, ErrorCode::Cancelled);
 }
 
+TEST_F(Shots, ReadingEndsWithinAFile) {
+    write_picture(source.path, {0, 0, 400, 2000});
+    int asked = 0;
+    ASSERT_TRUE(read_shot(source, {.cancelled = [&] { return ++asked < 0; }}));
+    EXPECT_GT(asked, 50);
+    asked = 0;
+    source.read.threads = 1;
+    const auto shot = read_shot(source, {.cancelled = [&] { return ++asked > 20; }});
+    ASSERT_FALSE(shot);
+    EXPECT_EQ(shot.error().code, ErrorCode::Cancelled);
+}
+
 TEST_F(Shots, APictureIsTakenOfWhatWasRead) {
     source.camera.f_number = 0.5;
     const Shot shot = read();
