@@ -42,6 +42,7 @@ ALLOWED = {
     "files": PIXELS | {"colour", "optics", "depth", "names"},
     "ocio": PIXELS,
     "shot": PIXELS | {"optics", "depth", "names", "look", "session", "files"},
+    "sequence": PIXELS | {"optics", "names", "look", "session", "shot"},
     "lens_facts": LENS,
     "c": PIXELS | {"lens_facts", "look", "session"},
     "session": WAIST | ENGINES | {"device/cpu", "views", "look", "glare"},
@@ -90,6 +91,8 @@ PUBLIC = {
     "scene": "scene",
     "session": "session",
     "shot": "shot",
+    "frames": "sequence",
+    "track": "sequence",
     "version": "base",
     "workers": "base",
 }
@@ -101,7 +104,7 @@ THIRD_PARTY = {
     r"png\.h": r"src/files/",
     r"OpenColorIO/": r"src/ocio/",
     r"embree": r"src/scene/",
-    r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look|src/c)/",
+    r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look|src/sequence|src/c)/",
     r"CLI/": r"apps/cli/",
 }
 # What a library says must not depend on the program around it: it names fields, not flags.

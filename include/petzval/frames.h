@@ -1,0 +1,42 @@
+// Frame numbers, and names of files that have one in them. Component petzval::files.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/result.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace petzval {
+
+// "1001-1100x2,1200": single frames, ranges, every n-th of a range (from its beginning), with commas between.
+// Numbers may be negative ("-10--5") and ranges may fall. Each frame once, in the order named. Errors:
+// InvalidArgument; "1-100:3", which some programs take for every third frame and others for all of them in
+// another order, is refused with both spellings; so are more than a million frames.
+PETZVAL_API Result<std::vector<int>> parse_frames(std::string_view text);
+// The shortest such text that names the same frames in the same order.
+PETZVAL_API std::string frames_text(std::span<const int> frames);
+
+// A path whose file name holds a frame number: '#' for each digit ("beauty.####.exr"), or as printf writes it
+// ("beauty.%04d.exr"). Numbers with more digits than that are written whole.
+class PETZVAL_API FramePattern {
+public:
+    // Empty where the path has none. Errors: InvalidArgument for two of them, for one in a folder's name, and
+    // for more than 12 digits.
+    static Result<std::optional<FramePattern>> find(std::string_view path);
+
+    std::string path(int frame) const;
+    // Of a file in the same folder: the number in its name, if it is of this pattern.
+    std::optional<int> frame_of(std::string_view file_name) const;
+    // Numbers of the files that are there, ascending. Errors: InvalidFile for a folder that cannot be read.
+    Result<std::vector<int>> frames_there() const;
+
+private:
+    std::string folder_, before_, after_;  // folder_ ends with '/', or is empty
+    int digits_ = 1;
+};
+
+}  // namespace petzval

@@ -1,0 +1,61 @@
+// What of a shot changes from frame to frame: focus, aperture, zoom, any number of the look. Component
+// petzval::files.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/look.h"
+#include "petzval/result.h"
+#include "petzval/shot.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// What a track says of one frame; what it does not say is the file's or the user's.
+struct TrackedFrame {
+    CameraChoice camera;
+    std::optional<PixelPosition> focus_pixel;  // whose depth is focused
+    std::optional<WorldPoint> focus_point;
+    std::map<std::string, std::string> look;  // fields by path, values as look_with() takes them
+};
+
+// Keys at some frames, and between them what lies between: distances evenly in dioptres, f-numbers in stops,
+// everything else evenly; what is no number stays until its next key. Before the first key and behind the
+// last it is as there.
+//
+// A CSV file: the first line that is not empty names the columns, '#' begins a comment, an empty value is no
+// key. A JSON file: {"frames": [{"frame": 1001, "focus": 3.2}, …]} with the same names. They are frame; focus
+// (metres; inf), or focus_x and focus_y (a pixel of the display window), or point_x, point_y and point_z
+// (the world, in scene units); fstop; focal_length (mm); and any field of a look by its path, as lens.blades.
+class PETZVAL_API Track {
+public:
+    // Errors: InvalidFile with the path and the line or the key: missing, damaged, an unknown column, a frame
+    // twice, a value that is no number where one is needed, no key at all.
+    static Result<Track> read(const std::string& path);
+
+    TrackedFrame at(int frame) const;
+    // Focus distances alone: from frame to frame the focus moves by no more than this from where it was, in
+    // dioptres, and comes late where its keys ask for more. Requires: > 0.
+    void limit_focus_speed(double dioptres_per_frame);
+    // Frames of the first key and of the last.
+    int first() const { return first_; }
+    int last() const { return last_; }
+
+private:
+    struct Column {
+        std::string name;
+        std::map<int, std::string> keys;  // as written
+        std::map<int, double> numbers;    // on the scale on which they are mixed; empty: no numbers
+    };
+    std::optional<double> number_at(const Column& column, int frame) const;
+    const Column* find(const std::string& name) const;
+
+    std::vector<Column> columns_;
+    int first_ = 0, last_ = 0;
+    friend class TrackReader;
+};
+
+}  // namespace petzval

@@ -1,0 +1,302 @@
+#include "petzval/track.h"
+
+#include "petzval/look_json.h"
+#include "petzval/names.h"
+
+#include "base/number_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace petzval {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t(64) << 20;
+
+enum class Scale { Even, Dioptres, Stops };
+
+struct Known {
+    const char* name;
+    Scale scale;
+};
+constexpr Known kCamera[] = {{"focus", Scale::Dioptres},    {"fstop", Scale::Stops},
+                             {"focal_length", Scale::Even}, {"focus_x", Scale::Even},
+                             {"focus_y", Scale::Even},      {"point_x", Scale::Even},
+                             {"point_y", Scale::Even},      {"point_z", Scale::Even}};
+
+const Known* known_column(const std::string& name) {
+    const auto* const found =
+        std::find_if(std::begin(kCamera), std::end(kCamera), [&](const Known& k) { return k.name == name; });
+    return found == std::end(kCamera) ? nullptr : found;
+}
+
+double on_scale(Scale scale, double value) {
+    switch (scale) {
+        case Scale::Dioptres:
+            return 1 / value;
+        case Scale::Stops:
+            return 2 * std::log2(value);
+        case Scale::Even:
+            break;
+    }
+    return value;
+}
+double from_scale(Scale scale, double value) {
+    switch (scale) {
+        case Scale::Dioptres:
+            return value > 0 ? 1 / value : std::numeric_limits<double>::infinity();
+        case Scale::Stops:
+            return std::exp2(value / 2);
+        case Scale::Even:
+            break;
+    }
+    return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::optional<double> number(std::string_view text) {
+    if (text == "inf" || text == "infinity") return std::numeric_limits<double>::infinity();
+    double value = 0;
+    const auto [end, wrong] = number_from_text(text, value);
+    if (wrong != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::optional<int> frame_number(std::string_view text) {
+    int frame = 0;
+    const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), frame);
+    if (wrong != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return frame;
+}
+
+// As the value is written in a track and given to look_with(): shortest text that reads back the same.
+std::string text_of(double value) {
+    char text[32];
+    const auto [end, wrong] = std::to_chars(text, text + sizeof text, value);
+    return wrong == std::errc() ? std::string(text, end) : "0";
+}
+
+}  // namespace
+
+class TrackReader {
+public:
+    explicit TrackReader(std::string path) : path_(std::move(path)) {}
+
+    Result<Track> read() {
+        std::error_code missing;
+        if (!std::filesystem::is_regular_file(path_, missing)) return wrong("is not a file");
+        if (std::filesystem::file_size(path_, missing) > kLargestFile) return wrong("is no track: too large");
+        std::ifstream in(path_, std::ios::binary);
+        std::stringstream text;
+        text << in.rdbuf();
+        if (!in) return wrong("cannot be read");
+        const std::string all = text.str();
+        const std::size_t first = all.find_first_not_of(" \t\r\n");
+        const Status read = first != std::string::npos && all[first] == '{' ? from_json(all) : from_csv(all);
+        if (!read) return read.error();
+        return finished();
+    }
+
+private:
+    Error wrong(const std::string& what, const std::string& where = "") const {
+        return {ErrorCode::InvalidFile, path_ + (where.empty() ? "" : ":" + where) + ": " + what};
+    }
+
+    Status from_csv(const std::string& text) {
+        std::istringstream in(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
+        std::vector<std::string> names;
+        std::string line;
+        for (int n = 1; std::getline(in, line); ++n) {
+            std::string_view rest = trimmed(std::string_view(line).substr(0, line.find('#')));
+            if (rest.empty()) continue;
+            std::vector<std::string> values;
+            for (;;) {
+                const std::size_t comma = rest.find(',');
+                values.emplace_back(trimmed(rest.substr(0, comma)));
+                if (comma == std::string_view::npos) break;
+                rest.remove_prefix(comma + 1);
+            }
+            const std::string where = std::to_string(n);
+            if (names.empty()) {
+                names = std::move(values);
+                if (std::find(names.begin(), names.end(), "frame") == names.end())
+                    return wrong("no column is called frame; the first line names the columns", where);
+                if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
+                    return wrong("a column is there twice", where);
+                continue;
+            }
+            if (values.size() != names.size())
+                return wrong(std::to_string(values.size()) + " values for " + std::to_string(names.size()) +
+                                 " columns",
+                             where);
+            std::map<std::string, std::string> key;
+            for (std::size_t i = 0; i < names.size(); ++i)
+                if (!values[i].empty()) key[names[i]] = values[i];
+            if (Status taken = take(key, where); !taken) return taken;
+        }
+        return Done{};
+    }
+
+    Status from_json(const std::string& text) {
+        const Json json = Json::parse(text, nullptr, false);
+        if (json.is_discarded()) return wrong("is no JSON");
+        if (!json.contains("frames") || !json["frames"].is_array())
+            return wrong("has no \"frames\": [{\"frame\": 1001, …}, …]");
+        int n = 0;
+        for (const Json& entry : json["frames"]) {
+            const std::string where = "frames[" + std::to_string(n++) + "]";
+            if (!entry.is_object()) return wrong("is not {\"frame\": …}", where);
+            std::map<std::string, std::string> key;
+            for (const auto& [name, value] : entry.items())
+                key[name] = value.is_string() ? value.get<std::string>() : value.dump();
+            if (Status taken = take(key, where); !taken) return taken;
+        }
+        return Done{};
+    }
+
+    Status take(const std::map<std::string, std::string>& key, const std::string& where) {
+        const auto at = key.find("frame");
+        const auto frame = at == key.end() ? std::nullopt : frame_number(at->second);
+        if (!frame) return wrong("a frame number is missing or none", where);
+        if (!frames_.insert(*frame).second)
+            return wrong("frame " + std::to_string(*frame) + " is there twice", where);
+        for (const auto& [name, value] : key) {
+            if (name == "frame") continue;
+            if (const Known* known = known_column(name)) {
+                const auto read = number(value);
+                const bool fits = read && !std::isnan(*read) &&
+                                  (known->scale == Scale::Even ? std::isfinite(*read) : *read > 0) &&
+                                  (known->scale != Scale::Stops || std::isfinite(*read));
+                if (!fits) return wrong(name + " " + value + " is no such number", where);
+                column(name).numbers[*frame] = on_scale(known->scale, *read);
+            } else if (const auto taken = look_with(Look{}, name, value); !taken) {
+                return wrong(taken.error().message, where);
+            }
+            column(name).keys[*frame] = value;
+        }
+        return Done{};
+    }
+
+    Track::Column& column(const std::string& name) {
+        const auto found = std::find_if(track_.columns_.begin(), track_.columns_.end(),
+                                        [&](const Track::Column& c) { return c.name == name; });
+        if (found != track_.columns_.end()) return *found;
+        track_.columns_.push_back({name, {}, {}});
+        return track_.columns_.back();
+    }
+
+    Result<Track> finished() {
+        if (track_.columns_.empty()) return wrong("has no key: rows under frame and what changes");
+        for (Track::Column& c : track_.columns_) {
+            if (known_column(c.name)) continue;
+            // A column of numbers alone is mixed, but where the field takes whole numbers only.
+            std::map<int, double> numbers;
+            for (const auto& [frame, value] : c.keys)
+                if (const auto n = number(value); n && std::isfinite(*n)) numbers[frame] = *n;
+            if (numbers.size() == c.keys.size() && look_with(Look{}, c.name, "0.5"))
+                c.numbers = std::move(numbers);
+        }
+        for (const auto& [some, others] : {std::pair("focus_x", "focus_y"),
+                                           {"focus_y", "focus_x"},
+                                           {"point_x", "point_y"},
+                                           {"point_y", "point_z"},
+                                           {"point_z", "point_x"}})
+            if (track_.find(some) && !track_.find(others))
+                return wrong("has " + std::string(some) + " without " + others);
+        const int kinds = (track_.find("focus") ? 1 : 0) + (track_.find("focus_x") ? 1 : 0) +
+                          (track_.find("point_x") ? 1 : 0);
+        if (kinds > 1)
+            return wrong("says the focus twice; give one of focus, focus_x with focus_y, point_x …");
+        track_.first_ = *frames_.begin(), track_.last_ = *frames_.rbegin();
+        return std::move(track_);
+    }
+
+    std::string path_;
+    Track track_;
+    std::set<int> frames_;
+};
+
+Result<Track> Track::read(const std::string& path) { return TrackReader(path).read(); }
+
+const Track::Column* Track::find(const std::string& name) const {
+    const auto found =
+        std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
+    return found == columns_.end() ? nullptr : &*found;
+}
+
+std::optional<double> Track::number_at(const Column& column, int frame) const {
+    const auto& keys = column.numbers;
+    if (keys.empty()) return std::nullopt;
+    const auto after = keys.lower_bound(frame);
+    if (after == keys.end()) return keys.rbegin()->second;
+    if (after == keys.begin() || after->first == frame) return after->second;
+    const auto before = std::prev(after);
+    const double share = (double(frame) - before->first) / (double(after->first) - before->first);
+    return (1 - share) * before->second + share * after->second;
+}
+
+TrackedFrame Track::at(int frame) const {
+    TrackedFrame tracked;
+    const auto camera = [&](const char* name) -> std::optional<double> {
+        const Column* column = find(name);
+        if (!column) return std::nullopt;
+        const auto value = number_at(*column, frame);
+        return value ? std::optional(from_scale(known_column(name)->scale, *value)) : std::nullopt;
+    };
+    tracked.camera.focus_distance_m = camera("focus");
+    tracked.camera.f_number = camera("fstop");
+    tracked.camera.focal_length_mm = camera("focal_length");
+    if (const auto x = camera("focus_x"), y = camera("focus_y"); x && y)
+        tracked.focus_pixel = PixelPosition{int(std::lround(*x)), int(std::lround(*y))};
+    if (const auto x = camera("point_x"), y = camera("point_y"), z = camera("point_z"); x && y && z)
+        tracked.focus_point = WorldPoint{*x, *y, *z};
+    for (const Column& column : columns_) {
+        if (known_column(column.name)) continue;
+        if (const auto value = number_at(column, frame)) {
+            tracked.look[column.name] = text_of(*value);
+            continue;
+        }
+        auto key = column.keys.upper_bound(frame);
+        if (key != column.keys.begin()) --key;
+        tracked.look[column.name] = key->second;
+    }
+    return tracked;
+}
+
+void Track::limit_focus_speed(double dioptres_per_frame) {
+    const auto focus =
+        std::find_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.name == "focus"; });
+    if (focus == columns_.end() || focus->numbers.empty()) return;
+    std::map<int, double> slow;
+    double at = focus->numbers.begin()->second;
+    // Where the focus lags behind its last key it goes on after it.
+    const double goal = focus->numbers.rbegin()->second;
+    const int last_key = focus->numbers.rbegin()->first;
+    constexpr std::size_t kMostFrames = 1'000'000;
+    for (int frame = focus->numbers.begin()->first;
+         (frame <= last_key || at != goal) && slow.size() < kMostFrames; ++frame) {
+        const double wanted = *number_at(*focus, frame);
+        at += std::clamp(wanted - at, -dioptres_per_frame, dioptres_per_frame);
+        slow[frame] = at;
+        if (frame == std::numeric_limits<int>::max()) break;
+    }
+    focus->numbers = std::move(slow);
+}
+
+}  // namespace petzval
