@@ -127,7 +127,7 @@ struct WorldPoint {
 PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
 
 // How far the light of this look reaches beyond the picture, in pixels: the largest radius of what is not
-// empty. Errors: those of rendered() and circle_of_confusion().
+// empty, and what distortion moves it. Errors: those of rendered() and circle_of_confusion().
 PETZVAL_API Result<int> reach_px(const Shot& shot, const Look& look);
 // Adds so many pixels of emptiness on each side where the data window ends inside the display window;
 // elsewhere the scene goes on beyond the frame, unknown. Returns whether there is such a side. Errors:

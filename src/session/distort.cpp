@@ -1,29 +1,42 @@
 #include "session/distort.h"
 
 #include "base/parallel.h"
+#include "optics/distortion.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace petzval {
 namespace {
 
-// The radius that lands at `target`: r (1 + amount r^2) = target, by Newton's method from the target itself.
-// Barrel distortion leaves the largest radii nowhere to come from; then the farthest that lands.
-double undistorted(double target, double amount) {
-    const double farthest = amount < 0 ? std::sqrt(-1 / (3 * amount)) : 2 * target;
-    double r = std::min(target, farthest);
-    for (int i = 0; i < 12; ++i) {
-        const double slope = std::max(1e-3, 1 + 3 * amount * r * r);
-        r = std::clamp(r - (r * (1 + amount * r * r) - target) / slope, 0.0, farthest);
+// A row or a column of the data window.
+struct Side {
+    int size = 0;
+    bool begins_inside = false, ends_inside = false;  // of the frame: nothing lies beyond
+
+    // The pixel that stands for one, -1 for none.
+    int standing_for(int at) const {
+        if ((at < 0 && begins_inside) || (at >= size && ends_inside)) return -1;
+        if (at < 0) at = -1 - at;
+        if (at >= size) at = 2 * size - 1 - at;
+        return std::clamp(at, 0, size - 1);
     }
-    return r;
-}
+};
+struct Sides {
+    Side x, y;
+
+    explicit Sides(const Place& p)
+        : x{p.data_window.width(), p.data_window.x0 > p.display_window.x0,
+            p.data_window.x1 < p.display_window.x1},
+          y{p.data_window.height(), p.data_window.y0 > p.display_window.y0,
+            p.data_window.y1 < p.display_window.y1} {}
+};
 
 // Between pixels by cubic lines (E. Catmull, R. Rom, 1974), kept within the four nearest pixels: what is
 // bright throws no dark rings.
-Rgba sampled(const Picture& picture, double x, double y) {
+Rgba sampled(const Picture& picture, const Rect& seen, const Sides& sides, double x, double y) {
     const int left = int(std::floor(x)), top = int(std::floor(y));
     const auto weights = [](double at) {
         const float t = float(at), u = 1 - t;
@@ -35,8 +48,10 @@ Rgba sampled(const Picture& picture, double x, double y) {
     bool first = true;
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
-            const Rgba p = picture(std::clamp(left - 1 + i, 0, picture.width() - 1),
-                                   std::clamp(top - 1 + j, 0, picture.height() - 1));
+            const int px = sides.x.standing_for(left - 1 + i), py = sides.y.standing_for(top - 1 + j);
+            const Rgba p = px < 0 || py < 0 ? Rgba{}
+                                            : picture(std::clamp(px - seen.x0, 0, picture.width() - 1),
+                                                      std::clamp(py - seen.y0, 0, picture.height() - 1));
             sum += p * (across[std::size_t(i)] * down[std::size_t(j)]);
             if (i == 0 || i == 3 || j == 0 || j == 3) continue;
             least = first ? p
@@ -51,47 +66,87 @@ Rgba sampled(const Picture& picture, double x, double y) {
             std::clamp(sum.b, least.b, most.b), std::clamp(sum.a, least.a, most.a)};
 }
 
-// Where what is seen at (x, y) comes from, in pixels.
+// Where what is seen at (x, y) comes from, in pixels; nothing where nothing is seen.
 struct Origin {
     double x = 0, y = 0;
 };
-Origin origin_of(int x, int y, const PixelField& field, double amount) {
+std::optional<Origin> origin_of(int x, int y, const PixelField& field, double amount) {
     const double right = x + 0.5 - field.field_centre_x;
     const double down = (y + 0.5 - field.field_centre_y) / field.pixel_aspect;
     const double target = field.field_per_px * std::hypot(right, down);
-    const double scale = target > 0 ? undistorted(target, amount) / target : 1;
-    return {field.field_centre_x + scale * right - 0.5,
-            field.field_centre_y + scale * down * field.pixel_aspect - 0.5};
+    const auto from = optics::undistorted(target, amount);
+    if (!from) return std::nullopt;
+    const double scale = target > 0 ? *from / target : 1;
+    return Origin{field.field_centre_x + scale * right - 0.5,
+                  field.field_centre_y + scale * down * field.pixel_aspect - 0.5};
+}
+
+// The least rectangle that the border of some pixels shows: what lies inside of a border stays inside of it.
+// Nothing where a part of the border shows nothing.
+std::optional<Rect> shown_by(const Rect& pixels, const PixelField& field, double amount) {
+    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+    bool all = true;
+    const auto include = [&](int x, int y) {
+        const auto from = origin_of(x, y, field, amount);
+        all = all && from;
+        if (!from) return;
+        left = std::min(left, from->x), right = std::max(right, from->x);
+        top = std::min(top, from->y), bottom = std::max(bottom, from->y);
+    };
+    for (int x = pixels.x0; x < pixels.x1; ++x) include(x, pixels.y0), include(x, pixels.y1 - 1);
+    for (int y = pixels.y0; y < pixels.y1; ++y) include(pixels.x0, y), include(pixels.x1 - 1, y);
+    if (!all) return std::nullopt;
+    return Rect{int(std::floor(left)), int(std::floor(top)), int(std::ceil(right)) + 1,
+                int(std::ceil(bottom)) + 1};
+}
+
+// With the pixels whose mirror images lie beyond the ends of a side.
+void reflect(int& first, int& end, int size) {
+    const int low = first, high = end;
+    if (low < 0) end = std::max(end, -low);
+    if (high > size) first = std::min(first, 2 * size - high);
+    first = std::clamp(first, 0, size), end = std::clamp(end, 0, size);
 }
 
 }  // namespace
 
-Picture distorted(const Picture& picture, const PixelField& field, double amount, Workers& workers) {
+Picture distorted(const Picture& picture, const Rect& seen, const Place& place, double amount,
+                  Workers& workers) {
+    const PixelField field = place.field();
+    const Sides sides(place);
     Picture result = Picture::uninitialised(picture.width(), picture.height());
     parallel_for(picture.height(), workers, [&](int y) {
         for (int x = 0; x < picture.width(); ++x) {
-            const Origin from = origin_of(x, y, field, amount);
-            result(x, y) = sampled(picture, from.x, from.y);
+            const auto from = origin_of(seen.x0 + x, seen.y0 + y, field, amount);
+            result(x, y) = from ? sampled(picture, seen, sides, from->x, from->y) : Rgba{};
         }
     });
     return result;
 }
 
-Rect before_distortion(const Rect& pixels, const PixelField& field, double amount) {
+Rect before_distortion(const Rect& pixels, const Place& place, double amount) {
     constexpr int kBetween = 3;  // pixels that sampled() looks at, and one
-    const Origin first = origin_of(pixels.x0, pixels.y0, field, amount);
-    double left = first.x, right = first.x, top = first.y, bottom = first.y;
-    const auto include = [&](int x, int y) {
-        const Origin from = origin_of(x, y, field, amount);
-        left = std::min(left, from.x), right = std::max(right, from.x);
-        top = std::min(top, from.y), bottom = std::max(bottom, from.y);
-    };
-    // What lies inside of a border stays inside of it.
-    for (int x = pixels.x0; x < pixels.x1; ++x) include(x, pixels.y0), include(x, pixels.y1 - 1);
-    for (int y = pixels.y0; y < pixels.y1; ++y) include(pixels.x0, y), include(pixels.x1 - 1, y);
-    return Rect{int(std::floor(left)), int(std::floor(top)), int(std::ceil(right)) + 1,
-                int(std::ceil(bottom)) + 1}
-        .grown(kBetween);
+    const auto border = shown_by(pixels, place.field(), amount);
+    if (!border) return {0, 0, place.data_window.width(), place.data_window.height()};
+    Rect shown = border->grown(kBetween);
+    reflect(shown.x0, shown.x1, place.data_window.width());
+    reflect(shown.y0, shown.y1, place.data_window.height());
+    return shown;
+}
+
+int missing_beyond_px(const Place& place, double amount) {
+    if (amount >= 0) return 0;
+    const Sides sides(place);
+    const Rect frame = place.display_window.moved(-place.data_window.x0, -place.data_window.y0);
+    // Where the frame's corners show nothing, all around it is seen as far as distortion reaches.
+    const Rect shown =
+        shown_by(frame, place.field(), amount).value_or(frame.grown(distortion_reach_px(place, amount)));
+    int most = 0;
+    if (!sides.x.begins_inside) most = std::max(most, -shown.x0);
+    if (!sides.y.begins_inside) most = std::max(most, -shown.y0);
+    if (!sides.x.ends_inside) most = std::max(most, shown.x1 - sides.x.size);
+    if (!sides.y.ends_inside) most = std::max(most, shown.y1 - sides.y.size);
+    return most;
 }
 
 }  // namespace petzval

@@ -1,6 +1,10 @@
 // A picture as a lens with distortion records it: what stands at r half diagonals from the middle of the
 // display window moves to r (1 + amount r^2), so that discs stretch by (1 + 3 amount r^2) along that
 // direction and by (1 + amount r^2) across it, as petzval/lens_choice.h says.
+//
+// Around the picture there is nothing where its sides end inside of the frame. Elsewhere the scene goes on,
+// unknown: its mirror image stands for it. Where barrel distortion shows nothing at all, the picture is
+// empty.
 #pragma once
 
 #include "petzval/image.h"
@@ -9,11 +13,16 @@
 
 namespace petzval {
 
-// Of the same size. Where something from outside of the picture would be seen, its border is repeated.
-// Requires: -0.3 <= amount <= 0.3.
-Picture distorted(const Picture& picture, const PixelField& field, double amount, Workers& workers);
+// `seen`: the pixels of place.data_window, counted from its corner, that `picture` has. Of the same size.
+// Requires: -0.3 <= amount <= 0.3; `seen` holds before_distortion() of all pixels that count.
+Picture distorted(const Picture& picture, const Rect& seen, const Place& place, double amount,
+                  Workers& workers);
 
-// The pixels that these show: their least rectangle, with those that lie between it and its neighbours.
-Rect before_distortion(const Rect& pixels, const PixelField& field, double amount);
+// The pixels of the data window, counted from its corner, that these show: their least rectangle, with those
+// that lie between it and its neighbours.
+Rect before_distortion(const Rect& pixels, const Place& place, double amount);
+
+// How many pixels of the scene beyond the picture are seen that it lacks: the widest of its sides.
+int missing_beyond_px(const Place& place, double amount);
 
 }  // namespace petzval

@@ -30,15 +30,18 @@ Blob blob_of(const Picture& picture) {
     return b;
 }
 
-PixelField field_of(int width, int height) {
-    return {0.5 * width, 0.5 * height, 2 / std::hypot(width, height), 1};
+Place frame_of(int width, int height) { return Place::whole({0, 0, width, height}); }
+
+Picture distorted(const Picture& picture, double amount, const Place& place,
+                  Workers& workers = one_thread()) {
+    return distorted(picture, picture.rect(), place, amount, workers);
 }
 
 TEST(Distorted, WithoutDistortionItIsThePicture) {
     Picture picture(40, 30);
     for (std::size_t i = 0; i < picture.size(); ++i)
         picture.pixels()[i] = {float(i % 7), float(i % 11), float(i % 5), 1};
-    const Picture same = distorted(picture, field_of(40, 30), 0, one_thread());
+    const Picture same = distorted(picture, 0, frame_of(40, 30));
     for (std::size_t i = 0; i < picture.size(); ++i)
         EXPECT_LT(std::abs(same.pixels()[i].g - picture.pixels()[i].g), 1e-5f);
 }
@@ -48,10 +51,10 @@ TEST(Distorted, APointMovesByTheCubeOfItsRadius) {
         Picture picture(400, 300, Rgba{0, 0, 0, 1});
         for (int y = 198; y < 203; ++y)
             for (int x = 298; x < 303; ++x) picture(x, y).g = 1;
-        const PixelField field = field_of(400, 300);
+        const Place place = frame_of(400, 300);
         const double right = 300.5 - 200, down = 200.5 - 150,
-                     r = field.field_per_px * std::hypot(right, down);
-        const Blob blob = blob_of(distorted(picture, field, amount, *own_workers(2)));
+                     r = place.field().field_per_px * std::hypot(right, down);
+        const Blob blob = blob_of(distorted(picture, amount, place, *own_workers(2)));
         // The square is not a point: its far side moves more.
         EXPECT_NEAR(blob.x, 200 + right * (1 + amount * r * r), 0.15);
         EXPECT_NEAR(blob.y, 150 + down * (1 + amount * r * r), 0.15);
@@ -61,12 +64,58 @@ TEST(Distorted, APointMovesByTheCubeOfItsRadius) {
 TEST(Distorted, NothingGrowsBrighterOrDarkerThanWhatIsThere) {
     Picture picture(64, 64, Rgba{0, 0, 0, 1});
     picture(40, 20) = {1000, 1000, 1000, 1};
-    const Picture moved = distorted(picture, field_of(64, 64), 0.2, one_thread());
+    const Picture moved = distorted(picture, 0.2, frame_of(64, 64));
     for (std::size_t i = 0; i < moved.size(); ++i) {
         EXPECT_GE(moved.pixels()[i].g, 0);
         EXPECT_LE(moved.pixels()[i].g, 1000);
         EXPECT_EQ(moved.pixels()[i].a, 1);
     }
+}
+
+// A lamp in the outermost column.
+Picture lamp_at_the_edge() {
+    Picture picture(200, 120, Rgba{0.1f, 0.1f, 0.1f, 1});
+    for (int y = 58; y < 62; ++y)
+        for (int x = 196; x < 200; ++x) picture(x, y) = {50, 50, 50, 1};
+    return picture;
+}
+
+TEST(Distorted, ALampAtTheEdgeIsDrawnOutToNoBar) {
+    const Picture moved = distorted(lamp_at_the_edge(), -0.1, frame_of(200, 120));
+    // Its mirror image doubles it, and the lens makes it smaller; before, it went on to the frame's edge.
+    int wide = 0;
+    for (int x = 0; x < 200; ++x) wide += moved(x, 60).g > 25;
+    EXPECT_GE(wide, 4);
+    EXPECT_LE(wide, 9);
+}
+
+TEST(Distorted, AroundAPictureThatEndsInsideOfTheFrameThereIsNothing) {
+    Place place = frame_of(200, 120);
+    place.display_window = {0, 0, 260, 120};  // the picture ends at column 200
+    Picture moved = distorted(lamp_at_the_edge(), -0.1, place);
+    double right_of_lamp = 0;
+    for (int y = 0; y < 120; ++y) right_of_lamp += double(moved(199, y).g) + double(moved(199, y).a);
+    EXPECT_EQ(right_of_lamp, 0);
+    EXPECT_EQ(missing_beyond_px(place, -0.1), missing_beyond_px(frame_of(260, 120), -0.1));
+}
+
+TEST(Distorted, OverscanTakesThePlaceOfTheMirrorImage) {
+    const Place bare = frame_of(200, 120);
+    const int reach = distortion_reach_px(bare, -0.1);
+    EXPECT_GE(reach, missing_beyond_px(bare, -0.1));
+    EXPECT_GT(missing_beyond_px(bare, -0.1), 5);
+    EXPECT_EQ(missing_beyond_px(bare.grown(reach), -0.1), 0);
+    EXPECT_EQ(missing_beyond_px(bare, 0.1), 0);
+    // By hand: r (1 - 0.1 r^2) = 1 at r = 1.1535, and the half diagonal is 116.6 px.
+    EXPECT_EQ(reach, 18);
+}
+
+TEST(Distorted, WhereStrongBarrelDistortionShowsNothingThePictureIsEmpty) {
+    Picture picture(100, 100, Rgba{1, 1, 1, 1});
+    const Picture moved = distorted(picture, -0.3, frame_of(100, 100));
+    EXPECT_EQ(moved(0, 0), Rgba{});
+    EXPECT_EQ(moved(50, 50), (Rgba{1, 1, 1, 1}));
+    EXPECT_EQ(moved(1, 50).a, 1);  // 2/3 of sqrt(1/0.9) is 0.703 half diagonals, 49.7 px
 }
 
 // A picture's disc is the kernel of the lens with that distortion, where the lens puts it.

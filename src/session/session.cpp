@@ -94,7 +94,7 @@ Rect seen_pixels(const Asked& asked, const DefocusJob& job, const engine::Input&
     const int margin = region_margin_px(double(largest), input.lens(0).reach_px(double(largest)));
     constexpr int kTiles = 128;  // pixels of the largest
     const Rect from = job.lens.distortion != 0
-                          ? before_distortion(asked.pixels, input, job.lens.distortion).intersected(all)
+                          ? before_distortion(asked.pixels, job.place, job.lens.distortion)
                           : asked.pixels;
     return pixels_for(from, margin, std::max(kTiles, grid_for(largest, input.lens(0))), all);
 }
@@ -143,7 +143,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
         output->warnings = std::move(shown.warnings);
     }
     if (job.lens.distortion != 0 && report.panels.empty())
-        report.image = distorted(report.image, drawn, job.lens.distortion, *job.workers);
+        report.image = distorted(report.image, seen, job.place, job.lens.distortion, *job.workers);
     if (report.panels.empty() && asked.pixels != seen)
         report.image = part_of(report.image, asked.pixels.moved(-seen.x0, -seen.y0));
     report.engine = chosen.name;
@@ -156,6 +156,10 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
     report.warnings = std::move(frame.warnings);
     report.warnings.insert(report.warnings.end(), output->warnings.begin(), output->warnings.end());
+    if (const int missing = missing_beyond_px(job.place, job.lens.distortion); missing > 0)
+        report.warnings.push_back("lens.distortion shows the scene up to " + std::to_string(missing) +
+                                  " pixels beyond the picture, where its mirror image stands for it; "
+                                  "render that much overscan");
     if (lens.store && !lens.store->warning().empty()) report.warnings.push_back(lens.store->warning());
     report.largest_radius_px = double(input.farthest_coc_px);
     report.smallest_radius_px = double(input.nearest_coc_px);

@@ -33,7 +33,9 @@ Result<int> reach_px(const Shot& shot, const Look& look) {
     float largest = 0;
     for (std::size_t i = 0; i < radii->size(); ++i)
         if (shot.colour.pixels()[i] != Rgba{}) largest = std::max(largest, std::abs(radii->pixels()[i]));
-    return int(std::ceil(double(largest) * std::max(1.0, look.lens.aperture.squeeze))) + 1;
+    // Distortion moves what the blur has spread.
+    const int moved = look.lens.distortion != 0 ? distortion_reach_px(shot.place, look.lens.distortion) : 0;
+    return int(std::ceil(double(largest) * std::max(1.0, look.lens.aperture.squeeze))) + 1 + moved;
 }
 
 Result<bool> grow_empty_sides(Shot& shot, int by_px) {
