@@ -246,5 +246,26 @@ TEST(GatherStages, TheDiscIsBlindAndTheTestIsNot) {
     EXPECT_EQ(at_stage(GatherStage::Coc)(60, 48).g, 12);
 }
 
+// Two lamps within one zone of the lens, one of them on a border of the tiles that are drawn together.
+TEST(Gather, ALensThatDiffersOverTheFieldTearsNoDiscWhereTilesMeet) {
+    const auto lamp_at = [](int x) {
+        Shot shot = flat(640, 384, {0, 0, 0, 1}, 8);
+        shot.colour(x, 64) = {100, 100, 100, 1};
+        DefocusJob job = shot.job("gather");
+        job.lens.cats_eye = 1;
+        return rendered(job);
+    };
+    constexpr int kApart = 32;
+    const Picture inside = lamp_at(92), across = lamp_at(92 + kApart);
+    double farthest = 0, brightest = 0;
+    for (int y = 50; y < 78; ++y)
+        for (int x = 80; x < 105; ++x) {
+            farthest = std::max(farthest, double(std::abs(across(x + kApart, y).r - inside(x, y).r)));
+            brightest = std::max(brightest, double(inside(x, y).r));
+        }
+    EXPECT_GT(brightest, 0.05);
+    EXPECT_LT(farthest, 1e-4 * brightest);
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -49,6 +49,7 @@ private:
 // Light of one ring that may reach the tile, at its place in the window.
 struct Arrival {
     int x, y;
+    int zone;
     Rgba colour;
     float covered, beyond;
 };
@@ -67,7 +68,8 @@ struct Combined {
 struct Workspace {
     std::vector<std::vector<Arrival>> arrivals;  // by ring
     std::vector<std::ptrdiff_t> offsets;
-    Planes window, gathered;
+    std::vector<int> zones;  // of a ring's arrivals, each once
+    Planes window, gathered, of_zone;
     Combined cells, tile;
 };
 
@@ -75,7 +77,7 @@ class TileGather {
 public:
     TileGather(const GatherPlan& plan, const GatherPlan::Tile& tile, const TapAtlas& atlas,
                Workspace& workspace)
-        : plan_(plan), atlas_(atlas), zone_(tile.zone), tile_(tile.pixels), w_(workspace) {}
+        : plan_(plan), atlas_(atlas), tile_(tile.pixels), w_(workspace) {}
 
     void run(View<Rgba> out) {
         w_.tile.reset(tile_.width(), tile_.height());
@@ -94,6 +96,7 @@ private:
     void group(int begin, int end, int level) {
         target_ = GatherPlan::cells_of(tile_, level);
         window_ = target_.grown(plan_.reach[std::size_t(level)]);
+        find_zones(level);
         find_arrivals(begin, end, level);
         if (std::all_of(w_.arrivals.begin() + begin, w_.arrivals.begin() + end,
                         [](const auto& arrivals) { return arrivals.empty(); }))
@@ -108,6 +111,15 @@ private:
         if (level > 0) enlarge(level);
     }
 
+    void find_zones(int level) {
+        const auto middle = [&](int cell) { return std::ldexp(cell + 0.5, level) - 0.5; };
+        zone_column_.clear(), zone_row_.clear();
+        for (int x = window_.x0; x < window_.x1; ++x)
+            zone_column_.push_back(plan_.zones.column_of(middle(x)));
+        for (int y = window_.y0; y < window_.y1; ++y)
+            zone_row_.push_back(plan_.zones.row_of(middle(y)) * plan_.zones.columns);
+    }
+
     void find_arrivals(int begin, int end, int level) {
         w_.arrivals.resize(std::size_t(plan_.sizes.count()));
         for (int ring = begin; ring < end; ++ring) w_.arrivals[std::size_t(ring)].clear();
@@ -117,7 +129,9 @@ private:
 
     void arrive(int ring, int x, int y, Rgba colour, float covered, float beyond) {
         has_beyond_ = has_beyond_ || beyond > 0;
-        w_.arrivals[std::size_t(ring)].push_back({x - window_.x0, y - window_.y0, colour, covered, beyond});
+        x -= window_.x0, y -= window_.y0;
+        const int zone = zone_row_[std::size_t(y)] + zone_column_[std::size_t(x)];
+        w_.arrivals[std::size_t(ring)].push_back({x, y, zone, colour, covered, beyond});
     }
 
     // Whether what lies outside at (x, y) goes on as the nearest cell inside; else there is emptiness.
@@ -168,49 +182,80 @@ private:
         }
     }
 
-    // The light of one ring, at every cell of its reach within the target.
+    // The light of one ring, at every cell of its reach within the target: from each zone by its own kernel.
     void gather_ring(int ring) {
         const std::vector<Arrival>& arrivals = w_.arrivals[std::size_t(ring)];
-        const TapKernel& kernel = atlas_[plan_.kernel(ring, zone_)];
-        Rect lit{arrivals.front().x, arrivals.front().y, arrivals.front().x, arrivals.front().y};
+        w_.zones.clear();
+        for (const Arrival& a : arrivals)
+            if (std::find(w_.zones.begin(), w_.zones.end(), a.zone) == w_.zones.end())
+                w_.zones.push_back(a.zone);
+        if (w_.zones.size() == 1) {
+            reached_ = gather_zone(arrivals, ring, w_.zones.front(), w_.gathered);
+            return;
+        }
+        w_.gathered.shape(kPlanes, target_.width() + kGatherGroup, target_.height() + kGatherRows);
+        w_.gathered.clear(kPlanes);
+        reached_ = {};
+        for (const int zone : w_.zones) {
+            const Rect reached = gather_zone(arrivals, ring, zone, w_.of_zone);
+            for (int k = 0; k < planes_; ++k)
+                for (int y = reached.y0; y < reached.y1; ++y) {
+                    const float* from = w_.of_zone.row(k, y);
+                    float* to = w_.gathered.row(k, y);
+                    for (int x = reached.x0; x < reached.x1; ++x) to[x] += from[x];
+                }
+            reached_ = reached_.empty() ? reached
+                       : reached.empty()
+                           ? reached_
+                           : Rect{std::min(reached_.x0, reached.x0), std::min(reached_.y0, reached.y0),
+                                  std::max(reached_.x1, reached.x1), std::max(reached_.y1, reached.y1)};
+        }
+    }
+
+    // What arrives from one zone; returns where in the target it lands, outside of which `into` holds
+    // nothing.
+    Rect gather_zone(const std::vector<Arrival>& arrivals, int ring, int zone, Planes& into) {
+        const TapKernel& kernel = atlas_[plan_.kernel(ring, zone)];
         w_.window.shape(kPlanes, window_.width(), window_.height() + kGatherRows);
         // Alpha is coverage where all is opaque; what lies beyond the picture is seldom near.
-        const int planes = has_beyond_ || !plan_.opaque ? kPlanes : kAlpha;
-        w_.window.clear(planes);
+        planes_ = has_beyond_ || !plan_.opaque ? kPlanes : kAlpha;
+        w_.window.clear(planes_);
+        Rect lit{window_.width(), window_.height(), 0, 0};
         for (const Arrival& a : arrivals) {
+            if (a.zone != zone) continue;
             const std::array<float, kPlanes> values{a.colour.r, a.colour.g, a.colour.b,
                                                     a.covered,  a.colour.a, a.beyond};
             float* at = w_.window.row(0, a.y) + a.x;
-            for (int k = 0; k < planes; ++k, at += w_.window.stride()) *at += values[std::size_t(k)];
+            for (int k = 0; k < planes_; ++k, at += w_.window.stride()) *at += values[std::size_t(k)];
             lit = {std::min(lit.x0, a.x), std::min(lit.y0, a.y), std::max(lit.x1, a.x + 1),
                    std::max(lit.y1, a.y + 1)};
         }
         // Where it lands, in cells of the target.
         const int shift_x = window_.x0 - target_.x0, shift_y = window_.y0 - target_.y0;
-        reached_ = Rect{lit.x0 + shift_x + kernel.extent.x0, lit.y0 + shift_y + kernel.extent.y0,
-                        lit.x1 + shift_x + kernel.extent.x1, lit.y1 + shift_y + kernel.extent.y1}
-                       .intersected({0, 0, target_.width(), target_.height()});
-        if (reached_.empty()) return;
-        w_.gathered.shape(kPlanes, target_.width() + kGatherGroup, target_.height() + kGatherRows);
+        const Rect reached = Rect{lit.x0 + shift_x + kernel.extent.x0, lit.y0 + shift_y + kernel.extent.y0,
+                                  lit.x1 + shift_x + kernel.extent.x1, lit.y1 + shift_y + kernel.extent.y1}
+                                 .intersected({0, 0, target_.width(), target_.height()});
+        if (reached.empty()) return {};
+        into.shape(kPlanes, target_.width() + kGatherGroup, target_.height() + kGatherRows);
         w_.offsets.clear();
         for (const TapKernel::Step& step : kernel.steps)
             w_.offsets.push_back(std::ptrdiff_t(step.dy) * w_.window.width() + step.dx);
-        sum_taps(kernel);
+        sum_taps(kernel, reached, into);
+        return reached;
     }
 
-    void sum_taps(const TapKernel& kernel) {
-        const int in_x = reached_.x0 + target_.x0 - window_.x0, in_y = reached_.y0 + target_.y0 - window_.y0;
-        const int groups = (reached_.width() + kGatherGroup - 1) / kGatherGroup;
+    void sum_taps(const TapKernel& kernel, const Rect& reached, Planes& into) {
+        const int in_x = reached.x0 + target_.x0 - window_.x0, in_y = reached.y0 + target_.y0 - window_.y0;
+        const int groups = (reached.width() + kGatherGroup - 1) / kGatherGroup;
         const engine::StepJob job{w_.offsets.data(), kernel.weights.data(), int(kernel.steps.size()),
-                                  kernel.neutral,    groups * kGatherGroup, reached_.height(),
-                                  w_.window.width(), w_.gathered.width()};
+                                  kernel.neutral,    groups * kGatherGroup, reached.height(),
+                                  w_.window.width(), into.width()};
         const auto plane = [&](int k) {
-            return engine::TapPlane{w_.window.row(k, in_y) + in_x,
-                                    w_.gathered.row(k, reached_.y0) + reached_.x0};
+            return engine::TapPlane{w_.window.row(k, in_y) + in_x, into.row(k, reached.y0) + reached.x0};
         };
         gather_two(job, plane(kRed), 0, plane(kGreen), 1);
         gather_two(job, plane(kBlue), 2, plane(kCovered), 3);
-        if (has_beyond_ || !plan_.opaque) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
+        if (planes_ == kPlanes) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
     }
 
     // Of each cell's lens, the area that the ring arrives with, or what is left.
@@ -290,12 +335,13 @@ private:
 
     const GatherPlan& plan_;
     const TapAtlas& atlas_;
-    int zone_;
     Rect tile_;
     Workspace& w_;
     Rect target_, window_;  // cells of the level: where light is wanted, where it may come from
     Rect reached_;          // cells of the target that the ring reaches
     bool has_beyond_ = false;
+    int planes_ = kPlanes;                     // that are gathered
+    std::vector<int> zone_column_, zone_row_;  // of the window's cells: a zone is their sum
 };
 
 void copy_tile(const GatherPlan& plan, const Rect& tile, View<Rgba> out) {

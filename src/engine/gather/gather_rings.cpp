@@ -83,7 +83,8 @@ RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
       lens_(lens.from(lens.frame.x0, lens.frame.y0)),
       sizes_(sizes),
       reach_(std::size_t(sizes.levels()), 0) {
-    if (lens.lens(0).varies_over_field()) zones_x_ = kZonesX, zones_y_ = kZonesY;
+    zones_.frame = lens_.frame;
+    if (lens.lens(0).varies_over_field()) zones_.columns = kZonesX, zones_.rows = kZonesY;
     for (int ring = 0; ring < sizes.count(); ++ring) {
         const int level = sizes.level(ring);
         const double reach =
@@ -93,12 +94,6 @@ RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
     }
 }
 
-int RingKernels::zone_of(double x, double y) const {
-    const int column = std::clamp(int((x + 0.5) / lens_.frame.width() * zones_x_), 0, zones_x_ - 1);
-    const int row = std::clamp(int((y + 0.5) / lens_.frame.height() * zones_y_), 0, zones_y_ - 1);
-    return row * zones_x_ + column;
-}
-
 device::KernelAsk RingKernels::ask(int ring, int zone) const {
     return {.level = sizes_.level(ring), .zone = zone, .step = std::bit_cast<int>(sizes_.radius_px(ring))};
 }
@@ -106,9 +101,9 @@ device::KernelAsk RingKernels::ask(int ring, int zone) const {
 std::vector<device::KernelSource::Made> RingKernels::make(std::span<const device::KernelAsk> asks) const {
     std::vector<Made> made;
     for (const device::KernelAsk& ask : asks) {
-        const int column = ask.zone % zones_x_, row = ask.zone / zones_x_;
-        const double x = (column + 0.5) * lens_.frame.width() / zones_x_ - 0.5;
-        const double y = (row + 0.5) * lens_.frame.height() / zones_y_ - 0.5;
+        const int column = ask.zone % zones_.columns, row = ask.zone / zones_.columns;
+        const double x = (column + 0.5) * lens_.frame.width() / zones_.columns - 0.5;
+        const double y = (row + 0.5) * lens_.frame.height() / zones_.rows - 0.5;
         const double radius = radius_in_cells(double(std::bit_cast<float>(ask.step)), ask.level);
         made.push_back({std::make_shared<const kernel::PointSpread>(
             lens_.lens(ask.level).point_spread(radius, lens_.field_at(x, y)))});

@@ -63,14 +63,29 @@ private:
     float steps_per_px_ = 0;
 };
 
-// Kernels of rings for 9 x 6 zones of the display window, where the lens differs over it. An ask's step is
+// Parts of the display window whose lights share kernels: 9 x 6 where the lens differs over it, else one.
+struct Zones {
+    int columns = 1, rows = 1;
+    Rect frame;  // the display window, in pixels of a picture
+    int count() const { return columns * rows; }
+    // Of a place in the picture.
+    int column_of(double x) const { return at(x - frame.x0, frame.width(), columns); }
+    int row_of(double y) const { return at(y - frame.y0, frame.height(), rows); }
+
+private:
+    static int at(double pixel, int pixels, int zones) {
+        return std::clamp(int((pixel + 0.5) / pixels * zones), 0, zones - 1);
+    }
+};
+
+// Kernels of rings for all zones. An ask's step is
 // the ring's radius, so that rings of one radius share kernels whatever rings are beside them.
 class RingKernels final : public device::KernelSource {
 public:
     RingKernels(const LensOnPicture& lens, const RingSizes& sizes);
 
-    int zones() const { return zones_x_ * zones_y_; }
-    int zone_of(double x, double y) const;  // of a place in the display window, pixels
+    // In a picture with this display window.
+    Zones zones(const Rect& frame) const { return {zones_.columns, zones_.rows, frame}; }
     device::KernelAsk ask(int ring, int zone) const;
     std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
     // Cells by which any kernel of a level reaches.
@@ -79,7 +94,7 @@ public:
 private:
     const LensOnPicture lens_;  // of a picture that begins with the display window
     RingSizes sizes_;
-    int zones_x_ = 1, zones_y_ = 1;
+    Zones zones_;  // in that picture
     std::vector<int> reach_;
 };
 

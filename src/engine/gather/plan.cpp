@@ -47,54 +47,22 @@ bool is_reached(const Input& input, const std::vector<Rect>& tiles, const std::v
     return false;
 }
 
-// Which rings have light in which of the tiles that cover the strip.
-class LitTiles {
-public:
-    explicit LitTiles(const GatherPlan& plan)
-        : rings_(plan.sizes.count()),
-          columns_((plan.strip.width() + kTile - 1) / kTile),
-          rows_((plan.strip.height() + kTile - 1) / kTile),
-          lit_(std::size_t(rings_ * columns_ * rows_)) {
-        for (std::size_t l = 0; l < plan.levels.size(); ++l) add(plan.levels[l], int(l) + 1);
-    }
-    // Whether the ring has light in any tile that these pixels touch, or in those beyond that are its border.
-    bool touches(int ring, const Rect& pixels) const {
-        const auto tile = [](int pixel, int tiles) { return std::clamp(pixel / kTile, 0, tiles - 1); };
-        for (int y = tile(pixels.y0, rows_); y <= tile(pixels.y1, rows_); ++y)
-            for (int x = tile(pixels.x0, columns_); x <= tile(pixels.x1, columns_); ++x)
-                if (lit_[at(ring, x, y)]) return true;
-        return false;
-    }
-
-private:
-    static constexpr int kTile = GatherPlan::kTile;
-    void add(const CellLevel& cells, int level) {
+// At full resolution all kernels, as they are small and light is everywhere; of coarser levels those of rings
+// that have light in a zone.
+void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
+    const int rings = plan.sizes.count();
+    std::vector<bool> asked(std::size_t(rings * plan.zones.count()));
+    const auto ask = [&](int ring, int zone) { asked[std::size_t(zone * rings + ring)] = true; };
+    for (int ring = 0; ring < rings; ++ring)
+        for (int zone = 0; zone < plan.zones.count(); ++zone)
+            if (plan.sizes.level(ring) == 0) ask(ring, zone);
+    for (std::size_t l = 0; l < plan.levels.size(); ++l) {
+        const CellLevel& cells = plan.levels[l];
+        const ZonesOfCells zones(plan.zones, cells.width(), cells.height(), int(l) + 1);
         for (int y = 0; y < cells.height(); ++y) {
             if (!cells.has_any(y)) continue;
             for (int x = 0; x < cells.width(); ++x)
-                for (const CellLight& light : cells.at(x, y))
-                    lit_[at(light.ring, (x << level) / kTile, (y << level) / kTile)] = true;
-        }
-    }
-    std::size_t at(int ring, int x, int y) const { return std::size_t((y * columns_ + x) * rings_ + ring); }
-
-    int rings_, columns_, rows_;
-    std::vector<bool> lit_;
-};
-
-// The kernels that the tiles take: at full resolution all, as they are small and in most tiles; of coarser
-// levels those whose light may reach a tile.
-void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
-    const LitTiles lit(plan);
-    const int rings = plan.sizes.count();
-    std::vector<bool> asked(std::size_t(rings * kernels.zones()));
-    for (const GatherPlan::Tile& tile : plan.tiles) {
-        if (tile.is_sharp) continue;
-        for (int ring = 0; ring < rings; ++ring) {
-            const int level = plan.sizes.level(ring);
-            const int reach = (plan.reach[std::size_t(level)] + GatherPlan::kTentBorder + 1) << level;
-            if (level == 0 || lit.touches(ring, tile.pixels.grown(reach)))
-                asked[std::size_t(tile.zone * rings + ring)] = true;
+                for (const CellLight& light : cells.at(x, y)) ask(light.ring, zones(x, y));
         }
     }
     struct Asked {
@@ -129,11 +97,9 @@ GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, cons
     }
     for (const Rect& tile : tiles) {
         if (tile.intersected(rows).empty()) continue;
-        plan.tiles.push_back({tile,
-                              kernels.zone_of(0.5 * (tile.x0 + tile.x1 - 1) - strip.frame.x0,
-                                              0.5 * (tile.y0 + tile.y1 - 1) - strip.frame.y0),
-                              strip.deep.empty() && !is_reached(strip, tiles, largest, tile)});
+        plan.tiles.push_back({tile, strip.deep.empty() && !is_reached(strip, tiles, largest, tile)});
     }
+    plan.zones = kernels.zones(strip.frame);
     ask_for_kernels(kernels, plan);
     return plan;
 }

@@ -7,6 +7,7 @@
 #include "engine/gather/gather_rings.h"
 #include "engine/waist/engine.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -27,10 +28,8 @@ struct GatherPlan {
             .grown(kTentBorder);
     }
 
-    // Pixels of the result, gathered with the kernels of one zone.
     struct Tile {
-        Rect pixels;
-        int zone = 0;
+        Rect pixels;            // of the result
         bool is_sharp = false;  // no blurred light lands here: it stays as it was
     };
 
@@ -45,11 +44,26 @@ struct GatherPlan {
     std::vector<int> reach;         // cells by which any kernel of a level reaches
     std::vector<Tile> tiles;
     device::KernelSet kernels;
-    // The place of a ring's kernel in `kernels`, by zone; of rings that reach a tile of the zone.
+    Zones zones;  // of the picture: light is spread by the kernels of the zone that it comes from
+    // The place of a ring's kernel in `kernels`, by zone; of rings that have light in the zone.
     std::vector<std::uint32_t> places;
     std::uint32_t kernel(int ring, int zone) const {
         return places[std::size_t(zone * sizes.count() + ring)];
     }
+};
+
+// The zones of cells (0…width-1, 0…height-1) of a level.
+class ZonesOfCells {
+public:
+    ZonesOfCells(const Zones& zones, int width, int height, int level) {
+        const auto middle = [&](int cell) { return std::ldexp(cell + 0.5, level) - 0.5; };
+        for (int x = 0; x < width; ++x) column_.push_back(zones.column_of(middle(x)));
+        for (int y = 0; y < height; ++y) first_.push_back(zones.row_of(middle(y)) * zones.columns);
+    }
+    int operator()(int x, int y) const { return first_[std::size_t(y)] + column_[std::size_t(x)]; }
+
+private:
+    std::vector<int> column_, first_;
 };
 
 // rows: the pixels of the strip to be drawn.
