@@ -89,7 +89,7 @@ def methods(scene, engines, quality, pupil_points):
     """(label, input, flags) of each way to defocus the scene."""
     for engine in engines:
         flags = ["--engine", engine]
-        flags += ["--pupil-points", pupil_points] if engine == "reference" else ["--quality", quality]
+        flags += {"reference": ["--pupil-points", pupil_points], "gaussian": []}.get(engine, ["--quality", quality])
         if engine != "reference" or not scene.behind:
             yield engine, scene.sharp, flags
         if scene.behind:

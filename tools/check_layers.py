@@ -79,6 +79,7 @@ PUBLIC = {
     "light_point": "image",
     "look": "look",
     "look_check": "look",
+    "look_file": "shot",
     "look_json": "look",
     "names": "names",
     "ocio": "ocio",

@@ -44,42 +44,18 @@ void FocusFlags::add_to(Verb& verb) {
         .value("--focus-point", "X,Y,Z",
                "focus on this point of the scene's world, in its units, by the file's worldToCamera",
                parse_place, focus_point)
-        .value("--focus-range", "M,M", "keep everything between two distances sharp, as 1.8m,3m",
-               parse_range_m, focus_range_m)
-        .value("--focus-falloff", "SHARE",
-               "ease blur in beyond the range over this share of its ends' distance", parse_not_negative,
-               focus_falloff)
-        .value("--near-scale", "FACTOR", "multiply radii in front of focus", parse_not_negative, near_scale)
-        .value("--far-scale", "FACTOR", "multiply radii behind focus", parse_not_negative, far_scale)
         .value(
             "--permissible-radius", "PX",
             "blur radius that still counts as sharp, for --view focus and the limits in --json (default 1)",
-            parse_positive, permissible_radius_px)
-        .value("--max-radius", "PX", "cut radii off here; smaller ones stay as they are", parse_positive,
-               max_radius_px);
+            parse_positive, permissible_radius_px);
 }
 
 std::vector<std::string> FocusFlags::given() const {
     std::vector<std::string> names;
     if (focus_at) names.emplace_back("--focus-at");
     if (focus_point) names.emplace_back("--focus-point");
-    if (focus_range_m) names.emplace_back("--focus-range");
-    if (focus_falloff) names.emplace_back("--focus-falloff");
-    if (near_scale) names.emplace_back("--near-scale");
-    if (far_scale) names.emplace_back("--far-scale");
-    if (max_radius_px) names.emplace_back("--max-radius");
     if (permissible_radius_px) names.emplace_back("--permissible-radius");
     return names;
-}
-
-CocControls FocusFlags::controls() const {
-    CocControls controls;
-    if (near_scale) controls.near_scale = *near_scale;
-    if (far_scale) controls.far_scale = *far_scale;
-    if (max_radius_px) controls.max_radius_px = *max_radius_px;
-    if (focus_range_m) controls.focus_near_m = focus_range_m->low, controls.focus_far_m = focus_range_m->high;
-    if (focus_falloff) controls.focus_falloff = *focus_falloff;
-    return controls;
 }
 
 std::string camera_example(const FoundCamera& found, const std::string& input, const std::string& output) {

@@ -27,18 +27,15 @@ struct CameraFlags {
     CameraChoice choice() const;
 };
 
-// What only `defocus` knows: a pixel to focus on and the artist's controls.
+// What only `defocus` knows: what to focus on. The artist's controls are a look's.
 struct FocusFlags {
     std::optional<PixelPosition> focus_at;  // in pixels of the display window
     std::optional<WorldPoint> focus_point;  // of the world, in scene units
-    std::optional<Interval> focus_range_m;
-    std::optional<double> max_radius_px, near_scale, far_scale, focus_falloff;
     // Blur that still counts as sharp, for the focus view and the limits in the report.
     std::optional<double> permissible_radius_px;
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
-    CocControls controls() const;
 };
 
 // What to add to a message on missing camera numbers: ", for example: petzval defocus … --fstop 2.8".

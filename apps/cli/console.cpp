@@ -28,8 +28,8 @@ std::size_t utf8_length(const std::string& text, std::size_t i) {
 
 void line_to_stderr(const std::string& prefix, const char* colour, const std::string& line) {
     const bool coloured = colour_wanted() && !prefix.empty();
-    const std::string text = (coloured ? colour + prefix + "\x1b[0m" : prefix) + one_line(in_flags(line)) +
-                             "\n";  // one write per line
+    const std::string text =
+        (coloured ? colour + prefix + "\x1b[0m" : prefix) + one_line(line) + "\n";  // one write per line
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
@@ -43,18 +43,20 @@ bool colour_wanted() {
 }
 
 void note(const std::string& line) {
-    if (g_verbosity != Verbosity::Quiet) line_to_stderr("", "", line);
+    if (g_verbosity != Verbosity::Quiet) line_to_stderr("", "", in_flags(line));
 }
 
 void detail(const std::string& line) {
-    if (g_verbosity == Verbosity::Verbose) line_to_stderr("", "", line);
+    if (g_verbosity == Verbosity::Verbose) line_to_stderr("", "", in_flags(line));
 }
 
 void warning(const std::string& line) {
-    if (g_verbosity != Verbosity::Quiet) line_to_stderr("petzval: warning: ", "\x1b[33m", line);
+    if (g_verbosity != Verbosity::Quiet) line_to_stderr("petzval: warning: ", "\x1b[33m", in_flags(line));
 }
 
-void failure(const std::string& line) { line_to_stderr("petzval: ", "\x1b[1;31m", line); }
+void failure(const std::string& line, Words words) {
+    line_to_stderr("petzval: ", "\x1b[1;31m", words == Words::Flags ? in_flags(line) : line);
+}
 
 std::string printable(const std::string& text) {
     std::string safe;

@@ -17,7 +17,9 @@ bool colour_wanted();
 void note(const std::string& line);     // unless -q
 void detail(const std::string& line);   // with -v
 void warning(const std::string& line);  // unless -q; "petzval: warning: …"
-void failure(const std::string& line);  // always; "petzval: …"
+// Always; "petzval: …". Fields are spoken of by their flags, or as they stand in a file.
+enum class Words { Flags, Fields };
+void failure(const std::string& line, Words words = Words::Flags);
 
 // The text with control characters and what is not UTF-8 made harmless, line breaks kept.
 std::string printable(const std::string& text);

@@ -1,12 +1,15 @@
 // petzval defocus: the main job.
 #include "petzval/defocus.h"
 
+#include "petzval/look_file.h"
 #include "petzval/version.h"
 
 #include "console.h"
 #include "defocus_flags.h"
+#include "glare.h"
 #include "interrupt.h"
 #include "light_report.h"
+#include "plate.h"
 #include "verbs.h"
 
 #include <algorithm>
@@ -32,11 +35,13 @@ private:
     Status expand_plate();
     Status add_glare();
     Status write();
+    Status save_look();
     Status finish();
     void warn(const std::vector<std::string>& lines);
     void tell_new_warnings();
 
     double permissible_radius_px() const { return flags_.focus.permissible_radius_px.value_or(1); }
+    const Look& look() const { return flags_.look.look(); }
     bool needs_camera() const { return !flags_.input.depth_is_coc() && flags_.view != ViewKind::Depth; }
 
     DefocusFlags& flags_;
@@ -56,7 +61,8 @@ Status Run::operator()() {
         report_["skipped"] = *reason;
         return finish();
     }
-    if (Status fine = check_outputs({flags_.output, flags_.run.json}, inputs); !fine) return fine;
+    if (Status fine = check_outputs({flags_.output, flags_.run.json, flags_.look.save_to()}, inputs); !fine)
+        return fine;
     if (flags_.ocio.is_on())
         if (Status fine = flags_.ocio.try_out(); !fine) return fine;
     for (const auto step : {&Run::read, &Run::choose_camera, &Run::grow, &Run::compute, &Run::add_glare,
@@ -70,13 +76,14 @@ Status Run::operator()() {
 Status Run::read() {
     const Stopwatch watch;
     detail("petzval " PETZVAL_VERSION ", " + (flags_.run.threads > 0 ? plain(flags_.run.threads) : "all") +
-           " threads, seed " + std::to_string(flags_.seed) + ", " + name_of(flags_.quality) + " quality");
-    if (Status done = flags_.lens.load(flags_.run.threads); !done) return done;
-    const auto lens = Lens::open(flags_.lens.choice());
+           " threads, seed " + std::to_string(look().seed) + ", " + name_of(look().quality) + " quality");
+    warn(flags_.look.idle_in_file());
+    if (Status done = read_lens_images(flags_.look.look(), flags_.run.threads); !done) return done;
+    const auto lens = Lens::open(look().lens);
     if (!lens) return lens.error();
     lens_ = *lens;
     ShotSource source = flags_.input.source(flags_.camera);
-    source.lights = flags_.engine_options.points;
+    source.lights = flags_.points;
     auto shot = load_shot(source);
     if (!shot) return shot.error();
     shot_ = std::move(*shot);
@@ -94,14 +101,14 @@ Status Run::read() {
 }
 
 Status Run::expand_plate() {
-    if (!flags_.plate.expand) return Done{};
+    if (!look().expand_highlights || flags_.view != ViewKind::Beauty) return Done{};
     if (!shot_.deep.empty())
         return Error{ErrorCode::InvalidArgument,
                      "--expand-highlights is for flat plates, not for deep pictures"};
-    auto plate = ExpandedPlate::take(shot_.colour, flags_.plate.expansion());
+    auto plate = ExpandedPlate::take(shot_.colour, look().expansion);
     if (!plate) return plate.error();
     plate_ = std::move(*plate);
-    note("highlights: " + flags_.plate.in_words());
+    note("highlights: " + in_words(look().expansion));
     return Done{};
 }
 
@@ -141,10 +148,7 @@ Status Run::grow() {
     if (!flags_.overscan_px) return Done{};
     int by_px = *flags_.overscan_px;
     if (by_px == kAutomatic) {
-        Look look;
-        look.coc = flags_.focus.controls();
-        look.lens = flags_.lens.choice();
-        const auto reach = reach_px(shot_, look);
+        const auto reach = reach_px(shot_, look());
         if (!reach) return reach.error();
         by_px = *reach;
     }
@@ -160,8 +164,8 @@ Status Run::compute() {
     if (!sharp) return sharp.error();
     DefocusJob job = flags_.job(std::move(*sharp));
     job.opened_lens = lens_;
-    report_["lens"] = lens_json(job.lens, "");
-    report_["lens"].update(character_json(job.lens));
+    report_["look"] = look_json(look());
+    report_["lens"] = lens_json(look(), "");
     report_["parameters"] = flags_.parameters_json(job);
     if (flags_.view == ViewKind::Depth) return Done{};
     if (is_rendered(flags_.view)) return render(std::move(job));
@@ -210,9 +214,10 @@ Status Run::render(DefocusJob job) {
 }
 
 Status Run::add_glare() {
-    report_["glare"] = flags_.glare.json();
+    if (flags_.view != ViewKind::Beauty) return Done{};
+    report_["glare"] = glare_json(look());
     const Stopwatch watch;
-    Status done = flags_.glare.apply(shot_, *lens_, flags_.run.threads);
+    Status done = add_light(shot_, look(), *lens_, flags_.run.threads);
     if (done && plate_) shot_.colour = plate_->back(shot_.colour);
     report_["seconds"]["glare"] = watch.seconds();
     return done;
@@ -236,15 +241,27 @@ Status Run::write() {
                                             {"contrast", settings.develop.contrast},
                                             {"tone", name_of(settings.develop.tone)},
                                             {"ocio", flags_.ocio.view}};
-    if (flags_.plate.expand)
-        settings.attributes.emplace_back("petzval:expandHighlights", flags_.plate.in_words());
+    if (plate_) settings.attributes.emplace_back("petzval:expandHighlights", in_words(look().expansion));
     Frame frame = to_frame(std::move(shot_));
     if (Status done = write_view(flags_.view, frame, view_, settings); !done) return done;
     warn(warnings);
     report_["seconds"]["write"] = watch.seconds();
     detail("peak memory: " + plain(double(peak_memory_bytes()) / (1 << 20), 4) + " MiB");
     note("wrote " + flags_.output);
-    return Done{};
+    return save_look();
+}
+
+Status Run::save_look() {
+    const std::string& path = flags_.look.save_to();
+    if (path.empty()) return Done{};
+    if (const auto reason = flags_.overwrite.reason_to_skip({path}, {});
+        reason && flags_.overwrite.no_clobber) {
+        note(*reason);
+        return Done{};
+    }
+    Status done = write_look(look(), path);
+    if (done) note("wrote " + path);
+    return done;
 }
 
 Status Run::finish() {

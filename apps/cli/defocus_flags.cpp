@@ -1,5 +1,8 @@
 #include "defocus_flags.h"
 
+#include "petzval/session.h"
+
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -12,23 +15,46 @@ Result<int> parse_overscan(const std::string& text) {
     return Error{ErrorCode::InvalidArgument, "not auto or a number of pixels, 1 to 65536"};
 }
 
-NameTable<std::string> engines() {
-    NameTable<std::string> table;
-    for (const std::string& name : engine_names()) table.emplace_back(name, name);
-    return table;
+std::optional<GaussianView> gaussian_view(ViewKind view) {
+    switch (view) {
+        case ViewKind::Sharp:
+            return GaussianView::Sharp;
+        case ViewKind::BlurSmall:
+            return GaussianView::BlurSmall;
+        case ViewKind::BlurLarge:
+            return GaussianView::BlurLarge;
+        case ViewKind::FocusIndex:
+            return GaussianView::FocusIndex;
+        default:
+            return std::nullopt;
+    }
+}
+
+ScatterView scatter_view(ViewKind view) {
+    switch (view) {
+        case ViewKind::Layers:
+            return ScatterView::Layers;
+        case ViewKind::Levels:
+            return ScatterView::Levels;
+        case ViewKind::Highlights:
+            return ScatterView::Highlights;
+        default:
+            return ScatterView::Result;
+    }
 }
 
 }  // namespace
 
-void DefocusFlags::add_engine_to(Verb& verb) {
+void DefocusFlags::add_engines_to(Verb& verb) {
+    look.add_to(verb, {"Engine"});
     FlagGroup(verb, "Engine")
-        .choice("--engine", "what computes the blur (default scatter)", engines(), engine)
-        .choice<Quality>("--quality", "accuracy only, never the size of the blur (default standard)", quality)
-        .value("--pupil-points", "N", "rays per pixel of --engine reference (default 4096)", parse_count,
-               pupil_points)
-        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, seed)
         .value("--max-memory", "BYTES", "use at most this much for the work, as 2G", parse_bytes,
                max_memory_bytes);
+    look.add_to(verb, {"Engine gather", "Engine gaussian", "Engine sprites"});
+    FlagGroup(verb, "Engine sprites")
+        .value("--points", "FILE.csv",
+               "lights to draw: columns x, y, depth or coc, r, g, b, perhaps size, named in its first line",
+               parse_text, points);
 }
 
 void DefocusFlags::add_output_to(Verb& verb) {
@@ -57,14 +83,13 @@ void DefocusFlags::add_to(Verb& verb) {
     input.add_depth_to(verb);
     input.add_others_to(verb);
     input.add_transfer_to(verb);
-    plate.add_to(verb);
+    look.add_to(verb, {"Input"});
     camera.add_to(verb, "file");
     focus.add_to(verb);
-    lens.add_to(verb);
-    lens.add_character_to(verb);
-    glare.add_to(verb);
-    add_engine_to(verb);
-    engine_options.add_to(verb);
+    look.add_to(verb, {"Focus"});
+    look.add_files_to(verb);
+    look.add_to(verb, {"Lens", "Lens character", "Pupil", "Glare"});
+    add_engines_to(verb);
     add_output_to(verb);
     run.add_json_to(verb);
     overwrite.add_to(verb, true);
@@ -82,7 +107,8 @@ void DefocusFlags::add_to(Verb& verb) {
 // Radii are given: whatever else would make them has no effect.
 void DefocusFlags::check_coc_input() const {
     std::vector<std::string> idle = camera.given();
-    for (std::string& name : focus.given()) idle.push_back(std::move(name));
+    for (const auto& more : {focus.given(), look.given({"Focus"})})
+        idle.insert(idle.end(), more.begin(), more.end());
     if (view == ViewKind::Depth) idle.emplace_back("--view depth");
     if (!idle.empty())
         throw UsageError(listed(idle) +
@@ -96,36 +122,38 @@ void DefocusFlags::check(const Verb& verb) {
     input.read.threads = run.threads;
     overwrite.check();
     input.check();
-    lens.check();
+    look.settle();
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_point.has_value(),
                 "--focus-point");
     if (focus.permissible_radius_px && view != ViewKind::Focus && run.json.empty())
         throw UsageError("--permissible-radius has no effect without --view focus or --json");
     refuse_both(focus.focus_at.has_value(), "--focus-at", focus.focus_point.has_value(), "--focus-point");
-    if (focus.focus_falloff && !focus.focus_range_m)
-        throw UsageError("--focus-falloff has no effect without --focus-range, as --focus-range 1.8m,3m");
-    if (pupil_points && engine != "reference")
-        throw UsageError("--pupil-points is for --engine reference; " + engine + " takes --quality");
-    engine_options.check(engine, view);
     if (input.depth_is_coc()) check_coc_input();
-    glare.check(lens.choice());
-    plate.check();
-    if (plate.expand && !input.behind.empty())
+    if (look.look().expand_highlights && !input.behind.empty())
         throw UsageError("--expand-highlights cannot be used with --behind: a plate has no hidden layers");
     check_view();
     check_display();
 }
 
-// Flags that --view has no use for.
+// Flags that --view or --engine have no use for.
 void DefocusFlags::check_view() const {
+    const std::string& engine = look.look().engine;
+    if (!points.empty() && engine != "sprites")
+        throw UsageError("--points has no effect without --engine sprites");
+    if (gaussian_view(view) && engine != "gaussian")
+        throw UsageError(std::string("--view ") + name_of(view) + " is a buffer of --engine gaussian");
+    if (scatter_view(view) != ScatterView::Result && engine != "scatter")
+        throw UsageError(std::string("--view ") + name_of(view) + " shows what --engine scatter does, not " +
+                         engine);
     const bool computes = view == ViewKind::Beauty || view == ViewKind::Alpha;
     const std::string here = " has no effect on --view " + std::string(name_of(view));
     if (!input.holdout.empty() && !computes) throw UsageError("--holdout" + here);
     if (overscan_px && !computes) throw UsageError("--overscan" + here);
     if (view == ViewKind::Beauty) return;
-    if (plate.expand) throw UsageError("--expand-highlights is part of --view beauty only");
-    if (const auto given = glare.given(); !given.empty())
+    if (look.is_typed("plate.expand_highlights"))
+        throw UsageError("--expand-highlights is part of --view beauty only");
+    if (const auto given = look.given({"Glare"}); !given.empty())
         throw UsageError(listed(given) + ": glare is part of --view beauty only");
 }
 
@@ -147,8 +175,8 @@ void DefocusFlags::check_display() const {
 
 std::vector<std::string> DefocusFlags::input_files() const {
     std::vector<std::string> files = input.files();
-    if (!engine_options.points.empty()) files.push_back(engine_options.points);
-    for (std::string& file : lens.input_files()) files.push_back(std::move(file));
+    if (!points.empty()) files.push_back(points);
+    for (std::string& file : look.input_files()) files.push_back(std::move(file));
     return files;
 }
 
@@ -166,35 +194,40 @@ std::string DefocusFlags::default_kernel_cache() {
 }
 
 DefocusJob DefocusFlags::job(DefocusJob job) const {
-    job.coc = focus.controls();
-    job.lens = lens.choice();
-    job.engine = engine;
-    engine_options.apply(job, view);
-    job.quality = quality;
-    job.pupil_points = pupil_points.value_or(job.pupil_points);
+    job = with_look(std::move(job), look.look());
+    job.scatter.view = scatter_view(view);
+    job.gaussian.view = gaussian_view(view).value_or(GaussianView::Result);
     job.threads = run.threads;
     job.max_memory_bytes = max_memory_bytes;
-    job.seed = seed;
     job.kernel_cache_folder = kernel_cache.value_or(default_kernel_cache());
     if (job.kernel_cache_folder == "off") job.kernel_cache_folder.clear();
     return job;
 }
 
 Json DefocusFlags::parameters_json(const DefocusJob& job) const {
-    return {{"view", name_of(view)},
-            {"quality", name_of(job.quality)},
-            {"pupil_points", job.pupil_points},
-            {"threads", job.threads},
-            {"max_memory_bytes", job.max_memory_bytes},
-            {"seed", job.seed},
-            {"kernel_cache", job.kernel_cache_folder.empty() ? Json(nullptr) : Json(job.kernel_cache_folder)},
-            {"near_scale", job.coc.near_scale},
-            {"far_scale", job.coc.far_scale},
-            {"max_radius_px", number(job.coc.max_radius_px)},
-            {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
-            {"focus_falloff", job.coc.focus_falloff},
-            {"expand_highlights", plate.json()},
-            {"engine_options", engine_options.json()}};
+    const HighlightExpansion& plate = look.look().expansion;
+    return {
+        {"view", name_of(view)},
+        {"quality", name_of(job.quality)},
+        {"pupil_points", job.pupil_points},
+        {"threads", job.threads},
+        {"max_memory_bytes", job.max_memory_bytes},
+        {"seed", job.seed},
+        {"kernel_cache", job.kernel_cache_folder.empty() ? Json(nullptr) : Json(job.kernel_cache_folder)},
+        {"near_scale", job.coc.near_scale},
+        {"far_scale", job.coc.far_scale},
+        {"max_radius_px", number(job.coc.max_radius_px)},
+        {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
+        {"focus_falloff", job.coc.focus_falloff},
+        {"expand_highlights",
+         look.look().expand_highlights ? Json{{"knee", plate.knee}, {"peak", plate.peak}} : Json(nullptr)},
+        {"engine_options", engine_options_json()}};
+}
+
+Json DefocusFlags::engine_options_json() const {
+    Json options = look.engine_options_json();
+    if (!points.empty()) options["points"] = points;
+    return options;
 }
 
 }  // namespace petzval::cli

@@ -6,19 +6,15 @@
 
 #include "camera.h"
 #include "defocus_views.h"
-#include "engine_options.h"
 #include "flags.h"
-#include "glare.h"
 #include "input.h"
-#include "lens.h"
+#include "look_flags.h"
 #include "ocio.h"
 #include "output.h"
-#include "plate.h"
 #include "report.h"
 #include "run_flags.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,17 +25,11 @@ constexpr int kAutomatic = 0;
 
 struct DefocusFlags {
     InputFlags input;
-    PlateFlags plate;
     CameraFlags camera;
     FocusFlags focus;
-    LensFlags lens;
-    GlareFlags glare;
-    std::string engine = "scatter";
-    EngineOptionFlags engine_options;
-    Quality quality = Quality::Standard;
-    std::optional<int> pupil_points;
+    LookFlags look;
+    std::string points;  // lights
     std::size_t max_memory_bytes = 0;
-    std::uint64_t seed = 1;
     std::optional<std::string> kernel_cache;  // a folder, or "off"
     std::string output;
     ViewKind view = ViewKind::Beauty;
@@ -59,8 +49,9 @@ struct DefocusFlags {
     Json parameters_json(const DefocusJob& job) const;
 
 private:
-    void add_engine_to(Verb& verb);
+    void add_engines_to(Verb& verb);
     void add_output_to(Verb& verb);
+    Json engine_options_json() const;
     void check_coc_input() const;
     void check_view() const;
     void check_display() const;

@@ -5,7 +5,7 @@
 #include "console.h"
 #include "glare.h"
 #include "input.h"
-#include "lens.h"
+#include "look_flags.h"
 #include "ocio.h"
 #include "output.h"
 #include "report.h"
@@ -21,8 +21,7 @@ namespace {
 struct DevelopVerbFlags {
     InputFlags input;
     CameraFlags camera;
-    LensFlags lens;
-    GlareFlags glare;
+    LookFlags look;
     std::string output;
     DevelopFlags develop;
     OcioFlags ocio;
@@ -38,14 +37,14 @@ Status develop_file(const DevelopVerbFlags& flags) {
         return Done{};
     }
     if (Status fine = check_outputs({flags.output, flags.run.json}, flags.input.files()); !fine) return fine;
-    const auto lens = Lens::open(flags.lens.choice());
+    const auto lens = Lens::open(flags.look.look().lens);
     if (!lens) return lens.error();
     auto shot = load_shot(flags.input.source(flags.camera));
     if (!shot) return shot.error();
     for (const auto& line : detected_in_picture(*shot)) note(line);
     for (const auto& line : shot->warnings) warning(line);
     const double read_s = total.seconds();
-    Status glared = flags.glare.apply(*shot, *lens, flags.run.threads);
+    Status glared = add_light(*shot, flags.look.look(), *lens, flags.run.threads);
     if (!glared) return glared;
     const double glare_s = total.seconds() - read_s;
     DevelopSettings settings =
@@ -78,7 +77,7 @@ Status develop_file(const DevelopVerbFlags& flags) {
                             {"bits", settings.bits},
                             {"dither", settings.dither}};
     report["seconds"]["read"] = read_s;
-    report["glare"] = flags.glare.json();
+    report["glare"] = glare_json(flags.look.look());
     report["seconds"]["glare"] = glare_s;
     report["seconds"]["write"] = total.seconds() - read_s - glare_s;
     report["seconds"]["total"] = total.seconds();
@@ -92,9 +91,8 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     flags.run.apply();
     flags.input.read.threads = flags.run.threads;
     flags.overwrite.check();
-    flags.lens.check();
-    flags.glare.check(flags.lens.choice());
-    if (flags.glare.given().empty() && (flags.camera.any() || flags.lens.choice().aperture.blades > 0))
+    flags.look.settle();
+    if (flags.look.given({"Glare"}).empty() && (flags.camera.any() || !flags.look.given({"Lens"}).empty()))
         throw UsageError(
             "camera and lens are for glare, as --star 0.1 --blades 6; without it they have no "
             "effect");
@@ -120,8 +118,7 @@ void add_develop(Verb& program, Action& chosen) {
     FlagGroup(verb, "Output")
         .value("-o,--output", "OUT.png", "the display picture", parse_text, flags->output);
     flags->camera.add_to(verb, "file");
-    flags->lens.add_to(verb);
-    flags->glare.add_to(verb);
+    flags->look.add_to(verb, {"Lens", "Glare"});
     flags->run.add_json_to(verb);
     flags->overwrite.add_to(verb, true);
     flags->develop.add_to(verb);

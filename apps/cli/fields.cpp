@@ -1,95 +1,73 @@
 #include "fields.h"
 
-#include <algorithm>
-#include <array>
+#include "petzval/defocus.h"
+
+#include "look_rows.h"
+
+#include <map>
 #include <string_view>
 
 namespace petzval::cli {
 namespace {
 
-struct Row {
-    std::string_view field, flag;
-};
+using Rows = std::map<std::string, std::string, std::less<>>;
 
-// Sorted.
-constexpr std::array kFlags{
-    Row{"camera.f_number", "--fstop"},
-    Row{"camera.focal_length_mm", "--focal-length"},
-    Row{"camera.focus_distance_m", "--focus"},
-    Row{"camera.image_scale", "--image-scale"},
-    Row{"camera.sensor_width_mm", "--sensor-width"},
-    Row{"compare.exposure", "--exposure"},
-    Row{"depth.kind", "--depth-kind"},
-    Row{"depth.range", "--depth-range"},
-    Row{"depth.unit_scale_m", "--unit-scale"},
-    Row{"develop.contrast", "--contrast"},
-    Row{"disc.coc_radius_px", "--defocus"},
-    Row{"disc.columns", "--columns"},
-    Row{"disc.field", "--field"},
-    Row{"disc.size_px", "--size"},
-    Row{"focus.at", "--focus-at"},
-    Row{"focus.falloff", "--focus-falloff"},
-    Row{"focus.far_scale", "--far-scale"},
-    Row{"focus.max_radius_px", "--max-radius"},
-    Row{"focus.near_scale", "--near-scale"},
-    Row{"focus.point", "--focus-point"},
-    Row{"focus.range_m", "--focus-range"},
-    Row{"glare.bloom", "--bloom"},
-    Row{"glare.bloom_radius", "--bloom-radius"},
-    Row{"glare.ghosts", "--ghosts"},
-    Row{"glare.star", "--star"},
-    Row{"glare.star_radius", "--star-radius"},
-    Row{"glare.threshold", "--glare-threshold"},
-    Row{"glare.veil", "--veil"},
-    Row{"job.engine", "--engine"},
-    Row{"job.max_memory_bytes", "--max-memory"},
-    Row{"job.pupil_points", "--pupil-points"},
-    Row{"job.view", "--view"},
-    Row{"lens.aperture_image", "--aperture-image"},
-    Row{"lens.astigmatism", "--astigmatism"},
-    Row{"lens.axial_colour", "--axial-colour"},
-    Row{"lens.barn_doors", "--barn-doors"},
-    Row{"lens.barrel", "--barrel"},
-    Row{"lens.blade_curvature", "--blade-curvature"},
-    Row{"lens.blade_rotation_deg", "--blade-rotation"},
-    Row{"lens.blades", "--blades"},
-    Row{"lens.cats_eye", "--cats-eye"},
-    Row{"lens.coma", "--coma"},
-    Row{"lens.distortion", "--distortion"},
-    Row{"lens.dust", "--dust"},
-    Row{"lens.focus_shift_mm", "--focus-shift"},
-    Row{"lens.iris_open", "--iris-open"},
-    Row{"lens.kernel_images", "--kernel-image"},
-    Row{"lens.lateral_colour", "--lateral-colour"},
-    Row{"lens.onion_rings", "--onion-rings"},
-    Row{"lens.scratches", "--scratches"},
-    Row{"lens.spherical", "--spherical"},
-    Row{"lens.squeeze", "--squeeze"},
-    Row{"lens.wavelengths", "--wavelengths"},
-    Row{"ocio.view", "--ocio"},
-    Row{"ocio.working_space", "--ocio-space"},
-    Row{"plate.expand_highlights", "--expand-highlights"},
-    Row{"plate.peak", "--highlight-peak"},
-    Row{"read.depth_channel", "--depth-channel"},
-    Row{"read.depth_file", "--depth"},
-    Row{"read.layer", "--layer"},
-    Row{"read.view_name", "--view-name"},
-    Row{"scene.camera_at", "--camera-at"},
-    Row{"scene.depth_bits", "--depth-bits"},
-    Row{"scene.depth_blur_px", "--depth-blur"},
-    Row{"scene.frame", "--frame"},
-    Row{"scene.height", "--height"},
-    Row{"scene.look_at", "--look-at"},
-    Row{"scene.overscan_px", "--overscan"},
-    Row{"scene.truth_samples", "--samples"},
-    Row{"scene.width", "--width"},
-    Row{"shot.behind", "--behind"},
-    Row{"shot.holdout", "--holdout"},
-    Row{"shot.lights", "--points"},
-    Row{"shot.merge", "--merge"},
-    Row{"shot.overscan_px", "--overscan"},
-    Row{"sprites.bright_factor", "--bright-factor"},
-};
+// The flags that choose no look.
+const Rows& other_flags() {
+    static const Rows rows{
+        {"camera.f_number", "--fstop"},
+        {"camera.focal_length_mm", "--focal-length"},
+        {"camera.focus_distance_m", "--focus"},
+        {"camera.image_scale", "--image-scale"},
+        {"camera.sensor_width_mm", "--sensor-width"},
+        {"compare.exposure", "--exposure"},
+        {"depth.kind", "--depth-kind"},
+        {"depth.range", "--depth-range"},
+        {"depth.unit_scale_m", "--unit-scale"},
+        {"develop.contrast", "--contrast"},
+        {"disc.coc_radius_px", "--defocus"},
+        {"disc.columns", "--columns"},
+        {"disc.field", "--field"},
+        {"disc.size_px", "--size"},
+        {"focus.at", "--focus-at"},
+        {"focus.point", "--focus-point"},
+        {"job.engine", "--engine"},
+        {"job.max_memory_bytes", "--max-memory"},
+        {"job.pupil_points", "--pupil-points"},
+        {"job.view", "--view"},
+        {"lens.kernel_images", "--kernel-image"},
+        {"ocio.view", "--ocio"},
+        {"ocio.working_space", "--ocio-space"},
+        {"read.depth_channel", "--depth-channel"},
+        {"read.depth_file", "--depth"},
+        {"read.layer", "--layer"},
+        {"read.view_name", "--view-name"},
+        {"scene.camera_at", "--camera-at"},
+        {"scene.depth_bits", "--depth-bits"},
+        {"scene.depth_blur_px", "--depth-blur"},
+        {"scene.frame", "--frame"},
+        {"scene.height", "--height"},
+        {"scene.look_at", "--look-at"},
+        {"scene.overscan_px", "--overscan"},
+        {"scene.truth_samples", "--samples"},
+        {"scene.width", "--width"},
+        {"shot.behind", "--behind"},
+        {"shot.holdout", "--holdout"},
+        {"shot.lights", "--points"},
+        {"shot.merge", "--merge"},
+        {"shot.overscan_px", "--overscan"},
+    };
+    return rows;
+}
+
+const Rows& flags_by_field() {
+    static const Rows all = [] {
+        Rows rows = other_flags();
+        for (const LookRow& row : look_rows()) rows.emplace(row.field, row.flag);
+        return rows;
+    }();
+    return all;
+}
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; }
 
@@ -120,10 +98,11 @@ std::string in_flags(const std::string& text) {
             continue;
         }
         const std::string_view word(text.data() + at, end - at);
-        const auto* const row = std::lower_bound(
-            kFlags.begin(), kFlags.end(), word, [](const Row& r, std::string_view w) { return r.field < w; });
-        const bool is_field = row != kFlags.end() && row->field == word && !is_in_path(text, at, end);
-        said += is_field ? row->flag : word;
+        const auto row = flags_by_field().find(word);
+        // Fields without a section, as quality, are words as well.
+        const bool is_field = row != flags_by_field().end() && word.find('.') != std::string_view::npos &&
+                              !is_in_path(text, at, end);
+        said += is_field ? std::string_view(row->second) : word;
         at = end;
     }
     return said;
@@ -132,6 +111,17 @@ std::string in_flags(const std::string& text) {
 std::vector<std::string> in_flags(std::vector<std::string> lines) {
     for (std::string& line : lines) line = in_flags(line);
     return lines;
+}
+
+std::string spoken(const Error& error) {
+    const auto row = flags_by_field().find(error.field);
+    const bool begins = row != flags_by_field().end() && error.message.starts_with(error.field);
+    std::string said =
+        begins ? row->second + in_flags(error.message.substr(error.field.size())) : in_flags(error.message);
+    for (const std::string& engine : engine_names())  // a field of one word, which only here is a field
+        if (const std::size_t at = said.find(" engine " + engine); at != std::string::npos)
+            said.insert(at + 1, "--");
+    return said;
 }
 
 }  // namespace petzval::cli

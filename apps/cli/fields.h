@@ -1,6 +1,8 @@
 // The library's messages name fields, as camera.f_number; a user knows flags, as --fstop.
 #pragma once
 
+#include "petzval/result.h"
+
 #include <string>
 #include <vector>
 
@@ -9,5 +11,7 @@ namespace petzval::cli {
 // The text with every field that has a flag spoken of by that flag.
 std::string in_flags(const std::string& text);
 std::vector<std::string> in_flags(std::vector<std::string> lines);
+// The message of an error that begins with its field, as messages on looks do.
+std::string spoken(const Error& error);
 
 }  // namespace petzval::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -175,13 +176,19 @@ FlagGroup& FlagGroup::values(const std::string& name, const std::string& placeho
     return *this;
 }
 
-FlagGroup& FlagGroup::on(const std::string& name, const std::string& help, bool& target) {
-    const auto take = [spoken = long_name(name), &target](std::int64_t count) {
-        if (count > 1) throw UsageError(spoken + " is given more than once");
-        target = count == 1;
+void FlagGroup::add_switch(const std::string& name, const std::string& help, std::function<void(bool)> take) {
+    const auto count = [spoken = long_name(name), take = std::move(take)](std::int64_t times) {
+        if (times > 1) throw UsageError(spoken + " is given more than once");
+        take(times == 1);
     };
-    verb_.add_flag_function(name, take, help)->group(heading_);
-    return *this;
+    const auto on_or_off = [spoken =
+                                name.substr(name.rfind(',') + 1)](const std::string& text) -> std::string {
+        static const std::set<std::string> known{"true", "false", "on", "off", "1", "0"};
+        if (!known.contains(text))
+            throw UsageError(spoken + "=" + text + ": takes no value but on and off, as " + spoken + "=off");
+        return "";
+    };
+    verb_.add_flag_function(name, count, help)->check(on_or_off)->group(heading_);
 }
 
 FlagGroup& FlagGroup::argument(const std::string& name, const std::string& help, std::string& target) {

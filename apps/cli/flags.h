@@ -25,7 +25,9 @@ using Verb = CLI::App;
 
 // A command line that cannot be meant. Thrown while flags are read, shown by main as one line, exit code 2.
 struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    explicit UsageError(const std::string& message, ErrorCode why = ErrorCode::InvalidArgument)
+        : std::runtime_error(message), code(why) {}
+    ErrorCode code;  // that of a file, where a file is what is wrong
 };
 
 // What a command line asks for; main runs it once all of the line has been understood.
@@ -72,7 +74,11 @@ public:
     FlagGroup& values(const std::string& name, const std::string& placeholder, const std::string& help,
                       std::vector<std::string>& target);
     // "--name", without a value.
-    FlagGroup& on(const std::string& name, const std::string& help, bool& target);
+    template <typename Target>
+    FlagGroup& on(const std::string& name, const std::string& help, Target& target) {
+        add_switch(name, help, [&target](bool on) { target = on; });
+        return *this;
+    }
     // A plain argument, without a name.
     FlagGroup& argument(const std::string& name, const std::string& help, std::string& target);
     // All plain arguments.
@@ -81,6 +87,7 @@ public:
 private:
     void add(const std::string& name, const std::string& placeholder, const std::string& help,
              std::function<void(const std::string&)> take);
+    void add_switch(const std::string& name, const std::string& help, std::function<void(bool)> take);
     static std::string long_name(const std::string& names);  // "-o,--output" is spoken of as "-o"
 
     Verb& verb_;

@@ -4,7 +4,7 @@
 
 #include "camera.h"
 #include "console.h"
-#include "lens.h"
+#include "look_flags.h"
 #include "output.h"
 #include "run_flags.h"
 #include "values.h"
@@ -18,7 +18,8 @@ namespace {
 
 // A lens, a camera for it, and a file: what both verbs ask for.
 struct PictureFlags {
-    LensFlags lens;
+    std::string lens_name;
+    LookFlags look;
     CameraFlags camera;
     std::string output;
     int width_px = 1920;
@@ -29,10 +30,8 @@ struct PictureFlags {
     RunFlags run;
 
     void add_lens_to(Verb& verb) {
-        lens.name.clear();
-        FlagGroup(verb, "Lens").argument("LENS", "a name of petzval lens list, or a lens file", lens.name);
-        lens.add_shape_to(verb);
-        lens.add_character_to(verb);
+        FlagGroup(verb, "Lens").argument("LENS", "a name of petzval lens list, or a lens file", lens_name);
+        look.add_to(verb, {"Lens", "Lens character", "Pupil"}, "--lens");
         camera.add_to(verb, "lens");
     }
     void add_output_to(Verb& verb) {
@@ -48,11 +47,12 @@ struct PictureFlags {
         run.add_log_to(verb, false);
     }
     void check(const Verb& verb) {
-        require_argument(verb, lens.name, "a lens, as doublet, or a lens file");
+        require_argument(verb, lens_name, "a lens, as doublet, or a lens file");
         require_argument(verb, output, "-o OUT");
         run.apply();
         overwrite.check();
-        lens.check();
+        look.look().lens.name = lens_name;
+        look.settle();
         const auto kind = kind_of_output(output);
         if (!kind) throw UsageError(kind.error().message);
     }
@@ -146,13 +146,12 @@ Status write_view(const PictureFlags& flags, Picture picture) {
     return write_developed(flags.output, picture.view(), settings, !flags.overwrite.no_clobber);
 }
 
-Status finish(const PictureFlags& flags, Json report, const LensMount& mount, const Lens& lens,
-              const std::string& description, const Stopwatch& watch) {
+Status finish(const PictureFlags& flags, Json report, const LensMount& mount, const std::string& description,
+              const Stopwatch& watch) {
     note("wrote " + flags.output);
     if (flags.run.json.empty()) return Done{};
     report["output"] = flags.output;
-    report["lens"] = lens_json(lens.choice(), description);
-    report["lens"].update(character_json(lens.choice()));
+    report["lens"] = lens_json(flags.look.look(), description);
     report["camera"] = mount_json(mount);
     report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
@@ -170,10 +169,10 @@ Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
         note(*reason);
         return std::optional<Mounted>();
     }
-    const Status fine = check_outputs({flags.output, flags.run.json}, flags.lens.input_files());
+    const Status fine = check_outputs({flags.output, flags.run.json}, flags.look.input_files());
     if (!fine) return fine.error();
-    if (Status done = flags.lens.load(0); !done) return done.error();
-    const auto lens = Lens::open(flags.lens.choice());
+    if (Status done = read_lens_images(flags.look.look()); !done) return done.error();
+    const auto lens = Lens::open(flags.look.look().lens);
     if (!lens) return lens.error();
     const auto mount = mount_of(flags, *lens);
     if (!mount) return mount.error();
@@ -218,7 +217,7 @@ Status make_psf(PsfFlags& flags) {
                          !flags.overwrite.no_clobber);
         if (!done) return done;
     }
-    return finish(flags, std::move(report), mount, lens, disc->lens, watch);
+    return finish(flags, std::move(report), mount, disc->lens, watch);
 }
 
 struct TableFlags : PictureFlags {
@@ -257,7 +256,7 @@ Status make_table(TableFlags& flags) {
             !flags.overwrite.no_clobber);
         if (!done) return done;
     }
-    return finish(flags, std::move(report), mount, lens, texture->lens, watch);
+    return finish(flags, std::move(report), mount, texture->lens, watch);
 }
 
 void add_psf(Verb& lens, Action& chosen) {

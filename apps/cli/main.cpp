@@ -28,8 +28,8 @@ int exit_code(ErrorCode code) {
     }
 }
 
-int fail(int code, const std::string& message) {
-    failure(message);
+int fail(int code, const std::string& message, Words words = Words::Flags) {
+    failure(message, words);
     return code;
 }
 
@@ -62,7 +62,8 @@ int run(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         return fail(2, usage_message(error, program));
     } catch (const UsageError& error) {
-        return fail(2, error.what());
+        const bool of_file = error.code == ErrorCode::InvalidFile;
+        return fail(exit_code(error.code), error.what(), of_file ? Words::Fields : Words::Flags);
     }
     if (!chosen) return fail(2, "what is to be done? petzval --help lists the verbs, as defocus and inspect");
     Status done = chosen();

@@ -6,35 +6,9 @@
 
 namespace petzval::cli {
 
-void PlateFlags::add_to(Verb& verb) {
-    FlagGroup(verb, "Input")
-        .on("--expand-highlights",
-            "for plates that end at 1: blur as if their highlights were as bright as they once were, then "
-            "go back; what is sharp stays as it is",
-            expand)
-        .value("--highlight-peak", "LIGHT", "what 1 stood for then (default 16, four stops above white)",
-               parse_positive, peak);
-}
-
-void PlateFlags::check() const {
-    if (peak && !expand) throw UsageError("--highlight-peak has no effect without --expand-highlights");
-}
-
-HighlightExpansion PlateFlags::expansion() const {
-    HighlightExpansion expansion;
-    if (peak) expansion.peak = *peak;
-    return expansion;
-}
-
-std::string PlateFlags::in_words() const {
-    const HighlightExpansion e = expansion();
+std::string in_words(const HighlightExpansion& e) {
     return "blurred as if light above " + plain(e.knee) + " rose to " + plain(e.peak) +
            " at 1 (assumed); pixels are in the plate's own range";
-}
-
-Json PlateFlags::json() const {
-    if (!expand) return nullptr;
-    return {{"knee", expansion().knee}, {"peak", expansion().peak}};
 }
 
 Result<ExpandedPlate> ExpandedPlate::take(Picture& colour, const HighlightExpansion& expansion) {

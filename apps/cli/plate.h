@@ -5,25 +5,12 @@
 #include "petzval/image.h"
 #include "petzval/result.h"
 
-#include "flags.h"
-#include "report.h"
-
-#include <optional>
 #include <string>
 
 namespace petzval::cli {
 
-struct PlateFlags {
-    bool expand = false;
-    std::optional<double> peak;
-
-    void add_to(Verb& verb);
-    void check() const;  // throws UsageError for a peak without --expand-highlights
-    HighlightExpansion expansion() const;
-    // The assumption in words, for logs and the attribute petzval:expandHighlights.
-    std::string in_words() const;
-    Json json() const;  // null without --expand-highlights
-};
+// The assumption in words, for logs and the attribute petzval:expandHighlights.
+std::string in_words(const HighlightExpansion& expansion);
 
 // The plate while its picture is being blurred.
 class ExpandedPlate {

@@ -1,5 +1,6 @@
 #include "report.h"
 
+#include "petzval/look_json.h"
 #include "petzval/version.h"
 
 #include "fields.h"
@@ -61,14 +62,20 @@ Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
     return json;
 }
 
-Json lens_json(const LensChoice& lens, const std::string& description) {
-    return {{"name", lens.name},
-            {"description", description},
-            {"blades", lens.aperture.blades},
-            {"blade_rotation_deg", lens.aperture.rotation_deg},
-            {"blade_curvature", lens.aperture.curvature},
-            {"squeeze", lens.aperture.squeeze},
-            {"cats_eye", lens.cats_eye}};
+Json look_json(const Look& look) { return Json::parse(look_to_json(look)); }
+
+Json glare_json(const Look& look) {
+    const GlareAmounts& g = look.glare;
+    const bool none = g.bloom == 0 && g.star == 0 && g.ghosts == 0 && g.veil == 0 && !look.vignetting;
+    return none ? Json(nullptr) : look_json(look)["glare"];
+}
+
+Json lens_json(const Look& look, const std::string& description) {
+    Json lens = look_json(look)["lens"];
+    lens["description"] = description;
+    lens["aperture_image"] = !look.aperture_image.empty();
+    lens["kernel_image"] = !look.kernel_image_far.empty();
+    return lens;
 }
 
 Json window_json(const Rect& window) {

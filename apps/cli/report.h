@@ -4,7 +4,7 @@
 #include "petzval/camera.h"
 #include "petzval/depth.h"
 #include "petzval/files.h"
-#include "petzval/lens_choice.h"
+#include "petzval/look.h"
 #include "petzval/result.h"
 
 #include <chrono>
@@ -32,7 +32,10 @@ Json new_report(const std::string& verb);
 // JSON has no infinity; see write_report.
 Json number(double value);
 Json camera_json(const FoundCamera& camera, ImageScale image_scale);
-Json lens_json(const LensChoice& lens, const std::string& description);
+// As --save-look writes it.
+Json look_json(const Look& look);
+Json glare_json(const Look& look);  // null where there is none
+Json lens_json(const Look& look, const std::string& description);
 Json part_json(const PartSummary& part);
 Json depth_json(const DepthReport& depth, DepthKind kind);
 Json window_json(const Rect& window);

@@ -73,6 +73,16 @@ Result<int> parse_integer(const std::string& text, int low, int high, const std:
     return value;
 }
 
+std::vector<std::string> split_at(const std::string& text, char at) {
+    std::vector<std::string> parts{""};
+    for (const char c : text)
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
+
 }  // namespace
 
 Result<double> parse_number(const std::string& text) {
@@ -192,6 +202,45 @@ Result<std::size_t> parse_bytes(const std::string& text) {
 Result<std::string> parse_text(const std::string& text) {
     if (text.empty()) return no("must not be empty");
     return text;
+}
+
+Result<std::vector<BarrelRim>> parse_barrel(const std::string& text) {
+    const auto wrong =
+        no("must be rims as RADIUS,DISTANCE in mm, several with ; between, as \"14,20;14,-20\"");
+    std::vector<BarrelRim> rims;
+    for (const std::string& rim : split_at(text, ';')) {
+        const auto numbers = split_at(rim, ',');
+        if (numbers.size() != 2) return wrong;
+        const auto radius = parse_length_mm(numbers[0]);
+        const bool behind = numbers[1].rfind('-', 0) == 0;
+        const std::string length = numbers[1].substr(behind ? 1 : 0);
+        // A rim at the pupil itself has no distance, which is no length.
+        const auto zero = parse_number(length);
+        const auto distance = zero && *zero == 0 ? Result<double>(0.0) : parse_length_mm(length);
+        if (!radius || !distance) return wrong;
+        rims.push_back({*radius, behind ? -*distance : *distance});
+    }
+    return rims;
+}
+
+Result<BarnDoors> parse_barn_doors(const std::string& text) {
+    const auto wrong =
+        no("must be four numbers, left, right, top and bottom, 0 (open) to below 2, as 0.5,0,0,0.2");
+    std::vector<double> doors;
+    for (const std::string& part : split_at(text, ',')) {
+        const auto door = parse_not_negative(part);
+        if (!door || !(*door < 2)) return wrong;
+        doors.push_back(*door);
+    }
+    if (doors.size() != 4) return wrong;
+    return BarnDoors{doors[0], doors[1], doors[2], doors[3]};
+}
+
+Result<std::vector<std::string>> parse_one_or_two_files(const std::string& text) {
+    const auto files = split_at(text, ',');
+    if (files.size() > 2 || std::count(files.begin(), files.end(), "") > 0)
+        return no("must be one file, or two with a comma between");
+    return files;
 }
 
 std::string plain(double value, int digits) {

@@ -4,6 +4,7 @@
 // accepted.
 #pragma once
 
+#include "petzval/lens_choice.h"
 #include "petzval/names.h"
 #include "petzval/result.h"
 #include "petzval/shot.h"
@@ -85,6 +86,13 @@ Result<T> parse_name(const std::string& text, const NameTable<T>& table) {
     }
     return Error{ErrorCode::InvalidArgument, "not one of " + names};
 }
+
+// "14mm,20mm;14mm,-20mm": rims of a barrel, radius and distance.
+Result<std::vector<BarrelRim>> parse_barrel(const std::string& text);
+// "0.5,0,0,0.2".
+Result<BarnDoors> parse_barn_doors(const std::string& text);
+// "far.exr" or "far.exr,near.exr".
+Result<std::vector<std::string>> parse_one_or_two_files(const std::string& text);
 
 // As a person writes it: up to `digits` significant digits, no trailing zeros, "infinity" spelled out.
 std::string plain(double value, int digits = 6);

@@ -1,0 +1,131 @@
+#include "look_flags.h"
+
+#include "petzval/look_check.h"
+#include "petzval/look_file.h"
+#include "petzval/look_json.h"
+
+#include "console.h"
+#include "fields.h"
+#include "look_rows.h"
+#include "values.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace petzval::cli {
+namespace {
+
+template <typename List, typename Value>
+bool holds(const List& list, const Value& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+// One sentence for all fields that have no effect for the same reason.
+std::vector<std::string> grouped(const std::string& file, const std::vector<Error>& idle) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
+    for (const Error& one : idle) {
+        const std::string why = one.message.substr(one.field.size() + std::string(" has").size());
+        const auto same = [&](const auto& known) { return known.first == why; };
+        auto found = std::find_if(by_reason.begin(), by_reason.end(), same);
+        if (found == by_reason.end()) found = by_reason.insert(found, {why, {}});
+        found->second.push_back(one.field);
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [why, fields] : by_reason)
+        sentences.push_back(file + ": " + listed(fields) + (fields.size() > 1 ? " have" : " has") + why);
+    return sentences;
+}
+
+UsageError refused(const Error& error) { return UsageError(spoken(error), error.code); }
+
+}  // namespace
+
+void LookFlags::add_to(Verb& verb, const Headings& headings, const std::string& without) {
+    for (const LookRow& row : look_rows()) {
+        if (!holds(headings, row.heading) || row.flag == without) continue;
+        FlagGroup group(verb, row.heading);
+        if (row.placeholder.empty())
+            group.on(row.flag, row.help, switches_[row.field]);
+        else
+            group.value(row.flag, row.placeholder, row.help, row.to_json, texts_[row.field]);
+    }
+}
+
+void LookFlags::add_files_to(Verb& verb) {
+    FlagGroup(verb, "Look")
+        .value("--look", "FILE.json", "all of the artist's choices from a file; flags beside it win",
+               parse_text, file_)
+        .value("--save-look", "FILE.json", "write the choices of this run, to be taken again with --look",
+               parse_text, save_to_);
+}
+
+bool LookFlags::is_typed(const std::string& field) const {
+    const auto text = texts_.find(field);
+    const auto on = switches_.find(field);
+    return (text != texts_.end() && text->second) || (on != switches_.end() && on->second);
+}
+
+void LookFlags::apply(const std::string& field, const std::string& json) {
+    auto changed = look_with(look_, field, json);
+    if (!changed) throw refused(changed.error());
+    look_ = std::move(*changed);
+}
+
+void LookFlags::settle() {
+    if (!file_.empty()) {
+        auto read = read_look(file_);
+        if (!read) throw UsageError("--look " + read.error().message, read.error().code);
+        look_ = std::move(*read);
+    }
+    std::vector<std::string> typed;
+    for (const auto& [field, json] : texts_)
+        if (json) typed.push_back(field), apply(field, *json);
+    for (const auto& [field, on] : switches_)
+        if (on) typed.push_back(field), apply(field, *on ? "true" : "false");
+    // A shift is a mode of its own.
+    const bool shift = holds(typed, "lens.focus_shift_mm"), mode = holds(typed, "lens.focus_mode");
+    refuse_both(mode, "--focus-mode", shift, "--focus-shift");
+    if (shift) look_.lens.focus_mode = FocusMode::Shift;
+    if (mode) look_.lens.focus_shift_mm = 0;
+
+    const LookCheck checked = check(look_, typed);
+    for (const Error& idle : checked.idle) {
+        if (holds(typed, idle.field)) throw refused(idle);
+    }
+    if (!file_.empty()) idle_in_file_ = grouped(file_, checked.idle);
+    if (!checked.possible) throw refused(checked.possible.error());
+}
+
+std::vector<std::string> LookFlags::given(const Headings& headings) const {
+    std::vector<std::string> flags;
+    for (const LookRow& row : look_rows())
+        if (holds(headings, row.heading) && is_typed(row.field)) flags.emplace_back(row.flag);
+    return flags;
+}
+
+std::vector<std::string> LookFlags::input_files() const {
+    std::vector<std::string> files;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(look_.lens.name, ignored)) files.push_back(look_.lens.name);
+    for (const std::string& file :
+         {file_, look_.kernel_image_far, look_.kernel_image_near, look_.aperture_image})
+        if (!file.empty()) files.push_back(file);
+    return files;
+}
+
+Json LookFlags::engine_options_json() const {
+    const Json look = look_json(look_);
+    Json options = Json::object();
+    for (const LookRow& row : look_rows()) {
+        const std::string heading = row.heading, field = row.field;
+        const std::size_t dot = field.find('.');
+        if (!heading.starts_with("Engine ") || !is_typed(field)) continue;
+        std::string key = std::string(row.flag).substr(2);
+        std::replace(key.begin(), key.end(), '-', '_');
+        if (field.ends_with("_m")) key += "_m";
+        options[key] = look[field.substr(0, dot)][field.substr(dot + 1)];
+    }
+    return options;
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,52 @@
+// The look of a command: its file, and the flags of look_rows.h over it.
+#pragma once
+
+#include "petzval/look.h"
+
+#include "flags.h"
+#include "report.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval::cli {
+
+using Headings = std::vector<std::string>;
+
+class LookFlags {
+public:
+    // The rows under these headings; `without`, for a verb that takes one of them as an argument.
+    void add_to(Verb& verb, const Headings& headings, const std::string& without = "");
+    void add_files_to(Verb& verb);  // --look, --save-look
+
+    // Reads --look and puts what was typed over it. Throws UsageError for a file that is no look, choices
+    // that contradict each other, and for what was typed in vain.
+    void settle();
+
+    // What settle() begins with and leaves. Pictures of apertures and discs are read by read_lens_images().
+    const Look& look() const { return look_; }
+    Look& look() { return look_; }
+    // Sentences on what the look's file holds to no effect: one look serves drafts and final frames.
+    const std::vector<std::string>& idle_in_file() const { return idle_in_file_; }
+    bool is_typed(const std::string& field) const;
+    // Flags under these headings that were typed, for messages.
+    std::vector<std::string> given(const Headings& headings) const;
+    // Files that are read: a look, a lens, pictures.
+    std::vector<std::string> input_files() const;
+    const std::string& save_to() const { return save_to_; }
+    // What was typed of an engine's own options, by flag: {"gather_taps": 16}.
+    Json engine_options_json() const;
+
+private:
+    void apply(const std::string& field, const std::string& json);
+
+    std::map<std::string, std::optional<std::string>> texts_;  // JSON by field
+    std::map<std::string, std::optional<bool>> switches_;
+    std::string file_, save_to_;
+    Look look_;
+    std::vector<std::string> idle_in_file_;
+};
+
+}  // namespace petzval::cli

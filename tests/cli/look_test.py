@@ -1,0 +1,112 @@
+"""Looks: what a run chose, written and taken again; flags beside it; what has no effect."""
+import json
+import os
+import unittest
+
+from pictures import picture, read_exr, write_exr, write_png
+from program import CAMERA, CommandLineTest
+
+
+def texture(x, y):
+    return (x * 37 + y * 91) % 17 / 40
+
+
+class Looks(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        write_exr(self.path("in.exr"), picture(40, 28, texture, lambda x, y: 1.2 if x < 15 else 5.0))
+
+    def defocus(self, *flags):
+        self.succeed("defocus", "in.exr", "-o", "out.exr", *CAMERA, "-q", *flags)
+        with open(self.path("out.exr"), "rb") as file:
+            return file.read()
+
+    def text(self, name):
+        with open(self.path(name)) as file:
+            return file.read()
+
+    def write(self, name, **sections):
+        with open(self.path(name), "w") as file:
+            json.dump({"petzval_look": 1} | sections, file)
+
+    def test_a_saved_look_gives_the_same_bytes(self):
+        for flags in (["--lens", "doublet", "--blades", "5", "--bloom", "0.1", "--focus-shift", "0.2"],
+                      ["--engine", "gather", "--gather-stage", "cure", "--gather-taps", "16", "--gather-coc", "extreme"],
+                      ["--engine", "sprites", "--background", "gaussian", "--find-points", "off"],
+                      ["--barrel", "14mm,20mm;1.5cm,-30", "--barn-doors", "0.2,0,0,0.1", "--max-radius", "6"],
+                      ["--focus-range", "1.8m,inf", "--near-scale", "0.3333333333333333", "--vignetting"],
+                      ["--engine", "reference", "--pupil-points", "16", "--seed", "18446744073709551615"]):
+            first = self.defocus(*flags, "--save-look", "look.json")
+            self.assertEqual(first, self.defocus("--look", "look.json", "--save-look", "again.json"), flags)
+            self.assertEqual(self.text("look.json"), self.text("again.json"))
+
+    def test_reports_hold_the_same_object(self):
+        report = self.report("defocus", "in.exr", "-o", "out.exr", *CAMERA, "--blades", "5", "--save-look", "look.json")
+        with open(self.path("look.json")) as file:
+            self.assertEqual(json.load(file), report["look"])
+        self.assertEqual(report["look"]["lens"]["blades"], 5)
+
+    def test_flags_beside_a_look_win(self):
+        self.write("look.json", lens={"name": "doublet", "blades": 5, "wave": True}, glare={"bloom": 0.1})
+        five = self.report("defocus", "in.exr", "-o", "out.exr", *CAMERA, "--look", "look.json", "--blades", "6",
+                           "--wave=off", "--bloom", "0")
+        self.assertEqual((five["look"]["lens"]["blades"], five["look"]["lens"]["wave"]), (6, False))
+        self.assertIsNone(five["glare"])
+        self.assertEqual(self.defocus("--look", "look.json", "--wave=off", "--bloom", "0", "--blades", "7"),
+                         self.defocus("--lens", "doublet", "--blades", "7"))
+
+    def test_files_are_relative_to_the_look(self):
+        os.mkdir(self.path("looks"))
+        write_png(self.path("looks/half.png"), [[255 if x < 8 else 40 for x in range(16)] for _ in range(16)], 1)
+        self.write("looks/a.json", lens={"aperture_image": "half.png"})
+        first = self.defocus("--look", "looks/a.json", "--save-look", "b.json")
+        with open(self.path("b.json")) as file:
+            self.assertEqual(json.load(file)["lens"]["aperture_image"], "./looks/half.png".removeprefix("./"))
+        self.assertEqual(first, self.defocus("--look", "b.json"))
+        self.assertEqual(first, self.defocus("--aperture-image", "looks/half.png"))
+
+    def test_what_is_typed_in_vain_is_refused(self):
+        gaussian, cure = ["--engine", "gaussian"], ["--engine", "gather", "--gather-stage", "cure"]
+        for flags, says in ((gaussian + ["--blades", "6"], "--blades"), (gaussian + ["--lens", "doublet"], "--lens"),
+                            (gaussian + ["--barrel", "24,40"], "--barrel"), (gaussian + ["--cats-eye", "0.8"], "--cats-eye"),
+                            (gaussian + ["--quality", "standard"], "--quality"), (cure + ["--blades", "6"], "--gather-stage cure"),
+                            (cure + ["--quality", "draft"], "--quality"), (["--seed", "1"], "--engine reference")):
+            self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, *flags, says=[says, "no effect"])
+        self.defocus(*gaussian, "--blades", "6", "--star", "0.1")
+
+    def test_what_a_look_holds_to_no_effect_is_told(self):
+        self.write("look.json", engine="gaussian", lens={"blades": 5, "cats_eye": 0.4}, quality="draft")
+        warnings = self.report("defocus", "in.exr", "-o", "out.exr", *CAMERA, "--look", "look.json")["warnings"]
+        self.assertEqual(len(warnings), 2, warnings)
+        self.assertIn("look.json: --blades and --cats-eye have no effect", warnings[1])
+
+    def test_glare_of_a_look_is_part_of_beauty_alone(self):
+        self.write("look.json", glare={"bloom": 0.5, "vignetting": True}, plate={"expand_highlights": True})
+        self.succeed("defocus", "in.exr", "-o", "coc.exr", *CAMERA, "--look", "look.json", "--view", "coc")
+        self.assertEqual(set(read_exr(self.path("coc.exr"))[0]), {"coc_radius_px"})
+
+    def test_what_is_no_look_is_refused_and_nothing_written(self):
+        self.write("typo.json", lens={"blade": 5})
+        self.write("star.json", glare={"star": 0.5})
+        self.write("later.json", petzval_look=9)
+        open(self.path("empty.json"), "w").close()
+        for file, code, says in (("typo.json", 3, "did you mean lens.blades?"), ("star.json", 2, "--star"),
+                                 ("later.json", 3, "later version"), ("empty.json", 3, "no JSON"),
+                                 ("none.json", 3, "none.json"), (".", 3, "regular file")):
+            self.refuse(code, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--look", file, says=[says])
+        self.refuse(1, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--save-look", "nowhere/look.json", says=["nowhere"])
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, "--save-look", "in.exr", says=["replace the input"])
+
+    def test_a_look_that_is_there_is_left_alone_with_no_clobber(self):
+        with open(self.path("look.json"), "w") as file:
+            file.write("mine")
+        self.defocus("--save-look", "look.json", "--no-clobber")
+        self.assertEqual(self.text("look.json"), "mine")
+
+    def test_a_switch_takes_no_value_but_on_and_off(self):
+        for flag in ("--wave=x", "--quiet=2", "--overwrite=maybe"):
+            self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, flag, says=[flag.split("=")[0], "on and off"])
+
+
+if __name__ == "__main__":
+    unittest.main()
