@@ -25,6 +25,7 @@ class Run {
 public:
     explicit Run(DefocusFlags& flags) : flags_(flags) {}
     Status operator()();
+    const Json& report() const { return report_; }
 
 private:
     Status read();
@@ -265,11 +266,11 @@ Status Run::save_look() {
 }
 
 Status Run::finish() {
-    if (flags_.run.json.empty()) return Done{};
     report_["input"] = flags_.input.path;
     report_["output"] = flags_.output;
     report_["seconds"]["total"] = total_.seconds();
     report_["peak_memory_bytes"] = peak_memory_bytes();
+    if (flags_.run.json.empty()) return Done{};
     return write_report(report_, flags_.run.json);
 }
 
@@ -280,12 +281,23 @@ void add_defocus(Verb& program, Action& chosen) {
         add_verb(program, "defocus", "the picture that a lens would have taken, from a sharp one with depth",
                  "petzval defocus beauty.exr -o out.exr --focal-length 85mm --sensor-width 36mm --fstop 2 "
                  "--focus 3.2m\n"
-                 "petzval defocus beauty.exr -o focus.png --view focus --focus-at 960,540");
+                 "petzval defocus beauty.exr -o focus.png --view focus --focus-at 960,540\n"
+                 "petzval defocus beauty.####.exr -o out.####.exr --frames 1001-1100 --track focus.csv");
     auto flags = std::make_shared<DefocusFlags>();
     flags->add_to(verb);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
-        chosen = [flags] { return Run(*flags)(); };
+        if (!is_sequence(*flags)) {
+            chosen = [flags] { return Run(*flags)(); };
+            return;
+        }
+        chosen = [flags] {
+            return make_frames(*flags, [](DefocusFlags& frame) -> Result<Json> {
+                Run run(frame);
+                if (Status done = run(); !done) return done.error();
+                return run.report();
+            });
+        };
     });
 }
 

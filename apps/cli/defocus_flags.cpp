@@ -91,6 +91,7 @@ void DefocusFlags::add_to(Verb& verb) {
     look.add_to(verb, {"Lens", "Lens character", "Pupil", "Glare"});
     add_engines_to(verb);
     add_output_to(verb);
+    frames.add_to(verb);
     run.add_json_to(verb);
     overwrite.add_to(verb, true);
     develop.add_to(verb);

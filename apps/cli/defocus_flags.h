@@ -7,6 +7,7 @@
 #include "camera.h"
 #include "defocus_views.h"
 #include "flags.h"
+#include "frames.h"
 #include "input.h"
 #include "look_flags.h"
 #include "ocio.h"
@@ -38,6 +39,7 @@ struct DefocusFlags {
     OcioFlags ocio;
     OverwriteFlags overwrite;
     RunFlags run;
+    FrameFlags frames;
 
     void add_to(Verb& verb);
     void check(const Verb& verb);  // throws UsageError for what is missing or contradicts

@@ -2,6 +2,7 @@
 #include "petzval/version.h"
 
 #include "console.h"
+#include "frames.h"
 #include "interrupt.h"
 #include "verbs.h"
 
@@ -79,6 +80,8 @@ int main(int argc, char** argv) {
     watch_for_interrupts();
     try {
         return run(argc, argv);
+    } catch (const FramesFailed& failed) {
+        return fail(4, failed.message);
     } catch (const std::bad_alloc&) {
         return fail(1, "not enough memory; --max-memory or a smaller picture needs less");
     } catch (const std::exception& error) {

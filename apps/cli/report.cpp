@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <sys/resource.h>
+#include <utility>
 
 namespace petzval::cli {
 namespace {
@@ -105,14 +106,20 @@ std::size_t peak_memory_bytes() {
     return std::size_t(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
 }
 
-Status write_report(Json report, const std::string& path) {
+std::string report_text(Json report, int indent) {
     for (const char* lines : {"detected", "warnings"})
-        for (Json& line : report[lines]) line = in_flags(line.get<std::string>());
+        if (report.contains(lines))
+            for (Json& line : report[lines]) line = in_flags(line.get<std::string>());
+    if (report.contains("error")) report["error"] = in_flags(report["error"].get<std::string>());
     // File names need not be UTF-8: what is not becomes U+FFFD.
-    std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::string text = report.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
     replace_all(text, "\"\\u0001infinity\"", "1e999");
     replace_all(text, "\"\\u0001-infinity\"", "-1e999");
-    return write_text(path, text);
+    return text;
+}
+
+Status write_report(Json report, const std::string& path) {
+    return write_text(path, report_text(std::move(report)));
 }
 
 }  // namespace petzval::cli

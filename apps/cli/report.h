@@ -45,6 +45,8 @@ std::size_t peak_memory_bytes();
 
 // Writes it to a file, or "-" for standard output. Infinite numbers are written as 1e999: valid JSON that
 // readers take as infinity. Errors: OutputFailed.
+// One line where `indent` is below 0.
+std::string report_text(Json report, int indent = 2);
 Status write_report(Json report, const std::string& path);
 
 }  // namespace petzval::cli

@@ -8,7 +8,7 @@ from program import CommandLineTest
 PAGE = (pathlib.Path(__file__).resolve().parents[2] / "docs/command-line.md").read_text()
 VERBS, DEFOCUS = PAGE.split("## `defocus`")[:2]
 DEFOCUS = DEFOCUS.split("Camera numbers missing")[0]
-NOT_YET = {"--device", "--frames", "--track"}
+NOT_YET = {"--device"}
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 # Of every verb, and said once: in the rows "log" and "output".
 COMMON = {"--help", "--output", "--quiet", "--verbose", "--update"}

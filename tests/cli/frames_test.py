@@ -1,0 +1,119 @@
+"""Shots: many frames by one command, what changes over them, what lacks, what fails, what was made before."""
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from pictures import picture, read_exr, write_exr
+from program import CAMERA, PETZVAL, CommandLineTest
+
+
+class Shots(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        for frame in (1, 2, 3, 5):
+            self.make(frame)
+
+    def make(self, frame):
+        write_exr(self.path("in.%04d.exr" % frame),
+                  picture(40, 28, lambda x, y: (x * 31 + y * 17 + frame) % 13 / 20, lambda x, y: 1.2 if x < 15 else 5.0))
+
+    def bytes_of(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def defocus(self, *flags):
+        return self.succeed("defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, *flags)
+
+    def outputs(self):
+        return sorted(name for name in os.listdir(self.folder) if name.startswith("out."))
+
+    def test_frames_are_what_single_commands_make(self):
+        outcome = self.defocus("--lens", "doublet")
+        self.assertIn("4 frames, 1-3,5", outcome.err)
+        self.assertIn("no --frames", outcome.err)
+        self.assertEqual(self.outputs(), ["out.%04d.exr" % n for n in (1, 2, 3, 5)])
+        self.succeed("defocus", "in.0002.exr", "-o", "one.exr", *CAMERA, "--lens", "doublet")
+        self.assertEqual(self.bytes_of("one.exr"), self.bytes_of("out.0002.exr"))
+
+    def test_a_list_chooses_and_printf_names_work(self):
+        self.succeed("defocus", "in.%04d.exr", "-o", "out.##.exr", *CAMERA, "--frames", "1-5x2")
+        self.assertEqual(self.outputs(), ["out.01.exr", "out.03.exr", "out.05.exr"])
+
+    def test_a_track_changes_focus_and_look(self):
+        with open(self.path("t.csv"), "w") as file:
+            file.write("frame,focus,lens.blades\n1,1,5\n3,inf,7\n")
+        without_focus = [word for word in CAMERA if word not in ("--focus", "2m")]
+        self.succeed("defocus", "in.####.exr", "-o", "out.####.exr", *without_focus, "--frames", "1-3", "--track", "t.csv")
+        self.succeed("defocus", "in.0002.exr", "-o", "one.exr", *without_focus, "--focus", "2m", "--blades", "5")
+        self.assertEqual(self.bytes_of("one.exr"), self.bytes_of("out.0002.exr"))
+        # One picture, focus pulled through it: the track says which frames.
+        self.succeed("defocus", "in.0001.exr", "-o", "still.####.exr", *without_focus, "--track", "t.csv")
+        self.assertNotEqual(self.bytes_of("still.0001.exr"), self.bytes_of("still.0003.exr"))
+
+    def test_missing_frames_are_named_before_the_work_begins(self):
+        self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--frames", "1-5",
+                    says=["1 of 5 frames", ": 4 ", "--missing skip"])
+        self.defocus("--frames", "1-5", "--missing", "skip")
+        self.assertEqual(len(self.outputs()), 4)
+        self.defocus("--frames", "4,5", "--missing", "black")
+        channels, _ = read_exr(self.path("out.0004.exr"))
+        self.assertEqual(max(max(row) for row in channels["R"]), 0)
+
+    def test_one_failing_frame_does_not_stop_the_rest(self):
+        with open(self.path("in.0002.exr"), "wb") as file:
+            file.write(b"junk")
+        outcome = self.run_program("defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--report", "r.jsonl")
+        self.assertEqual(outcome.code, 4, outcome)
+        self.assertIn("1 of 4 frames failed: 2", outcome.lines[-1])
+        self.assertEqual(self.outputs(), ["out.%04d.exr" % n for n in (1, 3, 5)])
+        with open(self.path("r.jsonl")) as file:
+            records = [json.loads(line) for line in file]
+        self.assertEqual([r["frame"] for r in records], [1, 2, 3, 5])
+        self.assertIn("error", records[1])
+        self.assertEqual(records[3]["engine"], "scatter")
+
+    def test_what_is_whole_is_left_and_what_is_cut_off_made_again(self):
+        self.defocus()
+        before = {name: self.bytes_of(name) for name in self.outputs()}
+        with open(self.path("out.0003.exr"), "wb") as file:
+            file.write(before["out.0003.exr"][:700])
+        os.remove(self.path("out.0001.exr"))
+        times = {name: os.stat(self.path(name)).st_mtime_ns for name in ("out.0002.exr", "out.0005.exr")}
+        outcome = self.defocus("--no-clobber")
+        self.assertIn("cut off", outcome.err)
+        self.assertEqual({name: self.bytes_of(name) for name in self.outputs()}, before)
+        self.assertEqual({name: os.stat(self.path(name)).st_mtime_ns for name in times}, times)
+
+    def test_a_signal_leaves_whole_frames_alone(self):
+        for frame in range(6, 40):
+            self.make(frame)
+        run = subprocess.Popen([PETZVAL, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--engine", "reference",
+                                "--pupil-points", "2048"], cwd=self.folder, stderr=subprocess.PIPE)
+        while not self.outputs():
+            time.sleep(0.01)
+        run.send_signal(signal.SIGTERM)
+        run.communicate(timeout=20)
+        self.assertEqual(run.returncode, 143)
+        made = self.outputs()
+        self.assertLess(len(made), 38)
+        for name in made:
+            self.assertFalse("unfinished" in name, made)
+            read_exr(self.path(name))
+
+    def test_wrong_words_are_refused(self):
+        for flags, said in ((["--frames", "1-4:2"], "1-4x2"), (["--frames", "a"], "frame number"),
+                            (["--json", "r.json"], "--report"), (["--focus-speed", "1"], "--track"),
+                            (["--missing", "black", "--view", "coc"], "beauty")):
+            self.refuse(2, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, *flags, says=[said])
+        self.refuse(2, "defocus", "in.####.exr", "-o", "out.exr", *CAMERA, says=["####"])
+        self.refuse(2, "defocus", "in.0001.exr", "-o", "out.####.exr", *CAMERA, says=["--frames or --track"])
+        self.refuse(2, "defocus", "in.0001.exr", "-o", "out.exr", *CAMERA, "--frames", "1", says=["--frames", "neither"])
+        self.refuse(3, "defocus", "no.####.exr", "-o", "out.####.exr", *CAMERA, says=["no frame is there"])
+        self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--track", "none.csv", says=["none.csv"])
+
+
+if __name__ == "__main__":
+    unittest.main()
