@@ -131,10 +131,13 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
 }
 
 void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, double lens_reach_px) {
-    samples_ = engine::all_samples(
-        {input.colour, depth_or_radii(job), has_radii(job), job.deep, job.behind, radii}, *job.workers);
-    if (job.scatter.view != ScatterView::Layers)  // shows them all
-        engine::drop_out_of_sight(samples_, lens_reach_px, *job.workers);
+    const engine::StatedPicture stated{input.colour, depth_or_radii(job), has_radii(job),
+                                       job.deep,     job.behind,          radii};
+    samples_ = engine::all_samples(stated, *job.workers);
+    plate_ = engine::back_picture(stated, *job.workers);
+    const bool all = job.scatter.view == ScatterView::Layers;
+    if (!plate_.empty()) input.plate = {plate_.colour, plate_.coc_px, all};
+    if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, *job.workers);
     if (!samples_.first.empty()) input.deep = samples_;
     input.deep_dims_itself = job.deep && !job.deep->empty();
     if (job.holdout && !job.holdout->empty())

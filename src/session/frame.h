@@ -4,6 +4,7 @@
 #include "petzval/camera.h"
 #include "petzval/defocus.h"
 
+#include "engine/samples/plate.h"
 #include "engine/waist/engine.h"
 
 #include <memory>
@@ -55,6 +56,7 @@ private:
     Picture repaired_;  // stays empty for a picture that needs no repair
     Plane coc_px_;
     engine::CocSamples samples_, holdout_;
+    engine::BackPicture plate_;
     std::vector<LightPoint> points_;
 };
 

@@ -58,9 +58,11 @@ TEST(Layers, OfAPictureThatKnowsWhatIsHiddenAreThose) {
             return Rgba{0.2f, 0.5f, 0.1f, 1};
         },
         [](int, int) { return 12.0f; });
-    const Picture second = panel(view_of(shot, ScatterView::Layers), 2);
-    EXPECT_EQ(second(33, 23), (Rgba{0.2f, 0.5f, 0.1f, 1}));
-    EXPECT_EQ(second(10, 10), (Rgba{0.2f, 0.5f, 0.1f, 1}));
+    const DefocusReport report = view_of(shot, ScatterView::Layers);
+    EXPECT_EQ(panel(report, 2)(10, 10), (Rgba{0.2f, 0.5f, 0.1f, 1}));
+    // Behind the square what is seen around it goes on, before what is known behind that.
+    EXPECT_NEAR(panel(report, 2)(33, 23).b, kBlue.b, 1e-4);
+    EXPECT_EQ(panel(report, 4)(33, 23), (Rgba{0.2f, 0.5f, 0.1f, 1}));
 }
 
 TEST(Layers, BeyondTheFourthAreSaidNotToBeShown) {

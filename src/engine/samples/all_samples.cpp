@@ -11,11 +11,6 @@ namespace {
 // and 112 m may be a hundredth of a pixel apart.
 constexpr float kSameRadiusPx = 0.02f, kSameDepth = 1.001f;
 
-bool starts_at_visible(const StatedPicture& p, float front, float visible) {
-    return p.radius_px(front) <= p.radius_px(visible) + kSameRadiusPx &&
-           (p.depth_is_coc || finite_depth(double(front)) <= finite_depth(double(visible)) * kSameDepth);
-}
-
 // Engines take what is nearer by less than this for the light's own surface.
 constexpr float kNoRoomPx = 0.2f;
 
@@ -36,6 +31,11 @@ void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
 
 }  // namespace
 
+bool is_same_or_in_front(const StatedPicture& p, float depth, float visible) {
+    return p.radius_px(depth) <= p.radius_px(visible) + kSameRadiusPx &&
+           (p.depth_is_coc || finite_depth(double(depth)) <= finite_depth(double(visible)) * kSameDepth);
+}
+
 CocSamples all_samples(const StatedPicture& p, Workers& workers) {
     CocSamples all;
     if (p.deep && !p.deep->empty()) return deep_samples(*p.deep, p.radius_px, p.depth_is_coc, workers);
@@ -51,7 +51,7 @@ CocSamples all_samples(const StatedPicture& p, Workers& workers) {
             const std::span<const DeepSample> samples = extra->at(x, y);
             const float visible = p.radius_px(p.depth(x, y));
             const bool complete =
-                !samples.empty() && starts_at_visible(p, samples.front().depth_m, p.depth(x, y));
+                !samples.empty() && is_same_or_in_front(p, samples.front().depth_m, p.depth(x, y));
             if (!complete) all.samples.push_back({colour(x, y), visible, visible});
             for (const DeepSample& s : samples)
                 all.samples.push_back(

@@ -35,6 +35,9 @@ struct StatedPicture {
     std::function<float(float)> radius_px;  // the signed radius of a depth; never falls with depth
 };
 
+// Whether what is stated behind lies at or in front of what is visible.
+bool is_same_or_in_front(const StatedPicture& picture, float depth, float visible_depth);
+
 // Empty where nothing but colour and depth is stated. Hidden layers describe a pixel completely where they
 // hold a sample at or in front of the visible one; elsewhere the visible sample lies in front of them.
 CocSamples all_samples(const StatedPicture& picture, Workers& workers);

@@ -5,6 +5,8 @@
 #include "engine/samples/hidden.h"
 #include "engine/samples/lamps.h"
 #include "engine/samples/layers.h"
+#include "engine/samples/out_of_sight.h"
+#include "engine/samples/plate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,60 +76,105 @@ CocSamples deep_completed(const Input& input) {
     return all;
 }
 
-}  // namespace
-
-CocSamples completed(const Input& input, View<const unsigned char> connected,
-                     const std::function<Rgba(int, int)>& dim) {
-    if (!input.deep.empty()) return deep_completed(input);
-    const LitPicture picture{input.colour, dim};
-    auto mixtures = unmix_silhouettes(picture, input.coc_px, connected, *input.workers);
-    const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
-    const auto hidden = fill_hidden(picture, input.coc_px, connected, mixtures, input.nearest_coc_px,
-                                    input.farthest_coc_px, shared_from_px, *input.workers);
-
-    unmix_nearer(mixtures, picture, hidden, *input.workers);
-    const HiddenLamps lamps =
-        picture.dim_at ? lamps_behind(picture, input.coc_px, mixtures, *input.workers) : HiddenLamps{};
+// What a picture shows, taken apart and filled in. Before a plate, only what is in front of that: `back` is
+// what the plate was completed to.
+class FlatPicture {
+public:
+    FlatPicture(const Input& input, View<const unsigned char> connected, const Dim& dim,
+                const CocSamples* back = nullptr)
+        : input_(input), back_(back) {
+        const LitPicture picture{input.colour, dim};
+        mixtures_ = unmix_silhouettes(picture, input.coc_px, connected, *input.workers);
+        const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
+        hidden_ = fill_hidden(picture, input.coc_px, connected, mixtures_, input.nearest_coc_px,
+                              input.farthest_coc_px, shared_from_px, *input.workers);
+        unmix_nearer(mixtures_, picture, hidden_, *input.workers);
+        if (back) unmix_before_plate(mixtures_, picture, input.coc_px, input.plate, *input.workers);
+        if (dim && !back) lamps_ = lamps_behind(picture, input.coc_px, mixtures_, *input.workers);
+    }
 
     // Counted first, then written, so that rows can be done in parallel.
-    const int width = input.width(), height = input.height();
-    const auto surfaces_at = [&](int x, int y, const auto& emit) {
-        if (const Mixture* m = mixtures.at(x, y)) {
-            if (m->near_share > kLeastShare || m->lights_near)
-                emit(sample(m->near_colour, m->near_coc_px, m->near_share));
-            const auto behind = hidden.at(x, y);
-            for (const Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
-            if (behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
-            if (m->far_light != Rgba{}) emit(CocSample{unhidden_light(*m), m->lamp_coc_px, m->lamp_coc_px});
-        } else {
-            emit(sample(input.colour(x, y), input.coc_px(x, y), 1));
-            for (const Hidden& h : hidden.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
+    CocSamples samples() const {
+        const int width = input_.width(), height = input_.height();
+        std::vector<std::size_t> first_of_row(std::size_t(height) + 1, 0);
+        parallel_for(height, *input_.workers, [&](int y) {
+            std::size_t n = 0;
+            visit_row(
+                y, [](int) {}, [&](const CocSample&) { ++n; });
+            first_of_row[std::size_t(y) + 1] = n;
+        });
+        std::partial_sum(first_of_row.begin(), first_of_row.end(), first_of_row.begin());
+        CocSamples all;
+        all.width = width;
+        all.first.resize(std::size_t(width) * std::size_t(height) + 1);
+        all.samples.resize(first_of_row.back());
+        parallel_for(height, *input_.workers, [&](int y) {
+            std::size_t at = first_of_row[std::size_t(y)];
+            const std::size_t row = std::size_t(y) * std::size_t(width);
+            visit_row(
+                y, [&](int x) { all.first[row + std::size_t(x)] = at; },
+                [&](const CocSample& s) { all.samples[at++] = s; });
+        });
+        all.first.back() = all.samples.size();
+        return all;
+    }
+
+private:
+    // begin(x) for every pixel, then emit(sample) for each of its samples, nearest first.
+    template <typename Begin, typename Emit>
+    void visit_row(int y, const Begin& begin, const Emit& emit) const {
+        auto lamp = lamps_.row(y).begin();
+        for (int x = 0; x < input_.width(); ++x) {
+            begin(x);
+            const auto emit_before_plate = [&](const CocSample& s) {
+                if (!back_ || is_before_plate(s.coc_px, input_.plate.coc_px(x, y))) emit(s);
+            };
+            visit_surfaces(x, y, emit_before_plate);
+            if (lamp != lamps_.row(y).end() && lamp->x == x)
+                emit_before_plate({lamp->light, lamp->coc_px, lamp->coc_px}), ++lamp;
+            if (back_)
+                for (const CocSample& s : CocSamplesView(*back_).at(x, y)) emit(s);
         }
-    };
-    std::vector<std::size_t> first_of_row(std::size_t(height) + 1, 0);
-    parallel_for(height, *input.workers, [&](int y) {
-        std::size_t n = 0;
-        for (int x = 0; x < width; ++x) surfaces_at(x, y, [&](const CocSample&) { ++n; });
-        n += lamps.row(y).size();
-        first_of_row[std::size_t(y) + 1] = n;
-    });
-    std::partial_sum(first_of_row.begin(), first_of_row.end(), first_of_row.begin());
-    CocSamples all;
-    all.width = width;
-    all.first.resize(std::size_t(width) * std::size_t(height) + 1);
-    all.samples.resize(first_of_row.back());
-    parallel_for(height, *input.workers, [&](int y) {
-        std::size_t at = first_of_row[std::size_t(y)];
-        auto lamp = lamps.row(y).begin();
-        for (int x = 0; x < width; ++x) {
-            all.first[std::size_t(y) * std::size_t(width) + std::size_t(x)] = at;
-            surfaces_at(x, y, [&](const CocSample& s) { all.samples[at++] = s; });
-            if (lamp != lamps.row(y).end() && lamp->x == x)
-                all.samples[at++] = {lamp->light, lamp->coc_px, lamp->coc_px, 0}, ++lamp;
+    }
+    template <typename Emit>
+    void visit_surfaces(int x, int y, const Emit& emit) const {
+        const Mixture* const m = mixtures_.at(x, y);
+        if (!m) {
+            // What a plate's picture leaves uncovered shows the plate.
+            const Rgba c = input_.colour(x, y);
+            emit(sample(c, input_.coc_px(x, y), back_ ? c.a : 1));
+            for (const Hidden& h : hidden_.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
+            return;
         }
-    });
-    all.first.back() = all.samples.size();
+        if (m->near_share > kLeastShare || m->lights_near)
+            emit(sample(m->near_colour, m->near_coc_px, m->near_share));
+        const auto behind = hidden_.at(x, y);
+        for (const Hidden& h : behind) emit(sample(h.colour, h.coc_px, h.share));
+        if (behind.empty()) emit(sample(m->far_colour, m->far_coc_px, 1));
+        if (m->far_light != Rgba{}) emit({unhidden_light(*m), m->lamp_coc_px, m->lamp_coc_px});
+    }
+
+    const Input& input_;
+    const CocSamples* back_;
+    Sparse<Mixture> mixtures_;
+    HiddenLayers hidden_;
+    HiddenLamps lamps_;
+};
+
+CocSamples completed_before_plate(const Input& input, View<const unsigned char> connected, const Dim& dim) {
+    Input plate = input;
+    plate.colour = input.plate.colour, plate.coc_px = input.plate.coc_px;
+    const CocSamples back = FlatPicture(plate, connections(plate.coc_px, *input.workers), dim).samples();
+    CocSamples all = FlatPicture(input, connected, dim, &back).samples();
+    if (!input.plate.all) drop_out_of_sight(all, input.lens(0).reach_px(1), *input.workers);
     return all;
+}
+
+}  // namespace
+
+CocSamples completed(const Input& input, View<const unsigned char> connected, const Dim& dim) {
+    if (!input.plate.empty()) return completed_before_plate(input, connected, dim);
+    return input.deep.empty() ? FlatPicture(input, connected, dim).samples() : deep_completed(input);
 }
 
 void share_lens_area(CocSamples& samples, Workers& workers) {

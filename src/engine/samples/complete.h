@@ -4,9 +4,8 @@
 
 #include "petzval/workers.h"
 
+#include "engine/samples/dim.h"
 #include "engine/waist/engine.h"
-
-#include <functional>
 
 namespace petzval::engine {
 
@@ -14,9 +13,8 @@ namespace petzval::engine {
 // silhouettes are taken apart into what they show of each surface, and what is hidden near silhouettes is
 // filled in (engine/samples/hidden.h). What a flat pixel leaves uncovered (alpha below 1) lies at the far end
 // as emptiness: covered, transparent black. `connected`: connections(input.coc_px).
-// `dim`: LitPicture::dim_at of input.colour.
-CocSamples completed(const Input& input, View<const unsigned char> connected,
-                     const std::function<Rgba(int, int)>& dim);
+// Of a picture before a clean plate, that is completed, and what is in front of it put before.
+CocSamples completed(const Input& input, View<const unsigned char> connected, const Dim& dim);
 
 // From samples that dim each other (Input::deep_dims_itself) to shares of the lens: what a ray straight
 // through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front

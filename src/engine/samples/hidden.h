@@ -6,27 +6,21 @@
 #include "petzval/workers.h"
 
 #include "engine/samples/connectivity.h"
+#include "engine/samples/dim.h"
+#include "engine/samples/two_surfaces.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 namespace petzval::engine {
 
-// Light as it is compared: so that squares of it stay finite.
-inline Rgba comparable(Rgba c) {
-    constexpr float kMost = 1e8f;
-    return {std::clamp(c.r, -kMost, kMost), std::clamp(c.g, -kMost, kMost), std::clamp(c.b, -kMost, kMost),
-            c.a};
-}
-
-// A picture, and what its surfaces look like without the lamps on them, pixel by pixel (HighlightSplit::dim).
+// A picture, and what its surfaces look like without the lamps on them.
 struct LitPicture {
     View<const Rgba> colour;
-    std::function<Rgba(int, int)> dim_at;  // empty: it shows no lamps
-    Rgba dim(int x, int y) const { return dim_at ? dim_at(x, y) : colour(x, y); }
+    Dim dim_of;  // empty: it shows no lamps
+    Rgba dim(int x, int y) const { return dim_of ? dim_of(x, y, colour(x, y)) : colour(x, y); }
 };
 
 // A pixel of a silhouette taken apart. The renderer filtered its colour over the pixel and beyond, but its

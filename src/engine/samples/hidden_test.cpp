@@ -123,7 +123,7 @@ TEST(Hidden, ALampBehindAnEdgeShinesFromBehindIt) {
             d.colour(x, y) = grey(wire ? 0.1f : 0.04f), d.coc(x, y) = wire ? kNearPx : kFarPx;
         }
     d.colour(19, 24) = grey(30), d.colour(20, 24) = grey(60);
-    const LitPicture picture{d.colour, [&](int x, int y) { return grey(std::min(d.colour(x, y).g, 0.2f)); }};
+    const LitPicture picture{d.colour, [](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }};
     const Image<unsigned char> connected = connections(d.coc, one_thread());
     d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread());
     d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, one_thread());

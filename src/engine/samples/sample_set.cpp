@@ -5,7 +5,7 @@
 
 namespace petzval::engine {
 
-SampleSet complete_samples(const Input& input, const std::function<Rgba(int, int)>& dim) {
+SampleSet complete_samples(const Input& input, const Dim& dim) {
     SampleSet set;
     set.connected = connections(input.coc_px, *input.workers);
     set.samples = completed(input, set.connected, dim);

@@ -1,9 +1,8 @@
 // What the first stage leaves: everything that a lens may see, and which of it is one surface.
 #pragma once
 
+#include "engine/samples/dim.h"
 #include "engine/waist/engine.h"
-
-#include <functional>
 
 namespace petzval::engine {
 
@@ -13,7 +12,7 @@ struct SampleSet {
         connected;  // of the pixels of what the picture shows (engine/samples/connectivity.h)
 };
 
-// `dim`: what a pixel of input.colour shows without lamps (LitPicture::dim_at); empty: it shows none.
-SampleSet complete_samples(const Input& input, const std::function<Rgba(int, int)>& dim = {});
+// `dim` empty: the picture shows no lamps.
+SampleSet complete_samples(const Input& input, const Dim& dim = {});
 
 }  // namespace petzval::engine

@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/two_surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -40,37 +41,6 @@ void find_touching(View<const unsigned char> connected, int y, View<unsigned cha
     }
 }
 
-float distance2(Rgba a, Rgba b) {
-    const Rgba d = a - b;
-    return d.r * d.r + d.g * d.g + d.b * d.b + d.a * d.a;
-}
-float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b + a.a * b.a; }
-
-// A colour that is known to within a variance, the mean of its channels'.
-struct Guess {
-    Rgba colour;
-    float variance = 0;
-};
-
-// Weighted mean and variance of colours.
-class Pool {
-public:
-    void add(Rgba light, float weight) {
-        const Rgba c = comparable(light);
-        sum_ += weight * c, squares_ += weight * (c.r * c.r + c.g * c.g + c.b * c.b), weight_ += weight;
-    }
-    bool empty() const { return weight_ <= 0; }
-    Guess guess() const {
-        const Rgba m = sum_ * (1 / weight_);
-        const float spread = squares_ / weight_ - (m.r * m.r + m.g * m.g + m.b * m.b);
-        return {m, std::max(0.0f, spread) / 3};
-    }
-
-private:
-    Rgba sum_;
-    float squares_ = 0, weight_ = 0;
-};
-
 // What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
 struct Sides {
     Pool near_clean, far_clean, far_mixed;
@@ -78,11 +48,6 @@ struct Sides {
     float near_closest = 1e9f, far_closest = 1e9f;
     float near_share_by_shape = 0;
 };
-
-// Of the 3 x 3 tent around a pixel, the part that shows the other surface than the pixel itself takes up so
-// much of the pixel (1 for straight edges that may lie anywhere; thin things lie mostly in the pixels that
-// show them).
-constexpr float kOtherSide = 0.5f;
 
 Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
                   int y, float threshold) {
@@ -111,10 +76,7 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
                 if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
             }
         }
-    s.near_share_by_shape /= tent_total;
-    const bool shows_near = coc(x, y) <= threshold;
-    s.near_share_by_shape =
-        shows_near ? 1 - kOtherSide * (1 - s.near_share_by_shape) : kOtherSide * s.near_share_by_shape;
+    s.near_share_by_shape = share_by_shape(s.near_share_by_shape / tent_total, coc(x, y) <= threshold);
     return s;
 }
 
@@ -130,51 +92,15 @@ Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> c
     return pool.guess();
 }
 
-constexpr float kShapeError = 0.08f;    // of the share that the shape tells
-constexpr float kModelError2 = 0.001f;  // squared, relative: of taking a pixel for a mixture of two colours
-
-Rgba light_only(Rgba c) {
-    return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b), std::clamp(c.a, 0.0f, 1.0f)};
-}
-
-// How a pixel's colour came about.
-struct Explained {
-    float near_share = 0;
-    Rgba far_colour;
-};
-
-// What to expect of all shares that explain the pixel's colour c, each as likely as it makes c and as it
-// agrees with the shape. What the two colours leave unexplained belongs to the surface that is known less.
-Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) {
-    constexpr std::size_t kShares = 11;
-    const float least = 1e-6f + kModelError2 * dot(c, c);
-    std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
-    for (std::size_t i = 0; i < kShares; ++i) {
-        const float s = float(i) / (kShares - 1), off = (s - by_shape) / kShapeError;
-        variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
-        unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
-    }
-    const float best = *std::min_element(unlikely.begin(), unlikely.end());
-    float share = 0, total = 0;
-    Rgba step;
-    for (std::size_t i = 0; i < kShares; ++i) {
-        const float s = float(i) / (kShares - 1);
-        const float weight = std::exp(-0.5f * (unlikely[i] - best)) / (variance[i] * std::sqrt(variance[i]));
-        share += weight * s, total += weight;
-        const float gain = weight * (1 - s) * far.variance / variance[i];
-        step += gain * (c - s * near.colour - (1 - s) * far.colour);
-    }
-    return {share / total, light_only(far.colour + (1 / total) * step)};
-}
-
 // Lamps behind the nearer surface, as the pixels around one tell: the share of the light of lamps in it that
 // is theirs, and their radius.
 struct LampsBehind {
     float share = 0, coc_px = 0;
 };
 
-// The side whose pixels nearby are lit brighter has the lamp. But one that lights only a few of the nearer
-// surface's pixels, and none that touches no silhouette, is hardly part of it: it shows past its edge.
+// The side whose pixels nearby are lit brighter has the lamp. But one that lights
+// only a few of the nearer surface's pixels, and none that touches no silhouette, is hardly part of it: it
+// shows past its edge.
 LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
                        int x, int y, float threshold) {
     constexpr int kLampReach = 2;
@@ -237,20 +163,6 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     return m;
 }
 
-// Takes the nearer surface's part of a pixel of colour c without lamps, given what lies behind it.
-void put_in_front(Mixture& m, Rgba c, Rgba behind) {
-    float share =
-        expected(comparable(c), {m.near_clean, m.near_variance}, {comparable(behind), 0}, m.share_by_shape)
-            .near_share;
-    // No more light can come from behind than there is.
-    const auto at_most = [&](float own, float from_behind) {
-        if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;
-    };
-    at_most(c.r, behind.r), at_most(c.g, behind.g), at_most(c.b, behind.b);
-    m.near_share = share;
-    m.near_colour = light_only(c - (1 - share) * behind);
-}
-
 // What shows of hidden samples where nothing is in front of them.
 Rgba composited(std::span<const Hidden> hidden) {
     Rgba sum;
@@ -298,7 +210,8 @@ void unmix_nearer(Sparse<Mixture>& mixtures, const LitPicture& picture, const Hi
             if (m.shows_far) continue;
             if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
             const Rgba dim = picture.dim(x, y);
-            put_in_front(m, dim, m.far_colour);
+            m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape);
+            m.near_colour = light_only(dim - (1 - m.near_share) * m.far_colour);
             m.near_colour += colour(x, y) - dim - m.far_light;
         }
     });

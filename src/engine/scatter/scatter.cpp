@@ -140,7 +140,7 @@ public:
 private:
     SampleSet complete(const Input& strip, int first_row) {
         SampleSet set = complete_samples(
-            strip, [&](int x, int y) { return split_.dim(x, first_row + y, strip.colour(x, y)); });
+            strip, [&](int x, int y, Rgba light) { return split_.dim(x, first_row + y, light); });
         watch_.lap("complete", {bytes_of(strip.colour) + bytes_of(strip.coc_px) + bytes_of(set.samples)});
         return set;
     }

@@ -112,6 +112,14 @@ struct Input : LensOnPicture {
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
     // then colour and coc_px are not all there is to hit. Empty otherwise.
     CocSamplesView deep;
+    // What is known of a picture without the things in front; then `deep` holds them both. Empty: no plate.
+    struct Plate {
+        View<const Rgba> colour;
+        View<const float> coc_px;
+        bool all = false;  // also what no ray can reach: for those who look at samples
+        bool empty() const { return coc_px.empty(); }
+    };
+    Plate plate;
     // What a coverage below 1 in `deep` means. True: as in deep files, each sample dims what is behind it in
     // its pixel, as thin fog does. False: it is the share of the pixel's area that a surface fills, and
     // others lie beside it.
@@ -154,6 +162,7 @@ struct Input : LensOnPicture {
         const Rect r{0, y0, width(), y1};
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
         if (!depth_m.empty()) part.depth_m = depth_m.part(r);
+        if (!plate.empty()) part.plate = {plate.colour.part(r), plate.coc_px.part(r), plate.all};
         part.deep = deep.rows(y0, y1), part.holdout = holdout.rows(y0, y1);
         static_cast<LensOnPicture&>(part) = from(0, y0);
         if (y0 > 0) part.open_edges.top = true;

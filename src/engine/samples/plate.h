@@ -1,0 +1,33 @@
+// A clean plate: one picture with depth of what the things in front hide.
+#pragma once
+
+#include "petzval/workers.h"
+
+#include "engine/samples/all_samples.h"
+#include "engine/samples/hidden.h"
+#include "engine/waist/engine.h"
+
+namespace petzval::engine {
+
+// The picture without what the plate knows to be in front: the plate where it lies behind what is visible or
+// is the same, else what is visible.
+struct BackPicture {
+    Picture colour;
+    Plane coc_px;
+    bool empty() const { return coc_px.empty(); }
+};
+
+// Empty unless `behind` is a plate: no more than one sample in any pixel.
+BackPicture back_picture(const StatedPicture& picture, Workers& workers);
+
+// What is nearer than the plate by less than this hides next to nothing of it.
+inline bool is_before_plate(float coc_px, float plate_px) {
+    constexpr float kBehindPx = 0.9f;
+    return coc_px < plate_px - kBehindPx;
+}
+
+// Takes those silhouettes apart anew behind which the plate lies, whose colour is known.
+void unmix_before_plate(Sparse<Mixture>& mixtures, const LitPicture& picture, View<const float> coc_px,
+                        const Input::Plate& plate, Workers& workers);
+
+}  // namespace petzval::engine

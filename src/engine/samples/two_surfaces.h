@@ -1,0 +1,75 @@
+// A pixel that shows parts of two surfaces: which part is whose, from their colours and from its shape.
+#pragma once
+
+#include "petzval/image.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+
+// Light as it is compared: so that squares of it stay finite.
+inline Rgba comparable(Rgba c) {
+    constexpr float kMost = 1e8f;
+    return {std::clamp(c.r, -kMost, kMost), std::clamp(c.g, -kMost, kMost), std::clamp(c.b, -kMost, kMost),
+            c.a};
+}
+
+inline float distance2(Rgba a, Rgba b) {
+    const Rgba d = a - b;
+    return d.r * d.r + d.g * d.g + d.b * d.b + d.a * d.a;
+}
+inline float dot(Rgba a, Rgba b) { return a.r * b.r + a.g * b.g + a.b * b.b + a.a * b.a; }
+
+// A colour that is known to within a variance, the mean of its channels'.
+struct Guess {
+    Rgba colour;
+    float variance = 0;
+};
+
+// Weighted mean and variance of colours.
+class Pool {
+public:
+    void add(Rgba light, float weight) {
+        const Rgba c = comparable(light);
+        sum_ += weight * c, squares_ += weight * (c.r * c.r + c.g * c.g + c.b * c.b), weight_ += weight;
+    }
+    bool empty() const { return weight_ <= 0; }
+    Guess guess() const {
+        const Rgba m = sum_ * (1 / weight_);
+        const float spread = squares_ / weight_ - (m.r * m.r + m.g * m.g + m.b * m.b);
+        return {m, std::max(0.0f, spread) / 3};
+    }
+
+private:
+    Rgba sum_;
+    float squares_ = 0, weight_ = 0;
+};
+
+// Of the 3 x 3 tent around a pixel, the part that shows the other surface than the pixel itself takes up so
+// much of the pixel (1 for straight edges that may lie anywhere; thin things lie mostly in the pixels that
+// show them).
+inline float share_by_shape(float near_of_tent, bool shows_near) {
+    constexpr float kOtherSide = 0.5f;
+    return shows_near ? 1 - kOtherSide * (1 - near_of_tent) : kOtherSide * near_of_tent;
+}
+
+inline Rgba light_only(Rgba c) {
+    return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b), std::clamp(c.a, 0.0f, 1.0f)};
+}
+
+// How a pixel's colour came about.
+struct Explained {
+    float near_share = 0;
+    Rgba far_colour;
+};
+
+// What to expect of all shares that explain the pixel's colour c, each as likely as it makes c and as it
+// agrees with the shape. What the two colours leave unexplained belongs to the surface that is known less.
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape);
+
+// The nearer surface's share of a pixel of colour c, before what is known to lie behind it. No more light can
+// come from behind than there is.
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape);
+
+}  // namespace petzval::engine

@@ -1,0 +1,122 @@
+// A clean plate never makes it worse: what it does not hold is guessed as without it.
+#include "shots.h"
+
+namespace petzval::conformance {
+namespace {
+
+constexpr int kWidth = 150, kHeight = 110;
+constexpr float kFarPx = 11;
+
+// Thin slanted strands before a texture; depth is that of the pixel's middle.
+struct Strands {
+    Shot shot, plate, known;
+
+    explicit Strands(float near_px) : shot(flat(kWidth, kHeight, {}, kFarPx)) {
+        paint_rectangles(shot.colour, 12);
+        plate = {shot.colour.clone(), Plane(kWidth, kHeight, kFarPx), {}};
+        known = {Picture(kWidth, kHeight), Plane(kWidth, kHeight, kFarPx), {}};
+        std::vector<std::size_t> first;
+        std::vector<DeepSample> samples;
+        const Rgba hair{0.2f, 0.1f, 0.05f, 1};
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                first.push_back(samples.size());
+                const Rgba behind = plate.colour(x, y);
+                const float share = covered(float(x), float(y));
+                shot.colour(x, y) = share * hair + (1 - share) * behind;
+                if (in_strand(float(x) + 0.5f, float(y) + 0.5f)) shot.coc_px(x, y) = near_px;
+                known.colour(x, y) = shot.colour(x, y), known.coc_px(x, y) = shot.coc_px(x, y);
+                if (share > 0) samples.push_back({share * hair, near_px, near_px});
+                if (share > 0) samples.push_back({behind, kFarPx, kFarPx});
+            }
+        first.push_back(samples.size());
+        known.behind = DeepPicture(kWidth, kHeight, first, samples);
+    }
+    double with_plate() {
+        put_behind(
+            shot, [&](int x, int y) { return plate.colour(x, y); }, [](int, int) { return kFarPx; });
+        return score();
+    }
+    double without() {
+        shot.behind = {};
+        return score();
+    }
+
+private:
+    static bool in_strand(float x, float y) {
+        const float across = std::fmod(x + 0.37f * y + 0.002f * y * y, 13.0f);
+        return across < 1.6f;
+    }
+    static float covered(float x, float y) {
+        constexpr int kSide = 8;
+        int inside = 0;
+        for (int i = 0; i < kSide * kSide; ++i)
+            inside += in_strand(x + (float(i % kSide) + 0.5f) / kSide, y + (float(i / kSide) + 0.5f) / kSide);
+        return float(inside) / (kSide * kSide);
+    }
+    double score() const {
+        DefocusJob truth = known.job("reference");
+        truth.pupil_points = 1024;
+        return psnr_inside(rendered(truth), rendered(shot.job("scatter")), 16);
+    }
+};
+
+TEST(Plate, StrandsComeOutBetterWithWhatIsBehindThem) {
+    Strands sharp(0), blurred(-5);
+    const double with = sharp.with_plate();
+    EXPECT_GT(with, 30);
+    EXPECT_GT(with, sharp.without() + 2);
+    EXPECT_GT(blurred.with_plate(), 45);
+}
+
+TEST(Plate, OneThatHoldsNothingInFrontChangesNothing) {
+    Shot shot = noise_at_several_depths();
+    const Picture without = rendered(shot.job("scatter"));
+    put_behind(
+        shot, [&](int x, int y) { return shot.colour(x, y); },
+        [&](int x, int y) { return shot.coc_px(x, y); });
+    const Picture with = rendered(shot.job("scatter"));
+    EXPECT_GT(psnr_inside(without, with, 0), 50);
+}
+
+TEST(Plate, WhatItDoesNotHoldIsFilledIn) {
+    // A card before another before a wall; the plate has no first card, and what it has of the second is
+    // guessed behind.
+    Shot shot = flat(150, 90, {}, 9);
+    paint_rectangles(shot.colour, 5);
+    Shot plate = flat(150, 90, {}, 9);
+    plate.colour = shot.colour.clone();
+    const auto put = [](Shot& s, const Rect& r, Rgba colour, float coc_px) {
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x) s.colour(x, y) = colour, s.coc_px(x, y) = coc_px;
+    };
+    for (Shot* s : {&shot, &plate}) put(*s, {70, 20, 110, 90}, {0.3f, 0.5f, 0.2f, 1}, -3);
+    put(shot, {30, 0, 50, 90}, {0.1f, 0.1f, 0.3f, 1}, -10);
+    const Picture alone = rendered(plate.job("scatter"));
+    put_behind(
+        shot, [&](int x, int y) { return plate.colour(x, y); },
+        [&](int x, int y) { return plate.coc_px(x, y); });
+    const Picture with = rendered(shot.job("scatter"));
+    // Far from the first card all is as if it were not there: also the edge of the second.
+    for (int y = 30; y < 60; ++y)
+        for (int x = 75; x < 130; ++x) EXPECT_NEAR(with(x, y).g, alone(x, y).g, 0.02) << x << ", " << y;
+}
+
+TEST(Plate, StandsBehindAnElementWithAlpha) {
+    Shot shot = flat(120, 80, {0, 0, 0, 0}, 5);
+    for (int y = 20; y < 60; ++y)
+        for (int x = 30; x < 60; ++x) shot.colour(x, y) = {0.25f, 0.25f, 0.25f, 0.5f}, shot.coc_px(x, y) = 0;
+    put_behind(
+        shot,
+        [](int, int) {
+            return Rgba{0.4f, 0.4f, 0.4f, 1};
+        },
+        [](int, int) { return 5.0f; });
+    const Picture image = rendered(shot.job("scatter"));
+    EXPECT_NEAR(image(45, 40).g, 0.45, 0.01);
+    EXPECT_NEAR(image(45, 40).a, 1, 0.01);
+    EXPECT_NEAR(image(90, 40).g, 0.4, 0.01);
+}
+
+}  // namespace
+}  // namespace petzval::conformance
