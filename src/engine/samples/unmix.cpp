@@ -98,7 +98,13 @@ struct LampsBehind {
     float share = 0, coc_px = 0;
 };
 
-// The side whose pixels nearby are lit brighter has the lamp. But one that lights
+// How alike two lights are in colour, 0…1: red and white hardly.
+float alike(Rgba a, Rgba b) {
+    const float cosine2 = dot(a, b) * dot(a, b) / std::max(1e-12f, dot(a, a) * dot(b, b));
+    return cosine2 * cosine2 * cosine2 * cosine2;
+}
+
+// The side whose pixels nearby are lit brighter, in the pixel's own colour, has the lamp. But one that lights
 // only a few of the nearer surface's pixels, and none that touches no silhouette, is hardly part of it: it
 // shows past its edge.
 LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
@@ -107,12 +113,14 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     constexpr float kFewLit = 0.15f, kManyLit = 0.5f;
     const Rect window =
         Rect{x - kLampReach, y - kLampReach, x + kLampReach + 1, y + kLampReach + 1}.intersected(coc.rect());
+    const Rgba own = picture.colour(x, y) - picture.dim(x, y);
     float near = 0, far = 0, far_coc = 0;
     int nearer = 0, lit = 0;
     bool clean = false;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
-            const float light = luminance(picture.colour(u, v) - picture.dim(u, v));
+            const Rgba lamp = picture.colour(u, v) - picture.dim(u, v);
+            const float light = luminance(lamp) * alike(lamp, own);
             if (coc(u, v) <= threshold) {
                 ++nearer, lit += light > 0, clean = clean || (light > 0 && !touching(u, v));
                 near = std::max(near, light);
