@@ -27,7 +27,7 @@ function(petzval_component target)
 endfunction()
 
 file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
-list(FILTER core_headers EXCLUDE REGEX "/(files|lens_report|ocio|output|scene|shot)\\.h$")
+list(FILTER core_headers EXCLUDE REGEX "/(files|lens_report|look_file|ocio|output|scene|shot)\\.h$")
 list(FILTER core_headers EXCLUDE REGEX "/petzval_c\\.h$")
 if(PETZVAL_TBB)
   set(tbb_module tbb)
@@ -35,7 +35,7 @@ endif()
 petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES ${tbb_module} libhwy
                   DESCRIPTION "The depth of field of a real lens, for rendered pictures")
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
-                  ${headers}/output.h ${headers}/shot.h
+                  ${headers}/look_file.h ${headers}/output.h ${headers}/shot.h
                   REQUIRES petzval OpenEXR libpng DESCRIPTION "EXR and PNG for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
@@ -45,6 +45,13 @@ petzval_component(petzval_shared PACKAGE petzval-c HEADERS ${headers}/petzval_c.
                   DESCRIPTION "petzval for C: libpetzval.so")
 if(TARGET petzval_cli)
   install(TARGETS petzval_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set(made ${PROJECT_BINARY_DIR}/apps/cli/help)  # by the program itself, see apps/cli/CMakeLists.txt
+  if(NOT CMAKE_CROSSCOMPILING)
+    install(FILES ${made}/petzval.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(FILES ${made}/petzval.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME petzval)
+    install(FILES ${made}/_petzval DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(FILES ${made}/petzval.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  endif()
 endif()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/petzval-config.cmake.in

@@ -1,16 +1,15 @@
 #include "flags.h"
 
+#include "help_forms.h"
+
 #include <algorithm>
 #include <memory>
 #include <set>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 
 namespace petzval::cli {
 namespace {
-
-constexpr const char* kHelpHeading = "Help";  // comes last
 
 // "petzval defocus"
 std::string full_name(const Verb& verb) {
@@ -34,71 +33,9 @@ const Verb& current(const Verb& app) {
     return parsed.empty() ? app : current(*parsed.front());
 }
 
-// Example first; then what to type, what it does, and the flags by group.
 class Help : public CLI::FormatterBase {
     std::string make_help(const CLI::App* verb, std::string, CLI::AppFormatMode) const override {
-        std::ostringstream out;
-        if (!verb->get_footer().empty()) out << "Example\n" << indented(verb->get_footer()) << "\n";
-        out << full_name(*verb) << usage(*verb) << "\n" << verb->get_description() << "\n";
-        const auto verbs = verb->get_subcommands({});
-        if (!verbs.empty()) out << "\nVerbs\n";
-        for (const CLI::App* sub : verbs) out << row(sub->get_name(), sub->get_description());
-        std::vector<std::string> groups = verb->get_groups();
-        std::stable_partition(groups.begin(), groups.end(), [](const auto& g) { return g != kHelpHeading; });
-        for (const std::string& group : groups) {
-            const auto flags =
-                verb->get_options([&](const CLI::Option* o) { return o->get_group() == group; });
-            if (group.empty() || flags.empty()) continue;
-            out << "\n" << group << "\n";
-            for (const CLI::Option* flag : flags)
-                out << row(flag->get_positional() ? flag->get_name() : flag_name(*flag),
-                           flag->get_description());
-        }
-        return out.str();
-    }
-
-    static std::string usage(const Verb& verb) {
-        std::string text;
-        if (!verb.get_subcommands({}).empty()) return " VERB …";
-        for (const CLI::Option* flag : verb.get_options())
-            if (flag->get_positional()) text += " " + flag->get_name();
-        const CLI::Option* output = verb.get_option_no_throw("-o");
-        if (output) text += " -o " + output->get_option_text();
-        return text + " [flags]";
-    }
-
-    static std::string flag_name(const CLI::Option& flag) {
-        std::string text;
-        for (const std::string& name : flag.get_snames()) text += (text.empty() ? "-" : ", -") + name;
-        for (const std::string& name : flag.get_lnames()) text += (text.empty() ? "--" : ", --") + name;
-        return text + (flag.get_option_text().empty() ? "" : " " + flag.get_option_text());
-    }
-
-    static std::string indented(const std::string& lines) {
-        std::istringstream in(lines);
-        std::string line, text;
-        while (std::getline(in, line)) text += "  " + line + "\n";
-        return text;
-    }
-
-    // Two columns; the right one is wrapped.
-    static std::string row(const std::string& left, const std::string& right) {
-        constexpr std::size_t kColumn = 30, kWidth = 100;
-        std::string text = "  " + left;
-        std::size_t length = text.size();
-        if (length + 2 > kColumn) text += "\n", length = 0;
-        std::istringstream words(right);
-        std::string word;
-        for (bool first = true; words >> word; first = false) {
-            if (first || length + 1 + word.size() > kWidth) {
-                if (!first) text += "\n", length = 0;
-                text += std::string(kColumn - length, ' '), length = kColumn;
-            } else {
-                text += " ", ++length;
-            }
-            text += word, length += word.size();
-        }
-        return text + "\n";
+        return as_text(help_of(*verb));
     }
 };
 
@@ -120,14 +57,34 @@ std::string unknown_argument(const Verb& verb) {
     return "unknown verb " + word + did_you_mean(word, known) + "; there are " + listed(known);
 }
 
+FlagHelp help_of(const CLI::Option& flag) {
+    FlagHelp help{flag.get_group(), {}, flag.get_option_text(), flag.get_description()};
+    if (flag.get_positional()) help.placeholder = flag.get_name();
+    for (const std::string& name : flag.get_snames()) help.names.push_back("-" + name);
+    for (const std::string& name : flag.get_lnames()) help.names.push_back("--" + name);
+    return help;
+}
+
 }  // namespace
+
+VerbHelp help_of(const Verb& verb) {
+    VerbHelp help{full_name(verb), verb.get_description(), verb.get_footer(), {}, {}};
+    std::vector<std::string> headings = verb.get_groups();
+    std::stable_partition(headings.begin(), headings.end(),
+                          [](const auto& heading) { return heading != VerbHelp::kLastHeading; });
+    for (const std::string& heading : headings)
+        for (const CLI::Option* flag : verb.get_options())
+            if (!heading.empty() && flag->get_group() == heading) help.flags.push_back(help_of(*flag));
+    for (const CLI::App* sub : verb.get_subcommands({})) help.verbs.push_back(help_of(*sub));
+    return help;
+}
 
 Verb& add_verb(Verb& parent, const std::string& name, const std::string& purpose,
                const std::string& example) {
     Verb& verb = *parent.add_subcommand(name, purpose);
     verb.footer(example);
     verb.require_subcommand(0, 1);
-    verb.set_help_flag("-h,--help", "this page")->group(kHelpHeading);
+    verb.set_help_flag("-h,--help", "this page")->group(VerbHelp::kLastHeading);
     return verb;
 }
 

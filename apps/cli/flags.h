@@ -43,6 +43,10 @@ void require_verb(const Verb& verb);
 // Help in this program's form, for the program itself and all its verbs.
 void use_our_help(Verb& program);
 
+// What a verb says of itself, and its own verbs (help_forms.h).
+struct VerbHelp;
+VerbHelp help_of(const Verb& verb);
+
 // Flags that stand together under one heading of the help.
 class FlagGroup {
 public:

@@ -54,6 +54,7 @@ int run(int argc, const char* const* argv) {
     add_compare(program, chosen);
     add_develop(program, chosen);
     add_lens(program, chosen);
+    add_help(program, chosen);
     try {
         program.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -10,6 +10,13 @@ cmake --install "$build" --prefix "$stage/prefix" >"$build/install.log"
 # Moved after the fact: nothing installed may remember where it was.
 mv "$stage/prefix" "$stage/moved"
 
+if [ -e "$stage/moved/bin/petzval" ]; then
+    for page in man/man1/petzval.1 bash-completion/completions/petzval zsh/site-functions/_petzval \
+        fish/vendor_completions.d/petzval.fish; do
+        test -s "$stage/moved/share/$page"
+    done
+fi
+
 components=
 for component in files scenes ocio; do
     if [ -e "$stage"/moved/lib/*/libpetzval_$component.a ] || [ -e "$stage/moved/lib/libpetzval_$component.a" ]; then
