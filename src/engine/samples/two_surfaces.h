@@ -46,14 +46,6 @@ private:
     float squares_ = 0, weight_ = 0;
 };
 
-// Of the 3 x 3 tent around a pixel, the part that shows the other surface than the pixel itself takes up so
-// much of the pixel (1 for straight edges that may lie anywhere; thin things lie mostly in the pixels that
-// show them).
-inline float share_by_shape(float near_of_tent, bool shows_near) {
-    constexpr float kOtherSide = 0.5f;
-    return shows_near ? 1 - kOtherSide * (1 - near_of_tent) : kOtherSide * near_of_tent;
-}
-
 inline Rgba light_only(Rgba c) {
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b), std::clamp(c.a, 0.0f, 1.0f)};
 }

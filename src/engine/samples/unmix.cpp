@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/outline.h"
 #include "engine/samples/two_surfaces.h"
 
 #include <algorithm>
@@ -54,7 +55,6 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
     Sides s;
     const Rect window = Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(coc.rect());
     const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + kDark;
-    float tent_total = 0;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
             const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
@@ -63,11 +63,6 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
             // Far pixels count little, and pixels much brighter than this one too: a lamp nearby is not this
             // surface.
             const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour))));
-            if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) {
-                const float tent = (u == x ? 2.0f : 1.0f) * (v == y ? 2.0f : 1.0f);
-                tent_total += tent;
-                if (near) s.near_share_by_shape += tent;
-            }
             if (near) {
                 if (!touching(u, v)) s.near_clean.add(colour, weight);
                 if (d2 < s.near_closest) s.near_closest = d2, s.near_coc = coc(u, v);
@@ -76,7 +71,7 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
                 if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
             }
         }
-    s.near_share_by_shape = share_by_shape(s.near_share_by_shape / tent_total, coc(x, y) <= threshold);
+    s.near_share_by_shape = Outline(coc, x, y, threshold).near_share();
     return s;
 }
 
