@@ -31,6 +31,11 @@ struct SessionSettings {
 // The job with all that a look chooses of a defocus.
 PETZVAL_API DefocusJob with_look(DefocusJob job, const Look& look);
 
+// What the lens of a look does to light besides blur, to a picture that is blurred already: light lost
+// towards the corners, then glare. `rendered` says where the picture lies and what the camera was; its
+// pictures are not asked for. Errors: those of check(look), add_falloff() and add_glare().
+PETZVAL_API Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look);
+
 // How one frame is made.
 struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
@@ -62,7 +67,8 @@ public:
     // corners, glare, and back into the plate's range. `rendered` says what there is (pictures, place,
     // camera); all that is chosen is the look's. Choices without effect are listed in the report's warnings
     // and not refused, as one look serves drafts and final frames; check() tells them beforehand. Errors:
-    // also those of add_falloff(), add_glare(), expand_highlights() and of check(), before any work.
+    // also those of add_falloff(), add_glare(), expand_highlights() and of check(), before any work. All that
+    // follows the blur is the stage "light" of the report.
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
 
     // How many pixels around a region are looked at for it: four of the largest radius, as far as the lens

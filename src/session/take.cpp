@@ -8,6 +8,7 @@
 #include "session/frame_part.h"
 #include "session/mounted_lens.h"
 
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -45,16 +46,14 @@ Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& l
     return add_glare(picture, settings);
 }
 
-// A blurred picture with what else the lens does to its light; buffers that are shown instead stay as they
-// are.
-Result<DefocusReport> lit(Result<DefocusReport> report, const DefocusJob& job, const Look& look) {
-    if (!report || !report->panels.empty()) return report;
-    auto dimmed = with_falloff(std::move(report->image), job, look);
-    if (!dimmed) return dimmed.error();
-    auto glared = with_glare(std::move(*dimmed), job, look);
-    if (!glared) return glared.error();
-    report->image = std::move(*glared);
-    return report;
+Result<Picture> lit(Picture picture, const DefocusJob& job, const Look& look) {
+    auto dimmed = with_falloff(std::move(picture), job, look);
+    if (!dimmed) return dimmed;
+    return with_glare(std::move(*dimmed), job, look);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -71,6 +70,16 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
     job.gaussian = look.gaussian;
     job.sprites = look.sprites;
     return job;
+}
+
+Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look) {
+    const LookCheck checked = check(look);
+    if (!checked.possible) return checked.possible.error();
+    DefocusJob job = with_look(rendered, look);
+    const std::shared_ptr<Workers> workers = workers_of(job.threads, job.workers);
+    job.workers = workers.get();
+    if (const Status opened = open_lens(job); !opened) return opened.error();
+    return lit(std::move(picture), job, look);
 }
 
 Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look, const Control& control) {
@@ -99,13 +108,18 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             auto report =
                 contents_->defocus(job, made == all ? std::nullopt : std::optional(made), progress, workers);
             job.place.data_window = made;
-            report = lit(std::move(report), job, look);
+            // Buffers that are shown instead of the picture stay as they are.
             if (!report || !report->panels.empty()) return report;
+            const auto blurred = std::chrono::steady_clock::now();
+            auto light = lit(std::move(report->image), job, look);
+            if (!light) return light.error();
+            report->image = std::move(*light);
             if (made != asked) report->image = part_of(report->image, asked.moved(-made.x0, -made.y0));
             const Rect pixels = asked.moved(-all.x0, -all.y0);
             if (look.expand_highlights)
                 report->image = compress_highlights(report->image, expanded.view().part(pixels),
                                                     rendered.colour.part(pixels), look.expansion);
+            report->stages.push_back({"light", seconds_since(blurred)});
             return report;
         });
     if (taken)

@@ -56,6 +56,22 @@ TEST(Take, CornersDarkenBeforeGlareAddsItsLight) {
     EXPECT_TRUE(same(taken->image, *expected));
 }
 
+TEST(Take, LightCanBeAddedToAPictureThatWasBlurredBefore) {
+    const Rendered r;
+    Session session;
+    Look look;
+    look.vignetting = true, look.glare.veil = 0.1, look.glare.bloom = 0.2;
+    const auto taken = session.take(r.job, look);
+    auto defocused = session.defocus(with_look(r.job, look));
+    ASSERT_TRUE(taken && defocused);
+    const auto light = add_light(std::move(defocused->image), r.job, look);
+    ASSERT_TRUE(light) << light.error().message;
+    EXPECT_TRUE(same(taken->image, *light));
+    EXPECT_EQ(taken->stages.back().stage, "light");
+    look.glare.veil = 2;
+    EXPECT_FALSE(add_light({}, r.job, look));
+}
+
 TEST(Take, APlateIsBlurredWithItsHighlightsAndComesBackToItsRange) {
     const Rendered r;
     Session session;
