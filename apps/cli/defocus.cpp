@@ -1,15 +1,15 @@
 // petzval defocus: the main job.
 #include "petzval/defocus.h"
 
+#include "petzval/look_check.h"
 #include "petzval/look_file.h"
+#include "petzval/session.h"
 #include "petzval/version.h"
 
 #include "console.h"
 #include "defocus_flags.h"
-#include "glare.h"
 #include "interrupt.h"
 #include "light_report.h"
-#include "plate.h"
 #include "verbs.h"
 
 #include <algorithm>
@@ -20,10 +20,17 @@
 namespace petzval::cli {
 namespace {
 
+// The assumption in words, for logs and the attribute petzval:expandHighlights.
+std::string in_words(const HighlightExpansion& e) {
+    return "blurred as if light above " + plain(e.knee) + " rose to " + plain(e.peak) +
+           " at 1 (assumed); pixels are in the plate's own range";
+}
+
 // One run of the verb: its flags, what was read, and the report that grows.
 class Run {
 public:
-    explicit Run(DefocusFlags& flags) : flags_(flags) {}
+    // The session outlives it and holds what one frame leaves to the next.
+    Run(DefocusFlags& flags, Session& session) : flags_(flags), session_(session) {}
     Status operator()();
     const Json& report() const { return report_; }
 
@@ -32,9 +39,9 @@ private:
     Status choose_camera();
     Status grow();
     Status compute();
-    Status render(DefocusJob job);
-    Status expand_plate();
-    Status add_glare();
+    Status render(const DefocusJob& job);
+    Result<DefocusReport> take(const DefocusJob& job);
+    void report_stages(const DefocusReport& done, double seconds);
     Status write();
     Status save_look();
     Status finish();
@@ -43,16 +50,19 @@ private:
 
     double permissible_radius_px() const { return flags_.focus.permissible_radius_px.value_or(1); }
     const Look& look() const { return flags_.look.look(); }
+    // Glare, falloff and what is given back to a plate are part of the picture, not of what is shown instead.
+    bool is_beauty() const { return flags_.view == ViewKind::Beauty; }
+    bool expands_plate() const { return look().expand_highlights && is_beauty(); }
     bool needs_camera() const { return !flags_.input.depth_is_coc() && flags_.view != ViewKind::Depth; }
 
     DefocusFlags& flags_;
+    Session& session_;
     Stopwatch total_;
     Json report_ = new_report("defocus");
     Shot shot_;
     std::size_t warnings_told_ = 0;  // of the shot
     std::optional<Lens> lens_;       // once read
-    std::optional<ExpandedPlate> plate_;
-    ViewSource view_;  // what compute() made and write() needs
+    ViewSource view_;                // what compute() made and write() needs
 };
 
 Status Run::operator()() {
@@ -66,8 +76,8 @@ Status Run::operator()() {
         return fine;
     if (flags_.ocio.is_on())
         if (Status fine = flags_.ocio.try_out(); !fine) return fine;
-    for (const auto step : {&Run::read, &Run::choose_camera, &Run::grow, &Run::compute, &Run::add_glare,
-                            &Run::write, &Run::finish}) {
+    for (const auto step :
+         {&Run::read, &Run::choose_camera, &Run::grow, &Run::compute, &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
@@ -93,23 +103,11 @@ Status Run::read() {
     if (flags_.input.transfer && !shot_.display_referred && *kind_of_output(flags_.output) != FileKind::Png)
         return Error{ErrorCode::InvalidArgument, "--transfer is for PNG; neither " + flags_.input.path +
                                                      " nor " + flags_.output + " is one"};
-    if (Status done = expand_plate(); !done) return done;
+    if (expands_plate()) note("highlights: " + in_words(look().expansion));
     report_["seconds"]["read"] = watch.seconds();
     report_["detected"] = shot_.detected;
     report_["non_finite"] = {{"colour", shot_.non_finite_colour}, {"depth", shot_.depth_report.non_finite}};
     report_["depth"] = depth_json(shot_.depth_report, flags_.input.depth_kind.value_or(DepthKind::Planar));
-    return Done{};
-}
-
-Status Run::expand_plate() {
-    if (!look().expand_highlights || flags_.view != ViewKind::Beauty) return Done{};
-    if (!shot_.deep.empty())
-        return Error{ErrorCode::InvalidArgument,
-                     "--expand-highlights is for flat plates, not for deep pictures"};
-    auto plate = ExpandedPlate::take(shot_.colour, look().expansion);
-    if (!plate) return plate.error();
-    plate_ = std::move(*plate);
-    note("highlights: " + in_words(look().expansion));
     return Done{};
 }
 
@@ -169,7 +167,7 @@ Status Run::compute() {
     report_["lens"] = lens_json(look(), "");
     report_["parameters"] = flags_.parameters_json(job);
     if (flags_.view == ViewKind::Depth) return Done{};
-    if (is_rendered(flags_.view)) return render(std::move(job));
+    if (is_rendered(flags_.view)) return render(job);
     const Stopwatch watch;
     auto coc = circle_of_confusion(job);
     if (!coc) return coc.error();
@@ -178,29 +176,27 @@ Status Run::compute() {
     return Done{};
 }
 
-Status Run::render(DefocusJob job) {
+Result<DefocusReport> Run::take(const DefocusJob& job) {
+    ProgressLine progress(flags_.run.progress, flags_.run.quiet, "defocus");
+    const Control control{.progress = [&](double share) { return progress(share); },
+                          .cancelled = [] { return interrupted_by() != 0; }};
+    if (!is_beauty()) return session_.defocus(job, control);
+    auto taken = session_.take(job, look(), control);
+    // What the look's file holds in vain was said when it was read.
+    if (taken)
+        for (const Error& idle : check(look()).idle) std::erase(taken->warnings, idle.message);
+    return taken;
+}
+
+Status Run::render(const DefocusJob& job) {
     const Stopwatch watch;
-    auto done = [&] {
-        ProgressLine progress(flags_.run.progress, flags_.run.quiet, "defocus");
-        job.progress = [&](double share) { return progress(share); };
-        return defocus(job);
-    }();
+    auto done = take(job);
     if (!done) return done.error();
     const double seconds = watch.seconds();
-    double kernels = 0;
-    for (const StageTime& stage : done->stages) {
-        if (stage.stage == "kernels") kernels += stage.seconds;
-        const auto counted = [](std::uint64_t n) { return n > 0 ? Json(n) : Json(nullptr); };
-        report_["stages"].push_back({{"stage", stage.stage},
-                                     {"seconds", stage.seconds},
-                                     {"bytes", counted(stage.bytes)},
-                                     {"multiply_adds", counted(stage.multiply_adds)}});
-        detail(stage.stage + ": " + plain(stage.seconds, 3) + " s");
-    }
+    report_stages(*done, seconds);
     warn(done->warnings);
-    report_["seconds"]["kernels"] = kernels;
     report_["kernels_from_cache"] = done->kernels_from_cache;
-    report_["seconds"]["compute"] = seconds - kernels;
+    if (is_beauty()) report_["glare"] = glare_json(look());
     report_["engine"] = done->engine;
     report_["device"] = done->device;
     report_["lens"]["description"] = done->lens;
@@ -214,14 +210,21 @@ Status Run::render(DefocusJob job) {
     return Done{};
 }
 
-Status Run::add_glare() {
-    if (flags_.view != ViewKind::Beauty) return Done{};
-    report_["glare"] = glare_json(look());
-    const Stopwatch watch;
-    Status done = add_light(shot_, look(), *lens_, flags_.run.threads);
-    if (done && plate_) shot_.colour = plate_->back(shot_.colour);
-    report_["seconds"]["glare"] = watch.seconds();
-    return done;
+void Run::report_stages(const DefocusReport& done, double seconds) {
+    double kernels = 0, light = 0;
+    for (const StageTime& stage : done.stages) {
+        if (stage.stage == "kernels") kernels += stage.seconds;
+        if (stage.stage == "light") light += stage.seconds;
+        const auto counted = [](std::uint64_t n) { return n > 0 ? Json(n) : Json(nullptr); };
+        report_["stages"].push_back({{"stage", stage.stage},
+                                     {"seconds", stage.seconds},
+                                     {"bytes", counted(stage.bytes)},
+                                     {"multiply_adds", counted(stage.multiply_adds)}});
+        detail(stage.stage + ": " + plain(stage.seconds, 3) + " s");
+    }
+    report_["seconds"]["kernels"] = kernels;
+    report_["seconds"]["glare"] = light;
+    report_["seconds"]["compute"] = seconds - kernels - light;
 }
 
 Status Run::write() {
@@ -242,7 +245,8 @@ Status Run::write() {
                                             {"contrast", settings.develop.contrast},
                                             {"tone", name_of(settings.develop.tone)},
                                             {"ocio", flags_.ocio.view}};
-    if (plate_) settings.attributes.emplace_back("petzval:expandHighlights", in_words(look().expansion));
+    if (expands_plate())
+        settings.attributes.emplace_back("petzval:expandHighlights", in_words(look().expansion));
     Frame frame = to_frame(std::move(shot_));
     if (Status done = write_view(flags_.view, frame, view_, settings); !done) return done;
     warn(warnings);
@@ -288,12 +292,16 @@ void add_defocus(Verb& program, Action& chosen) {
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
         if (!is_sequence(*flags)) {
-            chosen = [flags] { return Run(*flags)(); };
+            chosen = [flags] {
+                Session session(flags->session());
+                return Run(*flags, session)();
+            };
             return;
         }
         chosen = [flags] {
-            return make_frames(*flags, [](DefocusFlags& frame) -> Result<Json> {
-                Run run(frame);
+            Session session(flags->session());
+            return make_frames(*flags, [&](DefocusFlags& frame) -> Result<Json> {
+                Run run(frame, session);
                 if (Status done = run(); !done) return done.error();
                 return run.report();
             });

@@ -194,6 +194,11 @@ std::string DefocusFlags::default_kernel_cache() {
     return home.empty() ? "off" : home + "/.cache/petzval/kernels";
 }
 
+SessionSettings DefocusFlags::session() const {
+    const DefocusJob bare = job({});
+    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes};
+}
+
 DefocusJob DefocusFlags::job(DefocusJob job) const {
     job = with_look(std::move(job), look.look());
     job.scatter.view = scatter_view(view);

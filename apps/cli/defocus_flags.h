@@ -3,6 +3,7 @@
 
 #include "petzval/camera.h"
 #include "petzval/defocus.h"
+#include "petzval/session.h"
 
 #include "camera.h"
 #include "defocus_views.h"
@@ -45,6 +46,7 @@ struct DefocusFlags {
     void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
     std::vector<std::string> input_files() const;
     static std::string default_kernel_cache();
+    SessionSettings session() const;
     // The job with what the flags choose.
     DefocusJob job(DefocusJob rendered) const;
     // Those that the report has no other place for.

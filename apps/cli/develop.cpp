@@ -1,9 +1,10 @@
 // petzval develop: scene-linear light to a display picture.
 #include "petzval/develop.h"
 
+#include "petzval/session.h"
+
 #include "camera.h"
 #include "console.h"
-#include "glare.h"
 #include "input.h"
 #include "look_flags.h"
 #include "ocio.h"
@@ -14,6 +15,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace petzval::cli {
 namespace {
@@ -30,6 +32,19 @@ struct DevelopVerbFlags {
     RunFlags run;
 };
 
+// Camera numbers that are missing are an error only where a part of the glare needs them.
+Status add_glare(Shot& shot, const Lens& lens, const DevelopVerbFlags& flags) {
+    DefocusJob taken;
+    taken.place = shot.place;
+    taken.camera = known_camera(shot.camera, shot.image_scale);
+    taken.opened_lens = lens;
+    taken.threads = flags.run.threads;
+    auto light = add_light(std::move(shot.colour), taken, flags.look.look());
+    if (!light) return light.error();
+    shot.colour = std::move(*light);
+    return Done{};
+}
+
 Status develop_file(const DevelopVerbFlags& flags) {
     const Stopwatch total;
     if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {flags.input.path})) {
@@ -44,8 +59,7 @@ Status develop_file(const DevelopVerbFlags& flags) {
     for (const auto& line : detected_in_picture(*shot)) note(line);
     for (const auto& line : shot->warnings) warning(line);
     const double read_s = total.seconds();
-    Status glared = add_light(*shot, flags.look.look(), *lens, flags.run.threads);
-    if (!glared) return glared;
+    if (Status glared = add_glare(*shot, *lens, flags); !glared) return glared;
     const double glare_s = total.seconds() - read_s;
     DevelopSettings settings =
         flags.develop.settings(shot->display_referred, flags.input.transfer, flags.run.threads);

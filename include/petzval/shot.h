@@ -105,6 +105,9 @@ PETZVAL_API FoundCamera merged_camera(const FoundCamera& file, const CameraChoic
 // Errors: InvalidArgument naming every number that is missing: "no f-number; give camera.f_number".
 PETZVAL_API Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale);
 
+// The same without errors: numbers that are missing are 0.
+PETZVAL_API Camera known_camera(const FoundCamera& found, ImageScale image_scale);
+
 // What a session takes: all of the shot but its choices, borrowed. A camera number may be missing where radii
 // are given; it is 0 then. Errors: those of complete_camera().
 PETZVAL_API Result<DefocusJob> rendered(const Shot& shot);

@@ -33,12 +33,6 @@ void complete_by_field_of_view(FoundCamera& camera) {
 
 double value_of(const std::optional<FoundNumber>& found) { return found ? found->value : 0; }
 
-// The numbers that are known; those that are not are 0.
-Camera known_numbers(const FoundCamera& found, ImageScale image_scale) {
-    return {value_of(found.focal_length_mm), value_of(found.sensor_width_mm), value_of(found.f_number),
-            value_of(found.focus_distance_m), image_scale};
-}
-
 // "a", "a and b", "a, b and c".
 std::string and_listed(const std::vector<std::string>& words) {
     std::string all;
@@ -63,6 +57,11 @@ FoundCamera merged_camera(const FoundCamera& file, const CameraChoice& user, dou
     return merged;
 }
 
+Camera known_camera(const FoundCamera& found, ImageScale image_scale) {
+    return {value_of(found.focal_length_mm), value_of(found.sensor_width_mm), value_of(found.f_number),
+            value_of(found.focus_distance_m), image_scale};
+}
+
 Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale) {
     std::vector<std::string> missing, fields;
     const auto need = [&](const std::optional<FoundNumber>& n, const char* what, const char* field) {
@@ -74,13 +73,13 @@ Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale)
     need(found.sensor_width_mm, "sensor width", "camera.sensor_width_mm");
     need(found.f_number, "f-number", "camera.f_number");
     need(found.focus_distance_m, "focus distance", "camera.focus_distance_m");
-    if (missing.empty()) return known_numbers(found, image_scale);
+    if (missing.empty()) return known_camera(found, image_scale);
     return Error{ErrorCode::InvalidArgument, and_listed(missing) + "; give " + and_listed(fields), fields[0]};
 }
 
 Result<DefocusJob> rendered(const Shot& shot) {
     DefocusJob job;
-    job.camera = known_numbers(shot.camera, shot.image_scale);
+    job.camera = known_camera(shot.camera, shot.image_scale);
     if (!shot.has_radii()) {
         const auto complete = complete_camera(shot.camera, shot.image_scale);
         if (!complete) return complete.error();
