@@ -1,5 +1,7 @@
 #include "session/frame_part.h"
 
+#include "engine/samples/lamps.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +26,9 @@ engine::CocSamples part_of(const engine::CocSamplesView& whole, const Rect& pixe
 
 int region_margin_px(double largest_radius_px, double reach_px) {
     constexpr double kMost = 1 << 20;  // of any picture
-    return int(std::ceil(std::min(kMost, 4 * std::max(largest_radius_px, reach_px)))) + 32;
+    // The other end of a lamp comes from as far as it is wide, and so far one has to look to know how wide.
+    constexpr int kAround = 2 * engine::kWidestLampPx + 40;
+    return int(std::ceil(std::min(kMost, 4 * std::max(largest_radius_px, reach_px)))) + kAround;
 }
 
 Rect pixels_for(const Rect& region, int margin_px, int grid, const Rect& frame) {
@@ -57,6 +61,8 @@ FramePart::FramePart(const engine::Input& whole, const Rect& pixels)
     input_.coc_px = whole.coc_px.part(pixels);
     if (!whole.depth_m.empty()) input_.depth_m = whole.depth_m.part(pixels);
     if (!whole.deep.empty()) input_.deep = deep_;
+    if (!whole.plate.empty())
+        input_.plate = {whole.plate.colour.part(pixels), whole.plate.coc_px.part(pixels), whole.plate.all};
     if (!whole.holdout.empty()) input_.holdout = holdout_;
     // Where the part ends and the frame does not, the scene goes on.
     const Rect all = whole.colour.rect();
