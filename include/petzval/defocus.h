@@ -22,6 +22,15 @@
 
 namespace petzval {
 
+// Another picture of what the job's colour shows, same size, blurred by the same weights.
+struct ColourLayer {
+    View<const Rgba> colour;  // scene-linear, premultiplied; its alpha is not read
+    // True: light, of which the job's colour is the sum with that of other layers: layers that sum to it sum
+    // to it still when blurred (but for lens.distortion, which resamples each for itself). False: a matte or
+    // another value of surfaces, blurred as their coverage is.
+    bool is_light = true;
+};
+
 struct DefocusJob {
     View<const Rgba> colour;  // scene-linear, premultiplied
     View<const float>
@@ -36,6 +45,7 @@ struct DefocusJob {
     // A matte that is not blurred, same size, of deep samples: light that lands in a pixel is dimmed by what
     // the matte holds there in front of where the light came from. For engines scatter and reference.
     const DeepPicture* holdout = nullptr;
+    std::vector<ColourLayer> layers;  // more layers of the same picture; for engine scatter
     // Where the pixels lie in the display window, for the field position of lenses and the sensor's width.
     Place place;
 
@@ -66,8 +76,9 @@ struct DefocusJob {
 };
 
 struct DefocusReport {
-    Picture image;              // same size as the input, unless options ask for several side by side
-    std::vector<Panel> panels;  // then: what lies where
+    Picture image;                // same size as the input, unless options ask for several side by side
+    std::vector<Panel> panels;    // then: what lies where
+    std::vector<Picture> layers;  // those of the job, with the alpha of `image`
     std::string engine, device, lens;
     double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front
     std::vector<StageTime> stages;

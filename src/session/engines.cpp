@@ -10,7 +10,8 @@ namespace petzval::engine {
 
 std::span<const Engine> engines() {
     static constexpr Engine kEngines[] = {
-        {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter, true},
+        {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter, true,
+         true},
         {"gather", "previews: every pixel collects from a few sizes of the lens's kernel, at half resolution",
          run_gather},
         {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",

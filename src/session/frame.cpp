@@ -91,6 +91,11 @@ Status check_job(const DefocusJob& job) {
         if (deep && !deep->empty() &&
             (deep->width() != job.colour.width() || deep->height() != job.colour.height()))
             return invalid("the deep samples, hidden layers or holdout are not of the picture's size");
+    for (const ColourLayer& layer : job.layers)
+        if (layer.colour.width() != job.colour.width() || layer.colour.height() != job.colour.height())
+            return invalid("the layers are not of the picture's size");
+    if (!job.layers.empty() && job.scatter.view != ScatterView::Result)
+        return invalid("shot.layers are blurred for results, not for views");
     if (Status place = check(job.place); !place) return place;
     if (job.points && !job.points->empty() && job.engine != "sprites")
         return invalid("given points are drawn by job.engine sprites, not " + job.engine);
@@ -107,6 +112,12 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
     input.colour = job.colour;
     if (!is_finite(job.colour, *job.workers))
         input.colour = repaired_ = finite_picture(job.colour, *job.workers);
+    for (const ColourLayer& layer : job.layers) {
+        input.layers.push_back({layer.colour, layer.is_light});
+        if (is_finite(layer.colour, *job.workers)) continue;
+        repaired_layers_.push_back(finite_picture(layer.colour, *job.workers));
+        input.layers.back().colour = repaired_layers_.back();
+    }
     input.coc_px = coc_px_;
     take_samples(job, radii, lens_reach_px);
     note_radii();

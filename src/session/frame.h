@@ -54,6 +54,7 @@ private:
     void place_in_field(const DefocusJob& job);
 
     Picture repaired_;  // stays empty for a picture that needs no repair
+    std::vector<Picture> repaired_layers_;
     Plane coc_px_;
     engine::CocSamples samples_, holdout_;
     engine::BackPicture plate_;

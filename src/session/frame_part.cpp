@@ -60,6 +60,7 @@ FramePart::FramePart(const engine::Input& whole, const Rect& pixels)
     input_.colour = whole.colour.part(pixels);
     input_.coc_px = whole.coc_px.part(pixels);
     if (!whole.depth_m.empty()) input_.depth_m = whole.depth_m.part(pixels);
+    for (engine::Input::Layer& layer : input_.layers) layer.colour = layer.colour.part(pixels);
     if (!whole.deep.empty()) input_.deep = deep_;
     if (!whole.plate.empty())
         input_.plate = {whole.plate.colour.part(pixels), whole.plate.coc_px.part(pixels), whole.plate.all};

@@ -52,6 +52,10 @@ WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
     job_.place.data_window = window;
     widen_colour(asked);
     job_.colour = colour_;
+    for (ColourLayer& layer : job_.layers) {
+        layers_.push_back(widened(layer.colour));
+        layer.colour = layers_.back();
+    }
     (asked.coc_px.empty() ? job_.depth_m : job_.coc_px) = depth_;
     const auto widen = [&](const DeepPicture*& deep, DeepPicture& own, bool is_matte) {
         if (!deep || deep->empty()) return;
@@ -74,7 +78,6 @@ void WiderJob::widen_colour(const DefocusJob& asked) {
     const Rect &display = asked.place.display_window, &data = asked.place.data_window;
     const int width = job_.place.data_window.width(), height = job_.place.data_window.height();
     const View<const float> depth = depth_or_radii(asked);
-    colour_ = Picture(width, height);
     depth_ = Plane(width, height);
     kept_ = Plane(width, height, 1.0f);
     const auto is_empty = [&](int x, int y) {
@@ -86,8 +89,16 @@ void WiderJob::widen_colour(const DefocusJob& asked) {
             const int u = column(x), v = row(y);
             depth_(x, y) = depth(u, v);
             if (!inside_.contains(x, y)) kept_(x, y) = is_empty(x, y) ? 0 : steady_share(asked.colour, u, v);
-            if (kept_(x, y) > 0) colour_(x, y) = dimmed(asked.colour(u, v), kept_(x, y));
         }
+    colour_ = widened(asked.colour);
+}
+
+Picture WiderJob::widened(View<const Rgba> picture) const {
+    Picture wider(kept_.width(), kept_.height());
+    for (int y = 0; y < wider.height(); ++y)
+        for (int x = 0; x < wider.width(); ++x)
+            if (kept_(x, y) > 0) wider(x, y) = dimmed(picture(column(x), row(y)), kept_(x, y));
+    return wider;
 }
 
 DeepPicture WiderJob::widened(const DeepPicture& deep, bool is_matte) const {

@@ -32,6 +32,7 @@ public:
 
 private:
     void widen_colour(const DefocusJob& asked);
+    Picture widened(View<const Rgba> picture) const;
     DeepPicture widened(const DeepPicture& deep, bool is_matte) const;
     int column(int x) const { return std::clamp(x - inside_.x0, 0, inside_.width() - 1); }
     int row(int y) const { return std::clamp(y - inside_.y0, 0, inside_.height() - 1); }
@@ -39,6 +40,7 @@ private:
     Rect inside_;  // what was asked for, in pixels of the wider picture
     DefocusJob job_;
     Picture colour_;
+    std::vector<Picture> layers_;
     Plane depth_, kept_;  // kept_: the share of a repeated pixel's light that stays outside; 0: emptiness
     DeepPicture deep_, behind_, holdout_;
     std::vector<LightPoint> points_;

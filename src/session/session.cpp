@@ -31,6 +31,9 @@ Result<const engine::Engine*> find_engine(const DefocusJob& job) {
             known += (known.empty() ? "" : ", ") + std::string(e.name);
             continue;
         }
+        if (!job.layers.empty() && !e.takes_layers)
+            return Error{ErrorCode::InvalidArgument,
+                         "shot.layers are blurred by job.engine scatter alone, not by " + job.engine};
         if (job.holdout && !e.takes_holdout)
             return invalid("job.engine " + job.engine + " takes no holdout; scatter and reference do");
         return &e;
@@ -142,10 +145,14 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
         report.panels = std::move(shown.panels);
         output->warnings = std::move(shown.warnings);
     }
-    if (job.lens.distortion != 0 && report.panels.empty())
-        report.image = distorted(report.image, seen, job.place, job.lens.distortion, *job.workers);
-    if (report.panels.empty() && asked.pixels != seen)
-        report.image = part_of(report.image, asked.pixels.moved(-seen.x0, -seen.y0));
+    report.layers = std::move(output->layers);
+    const auto finish = [&](Picture& image) {
+        if (job.lens.distortion != 0)
+            image = distorted(image, seen, job.place, job.lens.distortion, *job.workers);
+        if (asked.pixels != seen) image = part_of(image, asked.pixels.moved(-seen.x0, -seen.y0));
+    };
+    if (report.panels.empty()) finish(report.image);
+    for (Picture& layer : report.layers) finish(layer);
     report.engine = chosen.name;
     report.device = input.device->name();
     report.lens = lens.levels.front()->description();

@@ -94,6 +94,9 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                 if (const Status fine = check_region(*control.region, job); !fine) return fine.error();
             Picture expanded;
             if (look.expand_highlights) {
+                if (!job.layers.empty())
+                    return Error{ErrorCode::InvalidArgument,
+                                 "plate.expand_highlights is for plates, not for shot.layers"};
                 if (job.deep && !job.deep->empty())
                     return Error{ErrorCode::InvalidArgument,
                                  "plate.expand_highlights is for flat plates, not for deep pictures"};
@@ -111,10 +114,20 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             // Buffers that are shown instead of the picture stay as they are.
             if (!report || !report->panels.empty()) return report;
             const auto blurred = std::chrono::steady_clock::now();
+            // Glare is of all light together and goes to the picture alone.
+            for (Picture& layer : report->layers) {
+                auto dimmed = with_falloff(std::move(layer), job, look);
+                if (!dimmed) return dimmed.error();
+                layer = std::move(*dimmed);
+            }
             auto light = lit(std::move(report->image), job, look);
             if (!light) return light.error();
             report->image = std::move(*light);
-            if (made != asked) report->image = part_of(report->image, asked.moved(-made.x0, -made.y0));
+            if (made != asked) {
+                const Rect pixels = asked.moved(-made.x0, -made.y0);
+                report->image = part_of(report->image, pixels);
+                for (Picture& layer : report->layers) layer = part_of(layer, pixels);
+            }
             const Rect pixels = asked.moved(-all.x0, -all.y0);
             if (look.expand_highlights)
                 report->image = compress_highlights(report->image, expanded.view().part(pixels),

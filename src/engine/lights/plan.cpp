@@ -40,10 +40,11 @@ Viewpoint shared_viewpoint(const Highlight& h, Quality quality) {
 
 LightsPlanner::LightsPlanner(const Input& strip, const HighlightKernels& kernels, const CocSamples& samples,
                              const std::vector<Highlight>& highlights, float white, const Rect& rows,
-                             int first_row)
+                             int first_row, const std::vector<Highlight>* asked_by)
     : input_(strip),
       kernels_(kernels),
       highlights_(highlights),
+      asked_by_(asked_by ? *asked_by : highlights),
       casters_(samples, *strip.workers),
       bright_disc_(white * (strip.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)),
       rows_(rows),
@@ -96,7 +97,7 @@ bool LightsPlanner::next(LightsPlan& plan) {
             viewpoint = std::uint32_t(plan.viewpoints.size());
         }
         plan.lights.push_back({h, viewpoint - 1, 0});
-        asks.push_back(ask(h));
+        asks.push_back(ask(asked_by_[next_]));
     }
     plan.kernels.asks = asks;
     std::vector<device::KernelAsk>& set = plan.kernels.asks;

@@ -20,6 +20,8 @@ struct PlannedStrip {
     const std::vector<Highlight>& highlights;
     const HighlightKernels& highlight_kernels;
     float white;
+    const std::vector<Highlight>* asked_by = nullptr;  // see LightsPlanner
+    const Image<unsigned char>* connected = nullptr;   // of the strip
 };
 
 // Adds the highlights of a strip to `out`, the whole frame.

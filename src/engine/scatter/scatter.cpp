@@ -5,6 +5,7 @@
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
 #include "engine/samples/lamps.h"
+#include "engine/scatter/layer_light.h"
 #include "engine/scatter/plan_reader.h"
 
 #include <algorithm>
@@ -80,13 +81,16 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
                             2 * std::min(largest, double(input.height())) + 2 * kWidestLampPx + 16);
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     // The caller's colour and depth, the radii and the result exist besides.
-    const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) + kFixedWorkingBytes;
+    // Of each layer too, but for the radii.
+    const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) +
+                             input.layers.size() * pixels * 2 * sizeof(Rgba) + kFixedWorkingBytes;
     std::size_t working = kDefaultWorkingBytes;
     if (input.max_memory_bytes > 0)
         working = input.max_memory_bytes > held ? input.max_memory_bytes - held : 0;
     const double samples = std::max(1.0, double(input.deep.samples().size()) / double(pixels));
-    const auto row_bytes =
-        std::size_t((double(kBytesPerPixel) + double(kBytesPerSample) * samples) * input.width());
+    // A layer has samples, sources and shares beside the beauty's.
+    const double bytes_per_sample = double(kBytesPerSample) * (input.layers.empty() ? 1 : 3);
+    const auto row_bytes = std::size_t((double(kBytesPerPixel) + bytes_per_sample * samples) * input.width());
     const std::size_t rows = working / row_bytes;
     if (rows >= std::size_t(input.height())) {
         plan.rows = whole_units(input.height());
@@ -124,11 +128,17 @@ public:
     Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_); }
 
     // Draws `rows` of the frame. `share`: of the progress.
-    void draw(const Rect& rows, int halo, double share, View<Rgba> out) {
+    void draw(const Rect& rows, int halo, double share, Output& out) {
         const int first = std::max(0, rows.y0 - halo);
         const Input strip = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
-        planned(strip, complete(strip, first), rows, first,
-                [&](const PlannedStrip& p) { draw(p, share, out); });
+        share /= double(1 + strip.layers.size());
+        SampleSet set = complete(strip, first);
+        const CocSamples seen = strip.layers.empty() ? CocSamples{} : set.samples;
+        planned(strip, std::move(set), rows, first, [&](const PlannedStrip& p) {
+            draw(p, share, out.image);
+            for (std::size_t i = 0; i < strip.layers.size(); ++i)
+                draw_layer(p, seen, strip.layers[i], share, out.layers[i]);
+        });
     }
     void show(PlanReader& reader) {
         SampleSet set = complete(frame_, 0);
@@ -157,7 +167,8 @@ private:
         const ScatterPlan plan = make_plan(strip, base, set.connected, here, first_row, rule_, *kernels_);
         watch_.lap("sources",
                    {bytes_of(base) + bytes_of(strip.coc_px) + set.connected.bytes() + bytes_of(plan)});
-        use({strip, plan, *kernels_, base, highlights, *highlight_kernels_, split_.white()});
+        use({strip, plan, *kernels_, base, highlights, *highlight_kernels_, split_.white(), nullptr,
+             &set.connected});
     }
 
     void draw(const PlannedStrip& p, double share, View<Rgba> out) {
@@ -170,6 +181,23 @@ private:
             watch_.lap("spread", device.composite(p.scatter, *atlas, out, control));
         watch_.lap("highlights", draw_lights(p, out));
         strip.progress->advance(0.1 * share);
+    }
+
+    // The same plan with a layer's light in place of the beauty's.
+    void draw_layer(const PlannedStrip& beauty, const CocSamples& seen, const Input::Layer& layer,
+                    double share, View<Rgba> out) {
+        if (frame_.progress->cancelled()) return;
+        const std::vector<Rgba> shares = shares_of(beauty.input, seen, layer);
+        const CocSamples base = lit_by(beauty.base, shares, layer);
+        const std::vector<Highlight> highlights = lit_by(beauty.highlights, beauty.base, shares, layer);
+        watch_.lap("layers", {bytes_of(seen) + 2 * bytes_of(base)});
+        const ScatterPlan& p = beauty.scatter;
+        const ScatterPlan plan =
+            make_plan(beauty.input, base, *beauty.connected, p.rows, p.first_row, rule_, *kernels_);
+        watch_.lap("sources", {bytes_of(base) + bytes_of(plan)});
+        draw({beauty.input, plan, *kernels_, base, highlights, *highlight_kernels_, split_.white(),
+              &beauty.highlights, beauty.connected},
+             share, out);
     }
 
     const Input& frame_;
@@ -187,7 +215,7 @@ device::Work draw_lights(const PlannedStrip& strip, View<Rgba> out) {
     const Input& input = strip.input;
     const device::Control control{*input.workers, *input.progress};
     LightsPlanner planner(input, strip.highlight_kernels, strip.base, strip.highlights, strip.white,
-                          strip.scatter.rows, strip.scatter.first_row);
+                          strip.scatter.rows, strip.scatter.first_row, strip.asked_by);
     device::Work work;
     LightsPlan plan;
     while (!input.progress->cancelled() && planner.next(plan)) {
@@ -209,9 +237,11 @@ Result<Output> run_scatter(const Input& input) {
     const Result<StripPlan> strips = run.strips();
     if (!strips) return strips.error();
     output.image = Picture::uninitialised(input.width(), input.height());
+    for (std::size_t i = 0; i < input.layers.size(); ++i)
+        output.layers.push_back(Picture::uninitialised(input.width(), input.height()));
     for (int y = 0; y < input.height() && !input.progress->cancelled(); y += strips->rows) {
         const Rect rows = Rect{0, y, input.width(), y + strips->rows}.intersected(output.image.rect());
-        run.draw(rows, strips->halo, double(rows.height()) / input.height(), output.image);
+        run.draw(rows, strips->halo, double(rows.height()) / input.height(), output);
     }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     return output;

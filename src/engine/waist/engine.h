@@ -107,6 +107,11 @@ struct LensOnPicture : PixelField {
 class PlanReader;  // engine/scatter/plan.h
 
 struct Input : LensOnPicture {
+    // Another picture of the same things, drawn alike. Light: a share of `colour`'s; else of its coverage.
+    struct Layer {
+        View<const Rgba> colour;
+        bool is_light = true;
+    };
     View<const Rgba> colour;   // premultiplied; the front view of `deep` where that is given
     View<const float> coc_px;  // signed radius, + behind focus
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
@@ -128,6 +133,7 @@ struct Input : LensOnPicture {
     // from (engine/waist/holdout.h). Coverages as in deep files: each sample dims what is behind it. Empty:
     // none.
     CocSamplesView holdout;
+    std::vector<Layer> layers;  // for engines that take them; of the picture's size
     OpenEdges open_edges;
     // What this is a part of, for what an engine must know of all the frame; null: it is all of it.
     const Input* whole = nullptr;
@@ -163,6 +169,7 @@ struct Input : LensOnPicture {
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
         if (!depth_m.empty()) part.depth_m = depth_m.part(r);
         if (!plate.empty()) part.plate = {plate.colour.part(r), plate.coc_px.part(r), plate.all};
+        for (Layer& layer : part.layers) layer.colour = layer.colour.part(r);
         part.deep = deep.rows(y0, y1), part.holdout = holdout.rows(y0, y1);
         static_cast<LensOnPicture&>(part) = from(0, y0);
         if (y0 > 0) part.open_edges.top = true;
@@ -176,6 +183,7 @@ CocSamples stated_samples(const Input& input);
 
 struct Output {
     Picture image;
+    std::vector<Picture> layers;  // those of the input, in its order
     std::vector<StageTime> stages;
     std::vector<std::string> warnings;
 };
@@ -185,6 +193,7 @@ struct Engine {
     const char* purpose;  // one line for help texts
     Result<Output> (*run)(const Input&);
     bool takes_holdout = false;
+    bool takes_layers = false;
 };
 
 }  // namespace petzval::engine

@@ -1,0 +1,28 @@
+// More colour layers of one picture, blurred by the beauty's own plan: what of each sample's light is a
+// layer's.
+//
+// Everything that decides (which surface, how much of it, what hides behind it, which light is a highlight)
+// was decided of the beauty. A layer has a share of each sample's light, by channel; shares are linear in the
+// layer, so that layers which sum to the beauty sum to it still when all are blurred.
+#pragma once
+
+#include "engine/lights/highlights.h"
+#include "engine/waist/engine.h"
+
+#include <vector>
+
+namespace petzval::engine {
+
+// The share that `layer` has of every sample: 1 where it is all of the light (or of the coverage, for what is
+// no light). `complete` are the samples of input.colour before highlights were taken. A sample that is all
+// that its pixel shows has the pixel's share; what was found behind it, that of the pixels around which show
+// the same surface; shares of what a pixel shows together meet its own.
+std::vector<Rgba> shares_of(const Input& input, const CocSamples& complete, const Input::Layer& layer);
+
+// The layer's light in the place of the beauty's; coverage stays.
+CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const Input::Layer& layer);
+// The same of highlights, which were taken of `base`. Empty for what is no light.
+std::vector<Highlight> lit_by(const std::vector<Highlight>& highlights, const CocSamples& base,
+                              const std::vector<Rgba>& shares, const Input::Layer& layer);
+
+}  // namespace petzval::engine
