@@ -133,10 +133,29 @@ class Sequence {
 public:
     Sequence(const DefocusFlags& flags, const MakeFrame& make) : all_(flags), make_(make) {}
 
+    // Records take the place of nothing that any frame reads or writes.
+    Status open_records() {
+        const std::string& path = all_.frames.report;
+        if (path.empty()) return Done{};
+        std::vector<std::string> files{all_.frames.track};
+        for (const int frame : frames_) {
+            const auto flags = flags_of(all_, frame, nullptr);
+            if (!flags) return flags.error();
+            for (const std::string& file : flags->input_files()) files.push_back(file);
+            for (const std::string* made : {&flags->output, &flags->run.json}) {
+                if (!made->empty() && fs::path(*made).lexically_normal() == fs::path(path).lexically_normal())
+                    return Error{ErrorCode::InvalidArgument,
+                                 "--report " + path + " would replace a frame; give another name"};
+                files.push_back(*made);
+            }
+        }
+        return records_.open(path, files);
+    }
+
     Status operator()() {
         for (const auto step : {&Sequence::read_track, &Sequence::find_frames, &Sequence::find_missing})
             if (Status done = (this->*step)(); !done) return done;
-        if (Status open = records_.open(all_.frames.report, all_.input_files()); !open) return open;
+        if (Status open = open_records(); !open) return open;
         note(std::to_string(frames_.size()) + (frames_.size() == 1 ? " frame, " : " frames, ") +
              frames_text(frames_));
         if (all_.run.progress != ProgressMode::Auto)  // a line a frame says as much

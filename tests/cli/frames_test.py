@@ -103,6 +103,13 @@ class Shots(CommandLineTest):
             self.assertFalse("unfinished" in name, made)
             read_exr(self.path(name))
 
+    def test_records_replace_neither_what_frames_read_nor_what_they_write(self):
+        before = self.bytes_of("in.0003.exr")
+        for name in ("in.0003.exr", "./in.0001.exr", "out.0002.exr"):
+            self.refuse(2, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--frames", "1-3", "--report", name,
+                        says=["would replace"])
+        self.assertEqual(self.bytes_of("in.0003.exr"), before)
+
     def test_wrong_words_are_refused(self):
         for flags, said in ((["--frames", "1-4:2"], "1-4x2"), (["--frames", "a"], "frame number"),
                             (["--json", "r.json"], "--report"), (["--focus-speed", "1"], "--track"),
