@@ -106,7 +106,7 @@ std::vector<LookRow> rows_of_lenses() {
         row("Lens", "--squeeze", "lens.squeeze", value("FACTOR", parse_positive),
             "the disc is so many times taller than wide, as 2 for an anamorphic lens"),
         row("Lens", "--cats-eye", "lens.cats_eye", value("SHARE", parse_share),
-            "0 (default) to 1: how far the barrel cuts discs towards the corners"),
+            "0 (default) to 1: how far a rim in front of the pupil cuts discs towards the corners"),
         row("Lens character", "--focus-mode", "lens.focus_mode", focus_mode,
             "where the sensor stands behind a lens with aberrations: best, least blur at this aperture "
             "(default); paraxial, where light near the axis meets"),
@@ -121,7 +121,8 @@ std::vector<LookRow> rows_of_lenses() {
         row("Lens character", "--coma", "lens.coma", value("AMOUNT", parse_number),
             "added off the axis, 1 is strong; positive tails point outward"),
         row("Lens character", "--astigmatism", "lens.astigmatism", value("AMOUNT", parse_number),
-            "added off the axis, 1 is strong: swirl"),
+            "added off the axis, 1 is strong: behind focus strokes round the middle, swirl; negative, from "
+            "it"),
         row("Lens character", "--distortion", "lens.distortion", value("SHARE", parse_number),
             "discs, and the picture of defocus with them, stretch towards the corners by this share"),
         row("Lens character", "--wavelengths", "lens.wavelengths", value("N", parse_count),
@@ -136,7 +137,9 @@ std::vector<LookRow> rows_of_pupils() {
         row("Pupil", "--iris-open", "lens.iris_open", value("N", parse_f_number),
             "f-number at which the iris is open and round; blades show as it closes"),
         row("Pupil", "--barrel", "lens.barrel", value("R,D", parse_barrel),
-            "a rim of this radius so far in front of the pupil, mm; several with ; between"),
+            "a rim of this radius so far in front of the pupil, mm: it cuts the outer side of discs behind "
+            "focus, "
+            "a negative distance the inner; several with ; between"),
         row("Pupil", "--barn-doors", "lens.barn_doors", value("L,R,T,B", parse_barn_doors),
             "doors of a matte box, in pupil radii from each side"),
         row("Pupil", "--aperture-image", "lens.aperture_image", value("FILE", parse_text),

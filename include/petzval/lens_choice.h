@@ -71,7 +71,7 @@ enum class FocusMode {
 struct LensChoice {
     std::string name = "ideal";  // a built-in lens (lens list) or the path of a lens file
     ApertureShape aperture;
-    double cats_eye = 0;  // 0…1: barrel displaced by cats_eye * field, in pupil radii
+    double cats_eye = 0;  // 0…1: a rim in front of the pupil displaced by -cats_eye * field, in pupil radii
     std::vector<BarrelRim> barrel;
     BarnDoors barn_doors;
     PupilTexture texture;
@@ -84,8 +84,9 @@ struct LensChoice {
     double lateral_colour = 1;  // the same, of a prescription: how far apart colours land off the axis
     // Third-order aberrations off the axis, added to a curve lens (0: none). At full field, with the pupil's
     // rim at height h = 1/(2 f-number) focal lengths:
-    double coma = 0;         // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward
-    double astigmatism = 0;  // tangential and sagittal focus 2 * 0.01 * astigmatism focal lengths apart
+    double coma = 0;  // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward
+    double astigmatism =
+        0;  // tangential focus 2 * 0.01 * astigmatism focal lengths beyond the sagittal: + swirls
     // Discs stretch by (1 + 3 d) along and (1 + d) across the field's direction, and defocus() moves the
     // picture with them: from r half diagonals to r (1 + d r^2). Channels besides colour and alpha stay where
     // they are.

@@ -32,7 +32,7 @@ const std::vector<Choice>& changes() {
                                          {"lens.squeeze", "1.7"},
                                          {"lens.iris_open", "4"},
                                          {"lens.cats_eye", "0.9"},
-                                         {"lens.barrel", R"([{"radius_mm": 30, "distance_mm": 60}])"},
+                                         {"lens.barrel", R"([{"radius_mm": 30, "distance_mm": -60}])"},
                                          {"lens.barn_doors", "[0.8, 0, 0, 0.3]"},
                                          {"lens.aperture_image", "half.png"},
                                          {"lens.kernel_image", R"(["disc.exr"])"},

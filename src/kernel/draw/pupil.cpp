@@ -67,9 +67,10 @@ std::vector<Point> Pupil::outline(FieldPosition field, double tolerance) const {
         // Where nothing would be left, a sliver on the rim's side is.
         if (rest.size() >= 3 && area(rest) > 1e-4) outline = std::move(rest);
     };
-    // Conventions: the barrel is a circle of the pupil's radius displaced by cats_eye times field.
-    if (cats_eye_ > 0 && direction != Point{}) cut({cats_eye_ * direction, 1});
-    // Light towards field position F passes a rim in front of the pupil displaced by distance tan F.
+    // Light towards field position F passes a rim in front of the pupil that it sees displaced by -distance
+    // tan F; conventions: a cat's eye is such a rim of the pupil's radius, displaced by -cats_eye times
+    // field.
+    if (cats_eye_ > 0 && direction != Point{}) cut({-cats_eye_ * direction, 1});
     for (const Rim& rim : rims_) cut({-rim.shift * direction, rim.radius});
     if (doors_.left + doors_.right + doors_.top + doors_.bottom > 0) {
         const double left = doors_.left - 1, right = 1 - doors_.right, top = doors_.top - 1,

@@ -122,12 +122,12 @@ Point CurveLens::landing_px(const ZoneShift& shift, double coc_radius_px, const 
     const double scale = coc_radius_px - aberration_px_ * (shift(area) - focus_);
     if (axis.size == 0) return {scale * pupil.x, scale * pupil.y * pixel_aspect_};
     const Point p = axis.to_axis(pupil);
-    // Coma: rho^2 (2 + cos 2 theta, sin 2 theta). Astigmatism: one focus nearer, the other farther by
-    // field^2.
+    // Coma: rho^2 (2 + cos 2 theta, sin 2 theta). Astigmatism: the tangential focus farther,
+    // the sagittal one nearer by field^2.
     const double coma = coma_px_ * axis.size, bend = astigmatism_px_ * axis.size * axis.size;
     const double stretch = choice_.distortion * axis.size * axis.size;
-    const Point landed{(scale + bend) * p.x + coma * (3 * p.x * p.x + p.y * p.y),
-                       (scale - bend) * p.y + coma * 2 * p.x * p.y};
+    const Point landed{(scale - bend) * p.x + coma * (3 * p.x * p.x + p.y * p.y),
+                       (scale + bend) * p.y + coma * 2 * p.x * p.y};
     const Point image = axis.from_axis({landed.x * (1 + 3 * stretch), landed.y * (1 + stretch)});
     return {image.x, image.y * pixel_aspect_};
 }

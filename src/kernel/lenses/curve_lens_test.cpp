@@ -350,8 +350,19 @@ TEST(CurveLens, AstigmatismSwapsTheAxesOfTheEllipseThroughFocus) {
     choice.astigmatism = 1;
     const Moments far = moments(lens_of(choice)->point_spread(6, {1, 0}));
     const Moments near = moments(lens_of(choice)->point_spread(-6, {1, 0}));
-    EXPECT_GT(far.xx, 2 * far.yy);
-    EXPECT_GT(near.yy, 2 * near.xx);
+    EXPECT_GT(far.yy, 2 * far.xx);
+    EXPECT_GT(near.xx, 2 * near.yy);
+}
+
+TEST(CurveLens, AstigmatismHasTheSignOfATracedPetzvalLens) {
+    // Behind focus, strokes round the middle: wider across the field's direction than along it.
+    LensChoice petzval, swirl;
+    petzval.name = "petzval-portrait", swirl.astigmatism = 1;
+    const Moments traced = moments(lens_of(petzval, full_frame(3.6))->point_spread(15, {0.4, 0}));
+    const Moments drawn = moments(lens_of(swirl)->point_spread(6, {0.7, 0}));
+    const auto along = [](const Moments& m) { return m.xx - m.x * m.x; };
+    EXPECT_GT(traced.yy, 2 * along(traced));
+    EXPECT_GT(drawn.yy, 2 * along(drawn));
 }
 
 TEST(CurveLens, NothingLandsBeyondItsReach) {

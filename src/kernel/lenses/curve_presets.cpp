@@ -15,8 +15,10 @@ const double kC = axis(0.6562725), kD = axis(0.5875618), kF = axis(0.4861327);
 struct AxialColour {
     // A single glass of Abbe number V: blue is nearer by 1/V of the focal length than red, n = A + B/w^2.
     double one_over_v = 0;
-    // An achromat that joins F and C: both lie this far behind d, violet much farther (a parabola in 1/w^2;
-    // its ratio of g to F is within 15 % of the traced cemented doublets in the lens data).
+    // An achromat: a parabola in wavelength about 545 nm, which it brings nearest to the lens; so far beyond
+    // lies what is 100 nm off. Colours that lie alike on both sides are joined: 440 with 650 nm, g nearly
+    // with C, and F with 604 nm. (A cemented doublet that joins F and C is a parabola in 1/w^2, violet much
+    // farther.)
     double secondary = 0;
     // An apochromat that joins F, d and C: a cubic in 1/w^2, this far off at 450 nm.
     double tertiary = 0;

@@ -134,18 +134,32 @@ TEST(IdealLens, CatsEyeKeepsTheSideOfTheBarrelAndSwapsItThroughFocus) {
     choice.cats_eye = 0.8;
     const auto lens = lens_of(choice);
     EXPECT_TRUE(lens->varies_over_field());
-    // The barrel moves by +0.8 in x: what is left of its circle's edge at x = -0.2 is cut.
+    // The rim stands in front and is seen at -0.8 in x: what is right of its circle's edge at x = 0.2 is cut.
     const PointSpread far = lens->point_spread(20, {1, 0}), near = lens->point_spread(-20, {1, 0});
-    EXPECT_EQ(weight_at(far, -6, 0), 0);
-    EXPECT_GT(weight_at(far, -3, 0), 0);
-    EXPECT_GT(weight_at(far, 19, 0), 0);
-    EXPECT_EQ(weight_at(near, 6, 0), 0);
-    EXPECT_GT(weight_at(near, 3, 0), 0);
+    EXPECT_EQ(weight_at(far, 6, 0), 0);
+    EXPECT_GT(weight_at(far, 3, 0), 0);
+    EXPECT_GT(weight_at(far, -19, 0), 0);
+    EXPECT_EQ(weight_at(near, -6, 0), 0);
+    EXPECT_GT(weight_at(near, -3, 0), 0);
     // Field y is up, pixel y is down.
-    EXPECT_GT(weight_at(lens->point_spread(20, {0, 1}), 0, -19), 0);
-    EXPECT_EQ(weight_at(lens->point_spread(20, {0, 1}), 0, 6), 0);
+    EXPECT_GT(weight_at(lens->point_spread(20, {0, 1}), 0, 19), 0);
+    EXPECT_EQ(weight_at(lens->point_spread(20, {0, 1}), 0, -6), 0);
     // In the centre nothing is cut.
     EXPECT_NEAR(weight_at(lens->point_spread(20, {0, 0}), 0, 0), 1 / (kPi * 400), 1e-6);
+}
+
+TEST(IdealLens, ACatsEyeIsARimInFrontOfThePupil) {
+    // 50 mm f/2 has a pupil of 12.5 mm, and a rim displaced by all of it at the corner: 12.5 = distance tan.
+    LensChoice drawn, built;
+    drawn.cats_eye = 1;
+    const double tangent = 0.5 * 36 * std::hypot(1, 9.0 / 16) / 50;
+    built.barrel = {{12.5, 12.5 / tangent}};
+    for (const double radius : {-20.0, 20.0}) {
+        const PointSpread a = lens_of(drawn)->point_spread(radius, {0.5, 0.3});
+        const PointSpread b = lens_of(built)->point_spread(radius, {0.5, 0.3});
+        for (int y = -21; y <= 21; ++y)
+            for (int x = -21; x <= 21; ++x) EXPECT_NEAR(weight_at(a, x, y), weight_at(b, x, y), 1e-6);
+    }
 }
 
 TEST(IdealLens, LensShapedOverlapHasTheAreaOfTwoCircles) {
@@ -153,7 +167,7 @@ TEST(IdealLens, LensShapedOverlapHasTheAreaOfTwoCircles) {
     choice.cats_eye = 1;
     const PointSpread s = lens_of(choice)->point_spread(30, {1, 0});
     // Two unit circles at distance 1: 2 acos(1/2) - sqrt(3)/2.
-    EXPECT_NEAR(weight_at(s, 15, 0) * 900, 1 / (2 * kPi / 3 - std::sqrt(3) / 2), 1e-4);
+    EXPECT_NEAR(weight_at(s, -15, 0) * 900, 1 / (2 * kPi / 3 - std::sqrt(3) / 2), 1e-4);
 }
 
 TEST(IdealLens, SqueezeAndPixelAspectShapeTheDisc) {
