@@ -10,7 +10,7 @@ struct LightPoint {
     float r = 0, g = 0, b = 0;  // scene-linear, >= 0: what it adds to the one pixel it lights when in focus
     // Where it is: planar depth (a miss is infinitely far) or, where that is NaN, its signed radius.
     float depth_m = std::numeric_limits<float>::quiet_NaN(), coc_px = 0;
-    float diameter_px = 0;  // its own size in the picture, as a disc: its kernel is wider by that
+    float diameter_px = 0;  // its own size in the picture: an evenly lit disc, blurred as it is
 };
 
 }  // namespace petzval

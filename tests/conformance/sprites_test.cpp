@@ -106,6 +106,36 @@ TEST(Sprites, SizeMakesTheDiscWider) {
     EXPECT_NEAR(landed(rendered(lights.job())).radius_px, std::hypot(12, 5), 0.2);
 }
 
+// Green along a row from the middle of the light, times the area of a disc of that radius over its light.
+float level(const Picture& image, int right, double radius_px, double light) {
+    return float(double(image(100 + right, 100).g) * 3.14159265 * radius_px * radius_px / light);
+}
+
+TEST(Sprites, ALightWithASizeInFocusIsThatDiscBeforeWhatLiesBehind) {
+    Lights lights(201, 201, 30);  // the picture is far behind focus
+    lights.add(100.5f, 100.5f, 0, 3000, 40);
+    const Picture image = rendered(lights.job());
+    EXPECT_NEAR(landed(image).sum, 3000, 3);
+    EXPECT_NEAR(level(image, 0, 20, 3000), 1, 0.03);
+    EXPECT_NEAR(level(image, 17, 20, 3000), 1, 0.03);
+    EXPECT_NEAR(level(image, 23, 20, 3000), 0, 1e-6);
+}
+
+TEST(Sprites, ALightWithASizeHasAnEdgeAsSoftAsItIsWide) {
+    for (const float coc : {-20.0f, 20.0f}) {
+        Lights lights(201, 201, std::max(0.0f, coc));
+        lights.add(100.5f, 100.5f, coc, 3000, 16);
+        const Picture image = rendered(lights.job());
+        EXPECT_NEAR(landed(image).sum, 3000, 3);
+        // From the whole disc at 20 - 8 px to nothing at 20 + 8, half about the middle.
+        EXPECT_NEAR(level(image, 10, 20, 3000), 1, 0.04);
+        EXPECT_NEAR(level(image, 20, 20, 3000), 0.45, 0.08);
+        EXPECT_NEAR(level(image, 30, 20, 3000), 0, 1e-6);
+        for (int x = 13; x < 27; ++x)
+            EXPECT_LT(level(image, x, 20, 3000) - level(image, x + 1, 20, 3000), 0.14) << coc << " " << x;
+    }
+}
+
 TEST(Sprites, DepthIsTurnedIntoTheRadiusOfTheCamera) {
     Picture colour(161, 121, Rgba{0, 0, 0, 1});
     Plane depth(161, 121, 9.0f);

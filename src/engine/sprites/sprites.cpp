@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 namespace petzval::engine {
 namespace {
@@ -60,10 +61,50 @@ Parted part(const Input& input) {
     return parted;
 }
 
-// A disc of diameter d blurred by one of radius r has the second moment of one of radius sqrt(r^2 + d^2/4).
-Sprite sprite_of(const LightPoint& p) {
-    const float radius = std::hypot(p.coc_px, p.diameter_px / 2);
-    return {p.x, p.y, p.coc_px < 0 ? -radius : radius, p.r, p.g, p.b};
+// A light with a size is an evenly lit disc: points that fill it, closer than what the lens makes of each
+// shows.
+class AreaOfLight {
+public:
+    explicit AreaOfLight(const LightPoint& p) : radius_(p.diameter_px / 2) {
+        if (p.diameter_px <= 1) return;
+        // In focus and near it every pixel has its point; kernels of far larger lights stand farther apart.
+        const float radius_px = std::abs(p.coc_px);
+        step_ =
+            std::max({1.0f, p.diameter_px / kMostAcross, std::min(radius_px, p.diameter_px) / kKernelSteps});
+        cells_ = int(std::ceil(radius_ / step_));
+    }
+    std::size_t count() const { return std::size_t(2 * cells_ + 1) * std::size_t(2 * cells_ + 1); }
+    void add_to(std::vector<Sprite>& sprites, const LightPoint& p) const {
+        if (cells_ == 0) {
+            sprites.push_back({p.x, p.y, p.coc_px, p.r, p.g, p.b});
+            return;
+        }
+        float sum = 0;
+        for (int j = -cells_; j <= cells_; ++j)
+            for (int i = -cells_; i <= cells_; ++i) sum += covered(i, j);
+        for (int j = -cells_; j <= cells_; ++j)
+            for (int i = -cells_; i <= cells_; ++i)
+                if (const float share = covered(i, j) / sum; share > 0)
+                    sprites.push_back({p.x + step_ * float(i), p.y + step_ * float(j), p.coc_px, share * p.r,
+                                       share * p.g, share * p.b});
+    }
+
+private:
+    static constexpr float kMostAcross = 256, kKernelSteps = 12;
+
+    // Of the cell: 1 inside the disc, falling to 0 over one cell at its rim.
+    float covered(int i, int j) const {
+        return std::clamp(radius_ / step_ + 0.5f - std::hypot(float(i), float(j)), 0.0f, 1.0f);
+    }
+
+    float radius_, step_ = 1;
+    int cells_ = 0;
+};
+
+std::size_t sprites_of(std::span<const LightPoint> points) {
+    std::size_t count = 0;
+    for (const LightPoint& p : points) count += AreaOfLight(p).count();
+    return count;
 }
 
 }  // namespace
@@ -77,15 +118,14 @@ Result<Output> run_sprites(const Input& input) {
     // The picture without its lights, the quad-tree; for every light: itself, its copy in a tile, its place
     // in lists.
     constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba) + 8, kBytesPerPoint = 200;
-    if (const Status fits =
-            fits_memory(input, kBytesPerPixel, "sprites", kBytesPerPoint * input.points.size());
-        !fits)
+    const std::size_t bytes_of_points = kBytesPerPoint * sprites_of(input.points);
+    if (const Status fits = fits_memory(input, kBytesPerPixel, "sprites", bytes_of_points); !fits)
         return fits.error();
     Parted parted = finds ? part(input) : Parted{};
     Input rest = input;
     if (finds) rest.colour = parted.background;
     if (input.max_memory_bytes > 0)  // what the background leaves to the points
-        rest.max_memory_bytes -= kBytesPerPoint * input.points.size() + parted.background.bytes();
+        rest.max_memory_bytes -= bytes_of_points + parted.background.bytes();
     rest.gather.stage = GatherStage::Final;
     rest.gaussian.view = GaussianView::Result;
     Result<Output> output =
@@ -93,7 +133,7 @@ Result<Output> run_sprites(const Input& input) {
     if (!output) return output.error();
     const double drawn_background = seconds();
 
-    for (const LightPoint& p : input.points) parted.sprites.push_back(sprite_of(p));
+    for (const LightPoint& p : input.points) AreaOfLight(p).add_to(parted.sprites, p);
     draw_sprites(input, parted.sprites, output->image);
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     output->stages = {{"background", drawn_background}, {"sprites", seconds() - drawn_background}};
