@@ -25,9 +25,11 @@ using Verb = CLI::App;
 
 // A command line that cannot be meant. Thrown while flags are read, shown by main as one line, exit code 2.
 struct UsageError : std::runtime_error {
-    explicit UsageError(const std::string& message, ErrorCode why = ErrorCode::InvalidArgument)
-        : std::runtime_error(message), code(why) {}
-    ErrorCode code;  // that of a file, where a file is what is wrong
+    explicit UsageError(const std::string& message, ErrorCode why = ErrorCode::InvalidArgument,
+                        std::string which = "")
+        : std::runtime_error(message), code(why), field(std::move(which)) {}
+    ErrorCode code;     // that of a file, where a file is what is wrong
+    std::string field;  // of a look, where one is wrong
 };
 
 // What a command line asks for; main runs it once all of the line has been understood.

@@ -36,7 +36,7 @@ std::vector<std::string> grouped(const std::string& file, const std::vector<Erro
     return sentences;
 }
 
-UsageError refused(const Error& error) { return UsageError(spoken(error), error.code); }
+UsageError refused(const Error& error) { return UsageError(spoken(error), error.code, error.field); }
 
 }  // namespace
 

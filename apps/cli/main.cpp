@@ -1,9 +1,12 @@
 // petzval: reads the command line, runs one verb, turns its outcome into one line and an exit code.
+#include "petzval/names.h"
 #include "petzval/version.h"
 
 #include "console.h"
+#include "fields.h"
 #include "frames.h"
 #include "interrupt.h"
+#include "report.h"
 #include "verbs.h"
 
 #include <exception>
@@ -34,7 +37,29 @@ int fail(int code, const std::string& message, Words words = Words::Flags) {
     return code;
 }
 
-int run(int argc, const char* const* argv) {
+// "--json -", also in a line that is wrong elsewhere.
+bool asks_for_json(int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--json=-" || (word == "--json" && i + 1 < argc && std::string(argv[i + 1]) == "-"))
+            return true;
+    }
+    return false;
+}
+
+// The same for programs, in place of the report that there is none of.
+void print_failure(int exit_code, const Error& error) {
+    Json report = new_report("");
+    report["verb"] = nullptr;
+    report["failure"] = {{"code", name_of(error.code)},
+                         {"message", in_flags(error.message)},
+                         {"field", error.field.empty() ? Json(nullptr) : Json(error.field)},
+                         {"exit_code", exit_code}};
+    static_cast<void>(write_report(report, "-"));  // the line on standard error is written in any case
+}
+
+// Errors: what was wrong with the line, and with what it asks for.
+Status parse_and_act(int argc, const char* const* argv, Words& words) {
     CLI::App program("gives rendered pictures the depth of field of a real lens", "petzval");
     use_our_help(program);
     program.footer(
@@ -55,22 +80,37 @@ int run(int argc, const char* const* argv) {
     add_develop(program, chosen);
     add_lens(program, chosen);
     add_help(program, chosen);
+    const auto said = [](const std::string& text) {
+        return print(text) ? Status(Done{})
+                           : Error{ErrorCode::OutputFailed, "standard output cannot be written"};
+    };
     try {
         program.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        return print(program.help()) ? 0 : fail(1, "standard output cannot be written");
+        return said(program.help());
     } catch (const CLI::CallForVersion& version) {
-        return print(std::string(version.what()) + "\n") ? 0 : fail(1, "standard output cannot be written");
+        return said(std::string(version.what()) + "\n");
     } catch (const CLI::ParseError& error) {
-        return fail(2, usage_message(error, program));
+        return Error{ErrorCode::InvalidArgument, usage_message(error, program)};
     } catch (const UsageError& error) {
-        const bool of_file = error.code == ErrorCode::InvalidFile;
-        return fail(exit_code(error.code), error.what(), of_file ? Words::Fields : Words::Flags);
+        if (error.code == ErrorCode::InvalidFile) words = Words::Fields;
+        return Error{error.code, error.what(), error.field};
     }
-    if (!chosen) return fail(2, "what is to be done? petzval --help lists the verbs, as defocus and inspect");
+    if (!chosen)
+        return Error{ErrorCode::InvalidArgument,
+                     "what is to be done? petzval --help lists the verbs, as defocus and inspect"};
     Status done = chosen();
-    if (interrupted_by() != 0) return fail(128 + interrupted_by(), "interrupted");
-    return done ? 0 : fail(exit_code(done.error().code), done.error().message);
+    if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
+    return done;
+}
+
+int run(int argc, const char* const* argv) {
+    Words words = Words::Flags;
+    const Status done = parse_and_act(argc, argv, words);
+    if (done) return 0;
+    const int code = exit_code(done.error().code);
+    if (asks_for_json(argc, argv)) print_failure(code, done.error());
+    return fail(code, done.error().message, words);
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "petzval/names.h"
+
 #include "files/channel_choice.h"
 #include "files/wording.h"
 
@@ -123,7 +125,8 @@ Result<std::vector<Group>> of_wanted_layer(const std::string& path, const Layout
     }
     if (kept.empty())
         return Error{ErrorCode::InvalidArgument, printable(path, 4096) + ": has no colour layer or part '" +
-                                                     printable(layer) + "'; it has " + listed(names)};
+                                                     printable(layer) + "'" + did_you_mean(layer, names) +
+                                                     "; it has " + listed(names)};
     return kept;
 }
 

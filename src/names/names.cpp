@@ -1,5 +1,7 @@
 #include "petzval/names.h"
 
+#include "base/nearest_word.h"
+
 namespace petzval {
 namespace {
 
@@ -85,5 +87,10 @@ template <> std::span<const Named<Transfer>> names() { return kTransfers; }
 template <> std::span<const Named<DepthKind>> names() { return kDepthKinds; }
 template <> std::span<const Named<ErrorCode>> names() { return kErrorCodes; }
 // clang-format on
+
+std::string did_you_mean(const std::string& given, const std::vector<std::string>& known) {
+    const std::string nearest = nearest_word(given, known);
+    return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
+}
 
 }  // namespace petzval

@@ -103,6 +103,20 @@ class Looks(CommandLineTest):
         self.defocus("--save-look", "look.json", "--no-clobber")
         self.assertEqual(self.text("look.json"), "mine")
 
+    def test_failures_are_told_as_json_too(self):
+        for flags, code, exit_code, field, says in (
+                (["--engine", "gaussian", "--blades", "5"], "invalid-argument", 2, "lens.blades", "--blades has no effect"),
+                (["--fokus", "3"], "invalid-argument", 2, None, "did you mean --focus?"),
+                (["--lens", "dublet"], "invalid-argument", 2, "lens.name", "did you mean doublet?"),
+                (["--depth", "none.exr"], "invalid-file", 3, None, "none.exr")):
+            outcome = self.run_program("defocus", "in.exr", "-o", "no.exr", *CAMERA, *flags, "--json", "-")
+            self.assertEqual(outcome.code, exit_code, outcome)
+            error = json.loads(outcome.out)["failure"]
+            self.assertEqual((error["code"], error["field"], error["exit_code"]), (code, field, exit_code), outcome)
+            self.assertIn(says, error["message"])
+            self.assertIn(says, outcome.lines[-1])
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", "--fokus", "3", "--json", "r.json", says=["--focus"])
+
     def test_a_switch_takes_no_value_but_on_and_off(self):
         for flag in ("--wave=x", "--quiet=2", "--overwrite=maybe"):
             self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *CAMERA, flag, says=[flag.split("=")[0], "on and off"])

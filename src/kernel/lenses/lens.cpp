@@ -3,6 +3,7 @@
 
 #include "base/build_id.h"
 #include "base/content_hash.h"
+#include "base/nearest_word.h"
 #include "kernel/draw/pupil.h"
 #include "kernel/lenses/aberration_curves.h"
 #include "kernel/lenses/image_lens.h"
@@ -83,9 +84,13 @@ Error unknown(const std::string& name) {
         if (some.size() < 250) some.append(some.empty() ? "" : ", ").append(lens);
     }
     const std::string all = std::to_string(known.size());
-    return refuse("there is no lens or lens file \"" + name.substr(0, 100) + "\"; " +
-                  (near_it.empty() ? "of the " + all + " lenses (petzval lens list) some are " + some
-                                   : "near it: " + near_it + " (petzval lens list has all " + all + ")"));
+    const std::string nearest = nearest_word(name, known);
+    return refuse_field(
+        "lens.name",
+        "there is no lens or lens file \"" + name.substr(0, 100) + "\"" +
+            (nearest.empty() ? "" : " (did you mean " + nearest + "?)") + "; " +
+            (near_it.empty() ? "of the " + all + " lenses (petzval lens list) some are " + some
+                             : "near it: " + near_it + " (petzval lens list has all " + all + ")"));
 }
 
 File holding(const optics::AberrationCurves& curves) {

@@ -1,4 +1,4 @@
-#include "petzval/names.h"
+#include "base/nearest_word.h"
 
 #include <algorithm>
 #include <numeric>
@@ -24,7 +24,7 @@ std::size_t edits(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string did_you_mean(const std::string& given, const std::vector<std::string>& known) {
+std::string nearest_word(const std::string& given, const std::vector<std::string>& known) {
     std::string best;
     std::size_t least = 3;
     for (const std::string& name : known) {
@@ -33,7 +33,7 @@ std::string did_you_mean(const std::string& given, const std::vector<std::string
         const bool nearer = distance < least || (begins && least == 0 && name.size() < best.size());
         if (nearer && distance * 3 <= given.size()) best = name, least = distance;
     }
-    return best.empty() ? "" : " (did you mean " + best + "?)";
+    return best;
 }
 
 }  // namespace petzval
