@@ -29,6 +29,15 @@ Status check(const Camera& camera, int width_px, const CocControls& controls) {
     if (!positive(camera.focus_distance_m))
         return invalid("camera.focus_distance_m", "focus distance (camera.focus_distance_m, m)",
                        camera.focus_distance_m, "positive");
+    // Wider than any lens and camera there is; beyond, radii only cost memory.
+    if (camera.focal_length_mm < 0.05 || camera.focal_length_mm > 20000)
+        return invalid("camera.focal_length_mm", "focal length (camera.focal_length_mm, mm)",
+                       camera.focal_length_mm, "0.05 to 20000");
+    if (camera.sensor_width_mm < 0.05 || camera.sensor_width_mm > 10000)
+        return invalid("camera.sensor_width_mm", "sensor width (camera.sensor_width_mm, mm)",
+                       camera.sensor_width_mm, "0.05 to 10000");
+    if (camera.f_number < 0.1)
+        return invalid("camera.f_number", "f-number (camera.f_number)", camera.f_number, "0.1 or more");
     if (width_px <= 0) return invalid("", "picture width in pixels", width_px, "positive");
     if (camera.image_scale == ImageScale::ThinLens &&
         camera.focus_distance_m * 1000 <= camera.focal_length_mm)

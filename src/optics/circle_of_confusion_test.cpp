@@ -118,5 +118,19 @@ TEST(CircleOfConfusion, FocusRangeIsSharpInsideContinuousAtItsEndsAndMonotone) {
     }
 }
 
+TEST(CircleOfConfusion, NumbersThatNoCameraHasAreRefusedByTheirName) {
+    const Camera camera{50, 36, 2, 2};
+    const auto refused = [](Camera c, double Camera::*number, double value) {
+        c.*number = value;
+        const auto made = CircleOfConfusion::make(c, 1920, {});
+        return made ? std::string() : made.error().field;
+    };
+    EXPECT_EQ(refused(camera, &Camera::f_number, 1e-30), "camera.f_number");
+    EXPECT_EQ(refused(camera, &Camera::focal_length_mm, 1e12), "camera.focal_length_mm");
+    EXPECT_EQ(refused(camera, &Camera::focal_length_mm, 1e-3), "camera.focal_length_mm");
+    EXPECT_EQ(refused(camera, &Camera::sensor_width_mm, 1e-30), "camera.sensor_width_mm");
+    EXPECT_EQ(refused(camera, &Camera::f_number, 1e9), "") << "a pinhole";
+}
+
 }  // namespace
 }  // namespace petzval
