@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 namespace petzval {
 namespace {
@@ -149,6 +151,11 @@ Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view, i
     const char* const path = std::getenv("OCIO");
     if (!path || !*path)
         return invalid("ocio.view: $OCIO is not set; it names the config, as /shows/one/config.ocio");
+    std::error_code missing;
+    const auto kind = std::filesystem::status(path, missing).type();
+    if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+        return Error{ErrorCode::InvalidFile,
+                     "$OCIO " + std::string(path) + ": is not a regular file; a pipe would be waited for"};
     try {
         OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
         return codes_by(*OCIO::Config::CreateFromFile(path), picture, view, *workers_of(threads, workers));

@@ -1,5 +1,6 @@
 """--ocio of develop and defocus: displays and views of a small config written here; and what is said without one."""
 import json
+import os
 import unittest
 
 from pictures import picture, plane, read_png, write_exr
@@ -106,6 +107,12 @@ class Ocio(CommandLineTest):
                     env=self.environment(None))
         broken = self.environment("roles: [\nno")
         self.refuse(3, "develop", "in.exr", "-o", "no.png", "--ocio", "default", says=["$OCIO", "config.ocio"], env=broken)
+
+    def test_a_pipe_is_no_config_and_is_not_waited_for(self):
+        self.need()
+        os.mkfifo(self.path("pipe"))
+        self.refuse(3, "develop", "in.exr", "-o", "out.png", "--ocio", "default", env={"OCIO": self.path("pipe")},
+                    says=["$OCIO", "not a regular file"])
 
     def test_defocus_shows_by_it_as_develop_does(self):
         self.need()
