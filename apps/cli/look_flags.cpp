@@ -31,8 +31,10 @@ std::vector<std::string> grouped(const std::string& file, const std::vector<Erro
         found->second.push_back(one.field);
     }
     std::vector<std::string> sentences;
-    for (const auto& [why, fields] : by_reason)
-        sentences.push_back(file + ": " + listed(fields) + (fields.size() > 1 ? " have" : " has") + why);
+    for (const auto& [why, fields] : by_reason) {
+        sentences.push_back(file + ": " + listed(fields));
+        sentences.back() += (fields.size() > 1 ? " have" : " has") + why;
+    }
     return sentences;
 }
 

@@ -226,8 +226,8 @@ std::vector<LookRow> rows_of_engines() {
 const std::vector<LookRow>& look_rows() {
     static const std::vector<LookRow> all = [] {
         std::vector<LookRow> rows;
-        for (auto& part : {rows_of_input_and_focus(), rows_of_lenses(), rows_of_pupils(), rows_of_glare(),
-                           rows_of_engines()})
+        for (const auto& part : {rows_of_input_and_focus(), rows_of_lenses(), rows_of_pupils(),
+                                 rows_of_glare(), rows_of_engines()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

@@ -50,7 +50,7 @@ private:
         std::map<int, std::string> keys;  // as written
         std::map<int, double> numbers;    // on the scale on which they are mixed; empty: no numbers
     };
-    std::optional<double> number_at(const Column& column, int frame) const;
+    static std::optional<double> number_at(const Column& column, int frame);
     const Column* find(const std::string& name) const;
 
     std::vector<Column> columns_;

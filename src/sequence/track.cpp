@@ -183,7 +183,8 @@ private:
                 const bool fits = read && !std::isnan(*read) &&
                                   (known->scale == Scale::Even ? std::isfinite(*read) : *read > 0) &&
                                   (known->scale != Scale::Stops || std::isfinite(*read));
-                if (!fits) return wrong(name + " " + value + " is no such number", where);
+                if (!fits)
+                    return wrong(std::string(name).append(" ").append(value) + " is no such number", where);
                 column(name).numbers[*frame] = on_scale(known->scale, *read);
             } else if (const auto taken = look_with(Look{}, name, value); !taken) {
                 return wrong(taken.error().message, where);
@@ -240,7 +241,7 @@ const Track::Column* Track::find(const std::string& name) const {
     return found == columns_.end() ? nullptr : &*found;
 }
 
-std::optional<double> Track::number_at(const Column& column, int frame) const {
+std::optional<double> Track::number_at(const Column& column, int frame) {
     const auto& keys = column.numbers;
     if (keys.empty()) return std::nullopt;
     const auto after = keys.lower_bound(frame);

@@ -219,15 +219,15 @@ Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& con
     });
 }
 
-Result<int> Session::region_margin_px(const DefocusJob& asked) {
-    DefocusJob job = asked;
-    if (const Status status = check_job(job); !status) return status.error();
-    const auto radii = Radii::make(job);
+Result<int> Session::region_margin_px(const DefocusJob& job) {
+    DefocusJob opened = job;
+    if (const Status status = check_job(opened); !status) return status.error();
+    const auto radii = Radii::make(opened);
     if (!radii) return radii.error();
-    if (const Status status = open_lens(job); !status) return status.error();
-    const auto lens = contents_->lens_for(job);
+    if (const Status status = open_lens(opened); !status) return status.error();
+    const auto lens = contents_->lens_for(opened);
     if (!lens) return lens.error();
-    const double largest = double(largest_radius_px(job, *radii));
+    const double largest = double(largest_radius_px(opened, *radii));
     return petzval::region_margin_px(largest, (*lens)->levels.front()->reach_px(largest));
 }
 

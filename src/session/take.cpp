@@ -56,6 +56,27 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// What the lens does to all light of a frame. Glare is of all of it together and goes to the picture alone.
+Status light(DefocusReport& report, const DefocusJob& job, const Look& look) {
+    for (Picture& layer : report.layers) {
+        auto dimmed = with_falloff(std::move(layer), job, look);
+        if (!dimmed) return dimmed.error();
+        layer = std::move(*dimmed);
+    }
+    auto image = lit(std::move(report.image), job, look);
+    if (!image) return image.error();
+    report.image = std::move(*image);
+    return Done{};
+}
+
+Result<Picture> expanded_plate(const DefocusJob& job, const Look& look) {
+    const auto refuse = [](const char* why) { return Error{ErrorCode::InvalidArgument, why}; };
+    if (!job.layers.empty()) return refuse("plate.expand_highlights is for plates, not for shot.layers");
+    if (job.deep && !job.deep->empty())
+        return refuse("plate.expand_highlights is for flat plates, not for deep pictures");
+    return expand_highlights(job.colour, look.expansion);
+}
+
 }  // namespace
 
 DefocusJob with_look(DefocusJob job, const Look& look) {
@@ -94,13 +115,7 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                 if (const Status fine = check_region(*control.region, job); !fine) return fine.error();
             Picture expanded;
             if (look.expand_highlights) {
-                if (!job.layers.empty())
-                    return Error{ErrorCode::InvalidArgument,
-                                 "plate.expand_highlights is for plates, not for shot.layers"};
-                if (job.deep && !job.deep->empty())
-                    return Error{ErrorCode::InvalidArgument,
-                                 "plate.expand_highlights is for flat plates, not for deep pictures"};
-                auto plate = expand_highlights(job.colour, look.expansion);
+                auto plate = expanded_plate(job, look);
                 if (!plate) return plate.error();
                 job.colour = expanded = std::move(*plate);
             }
@@ -114,15 +129,7 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             // Buffers that are shown instead of the picture stay as they are.
             if (!report || !report->panels.empty()) return report;
             const auto blurred = std::chrono::steady_clock::now();
-            // Glare is of all light together and goes to the picture alone.
-            for (Picture& layer : report->layers) {
-                auto dimmed = with_falloff(std::move(layer), job, look);
-                if (!dimmed) return dimmed.error();
-                layer = std::move(*dimmed);
-            }
-            auto light = lit(std::move(report->image), job, look);
-            if (!light) return light.error();
-            report->image = std::move(*light);
+            if (const Status done = light(*report, job, look); !done) return done.error();
             if (made != asked) {
                 const Rect pixels = asked.moved(-made.x0, -made.y0);
                 report->image = part_of(report->image, pixels);

@@ -70,8 +70,10 @@ void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
         std::size_t number;
     };
     std::vector<Asked> asks;
-    for (std::size_t i = 0; i < asked.size(); ++i)
-        if (asked[i]) asks.push_back({kernels.ask(int(i) % rings, int(i) / rings), i});
+    for (int zone = 0; zone < plan.zones.count(); ++zone)
+        for (int ring = 0; ring < rings; ++ring)
+            if (const auto number = std::size_t(zone * rings + ring); asked[number])
+                asks.push_back({kernels.ask(ring, zone), number});
     std::sort(asks.begin(), asks.end(), [](const Asked& a, const Asked& b) { return a.ask < b.ask; });
     plan.places.assign(asked.size(), std::numeric_limits<std::uint32_t>::max());
     for (const Asked& a : asks) {

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace petzval::engine {
@@ -33,7 +34,7 @@ struct GatherPlan {
         bool is_sharp = false;  // no blurred light lands here: it stays as it was
     };
 
-    explicit GatherPlan(const RingSizes& rings) : sizes(rings) {}
+    explicit GatherPlan(RingSizes rings) : sizes(std::move(rings)) {}
 
     Input strip;          // what light comes from; pixels here are its own
     int first_row = 0;    // row of the frame that is its row 0
