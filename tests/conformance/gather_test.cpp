@@ -267,5 +267,16 @@ TEST(Gather, ALensThatDiffersOverTheFieldTearsNoDiscWhereTilesMeet) {
     EXPECT_LT(farthest, 1e-4 * brightest);
 }
 
+// A data window that ends just before the next zone of the lens: nothing beyond it has a kernel of its own.
+TEST(Gather, BeyondTheDataWindowTheLensIsThatOfItsBorder) {
+    const Shot shot = flat(60, 90, {0.5f, 0.5f, 0.5f, 1}, 30);
+    DefocusJob job = shot.job("gather");
+    job.place.display_window = {0, 0, 640, 384};
+    job.lens.cats_eye = 0.8;
+    const Picture image = rendered(job);
+    ASSERT_EQ(image.width(), 60);
+    EXPECT_NEAR(image(20, 40).r, 0.5f, 0.25f);
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -111,13 +111,19 @@ private:
         if (level > 0) enlarge(level);
     }
 
+    // What goes on beyond the picture is spread as the border that it repeats.
     void find_zones(int level) {
-        const auto middle = [&](int cell) { return std::ldexp(cell + 0.5, level) - 0.5; };
+        const bool pixels = level == 0;
+        const int width = pixels ? plan_.strip.width() : plan_.levels[std::size_t(level - 1)].width();
+        const int height = pixels ? plan_.strip.height() : plan_.levels[std::size_t(level - 1)].height();
+        const auto middle = [&](int cell, int cells) {
+            return std::ldexp(std::clamp(cell, 0, cells - 1) + 0.5, level) - 0.5;
+        };
         zone_column_.clear(), zone_row_.clear();
         for (int x = window_.x0; x < window_.x1; ++x)
-            zone_column_.push_back(plan_.zones.column_of(middle(x)));
+            zone_column_.push_back(plan_.zones.column_of(middle(x, width)));
         for (int y = window_.y0; y < window_.y1; ++y)
-            zone_row_.push_back(plan_.zones.row_of(middle(y)) * plan_.zones.columns);
+            zone_row_.push_back(plan_.zones.row_of(middle(y, height)) * plan_.zones.columns);
     }
 
     void find_arrivals(int begin, int end, int level) {
