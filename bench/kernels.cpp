@@ -1,4 +1,6 @@
 // Builds the kernels a lens needs for one frame and prints what that took: `./dev bench kernels`.
+#include "petzval/workers.h"
+
 #include "kernel/keep/bank.h"
 #include "kernel/lenses/make_lens.h"
 
@@ -42,7 +44,7 @@ int main(int count, char** words) {
     const double cpu_lens = cpu_seconds() - cpu_begin;
     const kernel::KernelBank bank(**lens,
                                   {.aspect = double(width) / height, .max_bytes = std::size_t(4) << 30});
-    bank.prepare(-radius_px, radius_px, std::atoi(words[7]));
+    bank.prepare(-radius_px, radius_px, *petzval::own_workers(std::atoi(words[7])));
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::printf("%s wall %.2f cpu %.2f lens %.2f kernels %zu MiB %.0f\n", words[1], wall,
                 cpu_seconds() - cpu_begin, cpu_lens, bank.kernels_held(),
