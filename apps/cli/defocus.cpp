@@ -300,7 +300,7 @@ void add_defocus(Verb& program, Action& chosen) {
         }
         chosen = [flags] {
             Session session(flags->session());
-            return make_frames(*flags, [&](DefocusFlags& frame) -> Result<Json> {
+            return defocus_frames(*flags, [&](DefocusFlags& frame) -> Result<Json> {
                 Run run(frame, session);
                 if (Status done = run(); !done) return done.error();
                 return run.report();

@@ -92,6 +92,7 @@ void DefocusFlags::add_to(Verb& verb) {
     add_engines_to(verb);
     add_output_to(verb);
     frames.add_to(verb);
+    track.add_to(verb);
     run.add_json_to(verb);
     overwrite.add_to(verb, true);
     develop.add_to(verb);

@@ -6,6 +6,7 @@
 #include "petzval/session.h"
 
 #include "camera.h"
+#include "defocus_frames.h"
 #include "defocus_views.h"
 #include "flags.h"
 #include "frames.h"
@@ -41,6 +42,7 @@ struct DefocusFlags {
     OverwriteFlags overwrite;
     RunFlags run;
     FrameFlags frames;
+    TrackFlags track;
 
     void add_to(Verb& verb);
     void check(const Verb& verb);  // throws UsageError for what is missing or contradicts

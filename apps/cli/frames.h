@@ -1,21 +1,19 @@
-// Many frames by one command: which, from which files to which, what changes over them.
+// Many frames by one command: which, from which files to which, what lacks, what failed, how long it takes.
 #pragma once
 
 #include "petzval/frames.h"
-#include "petzval/track.h"
 
 #include "flags.h"
 #include "report.h"
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace petzval::cli {
 
-struct DefocusFlags;
+struct RunFlags;
 
 // What to do about a frame whose files are not all there.
 enum class Missing { Fail, Skip, Black };
@@ -23,9 +21,7 @@ enum class Missing { Fail, Skip, Black };
 struct FrameFlags {
     std::vector<int> frames;  // empty: one frame, or those that are there
     std::optional<Missing> missing;
-    std::string track;
-    std::optional<double> focus_speed;  // dioptres per frame
-    std::string report;                 // a file with one record a frame
+    std::string report;  // a file with one record a frame, or "-"
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
@@ -36,14 +32,35 @@ struct FramesFailed {
     std::string message;
 };
 
-// Whether the flags are about more than one frame. Throws UsageError where they do not fit each other.
-bool is_sequence(const DefocusFlags& flags);
+// Throw UsageError for a name that is no pattern and looks like one.
+bool has_pattern(const std::string& path);
+// The path of a frame; one without a place for a number as it is.
+std::string at_frame(const std::string& path, int frame);
 
-// Makes one frame: its flags, whose files have no place for a number any more. Returns its report.
-using MakeFrame = std::function<Result<Json>(DefocusFlags&)>;
+// Whether the flags are about more than one frame: `inputs` or `output` hold a place for a number, or frames
+// were given. An empty `output` is none. Throws UsageError where they do not fit each other.
+bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
+                 const RunFlags& run);
+
+// What a verb does with the frames of a shot.
+struct FrameWork {
+    struct Files {
+        std::vector<std::string> inputs, outputs;  // of outputs the first is the picture
+    };
+    std::string input;                 // its name says which frames are there
+    std::vector<int> otherwise;        // the frames, where it does not
+    bool keeps_what_is_there = false;  // outputs that are whole
+    std::function<Result<Files>(int frame)> files;
+    // Makes one frame and returns its report. `again`: what is there does not count.
+    std::function<Result<Json>(int frame, bool again)> make;
+    // Makes a frame without light, of the size of another. Empty: the verb cannot.
+    std::function<Status(int frame, int like)> black = {};
+    // Once all frames are done, with their records, failed ones among them.
+    std::function<Status(const std::vector<Json>& records)> finish = {};
+};
+
 // Makes all of them, one after the other; one that fails does not keep the others from being made. Errors:
-// those of the list, the track and the files that lack, before any frame is made; Cancelled. Throws
-// FramesFailed.
-Status make_frames(const DefocusFlags& flags, const MakeFrame& make);
+// those of the list and of files that lack, before any frame is made; Cancelled. Throws FramesFailed.
+Status make_frames(const FrameFlags& frames, const RunFlags& run, const FrameWork& work);
 
 }  // namespace petzval::cli

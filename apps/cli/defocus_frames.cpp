@@ -1,0 +1,139 @@
+#include "defocus_frames.h"
+
+#include "petzval/look_json.h"
+
+#include "console.h"
+#include "defocus_flags.h"
+
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+// Every path that may hold a frame number.
+std::vector<std::string*> paths_of(DefocusFlags& flags) {
+    std::vector<std::string*> paths{&flags.input.path,   &flags.input.read.depth_file,
+                                    &flags.input.behind, &flags.input.holdout,
+                                    &flags.points,       &flags.output,
+                                    &flags.run.json};
+    for (std::string& path : flags.input.merge) paths.push_back(&path);
+    return paths;
+}
+
+// The flags of one frame; what a track says of it stands in place of what was typed.
+Result<DefocusFlags> flags_of(const DefocusFlags& all, int frame, const Track* track) {
+    DefocusFlags flags = all;
+    for (std::string* path : paths_of(flags)) *path = at_frame(*path, frame);
+    flags.run.progress = ProgressMode::Off;  // that of the shot is shown
+    if (!track) return flags;
+    const TrackedFrame tracked = track->at(frame);
+    const auto take = [](const std::optional<double>& from, std::optional<double>& to) {
+        if (from) to = from;
+    };
+    take(tracked.camera.focus_distance_m, flags.camera.focus_distance_m);
+    take(tracked.camera.f_number, flags.camera.f_number);
+    take(tracked.camera.focal_length_mm, flags.camera.focal_length_mm);
+    if (tracked.focus_pixel) flags.focus.focus_at = tracked.focus_pixel;
+    if (tracked.focus_point) flags.focus.focus_point = tracked.focus_point;
+    for (const auto& [field, value] : tracked.look) {
+        auto changed = look_with(flags.look.look(), field, value);
+        if (!changed) return changed.error();
+        flags.look.look() = std::move(*changed);
+    }
+    return flags;
+}
+
+// A frame without light, of the size of one that is there.
+Status write_black(const DefocusFlags& like, const DefocusFlags& flags) {
+    auto shot = load_shot(like.input.source(like.camera));
+    if (!shot) return shot.error();
+    shot->colour = Picture(shot->colour.width(), shot->colour.height(), Rgba{0, 0, 0, 1});
+    shot->deep = {};
+    if (*kind_of_output(flags.output) == FileKind::Png)
+        return write_developed(flags.output, shot->colour,
+                               flags.develop.settings(shot->display_referred, {}, flags.run.threads),
+                               !flags.overwrite.no_clobber);
+    WriteOptions options;
+    options.overwrite = !flags.overwrite.no_clobber;
+    return write_exr(flags.output, to_frame(std::move(*shot)), options);
+}
+
+Result<std::optional<Track>> read_track(const TrackFlags& flags) {
+    std::optional<Track> track;
+    if (flags.file.empty()) return track;
+    auto read = Track::read(flags.file);
+    if (!read) return read.error();
+    track = std::move(*read);
+    if (flags.focus_speed) track->limit_focus_speed(*flags.focus_speed);
+    return track;
+}
+
+}  // namespace
+
+void TrackFlags::add_to(Verb& verb) {
+    FlagGroup(verb, "Frames")
+        .value("--track", "FILE",
+               "what changes over the frames, CSV or JSON: columns frame, focus (m) or focus_x, focus_y "
+               "(pixels), fstop, focal_length (mm), and fields of a look, as lens.blades",
+               parse_text, file)
+        .value("--focus-speed", "DIOPTRES", "the focus of a track moves no faster from frame to frame",
+               parse_positive, focus_speed);
+}
+
+std::vector<std::string> TrackFlags::given() const {
+    std::vector<std::string> names;
+    if (!file.empty()) names.emplace_back("--track");
+    if (focus_speed) names.emplace_back("--focus-speed");
+    return names;
+}
+
+bool is_sequence(const DefocusFlags& flags) {
+    const bool from_many = has_pattern(flags.input.path);
+    const auto tracked = flags.track.given();
+    if (!is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run)) {
+        if (tracked.empty()) return false;
+        throw UsageError(listed(tracked) +
+                         " cannot be used here: neither the input nor -o holds #### or %04d");
+    }
+    if (!from_many && flags.frames.frames.empty() && flags.track.file.empty())
+        throw UsageError("no frames: the input has no #### or %04d; give it, --frames or --track");
+    if (flags.track.focus_speed && flags.track.file.empty())
+        throw UsageError("--focus-speed has no effect without --track");
+    if (flags.frames.missing == Missing::Black && flags.view != ViewKind::Beauty)
+        throw UsageError("--missing black is for --view beauty");
+    return true;
+}
+
+Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
+    const auto track = read_track(flags.track);
+    if (!track) return track.error();
+    const auto of_frame = [&](int frame) { return flags_of(flags, frame, *track ? &**track : nullptr); };
+    FrameWork work;
+    work.input = flags.input.path;
+    if (*track)  // of one picture: the track says which frames
+        for (int frame = (*track)->first(); frame <= (*track)->last(); ++frame)
+            work.otherwise.push_back(frame);
+    work.keeps_what_is_there = flags.overwrite.no_clobber || flags.overwrite.update;
+    work.files = [&](int frame) -> Result<FrameWork::Files> {
+        const auto of = of_frame(frame);
+        if (!of) return of.error();
+        FrameWork::Files files{of->input_files(), {of->output}};
+        if (!flags.track.file.empty()) files.inputs.push_back(flags.track.file);
+        if (!of->run.json.empty()) files.outputs.push_back(of->run.json);
+        return files;
+    };
+    work.make = [&](int frame, bool again) -> Result<Json> {
+        auto of = of_frame(frame);
+        if (!of) return of.error();
+        if (again) of->overwrite = {};
+        return make(*of);
+    };
+    work.black = [&](int frame, int like) -> Status {
+        const auto dark = of_frame(frame), lit = of_frame(like);
+        if (!dark) return dark.error();
+        return lit ? write_black(*lit, *dark) : Status(lit.error());
+    };
+    return make_frames(flags.frames, flags.run, work);
+}
+
+}  // namespace petzval::cli

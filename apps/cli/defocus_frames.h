@@ -1,0 +1,33 @@
+// The frames of a shot for `defocus`: what a track changes over them.
+#pragma once
+
+#include "petzval/track.h"
+
+#include "frames.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval::cli {
+
+struct DefocusFlags;
+
+struct TrackFlags {
+    std::string file;
+    std::optional<double> focus_speed;  // dioptres per frame
+
+    void add_to(Verb& verb);
+    std::vector<std::string> given() const;
+};
+
+// Whether the flags are about more than one frame. Throws UsageError where they do not fit each other.
+bool is_sequence(const DefocusFlags& flags);
+
+// Makes one frame: its flags, whose files have no place for a number any more. Returns its report.
+using MakeFrame = std::function<Result<Json>(DefocusFlags&)>;
+// make_frames() of all of them. Errors: also those of the track. Throws FramesFailed.
+Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make);
+
+}  // namespace petzval::cli
