@@ -2,6 +2,7 @@
 #include "petzval/compare.h"
 
 #include "console.h"
+#include "frames.h"
 #include "input.h"
 #include "report.h"
 #include "run_flags.h"
@@ -23,6 +24,7 @@ struct CompareFlags {
     InputFlags reference;  // --layer and --view-name hold for both
     std::string test, mask;
     double exposure = 1;
+    FrameFlags frames;
     RunFlags run;
 };
 
@@ -107,12 +109,17 @@ Json report_of(const Comparison& c, const CompareFlags& flags) {
     return report;
 }
 
-Status compare_files(const CompareFlags& flags) {
+struct Compared {
+    Comparison comparison;
+    Json report;
+};
+
+Result<Compared> compare_files(const CompareFlags& flags) {
     const Stopwatch watch;
     InputFlags test_input = flags.reference;
     test_input.path = flags.test;
     if (Status fine = check_outputs({flags.run.json}, {flags.reference.path, flags.test, flags.mask}); !fine)
-        return fine;
+        return fine.error();
     auto first = load_shot(flags.reference.source());
     if (!first) return first.error();
     auto second = load_shot(test_input.source());
@@ -128,21 +135,92 @@ Status compare_files(const CompareFlags& flags) {
         if (!read) return read.error();
         mask = std::move(*read);
     }
-    if (Status same = check_sizes(flags, reference, test, mask); !same) return same;
+    if (Status same = check_sizes(flags, reference, test, mask); !same) return same.error();
     const double read_s = watch.seconds();
     const auto result =
         compare(reference.view(), test.view(), {.exposure = flags.exposure, .mask = mask.view()});
     if (!result) return result.error();
-    if (flags.run.json != "-" && !print(table(*result)))
-        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-    if (flags.run.json.empty()) return Done{};
     Json report = report_of(*result, flags);
     report["non_finite"]["colour"] = broken;
     report["seconds"]["read"] = read_s;
     report["seconds"]["compute"] = watch.seconds() - read_s;
     report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    return Compared{*result, std::move(report)};
+}
+
+Status printed(const std::string& text) {
+    if (print(text)) return Done{};
+    return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
+}
+
+Status compare_pair(const CompareFlags& flags) {
+    const auto compared = compare_files(flags);
+    if (!compared) return compared.error();
+    if (flags.run.json != "-")
+        if (Status said = printed(table(compared->comparison)); !said) return said;
+    if (flags.run.json.empty()) return Done{};
+    return write_report(compared->report, flags.run.json);
+}
+
+// A row a frame, then the mean and the worst: a shot is as good as its worst frame.
+class ShotTable {
+public:
+    void add(int frame, const Comparison& c) {
+        rows_ += row(std::to_string(frame), c);
+        sum_.psnr_lin += c.psnr_lin, sum_.psnr_srgb += c.psnr_srgb, sum_.ssim_srgb += c.ssim_srgb;
+        if (count_++ == 0 || c.psnr_lin < worst_.psnr_lin) worst_ = c, worst_frame_ = frame;
+    }
+    std::string text() const {
+        if (count_ == 0) return "";
+        std::array<char, 160> head{}, mean{};
+        std::snprintf(head.data(), head.size(), "%-8s%14s%14s%12s%16s%14s\n", "frame", "PSNR lin dB",
+                      "PSNR sRGB dB", "SSIM sRGB", "largest error", "energy ratio");
+        std::snprintf(mean.data(), mean.size(), "%-8s%14.2f%14.2f%12.4f\n", "mean", sum_.psnr_lin / count_,
+                      sum_.psnr_srgb / count_, sum_.ssim_srgb / count_);
+        return head.data() + rows_ + mean.data() + "worst is frame " + std::to_string(worst_frame_) + "\n";
+    }
+
+private:
+    static std::string row(const std::string& name, const Comparison& c) {
+        std::array<char, 160> text{};
+        std::snprintf(text.data(), text.size(), "%-8s%14.2f%14.2f%12.4f%16.4g%14.6f\n", name.c_str(),
+                      c.psnr_lin, c.psnr_srgb, c.ssim_srgb, c.max_error, c.energy_ratio);
+        return text.data();
+    }
+    std::string rows_;
+    Comparison sum_{}, worst_{};
+    int count_ = 0, worst_frame_ = 0;
+};
+
+Status compare_frames(const CompareFlags& all) {
+    const auto of_frame = [&](int frame) {
+        CompareFlags flags = all;
+        for (std::string* path : {&flags.reference.path, &flags.test, &flags.mask, &flags.run.json})
+            *path = at_frame(*path, frame);
+        return flags;
+    };
+    ShotTable rows;
+    FrameWork work;
+    work.input = has_pattern(all.test) ? all.test : all.reference.path;
+    work.files = [&](int frame) -> Result<FrameWork::Files> {
+        const CompareFlags flags = of_frame(frame);
+        FrameWork::Files files{{flags.reference.path, flags.test}, {}};
+        if (!flags.mask.empty()) files.inputs.push_back(flags.mask);
+        if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
+        return files;
+    };
+    work.make = [&](int frame, bool) -> Result<Json> {
+        const CompareFlags flags = of_frame(frame);
+        auto compared = compare_files(flags);
+        if (!compared) return compared.error();
+        rows.add(frame, compared->comparison);
+        if (!flags.run.json.empty())
+            if (Status done = write_report(compared->report, flags.run.json); !done) return done.error();
+        return std::move(compared->report);
+    };
+    work.finish = [&] { return all.frames.report == "-" ? Status(Done{}) : printed(rows.text()); };
+    return make_frames(all.frames, all.run, work);
 }
 
 }  // namespace
@@ -151,7 +229,8 @@ void add_compare(Verb& program, Action& chosen) {
     Verb& verb = add_verb(program, "compare",
                           "how far a picture is from a reference: PSNR, SSIM, largest error, energy",
                           "petzval compare truth.exr out.exr\n"
-                          "petzval compare truth.exr out.exr --exposure 0.8 --json - | jq .psnr_lin");
+                          "petzval compare truth.exr out.exr --exposure 0.8 --json - | jq .psnr_lin\n"
+                          "petzval compare truth.####.exr out.####.exr --frames 1001-1100");
     auto flags = std::make_shared<CompareFlags>();
     FlagGroup(verb, "Input")
         .argument("REF", "the reference: EXR or PNG", flags->reference.path)
@@ -163,6 +242,7 @@ void add_compare(Verb& program, Action& chosen) {
                flags->exposure)
         .value("--mask", "FILE", "count only pixels where this picture is above one half", parse_text,
                flags->mask);
+    flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
@@ -170,7 +250,8 @@ void add_compare(Verb& program, Action& chosen) {
         require_argument(verb, flags->test, "TEST, the picture to judge");
         flags->run.apply();
         flags->reference.read.need_depth = false;
-        chosen = [flags] { return compare_files(*flags); };
+        const bool many = is_sequence(flags->frames, {flags->reference.path, flags->test}, "", flags->run);
+        chosen = [flags, many] { return many ? compare_frames(*flags) : compare_pair(*flags); };
     });
 }
 

@@ -5,6 +5,7 @@
 
 #include "camera.h"
 #include "console.h"
+#include "frames.h"
 #include "input.h"
 #include "look_flags.h"
 #include "ocio.h"
@@ -30,6 +31,7 @@ struct DevelopVerbFlags {
     bool no_dither = false;
     OverwriteFlags overwrite;
     RunFlags run;
+    FrameFlags frames;
 };
 
 // Camera numbers that are missing are an error only where a part of the glare needs them.
@@ -45,21 +47,38 @@ Status add_glare(Shot& shot, const Lens& lens, const DevelopVerbFlags& flags) {
     return Done{};
 }
 
-Status develop_file(const DevelopVerbFlags& flags) {
+Json report_of(const Shot& shot, const DevelopVerbFlags& flags, const DevelopSettings& settings) {
+    Json report = new_report("develop");
+    report["input"] = flags.input.path;
+    report["output"] = flags.output;
+    report["detected"] = shot.detected;
+    report["warnings"] = shot.warnings;
+    report["non_finite"]["colour"] = shot.non_finite_colour;
+    report["parameters"] = {{"exposure_stops", flags.develop.exposure_stops.value_or(0)},
+                            {"contrast", settings.contrast},
+                            {"tone", name_of(settings.tone)},
+                            {"ocio", flags.ocio.view},
+                            {"bits", settings.bits},
+                            {"dither", settings.dither}};
+    report["glare"] = glare_json(flags.look.look());
+    return report;
+}
+
+// Returns the report, which is written too where a file was asked for.
+Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
     const Stopwatch total;
     if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {flags.input.path})) {
         note(*reason);
-        return Done{};
+        return Json{{"input", flags.input.path}, {"output", flags.output}, {"skipped", *reason}};
     }
-    if (Status fine = check_outputs({flags.output, flags.run.json}, flags.input.files()); !fine) return fine;
-    const auto lens = Lens::open(flags.look.look().lens);
-    if (!lens) return lens.error();
+    if (Status fine = check_outputs({flags.output, flags.run.json}, flags.input.files()); !fine)
+        return fine.error();
     auto shot = load_shot(flags.input.source(flags.camera));
     if (!shot) return shot.error();
     for (const auto& line : detected_in_picture(*shot)) note(line);
     for (const auto& line : shot->warnings) warning(line);
     const double read_s = total.seconds();
-    if (Status glared = add_glare(*shot, *lens, flags); !glared) return glared;
+    if (Status glared = add_glare(*shot, lens, flags); !glared) return glared.error();
     const double glare_s = total.seconds() - read_s;
     DevelopSettings settings =
         flags.develop.settings(shot->display_referred, flags.input.transfer, flags.run.threads);
@@ -69,34 +88,56 @@ Status develop_file(const DevelopVerbFlags& flags) {
     if (flags.ocio.is_on()) {
         std::string used;
         std::vector<std::string> said;
-        if (Status fine = flags.ocio.show(shown, settings, used, said); !fine) return fine;
+        if (Status fine = flags.ocio.show(shown, settings, used, said); !fine) return fine.error();
         for (const std::string& line : said) warning(line);
         shot->warnings.insert(shot->warnings.end(), said.begin(), said.end());
         note(used);
     }
     Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
-    if (!done) return done;
+    if (!done) return done.error();
     note("wrote " + flags.output);
-    if (flags.run.json.empty()) return Done{};
-    Json report = new_report("develop");
-    report["input"] = flags.input.path;
-    report["output"] = flags.output;
-    report["detected"] = shot->detected;
-    report["warnings"] = shot->warnings;
-    report["non_finite"]["colour"] = shot->non_finite_colour;
-    report["parameters"] = {{"exposure_stops", flags.develop.exposure_stops.value_or(0)},
-                            {"contrast", settings.contrast},
-                            {"tone", name_of(settings.tone)},
-                            {"ocio", flags.ocio.view},
-                            {"bits", settings.bits},
-                            {"dither", settings.dither}};
+    Json report = report_of(*shot, flags, settings);
     report["seconds"]["read"] = read_s;
-    report["glare"] = glare_json(flags.look.look());
     report["seconds"]["glare"] = glare_s;
     report["seconds"]["write"] = total.seconds() - read_s - glare_s;
     report["seconds"]["total"] = total.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    if (flags.run.json.empty()) return report;
+    if (Status written = write_report(report, flags.run.json); !written) return written.error();
+    return report;
+}
+
+Status develop_frames(const DevelopVerbFlags& all, const Lens& lens) {
+    const auto of_frame = [&](int frame) {
+        DevelopVerbFlags flags = all;
+        for (std::string* path : {&flags.input.path, &flags.output, &flags.run.json})
+            *path = at_frame(*path, frame);
+        return flags;
+    };
+    FrameWork work;
+    work.input = all.input.path;
+    work.keeps_what_is_there = all.overwrite.no_clobber || all.overwrite.update;
+    work.files = [&](int frame) -> Result<FrameWork::Files> {
+        const DevelopVerbFlags flags = of_frame(frame);
+        FrameWork::Files files{flags.input.files(), {flags.output}};
+        if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
+        return files;
+    };
+    work.make = [&](int frame, bool again) {
+        DevelopVerbFlags flags = of_frame(frame);
+        if (again) flags.overwrite = {};
+        return develop_file(flags, lens);
+    };
+    return make_frames(all.frames, all.run, work);
+}
+
+Status develop_all(const DevelopVerbFlags& flags) {
+    const auto lens = Lens::open(flags.look.look().lens);
+    if (!lens) return lens.error();
+    if (is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run))
+        return develop_frames(flags, *lens);
+    const auto made = develop_file(flags, *lens);
+    return made ? Status(Done{}) : Status(made.error());
 }
 
 void check(DevelopVerbFlags& flags, const Verb& verb) {
@@ -115,6 +156,9 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
         throw UsageError("-o " + flags.output + ": the name must end in .png");
     flags.input.read.need_depth = false;
     flags.ocio.check(flags.develop, flags.input.transfer);
+    if (is_sequence(flags.frames, {flags.input.path}, flags.output, flags.run) &&
+        !has_pattern(flags.input.path))
+        throw UsageError("no frames: the input has no #### or %04d");
 }
 
 }  // namespace
@@ -125,7 +169,8 @@ void add_develop(Verb& program, Action& chosen) {
                  "scene-linear light to a display picture: glare, exposure, tone curve, sRGB, dither",
                  "petzval develop out.exr -o out.png\n"
                  "petzval develop out.exr -o out.png --exposure 1.5 --bits 16\n"
-                 "petzval develop out.exr -o out.png --bloom 0.1 --star 0.1 --blades 6");
+                 "petzval develop out.exr -o out.png --bloom 0.1 --star 0.1 --blades 6\n"
+                 "petzval develop out.####.exr -o out.####.png --frames 1001-1100");
     auto flags = std::make_shared<DevelopVerbFlags>();
     flags->input.add_to(verb);
     flags->input.add_transfer_to(verb);
@@ -133,6 +178,7 @@ void add_develop(Verb& program, Action& chosen) {
         .value("-o,--output", "OUT.png", "the display picture", parse_text, flags->output);
     flags->camera.add_to(verb, "file");
     flags->look.add_to(verb, {"Lens", "Glare"});
+    flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->overwrite.add_to(verb, true);
     flags->develop.add_to(verb);
@@ -144,7 +190,7 @@ void add_develop(Verb& program, Action& chosen) {
     flags->run.add_log_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
         check(*flags, verb);
-        chosen = [flags] { return develop_file(*flags); };
+        chosen = [flags] { return develop_all(*flags); };
     });
 }
 

@@ -96,7 +96,7 @@ public:
             if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
         }
         if (work_.finish)
-            if (Status done = work_.finish(all_records_); !done) return done;
+            if (Status done = work_.finish(); !done) return done;
         if (failed_.empty()) return Done{};
         throw FramesFailed{std::to_string(failed_.size()) + " of " + std::to_string(frames_.size()) +
                            " frames failed: " + frames_text(failed_)};
@@ -182,7 +182,6 @@ private:
         }
         tell(frame, number, *files, made ? &*made : nullptr, watch.seconds());
         if (progress_) (*progress_)(double(number + 1) / double(frames_.size()));
-        if (work_.finish) all_records_.push_back(record);
         return records_.add(record);
     }
 
@@ -233,7 +232,6 @@ private:
     std::set<std::string> warned_;
     std::vector<int> frames_, black_, failed_;
     Records records_;
-    std::vector<Json> all_records_;  // where the verb wants them
     std::optional<ProgressLine> progress_;
     double made_s_ = 0;
     std::size_t made_count_ = 0;

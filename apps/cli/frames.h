@@ -55,8 +55,8 @@ struct FrameWork {
     std::function<Result<Json>(int frame, bool again)> make;
     // Makes a frame without light, of the size of another. Empty: the verb cannot.
     std::function<Status(int frame, int like)> black = {};
-    // Once all frames are done, with their records, failed ones among them.
-    std::function<Status(const std::vector<Json>& records)> finish = {};
+    // Once all frames are done, failed ones among them.
+    std::function<Status()> finish = {};
 };
 
 // Makes all of them, one after the other; one that fails does not keep the others from being made. Errors:

@@ -1,6 +1,8 @@
 // petzval inspect: what was found in a file, and where.
 #include "camera.h"
+#include "changes.h"
 #include "console.h"
+#include "frames.h"
 #include "input.h"
 #include "light_report.h"
 #include "report.h"
@@ -19,6 +21,7 @@ struct InspectFlags {
     InputFlags input;
     CameraFlags camera;
     double permissible_radius_px = 1;
+    FrameFlags frames;
     RunFlags run;
 };
 
@@ -159,19 +162,106 @@ Json report_of(const Shot& shot, const InspectFlags& all, const DynamicRange& ra
     return report;
 }
 
-Status inspect(const InspectFlags& flags) {
+struct Inspected {
+    Shot shot;
+    DynamicRange range;
+    Json report;
+};
+
+Result<Inspected> look_into(const InspectFlags& flags) {
     const Stopwatch watch;
-    if (Status fine = check_outputs({flags.run.json}, flags.input.files()); !fine) return fine;
-    const auto shot = load_shot(flags.input.source(flags.camera));
+    if (Status fine = check_outputs({flags.run.json}, flags.input.files()); !fine) return fine.error();
+    auto shot = load_shot(flags.input.source(flags.camera));
     if (!shot) return shot.error();
     const DynamicRange range = measure_dynamic_range(shot->colour.view(), shot->display_referred);
-    if (flags.run.json != "-" && !print(description(*shot, flags, range)))
-        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-    if (flags.run.json.empty()) return Done{};
     Json report = report_of(*shot, flags, range);
     report["seconds"]["read"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, flags.run.json);
+    return Inspected{std::move(*shot), range, std::move(report)};
+}
+
+Status printed(const std::string& text) {
+    if (print(text)) return Done{};
+    return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
+}
+
+Status inspect(const InspectFlags& flags) {
+    const auto seen = look_into(flags);
+    if (!seen) return seen.error();
+    if (flags.run.json != "-")
+        if (Status said = printed(description(seen->shot, flags, seen->range)); !said) return said;
+    if (flags.run.json.empty()) return Done{};
+    return write_report(seen->report, flags.run.json);
+}
+
+// Where the camera stands in the world: the point that becomes the origin, with rotations alone in the
+// matrix.
+std::string place_of_camera(const FoundCamera& camera) {
+    if (!camera.camera_from_world) return "none";
+    const auto& m = *camera.camera_from_world;
+    std::string text;
+    for (std::size_t i = 0; i < 3; ++i)
+        text += (i ? "," : "") + plain(-(m[12] * m[4 * i] + m[13] * m[4 * i + 1] + m[14] * m[4 * i + 2]), 4);
+    return text;
+}
+
+// What may change over a shot, in the words of description().
+std::vector<Changes::Value> values_of(const Inspected& seen) {
+    const Shot& shot = seen.shot;
+    const auto found = [](const std::optional<FoundNumber>& number) {
+        return number ? plain(number->value) : std::string("none");
+    };
+    const bool has_depth = !shot.depth_plane().empty();
+    const auto metres = [&](double value) { return has_depth ? plain(value, 4) : std::string("none"); };
+    std::size_t channels = 0;
+    for (const PartSummary& part : shot.parts) channels += part.channels.size();
+    return {{"display window", window_text(shot.place.display_window)},
+            {"data window", window_text(shot.place.data_window)},
+            {"pixel aspect", plain(shot.place.pixel_aspect)},
+            {"channels", std::to_string(channels)},
+            {"focal length mm", found(shot.camera.focal_length_mm)},
+            {"sensor width mm", found(shot.camera.sensor_width_mm)},
+            {"f-number", found(shot.camera.f_number)},
+            {"focus m", found(shot.camera.focus_distance_m)},
+            {"camera at", place_of_camera(shot.camera)},
+            {"nearest m", metres(shot.depth_report.nearest_m)},
+            {"farthest m", metres(shot.depth_report.farthest_finite_m)},
+            {"misses", std::to_string(shot.depth_report.misses)},
+            {"deep samples", std::to_string(shot.deep.sample_count())},
+            {"middle light", plain(seen.range.middle, 3)},
+            {"brightest", plain(seen.range.brightest, 4)},
+            {"not finite", std::to_string(shot.non_finite_colour)}};
+}
+
+Status inspect_frames(const InspectFlags& all) {
+    const auto of_frame = [&](int frame) {
+        InspectFlags flags = all;
+        for (std::string* path : {&flags.input.path, &flags.input.read.depth_file, &flags.run.json})
+            *path = at_frame(*path, frame);
+        return flags;
+    };
+    Changes changes;
+    FrameWork work;
+    work.input = all.input.path;
+    work.files = [&](int frame) -> Result<FrameWork::Files> {
+        const InspectFlags flags = of_frame(frame);
+        FrameWork::Files files{flags.input.files(), {}};
+        if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
+        return files;
+    };
+    work.make = [&](int frame, bool) -> Result<Json> {
+        const InspectFlags flags = of_frame(frame);
+        auto seen = look_into(flags);
+        if (!seen) return seen.error();
+        changes.add(frame, values_of(*seen));
+        if (!flags.run.json.empty())
+            if (Status done = write_report(seen->report, flags.run.json); !done) return done.error();
+        return std::move(seen->report);
+    };
+    work.finish = [&] {
+        return all.frames.report == "-" ? Status(Done{}) : printed(printable(changes.text()));
+    };
+    return make_frames(all.frames, all.run, work);
 }
 
 }  // namespace
@@ -180,7 +270,8 @@ void add_inspect(Verb& program, Action& chosen) {
     Verb& verb = add_verb(program, "inspect",
                           "what a file holds: parts, layers, depth, camera numbers, and what was taken",
                           "petzval inspect beauty.exr\n"
-                          "petzval inspect beauty.exr --json - | jq .camera");
+                          "petzval inspect beauty.exr --json - | jq .camera\n"
+                          "petzval inspect beauty.####.exr --frames 1001-1100");
     auto flags = std::make_shared<InspectFlags>();
     flags->input.add_to(verb);
     flags->input.add_depth_to(verb);
@@ -190,6 +281,7 @@ void add_inspect(Verb& program, Action& chosen) {
         .value("--permissible-radius", "PX",
                "blur radius that still counts as sharp, for near and far limit (default 1)", parse_positive,
                flags->permissible_radius_px);
+    flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
@@ -197,7 +289,9 @@ void add_inspect(Verb& program, Action& chosen) {
         flags->run.apply();
         flags->input.check();
         flags->input.read.need_depth = false;
-        chosen = [flags] { return inspect(*flags); };
+        const bool many =
+            is_sequence(flags->frames, {flags->input.path, flags->input.read.depth_file}, "", flags->run);
+        chosen = [flags, many] { return many ? inspect_frames(*flags) : inspect(*flags); };
     });
 }
 

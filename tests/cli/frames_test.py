@@ -121,6 +121,42 @@ class Shots(CommandLineTest):
         self.refuse(3, "defocus", "no.####.exr", "-o", "out.####.exr", *CAMERA, says=["no frame is there"])
         self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--track", "none.csv", says=["none.csv"])
 
+    def test_inspect_tells_what_changes(self):
+        write_exr(self.path("in.0004.exr"), picture(40, 28, lambda x, y: 0.5, lambda x, y: 1.0 + x / 10))
+        outcome = self.succeed("inspect", "in.####.exr", "--frames", "3-5")
+        same, changed = outcome.out.split("what changes")
+        self.assertIn("display window: 40 x 28", same)
+        self.assertNotIn("display window", changed)
+        rows = [line.split() for line in changed.strip().splitlines()]
+        self.assertEqual([row[0] for row in rows], ["frame", "3", "4", "5"])
+        heads = changed.strip().splitlines()[0]
+        self.assertIn("farthest m", heads)
+        self.assertIn("4.9", rows[2])
+        self.succeed("inspect", "in.####.exr", "--report", "r.jsonl")
+        with open(self.path("r.jsonl")) as file:
+            self.assertEqual([json.loads(line)["verb"] for line in file], ["inspect"] * 5)
+
+    def test_compare_and_develop_take_frames(self):
+        self.defocus()
+        outcome = self.succeed("compare", "in.####.exr", "out.####.exr", "--frames", "1-3")
+        lines = outcome.out.splitlines()
+        self.assertEqual([line.split()[0] for line in lines], ["frame", "1", "2", "3", "mean", "worst"])
+        one = self.succeed("compare", "in.0002.exr", "out.0002.exr", "--json", "-").out
+        self.assertAlmostEqual(json.loads(one)["psnr_lin"], float(lines[2].split()[1]), delta=0.006)
+        # Every frame with one truth, and one that lacks.
+        self.succeed("compare", "in.0001.exr", "out.####.exr")
+        self.refuse(3, "compare", "in.####.exr", "out.####.exr", "--frames", "1-4", says=["1 of 4 frames"])
+        self.succeed("develop", "out.####.exr", "-o", "out.####.png")
+        self.succeed("develop", "out.0003.exr", "-o", "one.png")
+        self.assertEqual(self.bytes_of("one.png"), self.bytes_of("out.0003.png"))
+        os.truncate(self.path("out.0003.png"), 300)
+        self.assertIn("cut off", self.succeed("develop", "out.####.exr", "-o", "out.####.png", "--no-clobber").err)
+        self.assertEqual(self.bytes_of("one.png"), self.bytes_of("out.0003.png"))
+        self.refuse(2, "develop", "out.####.exr", "-o", "one.png", says=["####"])
+        self.refuse(2, "develop", "out.0001.exr", "-o", "one.####.png", says=["no frames"])
+        self.refuse(2, "inspect", "in.0001.exr", "--frames", "1-3", says=["--frames"])
+        self.refuse(2, "compare", "in.####.exr", "out.####.exr", "--missing", "black", says=["--missing"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,24 @@
+// What changes over the frames of a shot, and what is the same in all of them.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval::cli {
+
+class Changes {
+public:
+    using Value = std::pair<std::string, std::string>;  // its name, and what it is
+    // Every frame has the same names in the same order.
+    void add(int frame, std::vector<Value> values);
+    // One line of what is the same, a table of the rest, one row a frame; empty without frames.
+    std::string text() const;
+
+private:
+    bool changes(std::size_t column) const;
+    std::vector<int> frames_;
+    std::vector<std::vector<Value>> rows_;
+};
+
+}  // namespace petzval::cli
