@@ -92,6 +92,7 @@ PUBLIC = {
     "scene": "scene",
     "session": "session",
     "shot": "shot",
+    "focus_track": "sequence",
     "frames": "sequence",
     "track": "sequence",
     "version": "base",

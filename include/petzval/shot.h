@@ -119,6 +119,10 @@ struct PixelPosition {
 // Sets the focus distance to the depth that the pixel shows. Errors: InvalidArgument for a pixel that the
 // data window does not have, for a shot without depth in metres.
 PETZVAL_API Status focus_on_pixel(Shot& shot, PixelPosition pixel);
+// The median depth of the pixels at most `within_px` columns and rows away that show something; empty where
+// none does. Errors: those of focus_on_pixel().
+PETZVAL_API Result<std::optional<double>> distance_around_m(const Shot& shot, PixelPosition pixel,
+                                                            int within_px);
 
 // A point of the world, in scene units.
 struct WorldPoint {

@@ -3,6 +3,7 @@
 
 #include "files/wording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -94,10 +95,17 @@ Result<DefocusJob> rendered(const Shot& shot) {
     return job;
 }
 
-Status focus_on_pixel(Shot& shot, PixelPosition pixel) {
+namespace {
+
+// Metres, and where in them the pixel lies.
+struct DepthAt {
+    const Plane& metres;
+    int x = 0, y = 0;
+};
+
+Result<DepthAt> depth_at(const Shot& shot, PixelPosition pixel, const std::string& name) {
     const Rect &display = shot.place.display_window, &data = shot.place.data_window;
     const auto* depth = std::get_if<DepthMetres>(&shot.depth);
-    const std::string name = "focus.at " + std::to_string(pixel.x) + "," + std::to_string(pixel.y);
     if (!depth) return invalid(name + ": the picture has no depth in metres");
     const int x = pixel.x + display.x0 - data.x0, y = pixel.y + display.y0 - data.y0;
     if (!depth->plane.rect().contains(x, y))
@@ -105,8 +113,34 @@ Status focus_on_pixel(Shot& shot, PixelPosition pixel) {
             name + " is outside the picture, which covers columns " + std::to_string(data.x0 - display.x0) +
             " to " + std::to_string(data.x1 - display.x0 - 1) + " and rows " +
             std::to_string(data.y0 - display.y0) + " to " + std::to_string(data.y1 - display.y0 - 1));
-    shot.camera.focus_distance_m = FoundNumber{depth->plane(x, y), name};
+    return DepthAt{depth->plane, x, y};
+}
+
+std::string name_of(PixelPosition pixel) {
+    return "focus.at " + std::to_string(pixel.x) + "," + std::to_string(pixel.y);
+}
+
+}  // namespace
+
+Status focus_on_pixel(Shot& shot, PixelPosition pixel) {
+    const auto depth = depth_at(shot, pixel, name_of(pixel));
+    if (!depth) return depth.error();
+    shot.camera.focus_distance_m = FoundNumber{depth->metres(depth->x, depth->y), name_of(pixel)};
     return Done{};
+}
+
+Result<std::optional<double>> distance_around_m(const Shot& shot, PixelPosition pixel, int within_px) {
+    const auto depth = depth_at(shot, pixel, name_of(pixel));
+    if (!depth) return depth.error();
+    std::vector<float> seen;
+    for (int y = depth->y - within_px; y <= depth->y + within_px; ++y)
+        for (int x = depth->x - within_px; x <= depth->x + within_px; ++x)
+            if (depth->metres.rect().contains(x, y) && std::isfinite(depth->metres(x, y)))
+                seen.push_back(depth->metres(x, y));
+    if (seen.empty()) return std::optional<double>();
+    const auto middle = seen.begin() + std::ptrdiff_t(seen.size() / 2);
+    std::nth_element(seen.begin(), middle, seen.end());
+    return std::optional<double>(double(*middle));
 }
 
 Status focus_on_point(Shot& shot, WorldPoint point) {

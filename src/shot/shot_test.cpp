@@ -183,6 +183,18 @@ TEST_F(Shots, FocusIsOnWhatAPixelShows) {
     EXPECT_FALSE(focus_on_pixel(shot, {14, 10}));
 }
 
+TEST_F(Shots, ADistanceIsTheMedianOfWhatIsSeenAround) {
+    Shot shot = read();
+    Plane& depth = std::get<DepthMetres>(shot.depth).plane;
+    const Rect &data = shot.place.data_window, &display = shot.place.display_window;
+    const int x = 14 + display.x0 - data.x0, y = 10 + display.y0 - data.y0;
+    const float around[] = {2, 3, 100, INFINITY, INFINITY, 2, 3, INFINITY, 3};
+    for (int i = 0; i < 9; ++i) depth(x - 1 + i % 3, y - 1 + i / 3) = around[i];
+    EXPECT_EQ(**distance_around_m(shot, {14, 10}, 1), 3);
+    EXPECT_FALSE(distance_around_m(shot, {14, 10}, 0)->has_value()) << "a miss";
+    EXPECT_FALSE(distance_around_m(shot, {3, 10}, 1)) << "outside";
+}
+
 TEST_F(Shots, FocusIsOnAPointOfTheWorld) {
     source.depth.unit_scale_m = 0.01;
     Shot shot = read();

@@ -157,6 +157,24 @@ class Shots(CommandLineTest):
         self.refuse(2, "inspect", "in.0001.exr", "--frames", "1-3", says=["--frames"])
         self.refuse(2, "compare", "in.####.exr", "out.####.exr", "--missing", "black", says=["--missing"])
 
+    def test_focus_track_follows_pixels_and_defocus_takes_it(self):
+        self.succeed("focus-track", "in.####.exr", "-o", "t.csv", "--at", "1:3,14", "5:30,14", "--smooth", "0", "--plot", "t.svg")
+        with open(self.path("t.csv")) as file:  # 1.2 m on the left of column 15, 5 m beyond
+            self.assertEqual(file.read().split(), ["frame,focus", "1,1.20000005", "2,1.20000005", "3,5", "5,5"])
+        self.assertIn(b"</svg>", self.bytes_of("t.svg"))
+        self.succeed("focus-track", "in.####.exr", "-o", "s.csv", "--at", "1:3,14", "5:30,14", "--frames", "1-3", "--smooth", "2")
+        with open(self.path("s.csv")) as file:
+            distances = [float(line.split(",")[1]) for line in file.read().split()[1:]]
+        self.assertTrue(1.2 < distances[0] < distances[1] < distances[2] < 5, distances)
+        self.defocus("--track", "t.csv", "--frames", "3")
+        for flags, said in ((["--at", "1:3"], "--at 1:3"), (["--at", "1:3,4", "1:3,5"], "twice"), ([], "--at"),
+                            (["--at", "1-3:3,4"], "FRAME:X,Y")):
+            self.refuse(2, "focus-track", "in.####.exr", "-o", "u.csv", *flags, says=[said])
+        self.refuse(2, "focus-track", "in.0001.exr", "-o", "u.csv", "--at", "3,4", says=["no frames"])
+        outcome = self.run_program("focus-track", "in.####.exr", "-o", "u.csv", "--at", "300,4")
+        self.assertEqual(outcome.code, 3, outcome)
+        self.assertFalse(os.path.exists(self.path("u.csv")))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,167 @@
+// petzval focus-track: from what is to be sharp in a few frames to how far away it is in every one.
+#include "petzval/focus_track.h"
+
+#include "petzval/output.h"
+
+#include "camera.h"
+#include "console.h"
+#include "frames.h"
+#include "input.h"
+#include "output.h"
+#include "report.h"
+#include "run_flags.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+struct FocusTrackFlags {
+    InputFlags input;
+    std::vector<std::string> at;
+    std::vector<FocusPick> picks;  // `at`, read
+    int within_px = 2;
+    double smooth_frames = 2;
+    std::string output, plot;
+    OverwriteFlags overwrite;
+    FrameFlags frames;
+    RunFlags run;
+};
+
+// "1001:960,540", or "960,540" for all frames.
+FocusPick parse_pick(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto wrong = [&](const std::string& why) { return UsageError("--at " + text + ": " + why); };
+    const auto pixel = parse_pixel(colon == std::string::npos ? text : text.substr(colon + 1));
+    if (!pixel) throw wrong(pixel.error().message);
+    if (colon == std::string::npos) return {0, *pixel};
+    const auto frame = parse_frames(text.substr(0, colon));
+    if (!frame || frame->size() != 1) throw wrong("not FRAME:X,Y, as 1001:960,540");
+    return {frame->front(), *pixel};
+}
+
+void check(FocusTrackFlags& flags, const Verb& verb) {
+    require_argument(verb, flags.input.path, "IN.####.exr");
+    require_argument(verb, flags.output, "-o TRACK.csv");
+    flags.run.apply();
+    flags.overwrite.check();
+    flags.input.check();
+    if (flags.at.empty()) throw UsageError("what is to be sharp? --at 1001:960,540 names a pixel in a frame");
+    for (const std::string& text : flags.at) flags.picks.push_back(parse_pick(text));
+    const auto by_frame = [](const FocusPick& a, const FocusPick& b) { return a.frame < b.frame; };
+    std::stable_sort(flags.picks.begin(), flags.picks.end(), by_frame);
+    for (std::size_t i = 1; i < flags.picks.size(); ++i)
+        if (flags.picks[i - 1].frame == flags.picks[i].frame)
+            throw UsageError("--at: frame " + std::to_string(flags.picks[i].frame) +
+                             " twice; a pixel without a frame stands alone");
+    if (!is_sequence(flags.frames, {flags.input.path, flags.input.read.depth_file}, "", flags.run))
+        throw UsageError("no frames: the input has no #### or %04d");
+}
+
+class Measuring {
+public:
+    explicit Measuring(const FocusTrackFlags& flags) : all_(flags) {}
+
+    Status operator()() {
+        const std::vector<std::string> written{all_.output, all_.plot};
+        if (const auto reason = all_.overwrite.reason_to_skip(written_files(), {})) {
+            note(*reason);
+            return Done{};
+        }
+        if (Status fine = check_outputs(written, {}); !fine) return fine;
+        FrameWork work;
+        work.input = has_pattern(all_.input.path) ? all_.input.path : all_.input.read.depth_file;
+        work.files = [&](int frame) -> Result<FrameWork::Files> {
+            return FrameWork::Files{of(frame).files(), {}};
+        };
+        work.make = [&](int frame, bool) { return measure(frame); };
+        work.finish = [&] { return write(); };
+        return make_frames(all_.frames, all_.run, work);
+    }
+
+private:
+    std::vector<std::string> written_files() const {
+        std::vector<std::string> files{all_.output};
+        if (!all_.plot.empty()) files.push_back(all_.plot);
+        return files;
+    }
+    InputFlags of(int frame) const {
+        InputFlags input = all_.input;
+        for (std::string* path : {&input.path, &input.read.depth_file}) *path = at_frame(*path, frame);
+        return input;
+    }
+
+    Result<Json> measure(int frame) {
+        const auto shot = load_shot(of(frame).source());
+        if (!shot) return shot.error();
+        const PixelPosition pixel = pixel_at(all_.picks, frame);
+        const auto distance = distance_around_m(*shot, pixel, all_.within_px);
+        if (!distance) return distance.error();
+        Json record = {{"input", shot->path}, {"pixel", {pixel.x, pixel.y}}, {"warnings", shot->warnings}};
+        record["focus_distance_m"] = *distance ? number(**distance) : Json(nullptr);
+        if (*distance)
+            measured_.push_back({frame, **distance});
+        else
+            record["warnings"].push_back("frame " + std::to_string(frame) + ": nothing is seen at " +
+                                         std::to_string(pixel.x) + "," + std::to_string(pixel.y) +
+                                         "; focus goes on between its neighbours");
+        return record;
+    }
+
+    Status write() {
+        if (measured_.empty())
+            return Error{ErrorCode::InvalidFile, "no frame shows anything at the pixels of --at"};
+        std::sort(measured_.begin(), measured_.end(),
+                  [](const FocusKey& a, const FocusKey& b) { return a.frame < b.frame; });
+        const std::vector<FocusKey> track = smoothed(measured_, all_.smooth_frames);
+        const bool overwrite = !all_.overwrite.no_clobber;
+        if (Status done = petzval::write_text(all_.output, track_csv(track), overwrite); !done) return done;
+        note("wrote " + all_.output + ", " + std::to_string(track.size()) + " keys");
+        if (all_.plot.empty()) return Done{};
+        const Status drawn = petzval::write_text(all_.plot, focus_plot(measured_, track), overwrite);
+        if (drawn) note("wrote " + all_.plot);
+        return drawn;
+    }
+
+    const FocusTrackFlags& all_;
+    std::vector<FocusKey> measured_;
+};
+
+}  // namespace
+
+void add_focus_track(Verb& program, Action& chosen) {
+    Verb& verb = add_verb(program, "focus-track",
+                          "the focus distance of every frame of a shot, by pixels that are to be sharp",
+                          "petzval focus-track beauty.####.exr -o focus.csv --at 1001:960,540 1040:1100,500\n"
+                          "petzval defocus beauty.####.exr -o out.####.exr --track focus.csv");
+    auto flags = std::make_shared<FocusTrackFlags>();
+    flags->input.add_to(verb);
+    flags->input.add_depth_to(verb);
+    FlagGroup(verb, "Focus")
+        .values("--at", "[FRAME:]X,Y",
+                "what is to be sharp: a pixel of the display window in a frame, as 1001:960,540; evenly from "
+                "one to "
+                "the next. Without a frame: in all",
+                flags->at)
+        .value("--within", "PX", "the median depth of the pixels so many columns and rows around (default 2)",
+               parse_index, flags->within_px)
+        .value("--smooth", "FRAMES",
+               "smooth in dioptres by a Gaussian of this standard deviation (default 2; 0: as measured)",
+               parse_not_negative, flags->smooth_frames);
+    FlagGroup(verb, "Output")
+        .value("-o,--output", "TRACK.csv", "the track, for defocus --track", parse_text, flags->output)
+        .value("--plot", "FILE.svg", "a drawing of what was measured and of the track", parse_text,
+               flags->plot);
+    flags->overwrite.add_to(verb, false);
+    flags->frames.add_to(verb);
+    flags->run.add_log_to(verb, true);
+    when_typed(verb, [flags, &verb, &chosen] {
+        check(*flags, verb);
+        chosen = [flags] { return Measuring(*flags)(); };
+    });
+}
+
+}  // namespace petzval::cli
