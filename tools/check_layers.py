@@ -31,7 +31,7 @@ ALLOWED = {
     "engine/scatter": WAIST | {"engine/lights"},
     "engine/gather": WAIST,
     "engine/gaussian": WAIST | {"device/cpu"},
-    "engine/sprites": WAIST | {"device/cpu", "engine/lights", "engine/gather", "engine/gaussian"},
+    "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": LENS | {"engine/waist"},
     "views": WAIST | {"device/cpu", "engine/lights", "engine/scatter"},
     "glare": LENS,
@@ -52,6 +52,7 @@ TESTS = {
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
     "engine/gather": {"kernel/lenses"},
+    "engine/sprites": {"kernel/lenses"},
     "session": {"lens_facts"},
 }
 # Devices know plans, the data that engines leave, and nothing else of engines.

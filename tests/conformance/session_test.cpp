@@ -118,16 +118,29 @@ TEST_P(EverySession, EndsWhereverItIsAskedTo) {
 INSTANTIATE_TEST_SUITE_P(Engines, EverySession, testing::ValuesIn(engine_names()),
                          [](const auto& engine) { return engine.param; });
 
-TEST(Session, AGatherFindsTheKernelsOfTheFrameBefore) {
-    const Shot shot = noise_at_several_depths();
-    DefocusJob job = shot.job("gather");
-    job.lens.cats_eye = 0.5;
+void expect_kernels_are_kept(const DefocusJob& job) {
     Session session;
     ASSERT_TRUE(session.defocus(job));
     const std::size_t kept = session.usage().kept_bytes;
     EXPECT_GT(kept, 0u);
     ASSERT_TRUE(session.defocus(job));
     EXPECT_EQ(session.usage().kept_bytes, kept) << "kernels were made again, or under another name";
+}
+
+TEST(Session, AGatherFindsTheKernelsOfTheFrameBefore) {
+    const Shot shot = noise_at_several_depths();
+    DefocusJob job = shot.job("gather");
+    job.lens.cats_eye = 0.5;
+    expect_kernels_are_kept(job);
+}
+
+TEST(Session, SpritesFindTheKernelsOfTheFrameBefore) {
+    const Shot shot = noise_at_several_depths();
+    const std::vector<LightPoint> points{{.x = 10, .y = 12, .r = 1, .g = 1, .b = 1, .coc_px = 8}};
+    DefocusJob job = shot.job("sprites");
+    job.points = &points, job.sprites.background = SpriteBackground::Gaussian;
+    job.lens.cats_eye = 0.5;
+    expect_kernels_are_kept(job);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
 #include "device/cpu/gather.h"
+#include "device/cpu/stamp_lights.h"
+#include "engine/lights/plan.h"
 
 namespace petzval::device {
 namespace {
@@ -33,6 +35,8 @@ public:
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {
+        if (!plan.masks.empty())
+            return stamp_planned_lights(plan, dynamic_cast<const StampAtlas&>(atlas), out, control);
         return add_planned_lights(plan, dynamic_cast<const SpreadAtlas&>(atlas), out, control);
     }
 };

@@ -27,23 +27,46 @@ struct Viewpoint {
     }
 };
 
-// A highlight as it is drawn: places of what it is seen from and of its kernel in the plan's lists.
+// What is seen (1) and hidden (0) on a grid over the pupil's square, -1…1 on both axes, row by row. A bit
+// for each point: there may be ten million lights.
+struct PupilMask {
+    static constexpr int kSide = 8;
+    std::uint64_t seen = ~std::uint64_t(0);
+    bool is_open() const { return seen == ~std::uint64_t(0); }
+    bool is_closed() const { return seen == 0; }
+    std::uint8_t row(int y) const { return std::uint8_t(seen >> (y * kSide)); }
+};
+
+// A light as it is drawn: cell (x, y) of its kernel's level, the radius that its disc has there; places of
+// what it is seen from (a viewpoint or a mask) and of its kernel in the plan's lists.
 struct PlannedLight {
     Highlight highlight;
     std::uint32_t viewpoint = 0, kernel = 0;
 };
 
+// Pixels of the result that are drawn together, and where in the plan's `order` their lights begin; they end
+// where those of the next tile begin.
+struct LightsTile {
+    Rect pixels;
+    std::size_t first_light;
+};
+
 // A tap is dimmed by the share of its rays that nearer samples stop: the pixel q of a sample at radius c_q
 // lies on the ray from the highlight (s, c) through pupil point u = (q - s)/(c - c_q), so every nearer sample
-// darkens a square of that side around u in the pupil.
+// darkens a square of that side around u in the pupil. Few lights leave that to the device: it finds the
+// casters of each viewpoint, tap by tap. Of very many it was found beforehand, as masks; these are stamped on
+// the levels of their kernels, tile by tile, and enlarged bilinearly.
 struct LightsPlan {
     Rect rows;                         // pixels to be drawn
     int first_row = 0;                 // row of the frame that is row 0
-    std::vector<PlannedLight> lights;  // added in this order
+    std::vector<PlannedLight> lights;  // without tiles: added in this order
     std::vector<Viewpoint> viewpoints;
     const ShadowCasters* casters = nullptr;
-    float stretch = 1;       // of the pupil, vertically, by pixels that are not square
-    CocSamplesView holdout;  // Input::holdout
+    std::vector<PupilMask> masks;      // in place of viewpoints and casters
+    std::vector<LightsTile> tiles;     // with masks; one more closes the list
+    std::vector<std::uint32_t> order;  // of the lights of each tile: those of one kernel follow each other
+    float stretch = 1;                 // of the pupil, vertically, by pixels that are not square
+    CocSamplesView holdout;            // Input::holdout
     device::KernelSet kernels;
 };
 

@@ -3,10 +3,11 @@
 #include "engine/sprites/sprites.h"
 
 #include "base/parallel.h"
+#include "device/device.h"
 #include "engine/gather/gather.h"
 #include "engine/gaussian/gaussian.h"
 #include "engine/lights/highlights.h"
-#include "engine/sprites/sprites_draw.h"
+#include "engine/sprites/plan.h"
 #include "engine/waist/memory.h"
 
 #include <algorithm>
@@ -107,6 +108,15 @@ std::size_t sprites_of(std::span<const LightPoint> points) {
     return count;
 }
 
+device::Work add_sprites(const Input& input, std::span<const Sprite> sprites, View<Rgba> out) {
+    const SpriteGrid grid(input, sprites);
+    const LightsPlan plan = plan_sprites(input, sprites, grid);
+    const device::Control control{*input.workers, *input.progress};
+    const auto atlas = input.device->atlas(SpriteKernels(input, grid), plan.kernels, *input.memory, control);
+    if (input.progress->cancelled()) return {};
+    return input.device->add_lights(plan, *atlas, out, control);
+}
+
 }  // namespace
 
 Result<Output> run_sprites(const Input& input) {
@@ -134,9 +144,11 @@ Result<Output> run_sprites(const Input& input) {
     const double drawn_background = seconds();
 
     for (const LightPoint& p : input.points) AreaOfLight(p).add_to(parted.sprites, p);
-    draw_sprites(input, parted.sprites, output->image);
+    device::Work work;
+    if (!parted.sprites.empty()) work = add_sprites(input, parted.sprites, output->image);
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
-    output->stages = {{"background", drawn_background}, {"sprites", seconds() - drawn_background}};
+    output->stages = {{"background", drawn_background},
+                      {"sprites", seconds() - drawn_background, work.bytes, work.multiply_adds}};
     if (input.sprites.find && !finds)
         output->warnings.emplace_back("bright points are not looked for in pictures with hidden layers");
     return output;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 
 namespace petzval::engine {
 namespace {
@@ -10,6 +12,7 @@ namespace {
 constexpr float kLeastStepPx = 0.125f, kRelativeStep = 0.01f;
 constexpr float kLinearEndPx = kLeastStepPx / kRelativeStep;
 constexpr int kLinearSteps = int(kLinearEndPx / kLeastStepPx);
+constexpr int kFarSteps = 1 << 16;  // steps of radii behind focus begin here
 // Parts of the picture, where the lens varies: so many that the rim of the largest disc moves by no more than
 // this from one to the next, as long as their kernels fit.
 constexpr double kRimStepPx = 0.5;
@@ -21,10 +24,8 @@ float largest_cells(Quality quality) {
 }
 
 // A kernel moved right and down by part of a cell, bilinear.
-kernel::PointSpread moved(const kernel::PointSpread& spread, float right, float down) {
-    if (right == 0 && down == 0) {
-        return {spread.extent, spread.weights.clone(), spread.neutral};
-    }
+kernel::PointSpread moved(kernel::PointSpread spread, float right, float down) {
+    if (right == 0 && down == 0) return spread;
     const Rect e{spread.extent.x0, spread.extent.y0, spread.extent.x1 + 1, spread.extent.y1 + 1};
     kernel::PointSpread result{e, Image<Rgba>(e.width(), e.height()), spread.neutral};
     for (int y = 0; y < spread.weights.height(); ++y)
@@ -49,119 +50,141 @@ double radius_in_cells(double radius_px, int level, double extra = 0) {
     return std::copysign(std::sqrt(std::max(0.0, squared)), radius_px);
 }
 
+int step_of(float radius_px) {
+    if (radius_px <= kLinearEndPx) return int(radius_px / kLeastStepPx + 0.5f);
+    return kLinearSteps + int(std::log(radius_px / kLinearEndPx) / std::log1p(kRelativeStep) + 0.5f);
+}
+
+float radius_of(int step) {
+    if (step <= kLinearSteps) return kLeastStepPx * float(step);
+    return kLinearEndPx * std::pow(1 + kRelativeStep, float(step - kLinearSteps));
+}
+
 }  // namespace
 
-SpriteKernels::SpriteKernels(const Input& input, std::span<const Sprite> sprites)
-    : input_(input), largest_cells_(largest_cells(input.quality)) {
+SpriteGrid::SpriteGrid(const Input& input, std::span<const Sprite> sprites)
+    : frame_(input.frame),
+      largest_cells_(largest_cells(input.quality)),
+      pixels_per_radius_(std::max(1.0f, float(input.lens(0).reach_px(1000) / 1000))) {
     float largest_px = 0;
     for (const Sprite& s : sprites) largest_px = std::max(largest_px, std::abs(s.coc_px));
     steps_ = step_of(largest_px) + 1;
-    levels_ = level_of(radius_of(steps_ - 1)) + 1;
-    for (int level = 0; level < levels_; ++level) {
-        const double widest =
-            std::min(double(radius_of(steps_ - 1)), std::ldexp(double(largest_cells_), level));
+    const float widest_px = radius_of(steps_ - 1);
+    for (int level = 0; level <= level_of(widest_px); ++level) {
+        const double widest = std::min(double(widest_px), std::ldexp(double(largest_cells_), level));
         reach_.push_back(int(std::ceil(input.lens(level).reach_px(radius_in_cells(widest, level)) + 0.5)) +
                          1);
     }
     // Kernels of lenses that change over the picture are many: those lights are put at whole pixels.
     if (input.lens(0).varies_over_field()) {
         phases_ = 1;
-        choose_parts(sprites, largest_px);
+        choose_parts(input, sprites, largest_px);
     }
-    kernels_ = std::vector<std::atomic<const StampKernel*>>(count());
 }
 
-void SpriteKernels::choose_parts(std::span<const Sprite> sprites, float largest_px) {
-    const double across = std::abs(input_.field_at(input_.frame.width(), 0).x - input_.field_at(0, 0).x);
-    const double rim_px = input_.lens(0).reach_px(double(largest_px)) * across;
+void SpriteGrid::choose_parts(const Input& input, std::span<const Sprite> sprites, float largest_px) {
+    const double across = std::abs(input.field_at(frame_.width(), 0).x - input.field_at(0, 0).x);
+    const double rim_px = input.lens(0).reach_px(double(largest_px)) * across;
     int columns =
         int(std::clamp(std::ceil(rim_px / kRimStepPx), double(kFewestColumns), double(kMostColumns)));
     for (;; columns = std::max(kFewestColumns, columns * 2 / 3)) {
-        parts_x_ = columns;
-        parts_y_ = std::max(6, columns * input_.frame.height() / input_.frame.width());
-        if (columns == kFewestColumns || bytes_for(sprites) <= kMostBytes) return;
+        columns_ = columns;
+        rows_ = std::max(6, columns * frame_.height() / frame_.width());
+        if (columns == kFewestColumns || bytes_for(input, sprites) <= kMostBytes) return;
     }
 }
 
-std::size_t SpriteKernels::count() const {
-    return std::size_t(parts_x_ * parts_y_) * std::size_t(2 * steps_) * std::size_t(phases_ * phases_);
+std::size_t SpriteGrid::count() const {
+    return std::size_t(columns_ * rows_) * std::size_t(2 * steps_) * std::size_t(phases_ * phases_);
 }
 
-// Of the kernels that the lights take, with the table that holds them.
-std::size_t SpriteKernels::bytes_for(std::span<const Sprite> sprites) const {
+// Of the kernels that the lights take, with what finds them.
+std::size_t SpriteGrid::bytes_for(const Input& input, std::span<const Sprite> sprites) const {
     std::vector<bool> seen(count());
-    std::size_t bytes = count() * sizeof(kernels_[0]);
+    std::size_t bytes = count() * sizeof(void*);
     for (const Sprite& s : sprites) {
-        const Stamping stamping = this->stamping(s.x, s.y, s.coc_px);
-        if (seen[std::size_t(stamping.kernel)]) continue;
-        seen[std::size_t(stamping.kernel)] = true;
-        const double cells = radius_in_cells(double(s.coc_px), stamping.level);
-        const double side = 2 * input_.lens(stamping.level).reach_px(cells) + 3;
+        const auto where = place(s.x, s.y, s.coc_px);
+        if (seen[where.kernel]) continue;
+        seen[where.kernel] = true;
+        const double side =
+            2 * input.lens(where.level).reach_px(radius_in_cells(double(s.coc_px), where.level)) + 3;
         bytes += std::size_t(side * side) * sizeof(Rgba);
     }
     return bytes;
 }
 
-SpriteKernels::~SpriteKernels() {
-    for (auto& kernel : kernels_) delete kernel.load();
-}
-
-int SpriteKernels::step_of(float radius_px) {
-    if (radius_px <= kLinearEndPx) return int(radius_px / kLeastStepPx + 0.5f);
-    return kLinearSteps + int(std::log(radius_px / kLinearEndPx) / std::log1p(kRelativeStep) + 0.5f);
-}
-
-float SpriteKernels::radius_of(int step) {
-    if (step <= kLinearSteps) return kLeastStepPx * float(step);
-    return kLinearEndPx * std::pow(1 + kRelativeStep, float(step - kLinearSteps));
-}
-
-int SpriteKernels::level_of(float radius_px) const {
+int SpriteGrid::level_of(float radius_px) const {
     return radius_px <= largest_cells_ ? 0 : int(std::ceil(std::log2(radius_px / largest_cells_) - 1e-4f));
 }
 
-Stamping SpriteKernels::stamping(float x, float y, float coc_px) const {
+SpriteGrid::Place SpriteGrid::place(float x, float y, float coc_px) const {
     const int step = std::min(step_of(std::abs(coc_px)), steps_ - 1);
-    Stamping s;
-    s.level = level_of(radius_of(step));
-    const float per_cell = 1 / float(1 << s.level);
-    const auto place = [&](float at, int& cell) {
-        const int quarters = int(std::floor((at * per_cell - 0.5f) * float(phases_) + 0.5f));
-        cell = int(std::floor(float(quarters) / float(phases_)));
-        return quarters - cell * phases_;
+    Place p;
+    p.level = level_of(radius_of(step));
+    const float per_cell = 1 / float(1 << p.level);
+    const auto phase = [&](float at, int& cell) {
+        const int parts = int(std::floor((at * per_cell - 0.5f) * float(phases_) + 0.5f));
+        cell = int(std::floor(float(parts) / float(phases_)));
+        return parts - cell * phases_;
     };
-    const int phase_x = place(x, s.x), phase_y = place(y, s.y);
-    const int px = std::clamp(
-        int((x - float(input_.frame.x0)) / float(input_.frame.width()) * float(parts_x_)), 0, parts_x_ - 1);
-    const int py = std::clamp(
-        int((y - float(input_.frame.y0)) / float(input_.frame.height()) * float(parts_y_)), 0, parts_y_ - 1);
+    const int phase_x = phase(x, p.x), phase_y = phase(y, p.y);
+    const auto part = [](float at, int begin, int size, int parts) {
+        return std::clamp(int((at - float(begin)) / float(size) * float(parts)), 0, parts - 1);
+    };
+    const int zone =
+        part(y, frame_.y0, frame_.height(), rows_) * columns_ + part(x, frame_.x0, frame_.width(), columns_);
     const int side = coc_px < 0 ? 0 : 1;
-    s.kernel =
-        (((py * parts_x_ + px) * 2 + side) * steps_ + step) * phases_ * phases_ + phase_y * phases_ + phase_x;
-    return s;
+    p.kernel = (std::size_t(zone * 2 + side) * std::size_t(steps_) + std::size_t(step)) *
+                   std::size_t(phases_ * phases_) +
+               std::size_t(phase_y * phases_ + phase_x);
+    return p;
 }
 
-kernel::PointSpread SpriteKernels::spread(int kernel) const {
-    const int phase = kernel % (phases_ * phases_), radius = kernel / (phases_ * phases_);
-    const int step = radius % steps_, side = radius / steps_ % 2, part = radius / steps_ / 2;
-    const double signed_radius = (side ? 1 : -1) * double(radius_of(step));
-    const int level = level_of(radius_of(step));
-    const int column = part % parts_x_, row = part / parts_x_;
-    const double x = input_.frame.x0 + (column + 0.5) * input_.frame.width() / parts_x_ - 0.5;
-    const double y = input_.frame.y0 + (row + 0.5) * input_.frame.height() / parts_y_ - 0.5;
-    const int right = phase % phases_, down = phase / phases_;
-    const float by_x = float(right) / float(phases_), by_y = float(down) / float(phases_);
-    const double radius_cells = radius_in_cells(signed_radius, level, moving_blur(by_x, by_y));
-    return moved(input_.lens(level).point_spread(radius_cells, input_.field_at(x, y)), by_x, by_y);
+device::KernelAsk SpriteGrid::ask(std::size_t kernel) const {
+    const auto take = [&](int count) {
+        const auto digit = int(kernel % std::size_t(count));
+        kernel /= std::size_t(count);
+        return digit;
+    };
+    device::KernelAsk ask;
+    ask.piece = take(phases_ * phases_);
+    const int step = take(steps_);
+    ask.level = level_of(radius_of(step));
+    ask.step = step + kFarSteps * take(2);
+    ask.zone = int(kernel);
+    return ask;
 }
 
-const StampKernel& SpriteKernels::at(int kernel) const {
-    std::atomic<const StampKernel*>& slot = kernels_[std::size_t(kernel)];
-    if (const StampKernel* made = slot.load(std::memory_order_acquire)) return *made;
-    auto made = std::make_unique<const StampKernel>(spread(kernel));
-    const StampKernel* expected = nullptr;
-    if (slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
-    return *expected;  // another thread was first, with the same kernel
+float SpriteGrid::radius_px(const device::KernelAsk& ask) {
+    return (ask.step >= kFarSteps ? 1.0f : -1.0f) * radius_of(ask.step % kFarSteps);
+}
+
+float SpriteGrid::reach_px(int level, float coc_px) const {
+    if (level > 0) return float(reach_[std::size_t(level)] + 2) * float(1 << level);
+    return pixels_per_radius_ * std::abs(coc_px) * 1.02f + 4;
+}
+
+SpriteKernels::SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid)
+    : KernelSource("sprites in " + std::to_string(grid.columns()) + " x " + std::to_string(grid.rows()),
+                   device::KernelUse::Stamped),
+      lens_(lens.from(lens.frame.x0, lens.frame.y0)),
+      grid_(grid) {}
+
+std::vector<device::KernelSource::Made> SpriteKernels::make(std::span<const device::KernelAsk> asks) const {
+    std::vector<Made> made;
+    for (const device::KernelAsk& ask : asks) {
+        const int column = ask.zone % grid_.columns(), row = ask.zone / grid_.columns();
+        const double x = (column + 0.5) * lens_.frame.width() / grid_.columns() - 0.5;
+        const double y = (row + 0.5) * lens_.frame.height() / grid_.rows() - 0.5;
+        const int phase_x = ask.piece % grid_.phases(), phase_y = ask.piece / grid_.phases();
+        const float right = float(phase_x) / float(grid_.phases());
+        const float down = float(phase_y) / float(grid_.phases());
+        const double radius_px = double(SpriteGrid::radius_px(ask));
+        const double cells = radius_in_cells(radius_px, ask.level, moving_blur(right, down));
+        kernel::PointSpread at_cell = lens_.lens(ask.level).point_spread(cells, lens_.field_at(x, y));
+        made.push_back({std::make_shared<const kernel::PointSpread>(moved(std::move(at_cell), right, down))});
+    }
+    return made;
 }
 
 }  // namespace petzval::engine

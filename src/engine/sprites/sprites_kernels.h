@@ -1,60 +1,63 @@
-// Kernels for drawing lights: by radius, part of the display window and place within a pixel, made when first
-// asked for.
+// Kernels for drawing very many lights: by radius, part of the display window and place within a pixel.
 #pragma once
 
-#include "device/cpu/stamp.h"
-#include "engine/sprites/sprites_draw.h"
+#include "device/kernels.h"
 #include "engine/waist/engine.h"
 
-#include <atomic>
-#include <memory>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace petzval::engine {
 
-// Which kernel a light is drawn with, and where it goes: cells are 2^level pixels wide.
-struct Stamping {
-    int kernel = 0;
-    int level = 0;
-    int x = 0, y = 0;  // cell
+// One light. Unlike a given point it has no depth and no size any more.
+struct Sprite {
+    float x = 0, y = 0;  // pixels, centres at +0.5
+    float coc_px = 0;
+    float r = 0, g = 0, b = 0;
 };
 
-class SpriteKernels {
+// What tells kernels apart. Where the lens varies over the picture, its parts are as many as kernels of these
+// lights fit into memory.
+class SpriteGrid {
 public:
-    // For these lights. input outlives this.
-    SpriteKernels(const Input& input, std::span<const Sprite> sprites);
-    ~SpriteKernels();
-    SpriteKernels(const SpriteKernels&) = delete;
-    SpriteKernels& operator=(const SpriteKernels&) = delete;
+    SpriteGrid(const Input& input, std::span<const Sprite> sprites);
 
-    int levels() const { return levels_; }
-    // Cells by which a kernel of a level reaches.
-    int reach(int level) const { return reach_[std::size_t(level)]; }
-    // (x, y) in pixels, centres at +0.5.
-    Stamping stamping(float x, float y, float coc_px) const;
-    // Of a kernel, signed.
-    float radius_px(int kernel) const {
-        const int radius = kernel / (phases_ * phases_);
-        return (radius / steps_ % 2 ? 1.0f : -1.0f) * radius_of(radius % steps_);
-    }
-    // The lens's kernel; lights of one number share it. Thread-safe.
-    const StampKernel& at(int kernel) const;
+    // Which kernel a light is drawn with (0…count()-1), and where it goes.
+    struct Place {
+        std::size_t kernel = 0;
+        int level = 0, x = 0, y = 0;  // cell of the kernel's level
+    };
+    Place place(float x, float y, float coc_px) const;  // in pixels, centres at +0.5
+    std::size_t count() const;
+    // level: by the radius; zone: the part of the window, step: the radius, piece: the place within a cell.
+    device::KernelAsk ask(std::size_t kernel) const;
+    static float radius_px(const device::KernelAsk& ask);  // signed
+    // Pixels by which a light reaches, at most.
+    float reach_px(int level, float coc_px) const;
+    int phases() const { return phases_; }  // places within a cell, along each axis
+    int columns() const { return columns_; }
+    int rows() const { return rows_; }
 
 private:
-    void choose_parts(std::span<const Sprite> sprites, float largest_px);
-    std::size_t bytes_for(std::span<const Sprite> sprites) const;
-    std::size_t count() const;
-    kernel::PointSpread spread(int kernel) const;
-    static int step_of(float radius_px);
-    static float radius_of(int step);
+    void choose_parts(const Input& input, std::span<const Sprite> sprites, float largest_px);
+    std::size_t bytes_for(const Input& input, std::span<const Sprite> sprites) const;
     int level_of(float radius_px) const;
 
-    const Input& input_;
-    int steps_ = 0, levels_ = 1, phases_ = 4, parts_x_ = 1, parts_y_ = 1;
-    float largest_cells_;
-    std::vector<int> reach_;
-    mutable std::vector<std::atomic<const StampKernel*>> kernels_;
+    Rect frame_;
+    float largest_cells_, pixels_per_radius_;
+    int steps_ = 0, phases_ = 4, columns_ = 1, rows_ = 1;
+    std::vector<int> reach_;  // in cells, by level
+};
+
+class SpriteKernels final : public device::KernelSource {
+public:
+    SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid);
+    std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
+
+private:
+    const LensOnPicture lens_;  // of a picture that begins with the display window
+    SpriteGrid grid_;
 };
 
 }  // namespace petzval::engine

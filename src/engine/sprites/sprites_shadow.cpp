@@ -36,12 +36,6 @@ std::uint64_t grid(unsigned columns, unsigned rows) {
 
 }  // namespace
 
-PupilMask::Between::Between(float place) {
-    const float p = std::clamp((place + 1) / 2 * kSide - 0.5f, 0.0f, float(kSide - 1));
-    cell = std::min(int(p), kSide - 2);
-    share = p - float(cell);
-}
-
 void SpriteShadows::Node::include(const Node& other) {
     nearest = std::min(nearest, other.nearest), farthest = std::max(farthest, other.farthest);
     is_whole = is_whole && other.is_whole;

@@ -6,30 +6,13 @@
 // of the pupil. A quad-tree of the picture's radii finds these squares, large ones first.
 #pragma once
 
+#include "engine/lights/plan.h"
 #include "engine/waist/engine.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace petzval::engine {
-
-// What is seen (1) and hidden (0) on a grid over the pupil's square, -1…1 on both axes, row by row. A bit
-// for each point: there may be ten million lights.
-struct PupilMask {
-    static constexpr int kSide = 8;
-    std::uint64_t seen = ~std::uint64_t(0);
-    bool is_open() const { return seen == ~std::uint64_t(0); }
-    bool is_closed() const { return seen == 0; }
-    std::uint8_t row(int y) const { return std::uint8_t(seen >> (y * kSide)); }
-
-    // The two grid points around a place of the pupil's square, clamped to the grid.
-    struct Between {
-        int cell;
-        float share;  // of the second
-        explicit Between(float place);
-    };
-};
 
 class SpriteShadows {
 public:

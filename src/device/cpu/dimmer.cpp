@@ -1,9 +1,18 @@
-#include "engine/sprites/sprites_dimmer.h"
+#include "device/cpu/dimmer.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace petzval::engine {
+namespace petzval::device {
+
+using namespace engine;
+
+Dimmer::Between::Between(float place) {
+    constexpr int kSide = PupilMask::kSide;
+    const float p = std::clamp((place + 1) / 2 * kSide - 0.5f, 0.0f, float(kSide - 1));
+    cell = std::min(int(p), kSide - 2);
+    share = p - float(cell);
+}
 
 void Dimmer::use(const StampKernel& kernel, float radius, float pixel_aspect) {
     const float per_cell = 1 / std::copysign(std::max(std::abs(radius), 0.5f), radius);
@@ -39,4 +48,4 @@ const DimmedRow* Dimmer::rows(const PupilMask& mask) {
     return rows_.data();
 }
 
-}  // namespace petzval::engine
+}  // namespace petzval::device
