@@ -170,6 +170,9 @@ private:
         if (!files) return files.error();
         const Result<Json> made = contains(black_, frame) ? black(frame, *files) : quietly(frame, *files);
         if (interrupted_by() != 0) return Done{};
+        // What all frames are written to can be written for none of them.
+        if (!made && files->outputs.empty() && made.error().code == ErrorCode::OutputFailed)
+            return made.error();
         Json record = {{"frame", frame}};
         if (made) {
             record.update(*made);
@@ -189,7 +192,9 @@ private:
         const int like =
             *std::find_if(frames_.begin(), frames_.end(), [&](int f) { return !contains(black_, f); });
         if (Status done = work_.black(frame, like); !done) return done.error();
-        return Json{{"output", files.outputs.front()}, {"black", true}};
+        Json record{{"black", true}};
+        if (!files.outputs.empty()) record["output"] = files.outputs.front();
+        return record;
     }
 
     void tell(int frame, std::size_t number, const FrameWork::Files& files, const Json* made,

@@ -79,6 +79,7 @@ Status parse_and_act(int argc, const char* const* argv, Words& words) {
     add_compare(program, chosen);
     add_develop(program, chosen);
     add_focus_track(program, chosen);
+    add_sheet(program, chosen);
     add_lens(program, chosen);
     add_help(program, chosen);
     const auto said = [](const std::string& text) {

@@ -1,12 +1,13 @@
 """Shots: many frames by one command, what changes over them, what lacks, what fails, what was made before."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from pictures import picture, read_exr, write_exr
+from pictures import picture, read_exr, read_png, write_exr
 from program import CAMERA, PETZVAL, CommandLineTest
 
 
@@ -174,6 +175,28 @@ class Shots(CommandLineTest):
         outcome = self.run_program("focus-track", "in.####.exr", "-o", "u.csv", "--at", "300,4")
         self.assertEqual(outcome.code, 3, outcome)
         self.assertFalse(os.path.exists(self.path("u.csv")))
+
+    def test_a_sheet_shows_all_frames(self):
+        write_exr(self.path("in.0003.exr"), picture(28, 40, lambda x, y: 0.2, lambda x, y: 1.0))  # of another shape
+        self.succeed("sheet", "in.####.exr", "-o", "s.png", "--width", "80", "--columns", "3", "--tone", "none", "--no-labels")
+        rows, _, _ = read_png(self.path("s.png"))
+        self.assertEqual((len(rows[0]), len(rows)), (3 * (3 * 80 + 2 * 2), 2 * 56 + 2))
+        third = rows[28][3 * 164:3 * 244]
+        self.assertEqual(third[:15] + third[-15:], [0] * 30, "it keeps its shape, with black beside")
+        self.assertGreater(min(third[3 * 35:3 * 45]), 80)
+        self.succeed("sheet", "in.####.exr", "-o", "l.png", "--frames", "1-4", "--missing", "black")
+        self.refuse(2, "sheet", "in.####.exr", "-o", "s.exr", says=[".png"])
+        self.refuse(2, "sheet", "in.####.exr", "-o", "s.mp4", "--columns", "2", says=["--columns"])
+        no_path = {"PATH": "/nowhere"}
+        self.refuse(1, "sheet", "in.####.exr", "-o", "s.mp4", env=no_path, says=["ffmpeg"])
+
+    def test_a_video_holds_all_frames(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is not installed")
+        self.succeed("sheet", "in.####.exr", "-o", "s.mp4")
+        with open(self.path("s.mp4"), "rb") as file:
+            self.assertEqual(file.read(8)[4:], b"ftyp")
+        self.assertFalse([name for name in os.listdir(self.folder) if "unfinished" in name])
 
 
 if __name__ == "__main__":
