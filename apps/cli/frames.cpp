@@ -212,18 +212,22 @@ private:
              std::to_string(number + 1) + " of " + std::to_string(frames_.size()) + rest + ")");
     }
 
+    // Another run may work in the same folder.
+    bool is_there(const FrameWork::Files& files) const {
+        std::error_code missing;
+        return work_.keeps_what_is_there && fs::exists(files.outputs.front(), missing);
+    }
+
     // A frame says nothing itself; what it warns of is said once.
     Result<Json> quietly(int frame, const FrameWork::Files& files) {
-        std::error_code missing;
-        bool again = false;
-        if (work_.keeps_what_is_there && fs::exists(files.outputs.front(), missing) &&
-            !is_whole(files.outputs.front())) {
-            warning(files.outputs.front() + ": damaged or cut off; made again");
-            again = true;
-        }
+        const bool again = is_there(files) && !is_whole(files.outputs.front());
+        if (again) warning(files.outputs.front() + ": damaged or cut off; made again");
         if (!run_.verbose) set_verbosity(Verbosity::Quiet);
         Result<Json> made = work_.make(frame, again);
         if (!run_.verbose) set_verbosity(run_.quiet ? Verbosity::Quiet : Verbosity::Normal);
+        if (!made && made.error().code == ErrorCode::OutputFailed && is_there(files) &&
+            is_whole(files.outputs.front()))
+            return Json{{"output", files.outputs.front()}, {"skipped", "another run made it meanwhile"}};
         if (made)
             for (const Json& line : made->value("warnings", Json::array()))
                 if (warned_.insert(line.get<std::string>()).second && !run_.verbose)

@@ -154,7 +154,8 @@ private:
         for (int i = 0; i < count; ++i)
             for (int y = 0; y < height_; ++y)
                 std::copy_n(cells_[std::size_t(i)].row(y), width_,
-                            sheet.row(i / columns * (height_ + kGap) + y) + i % columns * (width_ + kGap));
+                            sheet.row(i / columns * (height_ + kGap) + y) +
+                                std::ptrdiff_t(i % columns) * (width_ + kGap));
         return write_developed(all_.output, sheet.view(),
                                {.tone = ToneCurve::None, .dither = false, .threads = all_.run.threads},
                                !all_.overwrite.no_clobber);

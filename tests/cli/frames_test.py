@@ -1,6 +1,7 @@
 """Shots: many frames by one command, what changes over them, what lacks, what fails, what was made before."""
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -103,6 +104,74 @@ class Shots(CommandLineTest):
         for name in made:
             self.assertFalse("unfinished" in name, made)
             read_exr(self.path(name))
+
+    def no_leftovers(self):
+        self.assertFalse([name for name in os.listdir(self.folder) if "unfinished" in name])
+
+    def test_frames_of_another_size_or_without_depth_do_not_stop_the_rest(self):
+        write_exr(self.path("in.0002.exr"), picture(30, 50, lambda x, y: 0.3, lambda x, y: 3.0))
+        without = picture(40, 28, lambda x, y: 0.3, lambda x, y: 3.0)
+        del without["Z"]
+        write_exr(self.path("in.0003.exr"), without)
+        outcome = self.run_program("defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA)
+        self.assertEqual(outcome.code, 4, outcome)
+        self.assertIn("1 of 4 frames failed: 3", outcome.lines[-1])
+        self.assertIn("frame 3: ", outcome.err)
+        channels, _ = read_exr(self.path("out.0002.exr"))
+        self.assertEqual((len(channels["R"][0]), len(channels["R"])), (30, 50))
+        self.no_leftovers()
+
+    def test_a_track_with_a_hole_is_bridged_and_one_that_is_damaged_refused(self):
+        with open(self.path("t.json"), "w") as file:
+            json.dump({"frames": [{"frame": 1, "focus": 1}, {"frame": 2}, {"frame": 5, "focus": 4}]}, file)
+        self.defocus("--track", "t.json")
+        self.assertEqual(len(self.outputs()), 4)
+        for text in ("frame,focus\n1,2\n1,3\n", "frame,focus\n1,near\n", "frame\n", ""):
+            with open(self.path("t.csv"), "w") as file:
+                file.write(text)
+            self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--track", "t.csv", says=["t.csv"])
+
+    def test_a_frame_that_cannot_be_written_fails_alone(self):
+        write_exr(self.path("in.0003.exr"), picture(200, 150, lambda x, y: (x * 31 + y * 17) % 101 / 50, lambda x, y: 2.0))
+        limits = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))  # noqa: E731
+        outcome = self.run_program("defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, limits=limits)
+        self.assertEqual(outcome.code, 4, outcome)
+        self.assertIn("frames failed: 3", outcome.lines[-1])
+        self.assertEqual(self.outputs(), ["out.%04d.exr" % n for n in (1, 2, 5)])
+        self.no_leftovers()
+
+    def test_a_full_disk_leaves_whole_frames(self):
+        disk = self.path("disk")
+        os.mkdir(disk)
+        mount = ["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk]
+        if os.geteuid() != 0 or not shutil.which("mount") or subprocess.run(mount, capture_output=True).returncode:
+            self.skipTest("a small disk of its own needs root and mount")
+        self.addCleanup(subprocess.run, ["umount", disk])
+        for frame in range(6, 40):
+            self.make(frame)
+        outcome = self.run_program("defocus", "in.####.exr", "-o", "disk/out.####.exr", *CAMERA)
+        self.assertEqual(outcome.code, 4, outcome)
+        self.assertIn("No space left", outcome.err)
+        made = sorted(os.listdir(disk))
+        self.assertTrue(0 < len(made) < 38, made)
+        for name in made:
+            self.assertTrue(name.startswith("out."), made)
+            read_exr(os.path.join(disk, name))
+
+    def test_two_runs_on_one_folder_make_one_shot(self):
+        for frame in range(6, 20):
+            self.make(frame)
+        self.defocus("--lens", "doublet")
+        truth = {name: self.bytes_of(name) for name in self.outputs()}
+        for name in truth:
+            os.remove(self.path(name))
+        line = [PETZVAL, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--lens", "doublet", "--no-clobber", "-q",
+                "--kernel-cache", "off"]
+        runs = [subprocess.Popen(line, cwd=self.folder, stderr=subprocess.PIPE) for _ in range(2)]
+        said = [run.communicate(timeout=60)[1].decode() for run in runs]
+        self.assertEqual([run.returncode for run in runs], [0, 0], said)
+        self.assertEqual({name: self.bytes_of(name) for name in self.outputs()}, truth)
+        self.no_leftovers()
 
     def test_records_replace_neither_what_frames_read_nor_what_they_write(self):
         before = self.bytes_of("in.0003.exr")
