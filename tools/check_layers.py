@@ -30,7 +30,7 @@ ALLOWED = {
     "engine/lights": WAIST,
     "engine/scatter": WAIST | {"engine/lights"},
     "engine/gather": WAIST,
-    "engine/gaussian": WAIST | {"device/cpu"},
+    "engine/gaussian": WAIST,
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": LENS | {"engine/waist"},
     "views": WAIST | {"device/cpu", "engine/lights", "engine/scatter"},

@@ -13,6 +13,7 @@
 
 namespace petzval::engine {
 struct GatherPlan;
+struct GaussianPlan;
 struct LightsPlan;
 struct ScatterPlan;
 }  // namespace petzval::engine
@@ -68,6 +69,8 @@ public:
     // Writes the plan's tiles of `out`, the whole frame.
     virtual void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
                         const Control& control) const = 0;
+    // Writes all of `out`.
+    virtual void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const = 0;
     // Adds to the plan's rows of `out`, the whole frame.
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                             const Control& control) const = 0;

@@ -4,6 +4,7 @@
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
 #include "device/cpu/gather.h"
+#include "device/cpu/mix.h"
 #include "device/cpu/stamp_lights.h"
 #include "engine/lights/plan.h"
 
@@ -32,6 +33,9 @@ public:
     void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
                 const Control& control) const override {
         gather_tiles(plan, dynamic_cast<const TapAtlas&>(atlas), out, control);
+    }
+    void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
+        mix_blurs(plan, out, control);
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {
