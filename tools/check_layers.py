@@ -25,6 +25,7 @@ ALLOWED = {
     "kernel/keep": MODEL,
     "device": MODEL,
     "device/cpu": MODEL | {"device", "engine/waist"},
+    "device/vulkan": MODEL | {"device", "engine/waist"},
     "engine/waist": MODEL,
     "engine/samples": MODEL | {"engine/waist"},
     "engine/lights": WAIST,
@@ -45,10 +46,11 @@ ALLOWED = {
     "sequence": PIXELS | {"optics", "names", "look", "session", "shot"},
     "lens_facts": LENS,
     "c": PIXELS | {"lens_facts", "look", "session"},
-    "session": WAIST | ENGINES | {"device/cpu", "views", "look", "glare"},
+    "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "views", "look", "glare"},
 }
 # What tests beside the code may see as well.
 TESTS = {
+    "device/vulkan": {"device/cpu", "kernel/lenses"},
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
     "engine/gather": {"kernel/lenses"},
@@ -65,6 +67,7 @@ PUBLIC = {
     "defocus": "session",
     "depth": "depth",
     "develop": "colour",
+    "devices": "session",
     "dynamic_range": "colour",
     "engine_options": "engine/waist",
     "engine_report": "engine/waist",
@@ -107,6 +110,7 @@ THIRD_PARTY = {
     r"png\.h": r"src/files/",
     r"OpenColorIO/": r"src/ocio/",
     r"embree": r"src/scene/",
+    r"vulkan/": r"src/device/vulkan/",
     r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look|src/sequence|src/c)/",
     r"CLI/": r"apps/cli/",
 }

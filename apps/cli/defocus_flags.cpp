@@ -99,6 +99,10 @@ void DefocusFlags::add_to(Verb& verb) {
     ocio.add_to(verb);
     run.add_threads_to(verb);
     FlagGroup(verb, "Run")
+        .value("--device", "DEVICE",
+               "what draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a GPU that is no software "
+               "driver, else the CPU. What it has no program for, the CPU draws",
+               parse_text, device)
         .value("--kernel-cache", "FOLDER",
                "where kernels that take long to make are kept between runs, 1 GiB at most; off keeps none. "
                "Default: $PETZVAL_KERNEL_CACHE, else petzval/kernels in the user's cache folder",
@@ -197,7 +201,8 @@ std::string DefocusFlags::default_kernel_cache() {
 
 SessionSettings DefocusFlags::session() const {
     const DefocusJob bare = job({});
-    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes};
+    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes, nullptr,
+            device};
 }
 
 DefocusJob DefocusFlags::job(DefocusJob job) const {

@@ -49,6 +49,9 @@ struct Work {
     static Work of_taps(std::size_t taps) { return {48 * taps, 4 * taps}; }
 };
 
+enum class Verb { Composite, Gather, Mix, AddLights };
+
+// Any of its verbs may throw Failed (device/failure.h); nothing is then added to the result.
 class Device {
 public:
     Device() = default;
@@ -57,6 +60,8 @@ public:
     Device& operator=(const Device&) = delete;
 
     virtual const char* name() const = 0;
+    // Whether it does that itself; if not, the CPU does.
+    virtual bool has(Verb) const { return true; }
 
     // Makes what is missing of a set, in parallel, before anything is drawn with it. Kernels are kept in
     // `memory`, under the name of their source. Incomplete once cancelled.

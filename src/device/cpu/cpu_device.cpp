@@ -20,11 +20,13 @@ public:
             case KernelUse::ByPixel:
                 return std::make_shared<const SpreadAtlas>(source, set, control);
             case KernelUse::Gathered:
-                return std::make_shared<const TapAtlas>(source, set, "gathering", memory, control);
+                return std::make_shared<const TapAtlas>(
+                    laid_out<TapKernel>(source, set, "gathering", memory, control));
             case KernelUse::Stamped:
                 break;
         }
-        return std::make_shared<const StampAtlas>(source, set, "stamping", memory, control);
+        return std::make_shared<const StampAtlas>(
+            laid_out<StampSet>(source, set, "stamping", memory, control));
     }
     Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
                    const Control& control) const override {
