@@ -280,6 +280,8 @@ Status Run::finish() {
 
 }  // namespace
 
+Status defocus_frame(DefocusFlags& flags, Session& session) { return Run(flags, session)(); }
+
 void add_defocus(Verb& program, Action& chosen) {
     Verb& verb =
         add_verb(program, "defocus", "the picture that a lens would have taken, from a sharp one with depth",

@@ -78,7 +78,7 @@ void DefocusFlags::add_output_to(Verb& verb) {
             parse_overscan, overscan_px);
 }
 
-void DefocusFlags::add_to(Verb& verb) {
+void DefocusFlags::add_choices_to(Verb& verb) {
     input.add_to(verb);
     input.add_depth_to(verb);
     input.add_others_to(verb);
@@ -90,6 +90,27 @@ void DefocusFlags::add_to(Verb& verb) {
     look.add_files_to(verb);
     look.add_to(verb, {"Lens", "Lens character", "Pupil", "Glare"});
     add_engines_to(verb);
+}
+
+void DefocusFlags::add_kernel_cache_to(Verb& verb) {
+    FlagGroup(verb, "Run")
+        .value("--kernel-cache", "FOLDER",
+               "where kernels that take long to make are kept between runs, 1 GiB at most; off keeps none. "
+               "Default: $PETZVAL_KERNEL_CACHE, else petzval/kernels in the user's cache folder",
+               parse_text, kernel_cache);
+}
+
+void DefocusFlags::add_shown_to(Verb& verb) {
+    add_choices_to(verb);
+    develop.add_to(verb);
+    ocio.add_to(verb);
+    run.add_threads_to(verb);
+    add_kernel_cache_to(verb);
+    run.add_log_to(verb, false);
+}
+
+void DefocusFlags::add_to(Verb& verb) {
+    add_choices_to(verb);
     add_output_to(verb);
     frames.add_to(verb);
     track.add_to(verb);
@@ -98,15 +119,7 @@ void DefocusFlags::add_to(Verb& verb) {
     develop.add_to(verb);
     ocio.add_to(verb);
     run.add_threads_to(verb);
-    FlagGroup(verb, "Run")
-        .value("--device", "DEVICE",
-               "what draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a GPU that is no software "
-               "driver, else the CPU. What it has no program for, the CPU draws",
-               parse_text, device)
-        .value("--kernel-cache", "FOLDER",
-               "where kernels that take long to make are kept between runs, 1 GiB at most; off keeps none. "
-               "Default: $PETZVAL_KERNEL_CACHE, else petzval/kernels in the user's cache folder",
-               parse_text, kernel_cache);
+    add_kernel_cache_to(verb);
     run.add_log_to(verb, true);
 }
 
@@ -121,23 +134,33 @@ void DefocusFlags::check_coc_input() const {
                          " cannot be used with --depth-kind coc-px: blur radii are given, not depth");
 }
 
-void DefocusFlags::check(const Verb& verb) {
+void DefocusFlags::check_choices(const Verb& verb) {
     require_argument(verb, input.path, "an input picture");
-    require_argument(verb, output, "-o OUT");
     run.apply();
     input.read.threads = run.threads;
-    overwrite.check();
     input.check();
     look.settle();
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_point.has_value(),
                 "--focus-point");
-    if (focus.permissible_radius_px && view != ViewKind::Focus && run.json.empty())
-        throw UsageError("--permissible-radius has no effect without --view focus or --json");
     refuse_both(focus.focus_at.has_value(), "--focus-at", focus.focus_point.has_value(), "--focus-point");
     if (input.depth_is_coc()) check_coc_input();
     if (look.look().expand_highlights && !input.behind.empty())
         throw UsageError("--expand-highlights cannot be used with --behind: a plate has no hidden layers");
+}
+
+void DefocusFlags::check_shown(const Verb& verb) {
+    check_choices(verb);
+    ocio.check(develop, input.transfer);
+}
+
+void DefocusFlags::check(const Verb& verb) {
+    require_argument(verb, input.path, "an input picture");
+    require_argument(verb, output, "-o OUT");
+    overwrite.check();
+    check_choices(verb);
+    if (focus.permissible_radius_px && view != ViewKind::Focus && run.json.empty())
+        throw UsageError("--permissible-radius has no effect without --view focus or --json");
     check_view();
     check_display();
 }
@@ -201,8 +224,7 @@ std::string DefocusFlags::default_kernel_cache() {
 
 SessionSettings DefocusFlags::session() const {
     const DefocusJob bare = job({});
-    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes, nullptr,
-            device};
+    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes};
 }
 
 DefocusJob DefocusFlags::job(DefocusJob job) const {

@@ -34,7 +34,6 @@ struct DefocusFlags {
     std::string points;  // lights
     std::size_t max_memory_bytes = 0;
     std::optional<std::string> kernel_cache;  // a folder, or "off"
-    std::string device = "cpu";               // SessionSettings::device
     std::string output;
     ViewKind view = ViewKind::Beauty;
     std::optional<int> overscan_px;  // kAutomatic: as far as the blur reaches
@@ -46,7 +45,10 @@ struct DefocusFlags {
     TrackFlags track;
 
     void add_to(Verb& verb);
-    void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
+    // What a window knows of them: what is rendered, what is chosen, how it is shown.
+    void add_shown_to(Verb& verb);
+    void check(const Verb& verb);        // throws UsageError for what is missing or contradicts
+    void check_shown(const Verb& verb);  // the same for those of add_shown_to()
     std::vector<std::string> input_files() const;
     static std::string default_kernel_cache();
     SessionSettings session() const;
@@ -56,6 +58,9 @@ struct DefocusFlags {
     Json parameters_json(const DefocusJob& job) const;
 
 private:
+    void add_choices_to(Verb& verb);
+    void add_kernel_cache_to(Verb& verb);
+    void check_choices(const Verb& verb);
     void add_engines_to(Verb& verb);
     void add_output_to(Verb& verb);
     Json engine_options_json() const;
@@ -63,5 +68,8 @@ private:
     void check_view() const;
     void check_display() const;
 };
+
+// One frame, by the flags as they stand after check(). Errors: as the verb's.
+Status defocus_frame(DefocusFlags& flags, Session& session);
 
 }  // namespace petzval::cli

@@ -161,6 +161,22 @@ FlagGroup& FlagGroup::arguments(const std::string& name, const std::string& help
 
 std::string FlagGroup::long_name(const std::string& names) { return names.substr(0, names.find(',')); }
 
+std::vector<std::string> typed_words(const Verb& verb, const std::vector<std::string>& headings,
+                                     const std::vector<std::string>& without) {
+    const auto holds = [](const auto& list, const auto& word) {
+        return std::find(list.begin(), list.end(), word) != list.end();
+    };
+    std::vector<std::string> words;
+    for (const CLI::Option* flag : verb.get_options()) {
+        if (flag->count() == 0 || !holds(headings, flag->get_group())) continue;
+        if (holds(without, flag->get_name())) continue;
+        if (!flag->get_positional()) words.push_back(flag->get_name());
+        if (flag->get_expected_max() > 0)
+            for (const std::string& value : flag->results()) words.push_back(value);
+    }
+    return words;
+}
+
 void require_argument(const Verb& verb, const std::string& given, const std::string& name) {
     if (given.empty())
         throw UsageError(short_name(verb) + " needs " + name + "; for example: " + first_example(verb));

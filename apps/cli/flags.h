@@ -100,6 +100,10 @@ private:
     std::string heading_;
 };
 
+// What was typed under these headings, as words of a command line: flags with their values, arguments.
+std::vector<std::string> typed_words(const Verb& verb, const std::vector<std::string>& headings,
+                                     const std::vector<std::string>& without);
+
 // Throws UsageError unless `given` is not empty.
 void require_argument(const Verb& verb, const std::string& given, const std::string& name);
 // Throws UsageError if both were given.

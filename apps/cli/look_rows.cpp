@@ -1,6 +1,7 @@
 #include "look_rows.h"
 
 #include "petzval/defocus.h"
+#include "petzval/look_json.h"
 #include "petzval/names.h"
 
 #include "values.h"
@@ -232,6 +233,50 @@ const std::vector<LookRow>& look_rows() {
         return rows;
     }();
     return all;
+}
+
+namespace {
+
+std::string typed(const Json& value) {
+    if (value.is_null()) return "";
+    if (value.is_string()) return value.get<std::string>();
+    if (!value.is_array()) return value.dump();
+    std::string text;
+    for (const Json& part : value) {
+        if (part.is_object())  // a rim of a barrel
+            text += (text.empty() ? "" : ";") + typed(part["radius_mm"]) + "," + typed(part["distance_mm"]);
+        else
+            text += (text.empty() ? "" : ",") + typed(part);
+    }
+    return text;
+}
+
+const Json& at_path(const Json& look, const std::string& path) {
+    const std::size_t dot = path.find('.');
+    return dot == std::string::npos ? look[path] : look[path.substr(0, dot)][path.substr(dot + 1)];
+}
+
+}  // namespace
+
+std::string typed_text(const std::string& json) { return typed(Json::parse(json)); }
+
+std::vector<std::string> words_of(const Look& look) {
+    const Json now = Json::parse(look_to_json(look)), unset = Json::parse(look_to_json(Look{}));
+    std::vector<std::string> words;
+    for (const LookRow& row : look_rows()) {
+        const std::string field = row.field;
+        const Json &value = at_path(now, field), &other = at_path(unset, field);
+        if (value == other) continue;
+        // A shift is a mode of its own, said by its flag.
+        if (field == "lens.focus_mode" && value == "shift") continue;
+        if (row.placeholder.empty()) {
+            words.push_back(row.flag + std::string(value == true ? "" : "=off"));
+            continue;
+        }
+        words.emplace_back(row.flag);
+        words.push_back(row.placeholder == "off|on" ? (value == true ? "on" : "off") : typed(value));
+    }
+    return words;
 }
 
 }  // namespace petzval::cli
