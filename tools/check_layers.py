@@ -25,13 +25,12 @@ ALLOWED = {
     "kernel/keep": MODEL,
     "device": MODEL,
     "device/cpu": MODEL | {"device", "engine/waist"},
-    "device/vulkan": MODEL | {"device", "engine/waist"},
     "engine/waist": MODEL,
     "engine/samples": MODEL | {"engine/waist"},
     "engine/lights": WAIST,
     "engine/scatter": WAIST | {"engine/lights"},
     "engine/gather": WAIST,
-    "engine/gaussian": WAIST,
+    "engine/gaussian": WAIST | {"device/cpu"},
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": LENS | {"engine/waist"},
     "views": WAIST | {"device/cpu", "engine/lights", "engine/scatter"},
@@ -46,11 +45,10 @@ ALLOWED = {
     "sequence": PIXELS | {"optics", "names", "look", "session", "shot"},
     "lens_facts": LENS,
     "c": PIXELS | {"lens_facts", "look", "session"},
-    "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "views", "look", "glare"},
+    "session": WAIST | ENGINES | {"device/cpu", "views", "look", "glare"},
 }
 # What tests beside the code may see as well.
 TESTS = {
-    "device/vulkan": {"device/cpu", "kernel/lenses"},
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
     "engine/gather": {"kernel/lenses"},
@@ -67,7 +65,6 @@ PUBLIC = {
     "defocus": "session",
     "depth": "depth",
     "develop": "colour",
-    "devices": "session",
     "dynamic_range": "colour",
     "engine_options": "engine/waist",
     "engine_report": "engine/waist",
@@ -110,9 +107,9 @@ THIRD_PARTY = {
     r"png\.h": r"src/files/",
     r"OpenColorIO/": r"src/ocio/",
     r"embree": r"src/scene/",
-    r"vulkan/": r"src/device/vulkan/",
-    r"nlohmann/": r"(apps/cli|src/files|src/lens_sheet|src/look|src/sequence|src/c)/",
+    r"nlohmann/": r"(apps/cli|apps/view|src/files|src/lens_sheet|src/look|src/sequence|src/c)/",
     r"CLI/": r"apps/cli/",
+    r"(GLFW/|imgui|backends/imgui)": r"apps/view/",
 }
 # What a library says must not depend on the program around it: it names fields, not flags.
 FLAG = re.compile(r'"(?:[^"\\]|\\.)*?(?<![\w-])--[a-z][a-z-]+')

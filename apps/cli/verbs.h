@@ -11,10 +11,10 @@ void add_inspect(Verb& program, Action& chosen);
 void add_scene(Verb& program, Action& chosen);
 void add_scene_points(Verb& scene, Action& chosen);
 void add_compare(Verb& program, Action& chosen);
-void add_devices(Verb& program, Action& chosen);
 void add_develop(Verb& program, Action& chosen);
 void add_focus_track(Verb& program, Action& chosen);
 void add_sheet(Verb& program, Action& chosen);
+void add_view(Verb& program, Action& chosen);
 void add_help(Verb& program, Action& chosen);  // last: it tells of the others
 void add_lens(Verb& program, Action& chosen);
 void add_lens_pictures(Verb& lens, Action& chosen);  // psf and table

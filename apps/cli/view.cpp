@@ -1,0 +1,197 @@
+// petzval view: a window. What it shows and how is apps/view's; here are its flags, and what it needs of
+// this program: command lines, frames written as defocus writes them, OpenColorIO.
+#include "console.h"
+#include "defocus_flags.h"
+#include "fields.h"
+#include "look_rows.h"
+#include "verbs.h"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#ifdef PETZVAL_VIEW
+#include "view/view.h"
+#endif
+
+namespace petzval::cli {
+namespace {
+
+struct ViewFlags : DefocusFlags {
+    std::string against, script;
+    std::optional<double> scale;
+    std::optional<std::pair<int, int>> size;
+    std::vector<std::string> files;  // IN and flags that say where and what it is, as typed
+};
+
+Result<std::pair<int, int>> parse_window(const std::string& text) {
+    const std::size_t x = text.find('x');
+    if (x != std::string::npos) {
+        const auto width = parse_size_px(text.substr(0, x)), height = parse_size_px(text.substr(x + 1));
+        if (width && height) return std::pair(*width, *height);
+    }
+    return Error{ErrorCode::InvalidArgument, "not a width and a height, as 1280x800"};
+}
+
+#ifdef PETZVAL_VIEW
+
+// As a shell takes it.
+std::string quoted(const std::string& word) {
+    if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+=:%@") ==
+            std::string::npos &&
+        !word.empty())
+        return word;
+    std::string safe = "'";
+    for (const char c : word) safe += c == '\'' ? "'\\''" : std::string(1, c);
+    return safe + "'";
+}
+
+void add_number(std::vector<std::string>& words, const char* flag, const std::optional<double>& value) {
+    if (value) words.insert(words.end(), {flag, plain(*value, 9)});
+}
+
+std::vector<std::string> command_words(const ViewFlags& flags, const view::Choice& choice,
+                                       const std::string& output) {
+    std::vector<std::string> words{"petzval", "defocus"};
+    words.insert(words.end(), flags.files.begin(), flags.files.end());
+    words.insert(words.end(), {"-o", output});
+    add_number(words, "--fstop", choice.camera.f_number);
+    add_number(words, "--focus", choice.camera.focus_distance_m);
+    add_number(words, "--focal-length", choice.camera.focal_length_mm);
+    add_number(words, "--sensor-width", choice.camera.sensor_width_mm);
+    if (choice.camera.image_scale != ImageScale::Rendered)
+        words.insert(words.end(), {"--image-scale", name_of(choice.camera.image_scale)});
+    for (std::string& word : words_of(choice.look)) words.push_back(std::move(word));
+    if (!output.ends_with(".png")) return words;
+    if (choice.ocio) {
+        words.insert(words.end(), {"--ocio", flags.ocio.view});
+        if (!flags.ocio.space.empty()) words.insert(words.end(), {"--ocio-space", flags.ocio.space});
+    } else {
+        words.insert(words.end(), {"--tone", name_of(choice.develop.tone)});
+        if (choice.develop.contrast != 1) add_number(words, "--contrast", choice.develop.contrast);
+    }
+    if (choice.develop.exposure_stops != 0) add_number(words, "--exposure", choice.develop.exposure_stops);
+    return words;
+}
+
+std::string command_line(const ViewFlags& flags, const view::Choice& choice, const std::string& output) {
+    std::string line;
+    for (const std::string& word : command_words(flags, choice, output))
+        line += (line.empty() ? "" : " ") + quoted(word);
+    return line;
+}
+
+// What that command does, by the window's session.
+Status save(ViewFlags flags, Session& session, const view::Choice& choice, const std::string& output) {
+    const auto kind = kind_of_output(output);
+    if (!kind) return kind.error();
+    flags.output = output;
+    flags.run.json.clear();
+    flags.run.progress = ProgressMode::Off;
+    flags.focus = {};
+    const CameraChoice& camera = choice.camera;
+    flags.camera = {camera.focal_length_mm, camera.sensor_width_mm, camera.f_number, camera.focus_distance_m,
+                    camera.image_scale};
+    flags.look.look() = choice.look;
+    flags.develop.exposure_stops = choice.develop.exposure_stops;
+    flags.develop.contrast = choice.develop.contrast;
+    flags.develop.tone = choice.develop.tone;
+    if (!choice.ocio || *kind != FileKind::Png) flags.ocio = {};
+    Status done = defocus_frame(flags, session);
+    if (!done) return Error{done.error().code, in_flags(done.error().message), done.error().field};
+    return done;
+}
+
+std::vector<view::FieldRow> field_rows() {
+    std::vector<view::FieldRow> rows;
+    for (const LookRow& row : look_rows()) {
+        const auto way_back = [placeholder = row.placeholder](const std::string& json) {
+            if (placeholder == "off|on") return std::string(json == "true" ? "on" : "off");
+            return typed_text(json);
+        };
+        const auto way = row.placeholder.empty()
+                             ? [](const std::string& text) { return Result<std::string>(text); }
+                             : row.to_json;
+        rows.push_back({row.heading, row.field, row.flag, row.placeholder, row.help, way, way_back});
+    }
+    return rows;
+}
+
+Result<Picture> ocio_codes(const OcioFlags& flags, View<const Rgba> light) {
+    Picture copy = Picture::uninitialised(light.width(), light.height());
+    for (int y = 0; y < light.height(); ++y) std::copy_n(light.row(y), light.width(), copy.row(y));
+    DevelopSettings settings;
+    std::string used;
+    std::vector<std::string> warnings;
+    if (Status done = flags.show(copy, settings, used, warnings); !done) return done.error();
+    return copy;
+}
+
+Status open_window(const ViewFlags& flags) {
+    if (flags.ocio.is_on())
+        if (Status fine = flags.ocio.try_out(); !fine) return fine;
+    view::Setup setup;
+    setup.source = flags.input.source(flags.camera);
+    setup.source.lights = flags.points;
+    setup.choice.camera = flags.camera.choice();
+    setup.choice.look = flags.look.look();
+    setup.choice.develop = flags.develop.settings(false, flags.input.transfer, flags.run.threads);
+    setup.choice.develop.dither = false;  // the same codes wherever a part of it begins
+    setup.choice.ocio = flags.ocio.is_on();
+    setup.tone_is_chosen = flags.develop.tone.has_value();
+    setup.focus_at = flags.focus.focus_at;
+    setup.focus_point = flags.focus.focus_point;
+    setup.permissible_radius_px = flags.focus.permissible_radius_px.value_or(1);
+    setup.against = flags.against;
+    setup.script = flags.script;
+    setup.scale = flags.scale.value_or(0);
+    if (flags.size) setup.width = flags.size->first, setup.height = flags.size->second;
+    setup.fields = field_rows();
+    setup.session = std::make_shared<Session>(flags.session());
+    setup.command_line = [&](const view::Choice& choice, const std::string& output) {
+        return command_line(flags, choice, output);
+    };
+    setup.save = [&, session = setup.session](const view::Choice& choice, const std::string& output) {
+        return save(flags, *session, choice, output);
+    };
+    if (flags.ocio.is_on())
+        setup.ocio_codes = [&](View<const Rgba> light) { return ocio_codes(flags.ocio, light); };
+    return view::run(setup);
+}
+
+#else
+
+Status open_window(const ViewFlags&) {
+    return Error{ErrorCode::Unsupported,
+                 "view: this petzval was built without a window; install libglfw3-dev and libimgui-dev and "
+                 "build again"};
+}
+
+#endif
+
+}  // namespace
+
+void add_view(Verb& program, Action& chosen) {
+    Verb& verb = add_verb(program, "view", "a window: find focus, aperture and lens with the mouse",
+                          "petzval view beauty.exr\n"
+                          "petzval view beauty.exr --lens doublet --against truth.exr");
+    auto flags = std::make_shared<ViewFlags>();
+    flags->add_shown_to(verb);
+    FlagGroup(verb, "Window")
+        .value("--against", "FILE", "another picture to compare with, as the truth or a frame made before",
+               parse_text, flags->against)
+        .value("--script", "FILE", "do what the lines of a file say (docs/view.md), then close", parse_text,
+               flags->script)
+        .value("--window", "WxH", "its size (default 1280x800)", parse_window, flags->size)
+        .value("--ui-scale", "FACTOR", "size of letters and widgets; the display's by default",
+               parse_positive, flags->scale);
+    when_typed(verb, [flags, &verb, &chosen] {
+        flags->check_shown(verb);
+        std::vector<std::string> of_look;
+        for (const LookRow& row : look_rows()) of_look.emplace_back(row.flag);
+        flags->files = typed_words(verb, {"Input", "Engine sprites"}, of_look);
+        chosen = [flags] { return open_window(*flags); };
+    });
+}
+
+}  // namespace petzval::cli

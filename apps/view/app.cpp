@@ -1,0 +1,306 @@
+#include "app.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace petzval::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Targets of the darkroom: of each side all of it and its detail, then the overlay.
+int whole_target(int side) { return 2 * side; }
+int detail_target(int side) { return 2 * side + 1; }
+constexpr int kOverlayTarget = 4;
+
+double area(const Rect& r) { return r.empty() ? 0 : double(r.width()) * double(r.height()); }
+bool holds(const Rect& outer, const Rect& inner) { return inner.intersected(outer) == inner; }
+
+}  // namespace
+
+Rect Mapping::seen() const {
+    return {int(std::floor(frame_x(x0))), int(std::floor(frame_y(y0))), int(std::ceil(frame_x(x0 + width))),
+            int(std::ceil(frame_y(y0 + height)))};
+}
+
+App::App(const Setup& setup, std::function<void()> wake)
+    : setup_(setup), darkroom_(setup.ocio_codes, wake), maker_(setup.session, wake) {
+    state.choice = setup.choice;
+    read_again();
+}
+
+void App::read_again() {
+    reading_ = true;
+    maker_.read(setup_.source, false, setup_.focus_point);
+    if (setup_.against.empty()) return;
+    ShotSource other;
+    other.path = setup_.against;
+    other.read = setup_.source.read;
+    other.read.layer.clear(), other.read.depth_file.clear(), other.read.depth_channel.clear();
+    other.read.need_depth = false;
+    maker_.read(other, true, {});
+}
+
+FoundCamera App::found_camera() const {
+    if (!shot_) return {};
+    return merged_camera(shot_->shot.camera_of_file, state.choice.camera, shot_->shot.unit_scale_m);
+}
+
+Result<Camera> App::camera() const {
+    const ImageScale scale = state.choice.camera.image_scale;
+    if (shot_ && shot_->shot.has_radii()) return known_camera(found_camera(), scale);
+    return complete_camera(found_camera(), scale);
+}
+
+Rect App::frame() const {
+    if (is_buffer(state.left.shown) && side(0).whole) return side(0).whole_area;
+    return shot_ ? shot_->shot.place.display_window : Rect{};
+}
+
+double App::pixel_aspect() const { return shot_ ? shot_->shot.place.pixel_aspect : 1; }
+
+std::optional<double> App::depth_near(PixelPosition pixel) const {
+    const auto* depth = shot_ ? std::get_if<DepthMetres>(&shot_->shot.depth) : nullptr;
+    if (!depth) return std::nullopt;
+    const Place& place = shot_->shot.place;
+    const int x = pixel.x + place.display_window.x0 - place.data_window.x0;
+    const int y = pixel.y + place.display_window.y0 - place.data_window.y0;
+    const auto at = [&](int u, int v) -> double {
+        if (!depth->plane.rect().contains(u, v)) return INFINITY;
+        const double z = double(depth->plane(u, v));
+        return z > 0 ? z : INFINITY;
+    };
+    if (!std::isfinite(at(x, y))) return std::nullopt;
+    double sum = 0, count = 0;
+    for (int v = y - 1; v <= y + 1; ++v)
+        for (int u = x - 1; u <= x + 1; ++u)
+            if (std::abs(at(u, v) / at(x, y) - 1) < 0.05) sum += 1 / at(u, v), count += 1;
+    return count / sum;
+}
+
+std::optional<float> App::radius_at(PixelPosition pixel) const {
+    const auto& radii = sides_[0].radii;
+    if (!radii || !shot_) return std::nullopt;
+    const Place& place = shot_->shot.place;
+    const int x = pixel.x + place.display_window.x0 - place.data_window.x0;
+    const int y = pixel.y + place.display_window.y0 - place.data_window.y0;
+    if (!radii->rect().contains(x, y)) return std::nullopt;
+    return (*radii)(x, y);
+}
+
+void App::note_action() { acted_ = Clock::now(); }
+
+bool App::is_busy() const { return reading_ || !maker_.is_idle() || !darkroom_.is_idle() || saving_.valid(); }
+
+void App::save(const std::string& path) {
+    if (saving_.valid()) {
+        error = saving_to_ + " is still being written";
+        return;
+    }
+    saving_to_ = path;
+    notice = "writing " + path + " …";
+    saving_ = std::async(std::launch::async, [save = setup_.save, choice = state.choice, path]() -> Status {
+        try {
+            return save(choice, path);
+        } catch (const std::bad_alloc&) {
+            return Error{ErrorCode::OutOfMemory, path + ": not enough memory"};
+        }
+    });
+}
+
+void App::take_news() {
+    Maker::News news = maker_.news();
+    for (ReadShot& read : news.shots) take_shot(std::move(read));
+    for (MadeFrame& made : news.frames) take_frame(std::move(made));
+    for (const std::string& line : news.changed) notice = line;
+    for (Print& print : darkroom_.prints()) take_print(std::move(print));
+    if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        const Status done = saving_.get();
+        notice = done ? "wrote " + saving_to_ : "";
+        if (!done) error = done.error().message;
+    }
+}
+
+void App::take_shot(ReadShot read) {
+    if (read.error) trouble = read.error->message;  // what is shown stays
+    if (read.is_against) {
+        if (read.shot) against_ = read.shot;
+        return;
+    }
+    reading_ = false;
+    if (read.error) return;
+    trouble.clear();
+    shot_ = std::move(read.shot);
+    if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
+    notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
+    if (setup_.focus_at) {
+        state.pick = *setup_.focus_at;
+        if (const auto depth = depth_near(*setup_.focus_at)) state.choice.camera.focus_distance_m = *depth;
+        setup_.focus_at.reset();
+    }
+    if (setup_.focus_point) {
+        if (const auto& focus = shot_->shot.camera.focus_distance_m)
+            state.choice.camera.focus_distance_m = focus->value;
+        setup_.focus_point.reset();
+    }
+    sides_ = {};
+    note_action();
+}
+
+void App::take_frame(MadeFrame made) {
+    SideFrames& frames = sides_[std::size_t(made.side)];
+    if (made.wish != frames.number) return;
+    frames.complete = made.last;
+    trouble = made.error ? made.error->message : "";
+    if (made.error) return;
+    if (made.radii) frames.radii = made.radii;
+    if (made.picture) {
+        const bool is_part = frames.wish->region.has_value();
+        (is_part ? frames.detail : frames.whole) = made.picture;
+        (is_part ? frames.detail_area : frames.whole_area) = made.area;
+        (is_part ? frames.detail_is_old : frames.whole_is_old) = false;
+        if (!is_part) frames.detail.reset();
+        frames.panels =
+            made.panels.empty() ? nullptr : std::make_shared<const std::vector<Panel>>(made.panels);
+    }
+    made.picture.reset(), made.radii.reset();
+    frames.last = std::move(made);
+}
+
+void App::take_print(Print print) {
+    Shown& shown = on_screen_[std::size_t(print.target)];
+    if (print.error) trouble = print.error->message;
+    if (print.rgba.empty() || !shown.asked) return;
+    shown.texture.load(print.width, print.height, print.rgba);
+    print.rgba = {};
+    shown.print = std::move(print);
+    const SideFrames& left = sides_[0];
+    const auto& picture = shown.print.of.picture;
+    const bool is_new = picture && ((picture == left.whole && !left.whole_is_old) ||
+                                    (picture == left.detail && !left.detail_is_old));
+    if (changed_ && is_new) {
+        const double ms = std::chrono::duration<double, std::milli>(Clock::now() - *changed_).count();
+        slowest.first_picture = std::max(slowest.first_picture, ms);
+        changed_.reset();
+    }
+}
+
+void App::ask() {
+    if (!shot_) return;
+    ask_frame(0, state.left);
+    ask_prints(0, state.left);
+    if (state.wiping) {
+        ask_frame(1, state.right);
+        ask_prints(1, state.right);
+    } else if (sides_[1].wish) {
+        maker_.forget(1);
+        sides_[1] = {};
+    }
+    const std::string& shown = state.left.shown;
+    const bool is_light = shown == "result" || shown == "sharp" || shown == "against";
+    if (!state.overlay || !is_light || !sides_[0].radii) return clear_print(kOverlayTarget);
+    Negative tint;
+    tint.plane = sides_[0].radii;
+    tint.area = shot_->shot.place.data_window;
+    tint.numbers = Numbers::Overlay;
+    ask_print(kOverlayTarget, std::move(tint));
+}
+
+// Nothing more than what is seen is made, once that is a good deal less than all.
+std::optional<Rect> App::region_for(const SideFrames& frames, const Wish& wish) const {
+    const Rect data = shot_->shot.place.data_window;
+    const Rect seen = mapping.seen().intersected(data);
+    if (wish.shown != "result" || seen.empty() || area(seen) > 0.5 * area(data)) return std::nullopt;
+    if (frames.wish && same_frame(*frames.wish, wish) && frames.wish->final_quality == wish.final_quality) {
+        const auto& before = frames.wish->region;
+        if (!before && frames.complete) return before;
+        if (before && holds(*before, seen) && area(*before) < 6 * area(seen)) return before;
+    }
+    return seen.grown(std::max(seen.width(), seen.height()) / 4).intersected(data);
+}
+
+void App::ask_frame(int index, const Side& side) {
+    SideFrames& frames = sides_[std::size_t(index)];
+    const bool is_made = side.shown != "sharp" && side.shown != "against" && side.shown != "depth";
+    if (!is_made && index == 1) return;
+    const auto numbers = camera();
+    if (!numbers) {
+        trouble = numbers.error().message;
+        return;
+    }
+    Wish wish{shot_, *numbers, state.choice.look, is_made ? side.shown : "coc", {}, state.final_quality};
+    if (!side.engine.empty()) wish.look.engine = side.engine;
+    wish.region = region_for(frames, wish);
+    const bool same = frames.wish && same_frame(*frames.wish, wish);
+    if (same && frames.wish->region == wish.region && frames.wish->final_quality == wish.final_quality)
+        return;
+    if (!same) frames.whole_is_old = frames.detail_is_old = true;
+    if (frames.wish && frames.wish->shown != wish.shown) frames.whole.reset(), frames.detail.reset();
+    if (!same && index == 0 && !changed_) changed_ = acted_;
+    frames.complete = false;
+    frames.wish = wish;
+    frames.number = maker_.make(index, std::move(wish));
+}
+
+void App::ask_prints(int index, const Side& side) {
+    const SideFrames& frames = sides_[std::size_t(index)];
+    Negative whole;
+    whole.area = shot_->shot.place.data_window;
+    const auto borrowed = [](const ShotPointer& owner, const auto& picture) {
+        using Image = std::remove_reference_t<decltype(picture)>;
+        return std::shared_ptr<Image>(owner, &picture);
+    };
+    if (side.shown == "coc") {
+        whole.plane = sides_[0].radii, whole.numbers = Numbers::Radii;
+    } else if (side.shown == "depth") {
+        if (const auto* depth = std::get_if<DepthMetres>(&shot_->shot.depth))
+            whole.plane = borrowed(shot_, depth->plane), whole.numbers = Numbers::Depth;
+    } else if (side.shown == "against" && against_) {
+        whole.picture = borrowed(against_, against_->shot.colour);
+        whole.area = against_->shot.place.data_window;
+    } else if (side.shown != "sharp" && frames.whole) {
+        whole.picture = frames.whole, whole.area = frames.whole_area, whole.panels = frames.panels;
+    } else {
+        whole.picture = borrowed(shot_, shot_->shot.colour);
+    }
+    ask_print(whole_target(index), std::move(whole));
+    if (side.shown != "result" || !frames.detail) return clear_print(detail_target(index));
+    Negative detail;
+    detail.picture = frames.detail, detail.area = frames.detail_area;
+    ask_print(detail_target(index), std::move(detail));
+}
+
+// What is seen of it, and a little more, so that moving about shows no gaps; as fine as the screen.
+void App::ask_print(int target, Negative negative) {
+    Shown& shown = on_screen_[std::size_t(target)];
+    if (!negative.picture && !negative.plane) return clear_print(target);
+    const double scale = std::min(mapping.scale_x, mapping.scale_y);
+    if (!(scale > 0)) return;
+    const Rect seen = mapping.seen();
+    const Rect wanted = seen.intersected(negative.area);
+    if (wanted.empty()) return clear_print(target);
+    negative.reduce = std::max(1, int(std::floor(1 / scale)));
+    negative.part = seen.grown(std::max(seen.width(), seen.height()) / 4 + 1).intersected(negative.area);
+    negative.permissible_radius_px = setup_.permissible_radius_px;
+    negative.develop = state.choice.develop;
+    negative.ocio = state.choice.ocio;
+    negative.channel = state.channel;
+    if (shown.asked) {  // the part that was asked for will do while it holds what is seen
+        const Rect& before = shown.asked->part;
+        if (shown.asked->area == negative.area && shown.asked->reduce == negative.reduce &&
+            holds(before, wanted) && area(before) < 6 * area(negative.part))
+            negative.part = before;
+        if (*shown.asked == negative) return;
+    }
+    shown.asked = negative;
+    darkroom_.print(target, std::move(negative));
+}
+
+void App::clear_print(int target) {
+    Shown& shown = on_screen_[std::size_t(target)];
+    shown.asked.reset();
+    shown.print = {};
+}
+
+}  // namespace petzval::view

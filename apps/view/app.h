@@ -1,0 +1,122 @@
+// What is open, what is chosen, what has been made of it: everything but how it is drawn.
+#pragma once
+
+#include "darkroom.h"
+#include "maker.h"
+#include "state.h"
+#include "texture.h"
+#include "view.h"
+
+#include <array>
+#include <chrono>
+#include <future>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval::view {
+
+// What one side has to show: all of it, and in more detail what was last looked at.
+struct SideFrames {
+    std::optional<Wish> wish;  // the last
+    std::uint64_t number = 0;  // of it
+    bool complete = false;     // its last step is there
+    std::shared_ptr<const Picture> whole, detail;
+    Rect whole_area, detail_area;
+    bool whole_is_old = false, detail_is_old = false;  // of another wish
+    std::shared_ptr<const Plane> radii;
+    std::shared_ptr<const std::vector<Panel>> panels;  // of a buffer; else null
+    MadeFrame last;                                    // without its pictures
+};
+
+// A picture on the screen: where it lies and what it is of.
+struct Shown {
+    Texture texture;
+    Print print;  // without its codes
+    std::optional<Negative> asked;
+};
+
+// Where the canvas was drawn, in pixels of the window, and how it maps to pixels of the frame.
+struct Mapping {
+    double x0 = 0, y0 = 0, width = 0, height = 0;
+    double scale_x = 1, scale_y = 1;    // window pixels per pixel of the frame
+    double centre_x = 0, centre_y = 0;  // pixels of the frame, in the middle of the canvas
+
+    double screen_x(double x) const { return x0 + width / 2 + (x - centre_x) * scale_x; }
+    double screen_y(double y) const { return y0 + height / 2 + (y - centre_y) * scale_y; }
+    double frame_x(double sx) const { return centre_x + (sx - x0 - width / 2) / scale_x; }
+    double frame_y(double sy) const { return centre_y + (sy - y0 - height / 2) / scale_y; }
+    Rect seen() const;  // whole pixels of the frame
+};
+
+// Longest times so far, in milliseconds.
+struct Slowest {
+    double tick = 0;           // work of the window's thread between two events
+    double first_picture = 0;  // from a change to the first picture of it on the screen
+};
+
+class App {
+public:
+    App(const Setup& setup, std::function<void()> wake);
+
+    const Setup& setup() const { return setup_; }
+    const ShotPointer& shot() const { return shot_; }
+    const ShotPointer& against() const { return against_; }
+    const SideFrames& side(int index) const { return sides_[std::size_t(index)]; }
+    const std::array<Shown, Darkroom::kTargets>& on_screen() const { return on_screen_; }
+
+    State state;
+    Mapping mapping;  // of the last tick
+    // Said in the window; empty: nothing. Of the last command, of the frame, and what is no error.
+    std::string error, trouble, notice;
+    std::string copied;  // by the command `copy`, for the clipboard
+    bool quit = false;
+    Slowest slowest;
+    std::map<std::string, Rect> widgets;  // where fields were drawn, by path
+    double screen_height = 0;
+
+    // The frame's numbers as far as they are known, and all of them. Errors: those of complete_camera().
+    FoundCamera found_camera() const;
+    Result<Camera> camera() const;
+    // The frame in which things lie: the display window, or a buffer's own size. Empty: nothing is open.
+    Rect frame() const;
+    double pixel_aspect() const;
+    // Depth in metres at a pixel of the frame, misses ignored: the mean of 1/depth over those of the 3 x 3
+    // pixels around that are within a twentieth of the middle one. Nothing: a miss, or no depth.
+    std::optional<double> depth_near(PixelPosition pixel) const;
+    std::optional<float> radius_at(PixelPosition pixel) const;
+
+    // What a tick does, in this order: what was made is taken; what is missing is asked for.
+    void take_news();
+    void ask();
+    // Something was done by hand: if a picture changes by it, it is timed from here.
+    void note_action();
+    bool is_busy() const;  // something is being read, made, developed or saved
+    void read_again();
+    void save(const std::string& path);
+
+private:
+    void take_shot(ReadShot read);
+    void take_frame(MadeFrame frame);
+    void take_print(Print print);
+    void ask_frame(int index, const Side& side);
+    std::optional<Rect> region_for(const SideFrames& frames, const Wish& wish) const;
+    void ask_prints(int index, const Side& side);
+    void ask_print(int target, Negative negative);
+    void clear_print(int target);
+
+    Setup setup_;
+    ShotPointer shot_, against_;
+    std::array<SideFrames, 2> sides_;
+    std::array<Shown, Darkroom::kTargets> on_screen_;
+    std::chrono::steady_clock::time_point acted_;
+    std::optional<std::chrono::steady_clock::time_point> changed_;
+    std::future<Status> saving_;
+    std::string saving_to_;
+    bool reading_ = false;
+    Darkroom darkroom_;
+    Maker maker_;  // last: its thread uses the above
+};
+
+}  // namespace petzval::view

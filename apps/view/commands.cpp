@@ -1,0 +1,316 @@
+#include "commands.h"
+
+#include "petzval/defocus.h"
+#include "petzval/look_file.h"
+#include "petzval/names.h"
+
+#include "fields.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace petzval::view {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+template <typename List>
+bool has(const List& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+Result<PixelPosition> pixel_of(const Words& words) {
+    const auto x = number_of(words[0]), y = number_of(words[1]);
+    if (!x) return x.error();
+    if (!y) return y.error();
+    return PixelPosition{int(std::floor(*x)), int(std::floor(*y))};
+}
+
+Status pick(App& app, const Words& words) {
+    const auto pixel = pixel_of(words);
+    if (!pixel) return pixel.error();
+    app.state.pick = *pixel;
+    return Done{};
+}
+
+Status focus(App& app, const Words& words) {
+    if (Status done = pick(app, words); !done) return done;
+    if (app.shot() && app.shot()->shot.has_radii())
+        return invalid("the file has blur radii, not depth: its focus cannot be moved");
+    const auto depth = app.depth_near(*app.state.pick);
+    if (!depth) return invalid("nothing is seen there to focus on: a miss, or no depth");
+    if (Status done = set_field(app, "focus", text_of(*depth, 6)); !done) return done;
+    app.notice = "focus " + text_of(*depth, 4) + " m";
+    return Done{};
+}
+
+// Focus by steps of a fiftieth of its distance, aperture by thirds of a stop.
+Status focus_by(App& app, const Words& words) {
+    const auto steps = number_of(words[0]);
+    const auto now = app.found_camera().focus_distance_m;
+    if (!steps) return steps.error();
+    if (!now) return invalid("no focus yet; click on what is to be sharp");
+    return set_field(app, "focus", text_of(now->value * std::pow(1.02, *steps)));
+}
+Status stop_by(App& app, const Words& words) {
+    const auto steps = number_of(words[0]);
+    const auto now = app.found_camera().f_number;
+    if (!steps) return steps.error();
+    return set_field(app, "fstop", text_of((now ? now->value : 2.8) * std::exp2(*steps / 6), 6));
+}
+
+Status set(App& app, const Words& words) { return set_field(app, words[0], words[1]); }
+
+Status exposure_by(App& app, const Words& words) {
+    const auto by = number_of(words[0]);
+    if (!by) return by.error();
+    return set_field(app, "exposure", text_of(app.state.choice.develop.exposure_stops + *by));
+}
+
+Status toggle(App& app, const Words& words) {
+    const auto now = field_text(app, words[0]);
+    if (!now) return now.error();
+    const bool is_switch = *now == "on" || *now == "off" || *now == "true" || *now == "false";
+    if (!is_switch) return invalid(words[0] + " is no switch");
+    const bool on = *now == "on" || *now == "true";
+    return set_field(app, words[0],
+                     *now == "on" || *now == "off" ? (on ? "off" : "on") : (on ? "false" : "true"));
+}
+
+Status channel(App& app, const Words& words) {
+    static const std::map<std::string, Channel> known{{"rgb", Channel::Colour},
+                                                      {"r", Channel::Red},
+                                                      {"g", Channel::Green},
+                                                      {"b", Channel::Blue},
+                                                      {"a", Channel::Alpha}};
+    const auto found = known.find(words[0]);
+    if (found == known.end()) return invalid("channel " + words[0] + ": not one of rgb, r, g, b, a");
+    // The same key again shows all of them.
+    app.state.channel = app.state.channel == found->second ? Channel::Colour : found->second;
+    return Done{};
+}
+
+Status show(App& app, const Words& words) {
+    if (!has(shown_names(), words[0]))
+        return invalid("show " + words[0] +
+                       ": not one of result, sharp, against, coc, depth, a buffer of an engine");
+    if (words[0] == "against" && !app.against())
+        return invalid("there is no second picture; give --against FILE");
+    app.state.left.shown = words[0];
+    return Done{};
+}
+
+// The other side of the wipe: something to show, or an engine.
+Status wipe(App& app, const Words& words) {
+    if (words[0] == "off" || (words[0] == "toggle" && app.state.wiping)) {
+        app.state.wiping = false;
+        return Done{};
+    }
+    if (words[0] == "toggle") {
+        app.state.wiping = true;
+        if (app.state.right == app.state.left) app.state.right = {app.against() ? "against" : "sharp", ""};
+        return Done{};
+    }
+    const std::string what = words[0];
+    if (has(engine_names(), what))
+        app.state.right = {"result", what};
+    else if (what == "against" && !app.against())
+        return invalid("there is no second picture; give --against FILE");
+    else if (has(shown_names(), what) && !is_buffer(what))
+        app.state.right = {what, ""};
+    else
+        return invalid("wipe " + what + ": not off, sharp, against, coc, depth or an engine");
+    app.state.wiping = true;
+    return Done{};
+}
+
+// Zoom about the middle of what is seen, or about a pixel of the frame that stays where it is.
+Status zoom(App& app, const Words& words) {
+    const Rect frame = app.frame();
+    const double now = app.mapping.scale_y;
+    const auto wanted = words[0] == "fit"   ? Result<double>(0.0)
+                        : words[0] == "in"  ? Result<double>(std::min(256.0, now * 1.25))
+                        : words[0] == "out" ? Result<double>(std::max(0.02, now / 1.25))
+                                            : number_of(words[0]);
+    if (!wanted) return invalid("zoom " + words[0] + ": not fit, in, out or a factor");
+    if (*wanted < 0 || *wanted > 256) return invalid("zoom " + words[0] + ": not 0 (fit) to 256");
+    State& state = app.state;
+    if (state.zoom <= 0) state.centre_x = app.mapping.centre_x, state.centre_y = app.mapping.centre_y;
+    if (words.size() == 3 && *wanted > 0) {
+        const auto x = number_of(words[1]), y = number_of(words[2]);
+        if (!x || !y) return invalid("zoom: not a pixel: " + words[1] + " " + words[2]);
+        state.centre_x = *x + frame.x0 + (state.centre_x - *x - frame.x0) * now / *wanted;
+        state.centre_y = *y + frame.y0 + (state.centre_y - *y - frame.y0) * now / *wanted;
+    }
+    state.zoom = *wanted;
+    return Done{};
+}
+
+Status pan(App& app, const Words& words) {
+    const auto x = number_of(words[0]), y = number_of(words[1]);
+    if (!x || !y) return invalid("pan: not two numbers");
+    State& state = app.state;
+    if (state.zoom <= 0) {
+        state.zoom = app.mapping.scale_y;
+        state.centre_x = app.mapping.centre_x, state.centre_y = app.mapping.centre_y;
+    }
+    state.centre_x -= *x, state.centre_y -= *y;
+    return Done{};
+}
+
+Status save(App& app, const Words& words) {
+    app.save(words[0]);
+    return Done{};
+}
+Status copy(App& app, const Words&) {
+    app.copied = app.setup().command_line(app.state.choice, "out.exr");
+    app.notice = "copied: " + app.copied;
+    return Done{};
+}
+Status load_look(App& app, const Words& words) {
+    auto look = read_look(words[0]);
+    if (!look) return look.error();
+    app.state.choice.look = std::move(*look);
+    app.notice = "look: " + words[0];
+    return Done{};
+}
+Status save_look(App& app, const Words& words) {
+    if (Status done = write_look(app.state.choice.look, words[0]); !done) return done;
+    app.notice = "wrote " + words[0];
+    return Done{};
+}
+Status reload(App& app, const Words&) {
+    app.read_again();
+    return Done{};
+}
+Status quit(App& app, const Words&) {
+    app.quit = true;
+    return Done{};
+}
+
+int count_of(const std::string& arguments) {
+    int count = arguments.empty() ? 0 : 1;
+    for (const char c : arguments) count += c == ' ' ? 1 : 0;
+    return count;
+}
+
+}  // namespace
+
+const std::vector<Command>& commands() {
+    static const std::vector<Command> all{
+        {"focus", "X Y", "focus on what this pixel shows", focus},
+        {"pick", "X Y", "say what is at this pixel", pick},
+        {"focus_by", "STEPS", "focus farther by fiftieths, or nearer", focus_by},
+        {"stop_by", "STEPS", "close the aperture by thirds of a stop, or open it", stop_by},
+        {"set", "FIELD VALUE", "any field of camera, look and view, as lens.blades", set},
+        {"toggle", "FIELD", "a switch", toggle},
+        {"exposure_by", "STOPS", "brighter, or darker", exposure_by},
+        {"channel", "rgb|r|g|b|a", "one channel; again: all", channel},
+        {"show", "NAME", "result, sharp, against, coc, depth, or a buffer of an engine", show},
+        {"wipe", "NAME|off", "compare with sharp, against, coc, depth, or another engine", wipe},
+        {"zoom", "fit|in|out|FACTOR [X Y]", "about the middle, or a pixel", zoom},
+        {"pan", "DX DY", "move the picture by pixels", pan},
+        {"save", "FILE", "the frame at the look's quality, as defocus writes it", save},
+        {"copy", "", "the command that makes this frame, to the clipboard", copy},
+        {"load_look", "FILE", "", load_look},
+        {"save_look", "FILE", "", save_look},
+        {"reload", "", "read the files again", reload},
+        {"quit", "", "", quit},
+    };
+    return all;
+}
+
+const std::vector<Binding>& bindings() {
+    static const std::vector<Binding> all{
+        {"left", "focus_by -1", "focus nearer"},
+        {"right", "focus_by 1", "focus farther"},
+        {"up", "stop_by -1", "open the aperture by a third of a stop"},
+        {"down", "stop_by 1", "close it"},
+        {"1", "show result", "the picture"},
+        {"2", "show sharp", "the sharp picture"},
+        {"3", "show against", "the second picture"},
+        {"4", "show coc", "blur radii: near blue, far orange"},
+        {"5", "show depth", "depth: near bright"},
+        {"6", "show layers", "surfaces that scatter found"},
+        {"7", "show levels", "levels that scatter drew"},
+        {"8", "show highlights", "light that scatter spreads by itself"},
+        {"9", "show focus-index", "what gaussian mixes by"},
+        {"f", "zoom fit", "all of the picture"},
+        {"0", "zoom 1", "pixel by pixel"},
+        {"equal", "zoom in", "closer (also the wheel)"},
+        {"minus", "zoom out", "farther"},
+        {"r", "channel r", "red alone; again: all"},
+        {"g", "channel g", "green"},
+        {"b", "channel b", "blue"},
+        {"a", "channel a", "alpha"},
+        {"e", "exposure_by 0.5", "brighter by half a stop"},
+        {"shift+e", "exposure_by -0.5", "darker"},
+        {"o", "toggle view.overlay", "what is in focus, near and far"},
+        {"w", "wipe toggle", "compare: drag the line"},
+        {"enter", "toggle view.final", "final quality"},
+        {"ctrl+c", "copy", "copy the command that makes this frame"},
+        {"ctrl+r", "reload", "read the files again"},
+        {"tab", "toggle view.panels", "panels"},
+        {"h", "toggle view.help", "this sheet"},
+        {"shift+slash", "toggle view.help", "this sheet"},
+        {"ctrl+q", "quit", "close"},
+    };
+    return all;
+}
+
+int key_code(const std::string& name) {
+    static const std::map<std::string, int> named{
+        {"left", GLFW_KEY_LEFT},     {"right", GLFW_KEY_RIGHT}, {"up", GLFW_KEY_UP},
+        {"down", GLFW_KEY_DOWN},     {"enter", GLFW_KEY_ENTER}, {"tab", GLFW_KEY_TAB},
+        {"escape", GLFW_KEY_ESCAPE}, {"space", GLFW_KEY_SPACE}, {"equal", GLFW_KEY_EQUAL},
+        {"minus", GLFW_KEY_MINUS},   {"slash", GLFW_KEY_SLASH}, {"home", GLFW_KEY_HOME},
+        {"end", GLFW_KEY_END}};
+    if (const auto found = named.find(name); found != named.end()) return found->second;
+    if (name.size() != 1) return 0;
+    if (name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + name[0] - 'a';
+    return name[0] >= '0' && name[0] <= '9' ? GLFW_KEY_0 + name[0] - '0' : 0;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+    Words words;
+    bool quoted = false, open = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+            if (quoted && !open) words.emplace_back(), open = true;
+        } else if ((c == ' ' || c == '\t' || c == '\r') && !quoted) {
+            open = false;
+        } else {
+            if (!open) words.emplace_back(), open = true;
+            words.back() += c;
+        }
+    }
+    return words;
+}
+
+Status act(App& app, const std::string& line) {
+    Words words = words_of(line);
+    if (words.empty()) return Done{};
+    Status done = invalid("unknown command " + words[0] + "; H shows them");
+    for (const Command& command : commands()) {
+        if (command.name != words[0]) continue;
+        words.erase(words.begin());
+        const bool optional = command.arguments.find('[') != std::string::npos;
+        if (int(words.size()) == count_of(command.arguments) || (optional && words.size() == 1))
+            done = command.run(app, words);
+        else
+            done = invalid(command.name + " needs " +
+                           (command.arguments.empty() ? "nothing" : command.arguments));
+        break;
+    }
+    app.error = done ? "" : done.error().message;
+    app.note_action();
+    return done;
+}
+
+}  // namespace petzval::view

@@ -1,0 +1,240 @@
+#include "darkroom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+namespace petzval::view {
+namespace {
+
+// The blue and orange of `defocus --view focus`, display-linear.
+constexpr Rgba kNear{0.024f, 0.275f, 0.745f, 1};
+constexpr Rgba kFar{0.896f, 0.332f, 0.006f, 1};
+
+// The wanted part, `reduce` by `reduce` pixels averaged.
+template <typename T>
+Image<T> reduced(const Image<T>& from, const Rect& part, int by) {
+    Image<T> small((part.width() + by - 1) / by, (part.height() + by - 1) / by);
+    for (int y = 0; y < small.height(); ++y)
+        for (int x = 0; x < small.width(); ++x) {
+            const Rect block =
+                Rect{part.x0 + x * by, part.y0 + y * by, part.x0 + (x + 1) * by, part.y0 + (y + 1) * by}
+                    .intersected(part);
+            T sum{};
+            for (int v = block.y0; v < block.y1; ++v)
+                for (int u = block.x0; u < block.x1; ++u) sum += from(u, v);
+            small(x, y) = sum * (1.0f / float(block.width() * block.height()));
+        }
+    return small;
+}
+
+// Of planes the first number, as the mean of depths on both sides of an edge lies on neither.
+Plane picked(const Plane& from, const Rect& part, int by) {
+    Plane small((part.width() + by - 1) / by, (part.height() + by - 1) / by);
+    for (int y = 0; y < small.height(); ++y)
+        for (int x = 0; x < small.width(); ++x) small(x, y) = from(part.x0 + x * by, part.y0 + y * by);
+    return small;
+}
+
+void isolate(Picture& picture, Channel channel) {
+    if (channel == Channel::Colour) return;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        Rgba& p = picture.pixels()[i];
+        const float value = channel == Channel::Red     ? p.r
+                            : channel == Channel::Green ? p.g
+                            : channel == Channel::Blue  ? p.b
+                                                        : p.a;
+        p = {value, value, value, 1};
+    }
+}
+
+std::uint8_t code_of(double display_linear) {
+    return std::uint8_t(std::lround(255 * std::clamp(srgb_encode(display_linear), 0.0, 1.0)));
+}
+
+void put(std::uint8_t* to, const Rgba& colour, double alpha = 1) {
+    to[0] = code_of(double(colour.r)), to[1] = code_of(double(colour.g)), to[2] = code_of(double(colour.b));
+    to[3] = std::uint8_t(std::lround(255 * alpha));
+}
+
+struct Extremes {
+    float least = 0, most = 0;
+};
+Extremes extremes_of(const Plane& plane, bool positive_alone) {
+    Extremes found{1e30f, -1e30f};
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+        const float value = plane.pixels()[i];
+        if (!std::isfinite(value) || (positive_alone && value <= 0)) continue;
+        found = {std::min(found.least, value), std::max(found.most, value)};
+    }
+    return found.least > found.most ? Extremes{0, 0} : found;
+}
+
+void put_radius(std::uint8_t* to, float radius, const Extremes& all, const Negative& of) {
+    const float deepest =
+        std::max({radius < 0 ? -all.least : all.most, float(of.permissible_radius_px), 1e-6f});
+    const float share = std::isnan(radius) ? 0 : std::min(1.0f, std::abs(radius) / deepest);
+    const Rgba& tint = radius < 0 ? kNear : kFar;
+    if (of.numbers == Numbers::Radii) return put(to, share * tint);
+    const bool sharp = std::abs(radius) < float(of.permissible_radius_px);
+    put(to, sharp ? Rgba{1, 1, 1, 1} : tint, sharp ? 0.35 : 0.25 + 0.4 * std::sqrt(double(share)));
+}
+
+void put_depth(std::uint8_t* to, float depth, const Extremes& all) {
+    const bool miss = !(depth > 0) || std::isinf(depth);
+    const float near_dpt = 1 / std::max(all.least, 1e-6f), far_dpt = 1 / std::max(all.most, 1e-6f);
+    const float share =
+        miss ? 0 : 0.05f + 0.95f * (1 / depth - far_dpt) / std::max(near_dpt - far_dpt, 1e-9f);
+    put(to, share * Rgba{1, 1, 1, 1});
+}
+
+void print_numbers(const Negative& of, const Rect& part, Print& print) {
+    const Plane small = picked(*of.plane, part, of.reduce);
+    const Extremes all = extremes_of(*of.plane, of.numbers == Numbers::Depth);
+    print.width = small.width(), print.height = small.height();
+    print.rgba.resize(4 * small.size());
+    for (std::size_t i = 0; i < small.size(); ++i) {
+        std::uint8_t* to = print.rgba.data() + 4 * i;
+        if (of.numbers == Numbers::Depth)
+            put_depth(to, small.pixels()[i], all);
+        else
+            put_radius(to, small.pixels()[i], all, of);
+    }
+}
+
+// Numbers of depth layers, as `defocus --view layers` paints them.
+void put_number(std::uint8_t* to, float number) {
+    constexpr float kTones[] = {1, 0.4f, 0.16f, 0.06f};
+    if (std::isnan(number)) return put(to, {});
+    if (number == 0) return put(to, {1, 1, 1, 1});
+    put(to, kTones[int(std::abs(number) - 1) % 4] * (number < 0 ? kNear : kFar));
+}
+
+void paint_numbers(const Negative& of, Print& print) {
+    for (const Panel& panel : *of.panels) {
+        if (!panel.is_numbers) continue;
+        for (int y = 0; y < print.height; ++y)
+            for (int x = 0; x < print.width; ++x) {
+                const int u = of.part.x0 + x * of.reduce, v = of.part.y0 + y * of.reduce;
+                if (panel.area.contains(u, v))
+                    put_number(
+                        print.rgba.data() + 4 * (std::size_t(y) * std::size_t(print.width) + std::size_t(x)),
+                        (*of.picture)(u, v).r);
+            }
+    }
+}
+
+void print_light(const Negative& of, const Rect& part, const Darkroom::OcioCodes& ocio_codes, Print& print) {
+    Picture light = reduced(*of.picture, part, of.reduce);
+    print.width = light.width(), print.height = light.height();
+    isolate(light, of.channel);
+    DevelopSettings settings = of.develop;
+    if (of.channel == Channel::Alpha)  // coverage is no light
+        settings.exposure_stops = 0, settings.tone = ToneCurve::None, settings.transfer = Transfer::Linear;
+    if (of.ocio && ocio_codes && of.channel != Channel::Alpha) {
+        const float exposure = float(std::exp2(settings.exposure_stops));
+        for (std::size_t i = 0; i < light.size(); ++i) light.pixels()[i] *= exposure;
+        auto codes = ocio_codes(light);
+        if (!codes) {
+            print.error = codes.error();
+        } else {
+            light = std::move(*codes);
+            settings.exposure_stops = 0, settings.tone = ToneCurve::None,
+            settings.transfer = Transfer::Linear;
+        }
+    }
+    const auto codes = develop(light, settings);
+    print.rgba.resize(4 * light.size());
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) print.rgba[4 * i + c] = std::uint8_t(codes[3 * i + c]);
+        print.rgba[4 * i + 3] = 255;
+    }
+    if (of.panels) paint_numbers(of, print);
+}
+
+}  // namespace
+
+bool Negative::operator==(const Negative& o) const {
+    const auto same_display = [](const DevelopSettings& a, const DevelopSettings& b) {
+        return a.exposure_stops == b.exposure_stops && a.contrast == b.contrast && a.tone == b.tone &&
+               a.transfer == b.transfer;
+    };
+    return picture == o.picture && plane == o.plane && panels == o.panels && area == o.area &&
+           part == o.part && reduce == o.reduce && numbers == o.numbers &&
+           permissible_radius_px == o.permissible_radius_px && same_display(develop, o.develop) &&
+           ocio == o.ocio && channel == o.channel;
+}
+
+Print developed(const Negative& negative, const Darkroom::OcioCodes& ocio_codes) {
+    Print print;
+    print.of = negative;
+    const Rect part = negative.part.moved(-negative.area.x0, -negative.area.y0);
+    if (negative.numbers == Numbers::Light)
+        print_light(negative, part, ocio_codes, print);
+    else
+        print_numbers(negative, part, print);
+    return print;
+}
+
+Darkroom::Darkroom(OcioCodes ocio_codes, std::function<void()> wake)
+    : ocio_codes_(std::move(ocio_codes)), wake_(std::move(wake)), thread_([this] { work(); }) {}
+
+Darkroom::~Darkroom() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+    }
+    something_.notify_all();
+    thread_.join();
+}
+
+void Darkroom::print(int target, Negative negative) {
+    const std::lock_guard lock(mutex_);
+    waiting_[std::size_t(target)] = std::move(negative);
+    something_.notify_all();
+}
+
+std::vector<Print> Darkroom::prints() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(done_, {});
+}
+
+bool Darkroom::is_idle() const {
+    const std::lock_guard lock(mutex_);
+    return !busy_ && done_.empty() &&
+           std::none_of(waiting_.begin(), waiting_.end(), [](const auto& w) { return w.has_value(); });
+}
+
+void Darkroom::work() {
+    std::unique_lock lock(mutex_);
+    while (!ending_) {
+        const auto next =
+            std::find_if(waiting_.begin(), waiting_.end(), [](const auto& w) { return w.has_value(); });
+        if (next == waiting_.end()) {
+            something_.wait(lock);
+            continue;
+        }
+        const int target = int(next - waiting_.begin());
+        const Negative negative = std::move(**next);
+        next->reset();
+        busy_ = true;
+        lock.unlock();
+        Print print;
+        try {
+            print = developed(negative, ocio_codes_);
+        } catch (const std::bad_alloc&) {
+            print.of = negative;
+            print.error = Error{ErrorCode::OutOfMemory, "not enough memory to show this picture"};
+        }
+        print.target = target;
+        lock.lock();
+        busy_ = false;
+        done_.push_back(std::move(print));
+        lock.unlock();
+        wake_();
+        lock.lock();
+    }
+}
+
+}  // namespace petzval::view

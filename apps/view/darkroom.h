@@ -1,0 +1,86 @@
+// The thread that turns light and numbers into codes of a display: what is seen of them, at the size at which
+// it is seen.
+#pragma once
+
+#include "petzval/develop.h"
+#include "petzval/engine_report.h"
+#include "petzval/image.h"
+
+#include "state.h"
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace petzval::view {
+
+// How numbers of a plane are shown.
+enum class Numbers {
+    Light,    // none: it is a picture
+    Radii,    // near blue, far orange, black in focus; as far as the largest
+    Overlay,  // the same over a picture, in focus white
+    Depth,    // near bright, far dark: 1/depth
+};
+
+struct Negative {
+    std::shared_ptr<const Picture> picture;
+    std::shared_ptr<const Plane> plane;
+    std::shared_ptr<const std::vector<Panel>> panels;  // some of which may hold numbers; may be null
+    Rect area;                                         // where its pixels lie
+    Rect part;                                         // which of them are wanted, in the same pixels
+    int reduce = 1;                                    // so many by so many pixels become one
+    Numbers numbers = Numbers::Light;
+    double permissible_radius_px = 1;
+    DevelopSettings develop;
+    bool ocio = false;
+    Channel channel = Channel::Colour;
+
+    bool operator==(const Negative& other) const;
+};
+
+struct Print {
+    int target = 0;
+    Negative of;
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;  // rows from the top
+    std::optional<Error> error;
+};
+
+class Darkroom {
+public:
+    using OcioCodes = std::function<Result<Picture>(View<const Rgba>)>;
+    static constexpr int kTargets = 5;
+
+    Darkroom(OcioCodes ocio_codes, std::function<void()> wake);
+    ~Darkroom();
+    Darkroom(const Darkroom&) = delete;
+    Darkroom& operator=(const Darkroom&) = delete;
+
+    // In place of what was asked for this target (0…kTargets - 1) before.
+    void print(int target, Negative negative);
+    std::vector<Print> prints();
+    bool is_idle() const;
+
+private:
+    void work();
+
+    OcioCodes ocio_codes_;
+    std::function<void()> wake_;
+    mutable std::mutex mutex_;
+    std::condition_variable something_;
+    std::array<std::optional<Negative>, kTargets> waiting_;
+    std::vector<Print> done_;
+    bool busy_ = false, ending_ = false;
+    std::thread thread_;
+};
+
+// Of one thread, at once.
+Print developed(const Negative& negative, const Darkroom::OcioCodes& ocio_codes);
+
+}  // namespace petzval::view

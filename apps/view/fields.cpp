@@ -1,0 +1,250 @@
+#include "fields.h"
+
+#include "petzval/look_json.h"
+#include "petzval/names.h"
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace petzval::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+struct Field {
+    std::string name;
+    std::function<std::string(const App&)> get;
+    std::function<Status(App&, const std::string&)> set;  // null: can only be known
+};
+
+// A number of the window, within limits.
+Field number(const char* name, double& (*of)(State&), double least, double most) {
+    return {name, [of](const App& app) { return text_of(of(const_cast<State&>(app.state)), 6); },  // NOLINT
+            [=](App& app, const std::string& text) -> Status {
+                const auto value = number_of(text);
+                if (!value) return value.error();
+                if (*value < least || *value > most)
+                    return invalid(std::string(name) + " " + text + ": not " + text_of(least, 6) + " to " +
+                                   text_of(most, 6));
+                of(app.state) = *value;
+                return Done{};
+            }};
+}
+
+Field toggle(const char* name, bool& (*of)(State&)) {
+    return {name,
+            [of](const App& app) { return of(const_cast<State&>(app.state)) ? "on" : "off"; },  // NOLINT
+            [=](App& app, const std::string& text) -> Status {
+                if (text != "on" && text != "off")
+                    return invalid(std::string(name) + " " + text + ": not on or off");
+                of(app.state) = text == "on";
+                return Done{};
+            }};
+}
+
+// A number of the camera: the file's until it is chosen; "file" gives it back.
+Field camera_number(const char* name, std::optional<double> CameraChoice::*chosen,
+                    std::optional<FoundNumber> FoundCamera::*found) {
+    return {name,
+            [=](const App& app) {
+                const auto known = app.found_camera().*found;
+                return known ? text_of(known->value, 6) : std::string("unknown");
+            },
+            [=](App& app, const std::string& text) -> Status {
+                if (text == "file") {
+                    (app.state.choice.camera.*chosen).reset();
+                    return Done{};
+                }
+                const auto value = number_of(text);
+                if (!value) return value.error();
+                if (!(*value > 0)) return invalid(std::string(name) + " " + text + ": not more than 0");
+                app.state.choice.camera.*chosen = *value;
+                return Done{};
+            }};
+}
+
+template <typename E>
+Field word(const char* name, E& (*of)(State&)) {
+    return {name, [of](const App& app) { return name_of(of(const_cast<State&>(app.state))); },  // NOLINT
+            [=](App& app, const std::string& text) -> Status {
+                const auto value = parse<E>(text);
+                if (!value) return invalid(std::string(name) + " " + text + ": " + value.error().message);
+                of(app.state) = *value;
+                return Done{};
+            }};
+}
+
+Field fact(const char* name, std::function<std::string(const App&)> get) {
+    return {name, std::move(get), nullptr};
+}
+
+std::string or_unknown(const std::optional<double>& value) { return value ? text_of(*value, 6) : "unknown"; }
+
+std::vector<Field> facts() {
+    return {
+        fact("error", [](const App& app) { return app.error.empty() ? app.trouble : app.error; }),
+        fact("notice", [](const App& app) { return app.notice; }),
+        fact("copied", [](const App& app) { return app.copied; }),
+        fact("pick.x",
+             [](const App& app) { return app.state.pick ? std::to_string(app.state.pick->x) : ""; }),
+        fact("pick.y",
+             [](const App& app) { return app.state.pick ? std::to_string(app.state.pick->y) : ""; }),
+        fact("pick.depth_m",
+             [](const App& app) {
+                 return or_unknown(app.state.pick ? app.depth_near(*app.state.pick) : std::nullopt);
+             }),
+        fact("pick.radius_px",
+             [](const App& app) {
+                 const auto radius = app.state.pick ? app.radius_at(*app.state.pick) : std::nullopt;
+                 return radius ? text_of(double(*radius), 6) : std::string("unknown");
+             }),
+        fact("frame.engine", [](const App& app) { return app.side(0).last.engine; }),
+        fact("frame.device", [](const App& app) { return app.side(0).last.device; }),
+        fact("frame.quality", [](const App& app) { return name_of(app.side(0).last.quality); }),
+        fact("frame.width", [](const App& app) { return std::to_string(app.frame().width()); }),
+        fact("frame.height", [](const App& app) { return std::to_string(app.frame().height()); }),
+        fact("frame.made_width",
+             [](const App& app) {
+                 const auto& wish = app.side(0).wish;
+                 if (!wish || !app.shot()) return std::string("0");
+                 return std::to_string(wish->region.value_or(app.shot()->shot.place.data_window).width());
+             }),
+        fact("left.shown", [](const App& app) { return app.state.left.shown; }),
+        fact("slowest.tick_ms", [](const App& app) { return text_of(app.slowest.tick, 4); }),
+        fact("slowest.picture_ms", [](const App& app) { return text_of(app.slowest.first_picture, 4); }),
+    };
+}
+
+std::vector<Field> choices() {
+    return {
+        camera_number("camera.focal_length_mm", &CameraChoice::focal_length_mm,
+                      &FoundCamera::focal_length_mm),
+        camera_number("camera.sensor_width_mm", &CameraChoice::sensor_width_mm,
+                      &FoundCamera::sensor_width_mm),
+        camera_number("camera.f_number", &CameraChoice::f_number, &FoundCamera::f_number),
+        camera_number("camera.focus_distance_m", &CameraChoice::focus_distance_m,
+                      &FoundCamera::focus_distance_m),
+        word<ImageScale>(
+            "camera.image_scale", +[](State& s) -> ImageScale& { return s.choice.camera.image_scale; }),
+        number(
+            "view.exposure", +[](State& s) -> double& { return s.choice.develop.exposure_stops; }, -30, 30),
+        number(
+            "view.contrast", +[](State& s) -> double& { return s.choice.develop.contrast; }, 0.1, 10),
+        word<ToneCurve>(
+            "view.tone", +[](State& s) -> ToneCurve& { return s.choice.develop.tone; }),
+        toggle(
+            "view.ocio", +[](State& s) -> bool& { return s.choice.ocio; }),
+        toggle(
+            "view.overlay", +[](State& s) -> bool& { return s.overlay; }),
+        toggle(
+            "view.final", +[](State& s) -> bool& { return s.final_quality; }),
+        toggle(
+            "view.panels", +[](State& s) -> bool& { return s.panels; }),
+        toggle(
+            "view.help", +[](State& s) -> bool& { return s.help; }),
+        number(
+            "view.wipe", +[](State& s) -> double& { return s.wipe; }, 0, 1),
+        number(
+            "view.zoom", +[](State& s) -> double& { return s.zoom; }, 0, 256),
+        number(
+            "view.centre_x", +[](State& s) -> double& { return s.centre_x; }, -1e6, 1e6),
+        number(
+            "view.centre_y", +[](State& s) -> double& { return s.centre_y; }, -1e6, 1e6),
+    };
+}
+
+const Field* find(const std::string& name) {
+    static const std::vector<Field> all = [] {
+        std::vector<Field> fields = choices();
+        for (Field& one : facts()) fields.push_back(std::move(one));
+        return fields;
+    }();
+    for (const Field& field : all)
+        if (field.name == name) return &field;
+    return nullptr;
+}
+
+// The look as JSON, kept while it is the same: every widget asks for its field at every tick.
+const Json& json_of(const Look& look) {
+    static Look kept;
+    static Json json = Json::parse(look_to_json(kept));
+    if (!(kept == look)) kept = look, json = Json::parse(look_to_json(look));
+    return json;
+}
+
+const FieldRow* row_of(const App& app, const std::string& path) {
+    for (const FieldRow& row : app.setup().fields)
+        if (row.path == path) return &row;
+    return nullptr;
+}
+
+}  // namespace
+
+std::string text_of(double value, int digits) {
+    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+    char text[64];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+    return {text, end};
+}
+
+Result<double> number_of(const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const char* begin = text.data() + (text.starts_with("+") ? 1 : 0);
+    const auto [stopped, failed] = std::from_chars(begin, end, value);
+    if (failed != std::errc() || stopped != end || std::isnan(value)) return invalid(text + ": not a number");
+    return value;
+}
+
+std::string full_path(const std::string& name) {
+    static const std::map<std::string, std::string> shorter{{"fstop", "camera.f_number"},
+                                                            {"focus", "camera.focus_distance_m"},
+                                                            {"focal_length", "camera.focal_length_mm"},
+                                                            {"sensor_width", "camera.sensor_width_mm"},
+                                                            {"exposure", "view.exposure"},
+                                                            {"lens", "lens.name"}};
+    const auto found = shorter.find(name);
+    return found == shorter.end() ? name : found->second;
+}
+
+Result<std::string> field_text(const App& app, const std::string& name) {
+    const std::string path = full_path(name);
+    if (const Field* field = find(path)) return field->get(app);
+    const Json& look = json_of(app.state.choice.look);
+    const std::size_t dot = path.find('.');
+    const Json* value = look.contains(path) ? &look[path] : nullptr;
+    if (dot != std::string::npos && look.contains(path.substr(0, dot))) {
+        const Json& section = look[path.substr(0, dot)];
+        if (section.contains(path.substr(dot + 1))) value = &section[path.substr(dot + 1)];
+    }
+    if (!value) return invalid("nothing is called " + name);
+    if (const FieldRow* row = row_of(app, path)) return row->from_json(value->dump());
+    return value->is_string() ? value->get<std::string>() : value->dump();
+}
+
+Status set_field(App& app, const std::string& name, const std::string& text) {
+    const std::string path = full_path(name);
+    if (const Field* field = find(path)) {
+        if (!field->set) return invalid(name + " cannot be set");
+        return field->set(app, text);
+    }
+    std::string json = text;
+    if (const FieldRow* row = row_of(app, path)) {
+        const auto typed = row->to_json(text);
+        if (!typed) return invalid(row->flag + " " + text + ": " + typed.error().message);
+        json = *typed;
+    }
+    auto changed = look_with(app.state.choice.look, path, json);
+    if (!changed) return changed.error();
+    app.state.choice.look = std::move(*changed);
+    return Done{};
+}
+
+}  // namespace petzval::view

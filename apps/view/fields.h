@@ -1,0 +1,24 @@
+// What can be chosen and what can be known, by name: camera.f_number, look fields, view.exposure;
+// pick.depth_m.
+#pragma once
+
+#include "app.h"
+
+#include <string>
+#include <vector>
+
+namespace petzval::view {
+
+// "fstop" -> "camera.f_number"; other names as they are.
+std::string full_path(const std::string& name);
+// As text that set_field() takes. Errors: InvalidArgument for an unknown name.
+Result<std::string> field_text(const App& app, const std::string& name);
+// Errors: InvalidArgument for an unknown name, or a text that is none of its values; nothing is changed then.
+Status set_field(App& app, const std::string& name, const std::string& text);
+
+// A number with so many digits as say it again exactly, or with `digits`.
+std::string text_of(double value, int digits = 17);
+// Errors: InvalidArgument.
+Result<double> number_of(const std::string& text);
+
+}  // namespace petzval::view

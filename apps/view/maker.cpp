@@ -1,0 +1,316 @@
+#include "maker.h"
+
+#include "petzval/names.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <tuple>
+#include <utility>
+
+namespace petzval::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+auto numbers_of(const Camera& c) {
+    return std::tuple(c.focal_length_mm, c.sensor_width_mm, c.f_number, c.focus_distance_m, c.image_scale);
+}
+
+// The steps of a frame. Scatter, and the tracer that judges it, begin with what is quick.
+Look look_of_step(const Look& look, const std::string& shown, int step) {
+    Look now = look;
+    const bool slow = look.engine == "scatter" || look.engine == "reference";
+    now.quality = step == 0 ? Quality::Draft : step == 1 ? Quality::Standard : Quality::Final;
+    if (step == 0 && slow && shown == "result") now.engine = "gather";
+    if (look.engine == "reference")
+        now.pupil_points = std::min(look.pupil_points, step == 1 ? 64 : look.pupil_points);
+    return now;
+}
+
+constexpr int kHistogramSteps = 160;
+
+DepthHistogram histogram_of(const Shot& shot) {
+    DepthHistogram histogram;
+    const auto* depth = std::get_if<DepthMetres>(&shot.depth);
+    if (!depth || depth->plane.empty()) return histogram;
+    const float* all = depth->plane.pixels();
+    const std::size_t count = depth->plane.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(all[i] > 0) || std::isinf(all[i])) {
+            histogram.has_misses = true;
+            continue;
+        }
+        const double z = double(all[i]);
+        histogram.nearest_m = histogram.nearest_m > 0 ? std::min(histogram.nearest_m, z) : z;
+        histogram.farthest_m = std::max(histogram.farthest_m, z);
+    }
+    if (histogram.farthest_m <= 0) return {};
+    if (histogram.farthest_m < 1.01 * histogram.nearest_m)  // a wall: give it a width
+        histogram.nearest_m *= 0.9, histogram.farthest_m *= 1.1;
+    histogram.counts.assign(kHistogramSteps, 0);
+    for (std::size_t i = 0; i < count; ++i)
+        if (all[i] > 0 && !std::isinf(all[i])) {
+            const int at = int(histogram.share_of(double(all[i])) * kHistogramSteps);
+            histogram.counts[std::size_t(std::clamp(at, 0, kHistogramSteps - 1))] += 1;
+        }
+    const float most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
+    for (float& n : histogram.counts) n /= most;
+    return histogram;
+}
+
+std::optional<std::filesystem::file_time_type> time_of(const std::string& path) {
+    std::error_code missing;
+    const auto time = std::filesystem::last_write_time(path, missing);
+    return missing ? std::nullopt : std::optional(time);
+}
+
+DefocusJob job_of(const Wish& wish) {
+    const Shot& shot = wish.shot->shot;
+    DefocusJob job;
+    job.camera = wish.camera;
+    job.colour = shot.colour;
+    (shot.has_radii() ? job.coc_px : job.depth_m) = shot.depth_plane();
+    if (!shot.deep.empty()) job.deep = &shot.deep;
+    if (!shot.behind.empty()) job.behind = &shot.behind;
+    if (!shot.holdout.empty()) job.holdout = &shot.holdout;
+    if (!shot.lights.empty()) job.points = &shot.lights;
+    job.place = shot.place;
+    return job;
+}
+
+}  // namespace
+
+double DepthHistogram::distance_at(double share) const {
+    return nearest_m * std::pow(farthest_m / nearest_m, share);
+}
+double DepthHistogram::share_of(double distance_m) const {
+    return std::log(distance_m / nearest_m) / std::log(farthest_m / nearest_m);
+}
+
+const std::vector<std::string>& shown_names() {
+    static const std::vector<std::string> names{"result",     "sharp",      "against",    "coc",
+                                                "depth",      "layers",     "levels",     "highlights",
+                                                "blur-small", "blur-large", "focus-index"};
+    return names;
+}
+
+bool is_buffer(const std::string& shown) {
+    return shown == "layers" || shown == "levels" || shown == "highlights";
+}
+
+bool same_frame(const Wish& a, const Wish& b) {
+    return a.shot == b.shot && numbers_of(a.camera) == numbers_of(b.camera) && a.shown == b.shown &&
+           a.look == b.look;
+}
+
+Maker::Maker(std::shared_ptr<Session> session, std::function<void()> wake)
+    : session_(std::move(session)), wake_(std::move(wake)), thread_([this] { work(); }) {}
+
+Maker::~Maker() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+    }
+    interrupt_ = true;
+    something_.notify_all();
+    thread_.join();
+}
+
+void Maker::read(const ShotSource& source, bool is_against, std::optional<WorldPoint> focus_point) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(readings_, [&](const Reading& other) { return other.is_against == is_against; });
+    readings_.push_back({source, is_against, focus_point});
+    interrupt_ = true;
+    something_.notify_all();
+}
+
+std::uint64_t Maker::make(int side, Wish wish) {
+    const std::lock_guard lock(mutex_);
+    orders_[std::size_t(side)] = Order{std::move(wish), ++numbers_, 0};
+    interrupt_ = true;
+    something_.notify_all();
+    return numbers_;
+}
+
+void Maker::forget(int side) {
+    const std::lock_guard lock(mutex_);
+    if (!orders_[std::size_t(side)]) return;
+    orders_[std::size_t(side)].reset();
+    interrupt_ = true;
+}
+
+Maker::News Maker::news() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_, {});
+}
+
+bool Maker::is_idle() const {
+    const std::lock_guard lock(mutex_);
+    return !busy_ && readings_.empty() && !orders_[0] && !orders_[1] && news_.frames.empty() &&
+           news_.shots.empty();
+}
+
+// What is read comes first, then the coarsest step that any side waits for.
+void Maker::work() {
+    std::unique_lock lock(mutex_);
+    while (!ending_) {
+        interrupt_ = false;
+        if (!readings_.empty()) {
+            const Reading reading = readings_.front();
+            readings_.erase(readings_.begin());
+            busy_ = true;
+            lock.unlock();
+            do_reading(reading);
+        } else if (orders_[0] || orders_[1]) {
+            const int side = !orders_[1] || (orders_[0] && orders_[0]->step <= orders_[1]->step) ? 0 : 1;
+            const Order order = *orders_[std::size_t(side)];
+            busy_ = true;
+            lock.unlock();
+            do_step(side, order);
+        } else {
+            something_.wait_for(lock, std::chrono::seconds(1));
+            if (ending_) return;
+            lock.unlock();
+            look_at_files();
+        }
+        lock.lock();
+        busy_ = false;
+    }
+}
+
+void Maker::do_reading(const Reading& reading) {
+    ReadShot read{reading.is_against, reading.source.path, nullptr, {}};
+    const auto time = time_of(reading.source.path);
+    try {
+        auto shot = read_shot(reading.source);
+        Status focused = Done{};
+        if (shot && reading.focus_point) focused = focus_on_point(*shot, *reading.focus_point);
+        if (shot && focused) {
+            auto open = std::make_shared<OpenShot>();
+            open->histogram = histogram_of(*shot);
+            open->shot = std::move(*shot);
+            read.shot = std::move(open);
+        } else {
+            read.error = shot ? focused.error() : shot.error();
+        }
+    } catch (const std::bad_alloc&) {
+        read.error = Error{ErrorCode::OutOfMemory, reading.source.path + ": not enough memory"};
+    }
+    std::erase_if(watched_, [&](const Watched& w) { return w.path == reading.source.path; });
+    if (read.shot) watched_.push_back({reading.source.path, time});
+    {
+        const std::lock_guard lock(mutex_);
+        news_.shots.push_back(std::move(read));
+    }
+    wake_();
+}
+
+void Maker::do_step(int side, const Order& order) {
+    const auto start = Clock::now();
+    const Control control{.cancelled = [this] { return interrupt_.load(std::memory_order_relaxed); },
+                          .region = order.wish.region};
+    MadeFrame frame;
+    try {
+        frame = made(side, order, control);
+    } catch (const std::bad_alloc&) {
+        frame.error = Error{ErrorCode::OutOfMemory, "not enough memory for this frame"};
+    }
+    if (frame.error && frame.error->code == ErrorCode::Cancelled)
+        return;  // taken up again, if still wished for
+    frame.side = side;
+    frame.wish = order.number;
+    frame.step = order.step;
+    frame.seconds = seconds_since(start);
+    frame.last = frame.error || frame.last || order.step >= (order.wish.final_quality ? 2 : 1);
+    tell(std::move(frame));
+}
+
+// The order goes on to its next step, if nothing has taken its place.
+void Maker::tell(MadeFrame frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        auto& order = orders_[std::size_t(frame.side)];
+        if (!order || order->number != frame.wish) return;
+        if (frame.last)
+            order.reset();
+        else
+            ++order->step;
+        news_.frames.push_back(std::move(frame));
+    }
+    wake_();
+}
+
+MadeFrame Maker::made(int, const Order& order, const Control& control) {
+    MadeFrame frame;
+    const Wish& wish = order.wish;
+    const Shot& shot = wish.shot->shot;
+    DefocusJob job = job_of(wish);
+    frame.area = shot.place.data_window;
+    if (order.step == 0) {
+        auto radii = circle_of_confusion(with_look(job, wish.look));
+        if (!radii) {
+            frame.error = radii.error();
+            return frame;
+        }
+        frame.radii = std::make_shared<const Plane>(std::move(*radii));
+    }
+    if (wish.shown == "coc") {
+        frame.last = true;
+        return frame;
+    }
+    if (Status done = take_picture(order, job, control, frame); !done) frame.error = done.error();
+    return frame;
+}
+
+Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
+                           MadeFrame& frame) {
+    const Wish& wish = order.wish;
+    Look look = look_of_step(wish.look, wish.shown, order.step);
+    if (Status done = read_lens_images(look); !done) return done.error();
+    Result<DefocusReport> done = Error{ErrorCode::InvalidArgument, ""};
+    if (wish.shown == "result") {
+        done = session_->take(rendered, look, control);
+    } else {
+        DefocusJob job = with_look(rendered, look);
+        if (const auto scatter = parse<ScatterView>(wish.shown)) job.scatter.view = *scatter;
+        if (const auto gaussian = parse<GaussianView>(wish.shown)) job.gaussian.view = *gaussian;
+        job.engine = is_buffer(wish.shown) ? "scatter" : "gaussian";
+        done = session_->defocus(job, control);
+        frame.last = order.step > 0 || job.engine == "gaussian";
+    }
+    if (!done) return done.error();
+    if (wish.region) frame.area = *wish.region;
+    if (is_buffer(wish.shown)) frame.area = done->image.rect();
+    frame.picture = std::make_shared<const Picture>(std::move(done->image));
+    frame.panels = std::move(done->panels);
+    frame.engine = done->engine;
+    frame.device = done->device;
+    frame.lens = done->lens;
+    frame.quality = look.quality;
+    frame.stages = std::move(done->stages);
+    frame.warnings = std::move(done->warnings);
+    return Done{};
+}
+
+// Said once per change; a file that was read again is watched afresh.
+void Maker::look_at_files() {
+    bool news = false;
+    for (Watched& file : watched_) {
+        const auto time = time_of(file.path);
+        if (time == file.time) continue;
+        file.time = time;
+        const std::lock_guard lock(mutex_);
+        news_.changed.push_back(file.path + (time ? ": has changed; Ctrl+R reads it again"
+                                                  : ": is gone; what was read of it is still shown"));
+        news = true;
+    }
+    if (news) wake_();
+}
+
+}  // namespace petzval::view

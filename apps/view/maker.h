@@ -1,0 +1,142 @@
+// The thread that reads shots and makes frames of them.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/defocus.h"
+#include "petzval/look.h"
+#include "petzval/session.h"
+#include "petzval/shot.h"
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace petzval::view {
+
+// How many pixels lie at which distance, on a logarithmic scale.
+struct DepthHistogram {
+    double nearest_m = 0, farthest_m = 0;  // finite ones; both 0: there is no depth in metres
+    std::vector<float> counts;             // even steps of the logarithm between; share of the fullest
+    bool has_misses = false;
+
+    double distance_at(double share) const;  // 0…1 of the scale
+    double share_of(double distance_m) const;
+};
+
+struct OpenShot {
+    Shot shot;
+    DepthHistogram histogram;
+};
+using ShotPointer = std::shared_ptr<const OpenShot>;
+
+// A frame that somebody would like to see.
+struct Wish {
+    ShotPointer shot;
+    Camera camera;
+    Look look;
+    std::string shown = "result";     // one of shown_names() that is made: not "sharp", "against", "depth"
+    std::optional<Rect> region = {};  // in pixels as the data window is
+    bool final_quality = false;       // after standard quality
+};
+bool same_frame(const Wish& a, const Wish& b);  // but for the region and how far it is refined
+
+// One step of it, done.
+struct MadeFrame {
+    int side = 0;
+    std::uint64_t wish = 0;
+    int step = 0;
+    bool last = false;
+    std::optional<Error> error;
+    Rect area;  // where its pixels lie
+    std::shared_ptr<const Picture> picture;
+    std::shared_ptr<const Plane> radii;  // of the whole data window; with the first step
+    std::vector<Panel> panels;
+    std::string engine, device, lens;
+    Quality quality = Quality::Draft;
+    std::vector<StageTime> stages;
+    std::vector<std::string> warnings;
+    double seconds = 0;
+};
+
+struct ReadShot {
+    bool is_against = false;
+    std::string path;
+    ShotPointer shot;  // null: error
+    std::optional<Error> error;
+};
+
+class Maker {
+public:
+    // `wake` is called, by the maker's thread, whenever there is news.
+    Maker(std::shared_ptr<Session> session, std::function<void()> wake);
+    ~Maker();  // cancels
+    Maker(const Maker&) = delete;
+    Maker& operator=(const Maker&) = delete;
+
+    // `focus_point`: what shot.camera is to be focused on, if anything.
+    void read(const ShotSource& source, bool is_against, std::optional<WorldPoint> focus_point);
+    // In place of what was wished for that side (0, 1) before; its number.
+    std::uint64_t make(int side, Wish wish);
+    void forget(int side);
+
+    struct News {
+        std::vector<ReadShot> shots;
+        std::vector<MadeFrame> frames;
+        std::vector<std::string> changed;  // files that are no longer what was read
+    };
+    News news();
+    bool is_idle() const;
+
+private:
+    struct Order {
+        Wish wish;
+        std::uint64_t number = 0;
+        int step = 0;
+    };
+    struct Reading {
+        ShotSource source;
+        bool is_against = false;
+        std::optional<WorldPoint> focus_point;
+    };
+    struct Watched {
+        std::string path;
+        std::optional<std::filesystem::file_time_type> time;
+    };
+
+    void work();
+    void tell(MadeFrame frame);
+    void do_reading(const Reading& reading);
+    void do_step(int side, const Order& order);
+    MadeFrame made(int side, const Order& order, const Control& control);
+    Status take_picture(const Order& order, const DefocusJob& job, const Control& control, MadeFrame& frame);
+    void look_at_files();
+
+    std::shared_ptr<Session> session_;
+    std::function<void()> wake_;
+    mutable std::mutex mutex_;
+    std::condition_variable something_;
+    std::array<std::optional<Order>, 2> orders_;
+    std::vector<Reading> readings_;
+    News news_;
+    std::vector<Watched> watched_;  // of the thread alone
+    std::uint64_t numbers_ = 0;
+    bool busy_ = false, ending_ = false;
+    std::atomic<bool> interrupt_ = false;  // what is being made is no longer the most urgent
+    std::thread thread_;                   // last: it uses all of the above
+};
+
+// What a side may show: the result, what it is made of, buffers of engines.
+const std::vector<std::string>& shown_names();
+// Those that are shown whole, whatever is seen of them, as they lie elsewhere than the picture.
+bool is_buffer(const std::string& shown);
+
+}  // namespace petzval::view

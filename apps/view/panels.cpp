@@ -1,0 +1,304 @@
+#include "panels.h"
+
+#include "petzval/defocus.h"
+#include "petzval/lens_facts.h"
+#include "petzval/names.h"
+
+#include "commands.h"
+#include "fields.h"
+#include "widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <imgui.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval::view {
+namespace {
+
+void say(App& app, const std::string& line) { static_cast<void>(act(app, line)); }
+
+void command_button(App& app, const char* label, const std::string& line) {
+    if (ImGui::Button(label)) say(app, line);
+}
+
+void camera_panel(App& app) {
+    number_widget(app, "camera.f_number", "f-number", 0, true);
+    if (app.shot() && app.shot()->shot.has_radii())
+        ImGui::TextWrapped("the file has blur radii: aperture and focus are in them already");
+    number_widget(app, "camera.focus_distance_m", "focus, m", 0, true);
+    number_widget(app, "camera.focal_length_mm", "focal length, mm", 0, true);
+    number_widget(app, "camera.sensor_width_mm", "sensor width, mm", 0, true);
+    const ImageScale scale = app.state.choice.camera.image_scale;
+    if (ImGui::BeginCombo("image scale", name_of(scale))) {
+        for (const auto& known : names<ImageScale>())
+            if (ImGui::Selectable(known.name, known.value == scale))
+                say(app, std::string("set camera.image_scale ") + known.name);
+        ImGui::EndCombo();
+    }
+    if (ImGui::Button("as in the file"))
+        for (const char* number : {"f_number", "focus_distance_m", "focal_length_mm", "sensor_width_mm"})
+            say(app, std::string("set camera.") + number + " file");
+}
+
+void line_at(ImDrawList* list, const ImVec2& from, const ImVec2& to, double share, ImU32 colour) {
+    if (!(share >= 0 && share <= 1)) return;
+    const float x = from.x + float(share) * (to.x - from.x);
+    list->AddLine({x, from.y}, {x, to.y}, colour, 1.5f);
+}
+
+// Where the picture's pixels lie in depth; what is sharp of them is white. Drag to focus.
+void depth_panel(App& app) {
+    const DepthHistogram& all = app.shot()->histogram;
+    if (all.counts.empty()) return ImGui::TextWrapped("no depth in metres");
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()};
+    const ImVec2 to{from.x + size.x, from.y + size.y};
+    ImGui::InvisibleButton("depth", size);
+    is_field(app, "depth histogram");
+    const auto camera = app.camera();
+    const auto limits = camera ? focus_limits(*camera, app.shot()->shot.place.display_window.width(),
+                                              app.setup().permissible_radius_px)
+                               : Result<FocusLimits>(camera.error());
+    if (ImGui::IsItemActive()) {
+        const double share =
+            std::clamp(double(ImGui::GetIO().MousePos.x - from.x) / double(size.x), 0.0, 1.0);
+        const std::string metres = text_of(all.distance_at(share), 5);
+        if (const auto now = field_text(app, "focus"); !now || *now != metres)
+            say(app, "set focus " + metres);
+    }
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(from, to, IM_COL32(25, 25, 25, 255));
+    const double steps = double(all.counts.size());
+    for (std::size_t i = 0; i < all.counts.size(); ++i) {
+        const double z = all.distance_at((double(i) + 0.5) / steps);
+        const ImU32 colour = !limits || (z >= limits->near_m && z <= limits->far_m)
+                                 ? IM_COL32(235, 235, 235, 255)
+                             : z < limits->near_m ? IM_COL32(43, 143, 224, 255)
+                                                  : IM_COL32(243, 156, 18, 255);
+        const float x0 = from.x + float(double(i) / steps) * size.x,
+                    x1 = from.x + float(double(i + 1) / steps) * size.x;
+        list->AddRectFilled({x0, to.y - std::sqrt(all.counts[i]) * size.y}, {x1, to.y}, colour);
+    }
+    if (limits) {
+        line_at(list, from, to, all.share_of(limits->near_m), IM_COL32(43, 143, 224, 255));
+        line_at(list, from, to, all.share_of(limits->far_m), IM_COL32(243, 156, 18, 255));
+        line_at(list, from, to, all.share_of(camera->focus_distance_m), IM_COL32(255, 220, 90, 255));
+    }
+    ImGui::Text("%.4g m … %.4g m%s", all.nearest_m, all.farthest_m, all.has_misses ? ", and beyond" : "");
+    if (limits)
+        ImGui::TextWrapped("sharp (radius under %.3g px): %.4g m to %s m; hyperfocal %.4g m",
+                           app.setup().permissible_radius_px, limits->near_m,
+                           text_of(limits->far_m, 4).c_str(), limits->hyperfocal_m);
+}
+
+void shelf_panel(App& app) {
+    static const std::vector<LensSummary> shelf = lens_list();
+    const std::string& now = app.state.choice.look.lens.name;
+    if (!ImGui::BeginListBox("##shelf", {-1, 9 * ImGui::GetTextLineHeightWithSpacing()})) return;
+    for (const LensSummary& lens : shelf) {
+        if (ImGui::Selectable(lens.name.c_str(), lens.name == now)) say(app, "set lens " + lens.name);
+        is_field(app, "lens " + lens.name, lens.title + (lens.year.empty() ? "" : ", " + lens.year));
+    }
+    ImGui::EndListBox();
+}
+
+void look_panel(App& app) {
+    std::string heading;
+    bool open = false;
+    for (const FieldRow& row : app.setup().fields) {
+        if (row.heading != heading) {
+            if (open) ImGui::TreePop();
+            heading = row.heading;
+            open = ImGui::TreeNode(heading.c_str());
+            is_field(app, "heading " + heading);
+        }
+        if (open) row_widget(app, row);
+    }
+    if (open) ImGui::TreePop();
+}
+
+void display_panel(App& app) {
+    number_widget(app, "view.exposure", "exposure, stops", 0.02, false);
+    number_widget(app, "view.contrast", "contrast", 0.005, false);
+    const ToneCurve tone = app.state.choice.develop.tone;
+    if (ImGui::BeginCombo("tone", name_of(tone))) {
+        for (const auto& known : names<ToneCurve>())
+            if (ImGui::Selectable(known.name, known.value == tone))
+                say(app, std::string("set view.tone ") + known.name);
+        ImGui::EndCombo();
+    }
+    if (!app.setup().ocio_codes) return;
+    bool ocio = app.state.choice.ocio;
+    if (ImGui::Checkbox("OpenColorIO", &ocio)) say(app, "toggle view.ocio");
+}
+
+void compare_panel(App& app) {
+    const auto wipe_button = [&](const std::string& what) {
+        if (ImGui::RadioButton(what.c_str(), app.state.wiping && (app.state.right.engine == what ||
+                                                                  (app.state.right.engine.empty() &&
+                                                                   app.state.right.shown == what))))
+            say(app, "wipe " + what);
+        is_field(app, "wipe " + what);
+    };
+    ImGui::TextUnformatted("wipe with");
+    ImGui::SameLine();
+    command_button(app, "off", "wipe off");
+    wipe_button("sharp");
+    if (app.against()) ImGui::SameLine(), wipe_button("against");
+    ImGui::SameLine();
+    wipe_button("coc");
+    ImGui::SameLine();
+    wipe_button("depth");
+    int count = 0;
+    for (const std::string& engine : engine_names()) {
+        if (count++ % 3 != 0) ImGui::SameLine();
+        wipe_button(engine);
+    }
+    bool overlay = app.state.overlay;
+    if (ImGui::Checkbox("focus overlay", &overlay)) say(app, "toggle view.overlay");
+    is_field(app, "view.overlay");
+}
+
+void files_panel(App& app) {
+    static char frame[512] = "", look[512] = "look.json";
+    if (frame[0] == 0) {
+        const std::string stem = std::filesystem::path(app.setup().source.path).stem().string();
+        (stem + "_focus.exr").copy(frame, sizeof frame - 1);
+    }
+    ImGui::InputText("##frame", frame, sizeof frame);
+    ImGui::SameLine();
+    command_button(app, "save frame", "save \"" + std::string(frame) + "\"");
+    is_field(app, "save frame");
+    ImGui::InputText("##look", look, sizeof look);
+    ImGui::SameLine();
+    command_button(app, "save look", "save_look \"" + std::string(look) + "\"");
+    command_button(app, "copy command", "copy");
+    ImGui::SameLine();
+    command_button(app, "load look", "load_look \"" + std::string(look) + "\"");
+    ImGui::SameLine();
+    command_button(app, "read again", "reload");
+}
+
+void frame_panel(App& app) {
+    const MadeFrame& made = app.side(0).last;
+    if (made.engine.empty()) return;
+    ImGui::TextWrapped("%s on %s, %s quality, %.0f ms", made.engine.c_str(), made.device.c_str(),
+                       name_of(made.quality), 1000 * made.seconds);
+    ImGui::TextWrapped("%s", made.lens.c_str());
+    for (const StageTime& stage : made.stages)
+        ImGui::Text("%8.1f ms  %s", 1000 * stage.seconds, stage.stage.c_str());
+    for (const std::string& line : made.warnings) ImGui::TextWrapped("%s", line.c_str());
+    if (!app.shot()) return;
+    for (const std::string& line : app.shot()->shot.detected) ImGui::TextWrapped("%s", line.c_str());
+}
+
+using DrawPanel = void (*)(App&);
+
+void section(App& app, const char* title, bool open, DrawPanel draw) {
+    if (!ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0))
+        return is_field(app, std::string("panel ") + title);
+    is_field(app, std::string("panel ") + title);
+    ImGui::PushID(title);
+    draw(app);
+    ImGui::PopID();
+}
+
+std::string words_for(const char* name, const Rgba& p) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s %.4g %.4g %.4g %.3g", name, double(p.r), double(p.g), double(p.b),
+                  double(p.a));
+    return text;
+}
+
+const Rgba* pixel_of(const Picture* picture, const Rect& area, int x, int y) {
+    return picture && area.contains(x, y) && picture->rect().contains(x - area.x0, y - area.y0)
+               ? &(*picture)(x - area.x0, y - area.y0)
+               : nullptr;
+}
+
+// The numbers under the pointer, raw.
+std::string under_pointer(const App& app) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const Mapping& m = app.mapping;
+    const double px = double(mouse.x), py = double(mouse.y);
+    if (px < m.x0 || py < m.y0 || px >= m.x0 + m.width || py >= m.y0 + m.height || !app.shot()) return "";
+    const Place& place = app.shot()->shot.place;
+    const int x = int(std::floor(m.frame_x(px))), y = int(std::floor(m.frame_y(py)));
+    std::string line =
+        std::to_string(x - place.display_window.x0) + ", " + std::to_string(y - place.display_window.y0);
+    const SideFrames& frames = app.side(0);
+    const Rgba* made = pixel_of(frames.detail.get(), frames.detail_area, x, y);
+    if (!made) made = pixel_of(frames.whole.get(), frames.whole_area, x, y);
+    if (made) line += "   " + words_for(app.state.left.shown.c_str(), *made);
+    if (is_buffer(app.state.left.shown)) return line;
+    if (const Rgba* sharp = pixel_of(&app.shot()->shot.colour, place.data_window, x, y))
+        line += "   " + words_for("sharp", *sharp);
+    if (const auto& other = app.against())
+        if (const Rgba* p = pixel_of(&other->shot.colour, other->shot.place.data_window, x, y))
+            line += "   " + words_for("against", *p);
+    const PixelPosition pixel{x - place.display_window.x0, y - place.display_window.y0};
+    if (const auto depth = app.depth_near(pixel)) line += "   " + text_of(*depth, 5) + " m";
+    if (const auto radius = app.radius_at(pixel)) line += "   radius " + text_of(double(*radius), 4) + " px";
+    return line;
+}
+
+}  // namespace
+
+void draw_panels(App& app) {
+    ImGui::PushItemWidth(-11 * ImGui::GetFontSize());
+    section(app, "Camera", true, camera_panel);
+    if (app.shot()) section(app, "Depth", true, depth_panel);
+    section(app, "Lenses", false, shelf_panel);
+    section(app, "Look", true, look_panel);
+    section(app, "Compare", true, compare_panel);
+    section(app, "Display", false, display_panel);
+    section(app, "Files", false, files_panel);
+    section(app, "Frame", false, frame_panel);
+    ImGui::PopItemWidth();
+}
+
+void draw_status_line(App& app) {
+    const std::string& wrong = app.error.empty() ? app.trouble : app.error;
+    if (!wrong.empty())
+        ImGui::TextColored({1, 0.45f, 0.35f, 1}, "%s", wrong.c_str());
+    else if (!app.notice.empty())
+        ImGui::TextUnformatted(app.notice.c_str());
+    else
+        ImGui::TextDisabled("H: help");
+    ImGui::TextUnformatted(under_pointer(app).c_str());
+    const MadeFrame& made = app.side(0).last;
+    std::string state = !app.shot()           ? "reading …"
+                        : made.engine.empty() ? "sharp"
+                                              : made.engine + ", " + name_of(made.quality);
+    if (app.is_busy()) state += " …";
+    const float width = ImGui::CalcTextSize(state.c_str()).x;
+    ImGui::SameLine(std::max(0.0f, ImGui::GetWindowWidth() - width - ImGui::GetFontSize()));
+    ImGui::TextDisabled("%s", state.c_str());
+}
+
+void draw_help(App& app) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    bool open = true;
+    if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+        ImGui::TextUnformatted(
+            "click or drag: focus     right click: look at     wheel: zoom     middle or right drag: move");
+        if (ImGui::BeginTable("keys", 4)) {
+            for (const Binding& binding : bindings()) {
+                ImGui::TableNextColumn();
+                ImGui::TextColored({1, 0.86f, 0.35f, 1}, "%s", binding.key.c_str());
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(binding.meaning.c_str());
+            }
+            ImGui::EndTable();
+        }
+    }
+    ImGui::End();
+    if (!open) say(app, "set view.help off");
+}
+
+}  // namespace petzval::view

@@ -1,0 +1,35 @@
+// All that is chosen in the window. Changed by commands alone (commands.h); pictures follow from it.
+#pragma once
+
+#include "view.h"
+
+#include <optional>
+#include <string>
+
+namespace petzval::view {
+
+enum class Channel { Colour, Red, Green, Blue, Alpha };
+
+// What one side of the window shows.
+struct Side {
+    std::string shown = "result";  // one of shown_names()
+    std::string engine;            // another than the look's; empty: the look's
+
+    bool operator==(const Side&) const = default;
+};
+
+struct State {
+    Choice choice;
+    Side left, right;  // right: beyond the wipe
+    bool wiping = false;
+    double wipe = 0.5;  // where, share of the canvas's width
+    Channel channel = Channel::Colour;
+    bool overlay = false;  // what is in focus, near and far, tinted
+    bool final_quality = false;
+    bool help = false, panels = true;
+    double zoom = 0;                    // display pixels per pixel of the picture; 0: all of it fits
+    double centre_x = 0, centre_y = 0;  // of what is seen, in pixels of the frame; where zoom > 0
+    std::optional<PixelPosition> pick;  // what was clicked last, in pixels of the frame
+};
+
+}  // namespace petzval::view

@@ -1,0 +1,62 @@
+// The window of `petzval view`: what it is given, and the door to it. Below this line it knows
+// include/petzval/ alone; ways that need more (command lines, saving) are handed to it.
+#pragma once
+
+#include "petzval/develop.h"
+#include "petzval/look.h"
+#include "petzval/result.h"
+#include "petzval/session.h"
+#include "petzval/shot.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petzval::view {
+
+// A field of a look as people choose it: a row of the program's table of look flags.
+struct FieldRow {
+    std::string heading, path;  // "Lens", "lens.blades"
+    std::string flag, placeholder,
+        help;  // "--blades", "N"; words with | between: one of them; empty: a switch
+    // What is typed, as JSON, and the way back. Errors complete "--blades five: …".
+    std::function<Result<std::string>(const std::string&)> to_json;
+    std::function<std::string(const std::string&)> from_json;
+};
+
+// What of a frame is chosen in the window; all else stays as the command line had it.
+struct Choice {
+    CameraChoice camera;
+    Look look;
+    DevelopSettings develop;  // of display pictures
+    bool ocio = false;
+};
+
+struct Setup {
+    ShotSource source;
+    Choice choice;
+    std::optional<PixelPosition> focus_at;
+    std::optional<WorldPoint> focus_point;
+    double permissible_radius_px = 1;
+    bool tone_is_chosen = false;  // false: that of the file's kind
+    std::string against;          // a picture to compare with; empty: none
+    std::string script;           // a file of commands; empty: a hand
+    int width = 1280, height = 800;
+    double scale = 0;  // of letters and lines; 0: the display's
+    std::vector<FieldRow> fields;
+    std::shared_ptr<Session> session;
+    // The command that makes this frame as that file; and the same, done. Called by another thread than the
+    // window's.
+    std::function<std::string(const Choice&, const std::string& output)> command_line;
+    std::function<Status(const Choice&, const std::string& output)> save;
+    // Exposed scene-linear light to a display's codes by OpenColorIO; null: not asked for.
+    std::function<Result<Picture>(View<const Rgba>)> ocio_codes;
+};
+
+// Opens the window and returns when it is closed or its script has ended. Errors: Unsupported where no window
+// can be had (no display, no OpenGL 3); those of the script: InvalidFile, InvalidArgument with its line.
+Status run(const Setup& setup);
+
+}  // namespace petzval::view

@@ -1,0 +1,106 @@
+#include "widgets.h"
+
+#include "commands.h"
+#include "fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <imgui.h>
+#include <sstream>
+#include <vector>
+
+namespace petzval::view {
+namespace {
+
+void say(App& app, const std::string& path, const std::string& value) {
+    static_cast<void>(act(app, "set " + path + " \"" + value + "\""));
+}
+
+std::string label_of(const FieldRow& row) {
+    std::string label = row.flag.substr(2);
+    std::replace(label.begin(), label.end(), '-', ' ');
+    return label;
+}
+
+std::vector<std::string> choices_of(const std::string& placeholder) {
+    std::vector<std::string> words;
+    std::istringstream in(placeholder);
+    for (std::string word; std::getline(in, word, '|');) words.push_back(word);
+    return words;
+}
+
+void choice_widget(App& app, const FieldRow& row, const std::string& now) {
+    if (ImGui::BeginCombo(label_of(row).c_str(), now.c_str())) {
+        for (const std::string& word : choices_of(row.placeholder))
+            if (ImGui::Selectable(word.c_str(), word == now)) say(app, row.path, word);
+        ImGui::EndCombo();
+    }
+    is_field(app, row.path, row.help);
+}
+
+// Text that is taken when the pointer or Enter leaves it.
+void text_widget(App& app, const FieldRow& row, const std::string& now) {
+    char text[512] = {};
+    std::strncpy(text, now.c_str(), sizeof text - 1);
+    ImGui::InputTextWithHint(label_of(row).c_str(), row.placeholder.c_str(), text, sizeof text);
+    is_field(app, row.path, row.help);
+    if (ImGui::IsItemDeactivatedAfterEdit()) say(app, row.path, text);
+}
+
+}  // namespace
+
+void is_field(App& app, const std::string& path, const std::string& help) {
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    app.widgets[path] = {int(from.x), int(from.y), int(to.x), int(to.y)};
+    if (help.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
+    ImGui::TextUnformatted((help + "\n" + path).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void number_widget(App& app, const std::string& path, const std::string& label, double speed, bool is_scale) {
+    const auto text = field_text(app, path);
+    const auto known = text ? number_of(*text) : Result<double>(text.error());
+    double value = known ? *known : 0;
+    const double step = is_scale ? std::max(std::abs(value), 1e-3) * 0.005 : speed;
+    const bool changed =
+        ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, float(step), nullptr, nullptr,
+                          known  ? "%.5g"
+                          : text ? text->c_str()
+                                 : "?");
+    is_field(app, path);
+    if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
+}
+
+void row_widget(App& app, const FieldRow& row) {
+    const auto now = field_text(app, row.path);
+    if (!now) return;
+    if (row.placeholder.empty() || row.placeholder == "off|on") {
+        bool on = *now == "true" || *now == "on";
+        const char* words[] = {row.placeholder.empty() ? "false" : "off",
+                               row.placeholder.empty() ? "true" : "on"};
+        if (ImGui::Checkbox(label_of(row).c_str(), &on)) say(app, row.path, words[on ? 1 : 0]);
+        return is_field(app, row.path, row.help);
+    }
+    if (row.placeholder.find('|') != std::string::npos) return choice_widget(app, row, *now);
+    const auto number = number_of(*now);
+    if (!number || !std::isfinite(*number)) return text_widget(app, row, *now);
+    double value = *number;
+    const bool whole = row.placeholder == "N" && value == std::round(value);
+    const float speed = row.placeholder == "DEG" ? 0.5f : whole ? 0.05f : 0.005f;
+    const bool changed = ImGui::DragScalar(label_of(row).c_str(), ImGuiDataType_Double, &value, speed,
+                                           nullptr, nullptr, whole ? "%.0f" : "%.5g");
+    is_field(app, row.path, row.help);
+    if (!changed) return;
+    if (row.placeholder == "SHARE" && *number >= 0 && *number <= 1) value = std::clamp(value, 0.0, 1.0);
+    const double wanted = whole ? std::round(value) : value;
+    // Between 0 and 3 there are no blades.
+    const double fitting =
+        row.path == "lens.blades" && wanted > 0 && wanted < 3 ? (*number > 0 ? 0 : 3) : wanted;
+    if (fitting != *number) say(app, row.path, text_of(fitting, 6));
+}
+
+}  // namespace petzval::view

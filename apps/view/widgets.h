@@ -1,0 +1,17 @@
+// Fields as widgets. What is typed or dragged is said as the command `set`.
+#pragma once
+
+#include "app.h"
+
+#include <string>
+
+namespace petzval::view {
+
+// A number that is dragged, by shares of itself where `is_scale`, else by `speed`.
+void number_widget(App& app, const std::string& path, const std::string& label, double speed, bool is_scale);
+// A row of the table of look flags: switch, choice, number or text, as its placeholder says.
+void row_widget(App& app, const FieldRow& row);
+// The last widget can be pointed at by this name in scripts, and says this when the pointer rests on it.
+void is_field(App& app, const std::string& path, const std::string& help = "");
+
+}  // namespace petzval::view

@@ -1,0 +1,269 @@
+// The window itself: GLFW and ImGui, its events, its frames.
+#include "app.h"
+#include "canvas.h"
+#include "commands.h"
+#include "panels.h"
+#include "script.h"
+#include "texture.h"
+#include "view.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <imgui.h>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace petzval::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kFrame = std::chrono::microseconds(16'000);
+
+std::string glfw_says() {
+    const char* why = nullptr;
+    glfwGetError(&why);
+    return why ? std::string(": ") + why : "";
+}
+
+struct KeyPress {
+    int code = 0;
+    bool shift = false, ctrl = false, repeated = false;
+};
+
+// Keys that went down since the last tick: one that is let go at once again would not be seen by ImGui, which
+// looks at what is held down. GLFW calls back on the window's thread alone.
+std::vector<KeyPress>& pressed_keys() {
+    static std::vector<KeyPress> keys;
+    return keys;
+}
+
+void on_key(GLFWwindow*, int code, int, int action, int mods) {
+    if (action == GLFW_RELEASE) return;
+    pressed_keys().push_back(
+        {code, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
+}
+
+KeyPress key_press(const std::string& text) {
+    const std::size_t plus = text.rfind('+');
+    const std::string before = plus == std::string::npos ? "" : text.substr(0, plus);
+    return {key_code(plus == std::string::npos ? text : text.substr(plus + 1)),
+            before.find("shift") != std::string::npos, before.find("ctrl") != std::string::npos, false};
+}
+
+class Window {
+public:
+    ~Window() {
+        if (has_imgui_) {
+            ImGui_ImplOpenGL3_Shutdown();
+            ImGui_ImplGlfw_Shutdown();
+            ImGui::DestroyContext();
+        }
+        if (window_) glfwDestroyWindow(window_);
+        if (has_glfw_) glfwTerminate();
+    }
+    Window() = default;
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    Status open(const Setup& setup) {
+        has_glfw_ = glfwInit() == GLFW_TRUE;
+        if (!has_glfw_) return no_window("no display");
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+        const std::string title = setup.source.path + " - petzval";
+        window_ = glfwCreateWindow(setup.width, setup.height, title.c_str(), nullptr, nullptr);
+        if (!window_) return no_window("no OpenGL 3.2");
+        glfwMakeContextCurrent(window_);
+        glfwSwapInterval(1);
+        glfwSetKeyCallback(window_, on_key);  // ImGui's calls it as well
+        start_imgui(setup.scale);
+        return Done{};
+    }
+    GLFWwindow* get() const { return window_; }
+
+private:
+    static Status no_window(const std::string& why) {
+        return Error{ErrorCode::Unsupported, "no window can be opened: " + why + glfw_says()};
+    }
+    void start_imgui(double scale) {
+        IMGUI_CHECKVERSION();
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr;
+        ImGui::StyleColorsDark();
+        float across = 1, down = 1;
+        glfwGetWindowContentScale(window_, &across, &down);
+        const float size = float(scale > 0 ? scale : double(std::clamp(across, 0.5f, 8.0f)));
+        ImGui::GetStyle().ScaleAllSizes(size);
+        ImGui::GetStyle().WindowRounding = 0;
+        load_letters(size);
+        ImGui_ImplGlfw_InitForOpenGL(window_, true);
+        ImGui_ImplOpenGL3_Init("#version 150");
+        has_imgui_ = true;
+    }
+    static void load_letters(float scale) {
+        const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+        static const ImWchar letters[]{0x20, 0xFF, 0x2010, 0x2026, 0};
+        std::error_code ignored;
+        if (std::filesystem::exists(file, ignored))
+            ImGui::GetIO().Fonts->AddFontFromFileTTF(file, std::round(14 * scale), nullptr, letters);
+        else
+            ImGui::GetIO().FontGlobalScale = scale;
+    }
+
+    GLFWwindow* window_ = nullptr;
+    bool has_glfw_ = false, has_imgui_ = false;
+};
+
+// What a script's hand does takes the place of what the real one does.
+void move_hand(GLFWwindow* window, const Hand& hand) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (hand.resize) glfwSetWindowSize(window, hand.resize->first, hand.resize->second);
+    io.MousePos = {float(hand.x), float(hand.y)};
+    io.MouseDown[0] = hand.button;
+    io.MouseWheel = float(hand.wheel);
+    if (!hand.key.empty()) pressed_keys().push_back(key_press(hand.key));
+}
+
+void take_keys(App& app) {
+    std::vector<KeyPress> keys;
+    keys.swap(pressed_keys());
+    if (ImGui::GetIO().WantTextInput) return;
+    for (const KeyPress& key : keys)
+        for (const Binding& binding : bindings()) {
+            const KeyPress bound = key_press(binding.key);
+            const bool repeats = binding.line.find("_by") != std::string::npos;
+            if (bound.code == key.code && bound.shift == key.shift && bound.ctrl == key.ctrl &&
+                (repeats || !key.repeated))
+                static_cast<void>(act(app, binding.line));
+        }
+}
+
+void draw(App& app) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float letter = ImGui::GetFontSize();
+    const float panel = app.state.panels ? std::min(26 * letter, 0.6f * size.x) : 0;
+    const float status = std::min(3.4f * letter, 0.5f * size.y);
+    constexpr auto flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+    const auto place = [](float x, float y, float width, float height) {
+        ImGui::SetNextWindowPos({x, y});
+        ImGui::SetNextWindowSize({std::max(1.0f, width), std::max(1.0f, height)});
+    };
+    place(0, 0, size.x - panel, size.y - status);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+    ImGui::Begin("picture", nullptr, flags | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar(2);
+    draw_canvas(app);
+    ImGui::End();
+    place(0, size.y - status, size.x - panel, status);
+    ImGui::Begin("status", nullptr, flags);
+    draw_status_line(app);
+    ImGui::End();
+    app.widgets.clear();
+    app.screen_height = double(size.y);
+    if (app.state.panels) {
+        place(size.x - panel, 0, panel, size.y);
+        ImGui::Begin("panels", nullptr, flags & ~ImGuiWindowFlags_NoScrollbar);
+        draw_panels(app);
+        ImGui::End();
+    }
+    if (app.state.help) draw_help(app);
+}
+
+class Loop {
+public:
+    Loop(GLFWwindow* window, const Setup& setup, std::optional<Script> script)
+        : window_(window), app_(setup, [] { glfwPostEmptyEvent(); }), script_(std::move(script)) {}
+
+    Status operator()() {
+        while (!glfwWindowShouldClose(window_) && !app_.quit) {
+            tick();
+            if (!script_) continue;
+            if (script_->failure()) return *script_->failure();
+            if (script_->is_done()) break;
+        }
+        if (script_)
+            std::fprintf(
+                stderr, "petzval: longest tick %.1f ms, longest from a change to its first picture %.1f ms\n",
+                app_.slowest.tick, app_.slowest.first_picture);
+        return Done{};
+    }
+
+private:
+    // Sleeps until something happens; a few ticks follow it, as widgets answer one late.
+    void wait_for_events() {
+        if (lively_ticks_ > 0 || script_)
+            glfwPollEvents();
+        else
+            glfwWaitEventsTimeout(0.5);
+        lively_ticks_ = std::max(lively_ticks_ - 1, 0);
+        const ImGuiIO& io = ImGui::GetIO();
+        if (app_.is_busy() || io.MouseDown[0] || io.MouseDelta.x != 0 || io.MouseDelta.y != 0)
+            lively_ticks_ = 6;
+    }
+
+    void tick() {
+        wait_for_events();
+        const auto start = Clock::now();
+        app_.take_news();
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui_ImplGlfw_NewFrame();
+        if (script_) move_hand(window_, script_->tick(app_));
+        ImGui::NewFrame();
+        take_keys(app_);
+        draw(app_);
+        app_.ask();
+        if (!app_.copied.empty() && app_.copied != clipboard_)
+            glfwSetClipboardString(window_, (clipboard_ = app_.copied).c_str());
+        ImGui::Render();
+        const double worked = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        if (++ticks_ > 3) app_.slowest.tick = std::max(app_.slowest.tick, worked);  // the first load shaders
+        paint();
+        glfwSwapBuffers(window_);
+        std::this_thread::sleep_until(start + kFrame);  // where swapping does not wait for the display
+    }
+
+    void paint() {
+        int width = 1, height = 1;
+        glfwGetFramebufferSize(window_, &width, &height);
+        glViewport(0, 0, width, height);
+        glClearColor(0.08f, 0.08f, 0.08f, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        if (script_ && script_->looks_at_screen())
+            script_->seen(app_, {width, height, pixels_on_screen(width, height)});
+    }
+
+    GLFWwindow* window_;
+    App app_;
+    std::optional<Script> script_;
+    std::string clipboard_;
+    int lively_ticks_ = 10, ticks_ = 0;
+};
+
+}  // namespace
+
+Status run(const Setup& setup) {
+    std::optional<Script> script;
+    if (!setup.script.empty()) {
+        auto read = Script::read(setup.script);
+        if (!read) return read.error();
+        script = std::move(*read);
+    }
+    Window window;
+    if (Status open = window.open(setup); !open) return open;
+    return Loop(window.get(), setup, std::move(script))();
+}
+
+}  // namespace petzval::view

@@ -1,0 +1,255 @@
+"""petzval view under Xvfb: scripts do what a hand would, and look at the screen. Prints how long windows took."""
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PETZVAL = os.environ.get("PETZVAL", "petzval")
+TIME_LIMIT_S = 60
+
+
+class Display:
+    """An X server of our own, software rendered; `name` is None where none can be had."""
+
+    def __init__(self):
+        self.server, self.name = None, None
+        if not shutil.which("Xvfb"):
+            return
+        read, write = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1100x900x24"],
+                                       pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as says:
+            number = says.readline().strip()
+        self.name = ":" + number if number else None
+
+    def close(self):
+        if self.server:
+            self.server.terminate()
+            self.server.wait()
+
+
+class ViewTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = tempfile.mkdtemp(prefix="petzval-view-")
+        subprocess.run([PETZVAL, "scene", "make", "table", "-o", "table.exr", "--width",
+                       "320", "--height", "180", "--pinhole-samples", "4", "--truth", "truth.exr", "--samples", "4"],
+                       cwd=cls.shared, check=True, capture_output=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.shared, ignore_errors=True)
+
+    def contents(self, *names):
+        for name in names:
+            with open(os.path.join(self.shared, name), "rb") as file:
+                yield file.read()
+
+    def start(self, *arguments, display=None):
+        env = {**os.environ, "PETZVAL_KERNEL_CACHE": "off", "DISPLAY": display or DISPLAY.name}
+        window = subprocess.Popen([PETZVAL, "view", *arguments, "--window", "1000x850"], cwd=self.shared, env=env,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (window.kill(), window.communicate()))
+        return window
+
+    def do(self, script, *arguments, code=0):
+        """Runs a script; returns its standard output and standard error."""
+        with open(os.path.join(self.shared, "script.txt"), "w") as file:
+            file.write(script)
+        window = self.start(*(arguments or ["table.exr"]), "--script", "script.txt")
+        out, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, code, err)
+        if code == 0:
+            print(self.id().split(".")[-1] + ":", err.strip().splitlines()[-1])
+        return out, err
+
+    def test_a_click_focuses_on_what_is_seen_there_and_the_picture_follows(self):
+        # The checked ball in the middle stands 1.2 m away; the red one at the back is farther.
+        out, _ = self.do("""
+            wait
+            click 165 100
+            wait
+            expect no error
+            expect focus 1.18 0.02
+            expect pick.radius_px 0 1e12
+            expect frame.engine scatter
+            expect frame.quality standard
+            set fstop 0.7
+            wait
+            say pick.radius_px
+            click 162 55
+            wait
+            expect pick.x 162
+            say focus
+        """)
+        radius, focus = map(float, out.split())
+        self.assertLess(abs(radius), 0.05)
+        self.assertGreater(focus, 1.3)
+
+    def test_what_is_saved_is_what_the_copied_command_makes(self):
+        out, _ = self.do("""
+            wait
+            click 165 100
+            set fstop 0.95
+            set lens.blades 5
+            set lens.cats_eye 0.4
+            set quality draft
+            set focus.max_radius_px 9
+            set lens.barn_doors 0,0.2,0,0
+            wait
+            expect no error
+            copy
+            say copied
+            save saved.exr
+            wait
+            expect notice wrote
+        """)
+        command = shlex.split(out.strip())
+        command[command.index("out.exr")] = "commanded.exr"
+        subprocess.run([PETZVAL, *command[1:]], cwd=self.shared, check=True, capture_output=True)
+        saved, commanded = self.contents("saved.exr", "commanded.exr")
+        self.assertTrue(saved == commanded, "other bytes by " + out)
+
+    def test_keys_show_channels_buffers_and_exposure_on_the_screen(self):
+        # A red channel is grey; the same key again brings colour back; depth, radii and help show something else.
+        self.do("""
+            wait
+            key 2
+            wait
+            shot colour.png
+            key r
+            wait
+            shot red.png
+            key r
+            key e
+            wait
+            shot brighter.png
+            expect exposure 0.5
+            key shift+e
+            key 5
+            wait
+            shot depth.png
+            key 4
+            wait
+            shot radii.png
+            key h
+            wait
+            shot help.png
+            key h
+            key 2
+            wait
+            shot again.png
+        """)
+        names = ["colour", "red", "brighter", "depth", "radii", "help", "again"]
+        shots = list(self.contents(*[name + ".png" for name in names]))
+        self.assertTrue(shots[0] == shots[-1])
+        self.assertEqual(len(set(shots)), 6)
+
+    def test_panels_and_wipe_answer_the_mouse(self):
+        self.do("""
+            wait
+            drag camera.f_number 60
+            wait
+            say fstop
+            click "wipe sharp"
+            wait
+            shot wiped.png
+            drag "depth histogram" 30
+            wait
+            click view.overlay
+            wait
+            expect view.overlay on
+            expect no error
+            key w
+            wait
+        """, "table.exr", "--against", "truth.exr")
+
+    def test_zoomed_in_only_what_is_seen_is_made_and_it_is_the_same(self):
+        values = []
+        for zoom in (0, 8):
+            out, _ = self.do("""
+                wait
+                set view.centre_x 165
+                set view.centre_y 100
+                set view.zoom %d
+                set fstop 1
+                wait
+                say frame.made_width
+                set view.zoom 8
+                wait
+                expect no error
+                shot zoomed%d.png
+            """ % (zoom, len(values)))
+            values.append(int(out))
+        self.assertEqual(values[0], 320)
+        self.assertLess(values[1], 200)
+        whole, part = self.contents("zoomed0.png", "zoomed1.png")
+        self.assertTrue(whole == part, "the screen shows something else")
+
+    def test_what_is_wrong_is_said_in_the_window_which_stays(self):
+        shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gone.exr"))
+        self.do("""
+            wait
+            set lens.blades 2
+            expect error
+            set lens nobody
+            wait
+            expect error nobody
+            set lens ideal
+            wait
+            expect no error
+            load_look missing.json
+            expect error missing.json
+            save missing/folder.exr
+            wait
+            expect error missing
+            resize 1 1
+            wait
+            resize 1000 850
+            wait
+            focus 4000 4000
+            expect error nothing
+            show nothing
+            expect error
+        """, "gone.exr", "--ui-scale", "3")
+        self.do("wait\nexpect error nowhere.exr\n", "nowhere.exr")
+        _, err = self.do("wait\nfly away\n", code=3)
+        self.assertIn("script.txt:2", err)
+        _, err = self.do("wait\nexpect fstop 77\n", code=2)
+        self.assertIn("script.txt:2", err)
+
+    def test_without_a_display_there_is_one_line(self):
+        window = self.start("table.exr", display=":nowhere")
+        _, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, 2, err)
+        self.assertIn("no window", err)
+        self.assertEqual(len(err.strip().splitlines()), 1, err)
+
+    @unittest.skipUnless(shutil.which("xdotool"), "no xdotool")
+    def test_another_hand_closes_it(self):
+        window = self.start("table.exr")
+        env = {**os.environ, "DISPLAY": DISPLAY.name}
+        found = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "petzval"], env=env,
+                               capture_output=True, text=True, timeout=TIME_LIMIT_S)
+        time.sleep(0.5)
+        for words in (["mousemove", "300", "200"], ["click", "1"], ["key", "h"], ["key", "ctrl+q"]):
+            subprocess.run(["xdotool", *words], env=env, check=True, timeout=TIME_LIMIT_S)
+            time.sleep(0.1)
+        self.assertTrue(found.stdout.strip())
+        _, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, 0, err)
+
+
+if __name__ == "__main__":
+    DISPLAY = Display()
+    if not DISPLAY.name:
+        print("SKIPPED: no display can be had (Xvfb is missing or does not start)")
+        sys.exit(77)
+    done = unittest.main(exit=False)
+    DISPLAY.close()
+    sys.exit(not done.result.wasSuccessful())
