@@ -45,7 +45,7 @@ ALLOWED = {
     "sequence": PIXELS | {"optics", "names", "look", "session", "shot"},
     "lens_facts": LENS,
     "c": PIXELS | {"lens_facts", "look", "session"},
-    "session": WAIST | ENGINES | {"device/cpu", "views", "look", "glare"},
+    "session": WAIST | ENGINES | {"device/cpu", "depth", "views", "look", "glare"},
 }
 # What tests beside the code may see as well.
 TESTS = {

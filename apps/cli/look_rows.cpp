@@ -79,6 +79,9 @@ std::vector<LookRow> rows_of_input_and_focus() {
             "go back; what is sharp stays as it is"),
         row("Input", "--highlight-peak", "plate.peak", value("LIGHT", parse_positive),
             "what 1 stood for then (default 16, four stops above white)"),
+        row("Input", "--depth-edges", "depth.edges", name<DepthEdges>(),
+            "silhouettes that are ramps, as in depth of networks: each pixel goes to one side where most are "
+            "(auto, default) or wherever there is one (snap), or they stay (keep)"),
         row("Focus", "--focus-range", "focus.range_m", value("M,M", parse_range_m),
             "keep everything between two distances sharp, as 1.8m,3m"),
         row("Focus", "--focus-falloff", "focus.falloff", value("SHARE", parse_not_negative),

@@ -3,6 +3,7 @@
 
 #include "petzval/camera.h"
 #include "petzval/deep.h"
+#include "petzval/depth.h"
 #include "petzval/engine_options.h"
 #include "petzval/engine_report.h"
 #include "petzval/export.h"
@@ -39,6 +40,9 @@ struct DefocusJob {
     // depths of `deep`, `behind` and `holdout` are radii too.
     View<const float> coc_px;
     bool depth_is_coc = false;  // older: depth_m holds what coc_px is for
+    // What is done with soft silhouettes of depth_m, or of radii; not of deep pictures. What was done stands
+    // in the report's warnings.
+    DepthEdges depth_edges = DepthEdges::Auto;
     const DeepPicture* deep =
         nullptr;  // all samples of a deep input, same size; replaces colour and depth_m where given
     const DeepPicture* behind = nullptr;  // hidden layers, same size, see docs/conventions.md; may be null

@@ -25,6 +25,14 @@ enum class DepthKind {
     CocPx,       // already a signed circle-of-confusion radius in pixels, + is far
 };
 
+// Silhouettes that are ramps instead of steps, as depth of networks, averaged and enlarged passes has them: a
+// pixel in a ramp has the depth of nothing that is there.
+enum class DepthEdges {
+    Auto,  // snap where most silhouettes are soft; depth of renderers stays as it is, bit for bit
+    Keep,  // take every value for what it says
+    Snap,  // give each pixel of a ramp to the nearer or the farther side, by its colour and place
+};
+
 struct DepthSettings {
     DepthKind kind = DepthKind::Planar;
     double unit_scale_m = 1;                      // metres per unit of the channel, > 0

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petzval/camera.h"
+#include "petzval/depth.h"
 #include "petzval/dynamic_range.h"
 #include "petzval/engine_options.h"
 #include "petzval/export.h"
@@ -26,6 +27,7 @@ struct Look {
     std::uint64_t seed = 1;   // of all random choices
     int pupil_points = 4096;  // rays per pixel, engine reference only; > 0
 
+    DepthEdges depth_edges = DepthEdges::Auto;
     CocControls coc;
     LensChoice lens;
     // Files with what lens.texture.image and lens.kernel_images hold; empty: none. The pictures themselves

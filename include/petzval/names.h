@@ -57,6 +57,8 @@ PETZVAL_API std::span<const Named<Transfer>> names();
 template <>
 PETZVAL_API std::span<const Named<DepthKind>> names();
 template <>
+PETZVAL_API std::span<const Named<DepthEdges>> names();
+template <>
 PETZVAL_API std::span<const Named<ErrorCode>> names();
 
 // "standard"; "?" for a number that is no value of the enum.

@@ -63,7 +63,8 @@ Rules rules_of_engines() {
          [](const Look& l) {
              return unless(l.coc.focus_far_m > 0, "without focus.range_m, as focus.range_m 1.8m,3m");
          }},
-        {{"focus.range_m", "focus.falloff", "focus.near_scale", "focus.far_scale", "focus.max_radius_px"},
+        {{"depth.edges", "focus.range_m", "focus.falloff", "focus.near_scale", "focus.far_scale",
+          "focus.max_radius_px"},
          [](const Look& l) {
              return unless(!is_published_stage(l) || l.gather.stage != GatherStage::Prefilter,
                            "with gather.stage prefilter, which asks for no radius");

@@ -84,6 +84,7 @@ Changes changes_of_engines_and_light() {
             [](Look& l) { l.glare.veil = 0.8; },
             [](Look& l) { l.glare.threshold = 0; },
             [](Look& l) { l.vignetting = true; },
+            [](Look& l) { l.depth_edges = DepthEdges::Snap; },
             [](Look& l) { l.expand_highlights = true; },
             [](Look& l) { l.expansion.knee = 0.25; },
             [](Look& l) { l.expansion.peak = 30; }};

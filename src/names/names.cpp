@@ -61,6 +61,10 @@ constexpr Named<DepthKind> kDepthKinds[]{
     {DepthKind::Normalized, "normalized", "0 to 1 between the ends of a range"},
     {DepthKind::Device, "device", "z-buffer between the ends of a range"},
     {DepthKind::CocPx, "coc-px", "signed blur radius in pixels"}};
+constexpr Named<DepthEdges> kDepthEdges[]{
+    {DepthEdges::Auto, "auto", "snap where most silhouettes are ramps"},
+    {DepthEdges::Keep, "keep", "as the depth says"},
+    {DepthEdges::Snap, "snap", "each pixel of a ramp goes to one side"}};
 constexpr Named<ErrorCode> kErrorCodes[]{
     {ErrorCode::InvalidArgument, "invalid-argument", "a flag, a number or a field is wrong or missing"},
     {ErrorCode::InvalidFile, "invalid-file", "an input is missing, damaged or lacks what is needed"},
@@ -85,6 +89,7 @@ template <> std::span<const Named<LensCoating>> names() { return kCoatings; }
 template <> std::span<const Named<ToneCurve>> names() { return kTones; }
 template <> std::span<const Named<Transfer>> names() { return kTransfers; }
 template <> std::span<const Named<DepthKind>> names() { return kDepthKinds; }
+template <> std::span<const Named<DepthEdges>> names() { return kDepthEdges; }
 template <> std::span<const Named<ErrorCode>> names() { return kErrorCodes; }
 // clang-format on
 

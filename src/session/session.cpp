@@ -5,6 +5,7 @@
 #include "device/cpu/cpu_device.h"
 #include "engine/waist/memory.h"
 #include "session/contents.h"
+#include "session/depth_edges.h"
 #include "session/distort.h"
 #include "session/engines.h"
 #include "session/frame.h"
@@ -196,6 +197,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
     if (const Status status = open_lens(job); !status) return status.error();
+    const HardEdges edges(job, workers);
     auto lens = lens_for(job);
     if (!lens) return lens.error();
     const Rect window = window_for(job, *radii, *(*lens)->levels.front());
@@ -209,6 +211,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     auto report =
         made_frame(wider ? wider->job() : job, {asked.moved(-window.x0, -window.y0), region.has_value()},
                    **engine, *radii, **lens, clock, progress);
+    if (report && !edges.what_was_done().empty()) report->warnings.push_back(edges.what_was_done());
     trim(most_kept_bytes());
     return report;
 }
@@ -240,11 +243,14 @@ std::vector<std::string> engine_names() {
     return names;
 }
 
-Result<Plane> circle_of_confusion(const DefocusJob& job) {
-    if (const Status status = check_job(job); !status) return status.error();
-    const auto radii = Radii::make(job);
+Result<Plane> circle_of_confusion(const DefocusJob& given) {
+    if (const Status status = check_job(given); !status) return status.error();
+    const auto radii = Radii::make(given);
     if (!radii) return radii.error();
-    return radii->of(depth_or_radii(job), *workers_of(job.threads, job.workers));
+    const std::shared_ptr<Workers> workers = workers_of(given.threads, given.workers);
+    DefocusJob job = given;
+    const HardEdges edges(job, *workers);
+    return radii->of(depth_or_radii(job), *workers);
 }
 
 Result<DefocusReport> defocus(const DefocusJob& job) {

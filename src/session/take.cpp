@@ -84,6 +84,7 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
     job.quality = look.quality;
     job.seed = look.seed;
     job.pupil_points = look.pupil_points;
+    job.depth_edges = look.depth_edges;
     job.coc = look.coc;
     job.lens = look.lens;
     if (job.opened_lens && !(job.opened_lens->choice() == look.lens)) job.opened_lens.reset();

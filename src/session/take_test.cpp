@@ -37,6 +37,56 @@ TEST(Take, ALookWithoutLightIsADefocus) {
     EXPECT_TRUE(same(taken->image, defocused->image));
 }
 
+// A near square before a wall, its radii blurred as a network's are.
+struct SoftlyRendered : Rendered {
+    SoftlyRendered() {
+        Plane exact(kWidth, kHeight, 0);
+        for (int y = 12; y < 36; ++y)
+            for (int x = 16; x < 44; ++x) exact(x, y) = -8, colour(x, y) = {0.6f, 0.1f, 0.1f, 1};
+        const float weights[]{0.06f, 0.24f, 0.4f, 0.24f, 0.06f};
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                radii(x, y) = 0;
+                for (int v = -2; v <= 2; ++v)
+                    for (int u = -2; u <= 2; ++u)
+                        radii(x, y) += weights[u + 2] * weights[v + 2] * exact.view().clamped(x + u, y + v);
+            }
+    }
+};
+
+TEST(Take, SoftSilhouettesOfDepthAreSnappedAndSaidToBe) {
+    const SoftlyRendered r;
+    Session session;
+    Look look;
+    const auto by_itself = session.take(r.job, look);
+    look.depth_edges = DepthEdges::Snap;
+    const auto snapped = session.take(r.job, look);
+    look.depth_edges = DepthEdges::Keep;
+    const auto kept = session.take(r.job, look);
+    ASSERT_TRUE(by_itself && snapped && kept);
+    EXPECT_TRUE(same(by_itself->image, snapped->image));
+    EXPECT_FALSE(same(by_itself->image, kept->image));
+    ASSERT_EQ(by_itself->warnings.size(), kept->warnings.size() + 1);
+    EXPECT_NE(by_itself->warnings.back().find("depth.edges"), std::string::npos);
+    const auto radii = circle_of_confusion(r.job);
+    ASSERT_TRUE(radii);
+    for (std::size_t i = 0; i < radii->size(); ++i)
+        EXPECT_TRUE(radii->pixels()[i] < -7 || radii->pixels()[i] > -1) << i;
+}
+
+TEST(Take, SilhouettesOfRenderersStayAsTheyAre) {
+    SoftlyRendered r;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) r.radii(x, y) = r.radii(x, y) < -4 ? -8.0f : 0.1f * float(x);
+    Session session;
+    Look keep;
+    keep.depth_edges = DepthEdges::Keep;
+    const auto by_itself = session.take(r.job, {}), kept = session.take(r.job, keep);
+    ASSERT_TRUE(by_itself && kept);
+    EXPECT_TRUE(same(by_itself->image, kept->image));
+    EXPECT_EQ(by_itself->warnings, kept->warnings);
+}
+
 TEST(Take, CornersDarkenBeforeGlareAddsItsLight) {
     const Rendered r;
     Session session;

@@ -15,65 +15,77 @@ namespace {
 
 using Choice = std::pair<const char*, const char*>;  // a field's path and a value
 
+std::vector<Choice> changes_of_light() {
+    return {{"glare.bloom", "0.2"},
+            {"glare.bloom_radius", "0.3"},
+            {"glare.star", "0.2"},
+            {"glare.star_radius", "0.2"},
+            {"glare.star_quality", "draft"},
+            {"glare.ghosts", "0.2"},
+            {"glare.coating", "none"},
+            {"glare.veil", "0.2"},
+            {"glare.threshold", "0.5"},
+            {"glare.vignetting", "true"},
+            {"plate.expand_highlights", "true"},
+            {"plate.knee", "0.2"},
+            {"plate.peak", "5"}};
+}
+
+std::vector<Choice> changes_of_all_else() {
+    return {{"quality", "draft"},
+            {"seed", "7"},
+            {"pupil_points", "23"},
+            {"depth.edges", "keep"},
+            {"focus.range_m", "[1.5, 3]"},
+            {"focus.falloff", "0.3"},
+            {"focus.near_scale", "0.5"},
+            {"focus.far_scale", "0.5"},
+            {"focus.max_radius_px", "2.5"},
+            {"lens.name", "tessar"},
+            {"lens.blades", "3"},
+            {"lens.blade_rotation_deg", "31"},
+            {"lens.blade_curvature", "0.6"},
+            {"lens.squeeze", "1.7"},
+            {"lens.iris_open", "4"},
+            {"lens.cats_eye", "0.9"},
+            {"lens.barrel", R"([{"radius_mm": 30, "distance_mm": -60}])"},
+            {"lens.barn_doors", "[0.8, 0, 0, 0.3]"},
+            {"lens.aperture_image", "half.png"},
+            {"lens.kernel_image", R"(["disc.exr"])"},
+            {"lens.dust", "0.9"},
+            {"lens.scratches", "0.9"},
+            {"lens.onion_rings", "0.9"},
+            {"lens.texture_seed", "5"},
+            {"lens.focus_mode", "paraxial"},
+            {"lens.focus_shift_mm", "0.3"},
+            {"lens.spherical", "-1"},
+            {"lens.axial_colour", "-3"},
+            {"lens.lateral_colour", "-3"},
+            {"lens.coma", "3"},
+            {"lens.astigmatism", "4"},
+            {"lens.distortion", "0.2"},
+            {"lens.wavelengths", "3"},
+            {"lens.wave", "true"},
+            {"gather.stage", "near-far"},
+            {"gather.taps", "16"},
+            {"gather.coc", "extreme"},
+            {"gather.fill", "false"},
+            {"gaussian.style", "plain"},
+            {"gaussian.focus_band", "0.8"},
+            {"gaussian.depth_offset", "0.1"},
+            {"gaussian.depth_band_range_m", "[0.5, 30]"},
+            {"sprites.background", "gaussian"},
+            {"sprites.find_points", "false"},
+            {"sprites.bright_factor", "12"}};
+}
+
 // Each field once, at a value that is not its default.
 const std::vector<Choice>& changes() {
-    static const std::vector<Choice> all{{"quality", "draft"},
-                                         {"seed", "7"},
-                                         {"pupil_points", "23"},
-                                         {"focus.range_m", "[1.5, 3]"},
-                                         {"focus.falloff", "0.3"},
-                                         {"focus.near_scale", "0.5"},
-                                         {"focus.far_scale", "0.5"},
-                                         {"focus.max_radius_px", "2.5"},
-                                         {"lens.name", "tessar"},
-                                         {"lens.blades", "3"},
-                                         {"lens.blade_rotation_deg", "31"},
-                                         {"lens.blade_curvature", "0.6"},
-                                         {"lens.squeeze", "1.7"},
-                                         {"lens.iris_open", "4"},
-                                         {"lens.cats_eye", "0.9"},
-                                         {"lens.barrel", R"([{"radius_mm": 30, "distance_mm": -60}])"},
-                                         {"lens.barn_doors", "[0.8, 0, 0, 0.3]"},
-                                         {"lens.aperture_image", "half.png"},
-                                         {"lens.kernel_image", R"(["disc.exr"])"},
-                                         {"lens.dust", "0.9"},
-                                         {"lens.scratches", "0.9"},
-                                         {"lens.onion_rings", "0.9"},
-                                         {"lens.texture_seed", "5"},
-                                         {"lens.focus_mode", "paraxial"},
-                                         {"lens.focus_shift_mm", "0.3"},
-                                         {"lens.spherical", "-1"},
-                                         {"lens.axial_colour", "-3"},
-                                         {"lens.lateral_colour", "-3"},
-                                         {"lens.coma", "3"},
-                                         {"lens.astigmatism", "4"},
-                                         {"lens.distortion", "0.2"},
-                                         {"lens.wavelengths", "3"},
-                                         {"lens.wave", "true"},
-                                         {"gather.stage", "near-far"},
-                                         {"gather.taps", "16"},
-                                         {"gather.coc", "extreme"},
-                                         {"gather.fill", "false"},
-                                         {"gaussian.style", "plain"},
-                                         {"gaussian.focus_band", "0.8"},
-                                         {"gaussian.depth_offset", "0.1"},
-                                         {"gaussian.depth_band_range_m", "[0.5, 30]"},
-                                         {"sprites.background", "gaussian"},
-                                         {"sprites.find_points", "false"},
-                                         {"sprites.bright_factor", "12"},
-                                         {"glare.bloom", "0.2"},
-                                         {"glare.bloom_radius", "0.3"},
-                                         {"glare.star", "0.2"},
-                                         {"glare.star_radius", "0.2"},
-                                         {"glare.star_quality", "draft"},
-                                         {"glare.ghosts", "0.2"},
-                                         {"glare.coating", "none"},
-                                         {"glare.veil", "0.2"},
-                                         {"glare.threshold", "0.5"},
-                                         {"glare.vignetting", "true"},
-                                         {"plate.expand_highlights", "true"},
-                                         {"plate.knee", "0.2"},
-                                         {"plate.peak", "5"}};
+    static const std::vector<Choice> all = [] {
+        std::vector<Choice> every = changes_of_all_else();
+        for (const Choice& choice : changes_of_light()) every.push_back(choice);
+        return every;
+    }();
     return all;
 }
 
@@ -136,10 +148,12 @@ bool is_idle(const Look& look, const std::string& path) {
     return false;
 }
 
-// What shows in some pictures and not in others: discs large enough to be simplified, the radii before focus
-// where a method goes by the largest, light that is still bright after the blur, rims that cut a beam.
+// What shows in some pictures and not in others: silhouettes that are ramps, discs large enough to be
+// simplified, the radii before focus where a method goes by the largest, light that is still bright after the
+// blur, rims that cut a beam.
 bool depends_on_the_shot(const std::string& path) {
-    return path == "quality" || path == "focus.near_scale" || path == "glare.ghosts" || path == "lens.name";
+    return path == "quality" || path == "depth.edges" || path == "focus.near_scale" ||
+           path == "glare.ghosts" || path == "lens.name";
 }
 
 // Of the fields whose paths begin so, or of all.

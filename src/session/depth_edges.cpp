@@ -1,0 +1,59 @@
+#include "session/depth_edges.h"
+
+#include "base/parallel.h"
+#include "depth/soft_edges.h"
+#include "engine/samples/all_samples.h"
+#include "session/frame.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace petzval {
+namespace {
+
+// Values that are linear in 1/depth, as radii are.
+Plane linear_values(View<const float> depth, bool is_radii, Workers& workers) {
+    Plane values = Plane::uninitialised(depth.width(), depth.height());
+    parallel_for(depth.height(), workers, [&](int y) {
+        for (int x = 0; x < depth.width(); ++x) {
+            const float v = depth(x, y);
+            values(x, y) = is_radii ? (std::isfinite(v) ? v : 0) : float(1 / engine::finite_depth(double(v)));
+        }
+    });
+    return values;
+}
+
+std::string in_words(const EdgeSoftness& softness) {
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "the depth's silhouettes are ramps about %.0f px wide: their pixels went to one side by colour; "
+        "depth.edges keep leaves them",
+        4 * double(softness.deviation_px));
+    return text;
+}
+
+}  // namespace
+
+HardEdges::HardEdges(DefocusJob& job, Workers& workers) {
+    if (job.depth_edges == DepthEdges::Keep || (job.deep && !job.deep->empty())) return;
+    const bool is_radii = has_radii(job);
+    const View<const float> given = depth_or_radii(job);
+    const Plane values = linear_values(given, is_radii, workers);
+    const EdgeSoftness softness = edge_softness(values, workers);
+    if (job.depth_edges == DepthEdges::Auto && !softness.is_soft()) return;
+    plane_ = snapped_edges(job.colour, values, softness, workers);
+    parallel_for(plane_.height(), workers, [&](int y) {
+        for (int x = 0; x < plane_.width(); ++x) {
+            float& v = plane_(x, y);
+            if (v == values(x, y))
+                v = given(x, y);
+            else if (!is_radii)
+                v = 1 / v;
+        }
+    });
+    (job.coc_px.empty() ? job.depth_m : job.coc_px) = plane_;
+    what_was_done_ = in_words(softness);
+}
+
+}  // namespace petzval
