@@ -1,6 +1,7 @@
 #include "files/exr_pixels.h"
 
 #include "base/parallel.h"
+#include "files/exr_chunks.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ Status read_luminance_chroma(const ExrFile& exr, const ColourChoice& choice, Pic
                      printable(exr.file->path(), 4096) +
                          ": luminance and chroma (Y RY BY) can be read from the first part "
                          "only; convert it to RGB"};
+    if (Status s = check_chunks(exr, 0); !s) return s;
     return guarded(exr.file->path(), [&]() -> Status {
         ExrInputStream stream(exr.file, *exr.workers);
         const std::string& y = choice.luminance;
@@ -60,6 +62,7 @@ Plane depth_of_positions(const std::array<Plane, 3>& position, const Imath::M44f
 
 Status read_floats(const ExrFile& exr, std::size_t part, const std::vector<FloatTarget>& targets) {
     if (Status s = exr.check_complete(part); !s) return s;
+    if (Status s = check_chunks(exr, part); !s) return s;
     return guarded(exr.file->path(), [&]() -> Status {
         const Rect window = exr.layout.parts[part].data_window;
         Imf::InputPart input(*exr.parts, int(part));
