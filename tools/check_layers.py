@@ -77,6 +77,7 @@ PUBLIC = {
     "lens_facts": "lens_facts",
     "lens_kernel": "lens_facts",
     "lens_report": "lens_sheet",
+    "lens_section": "lens_facts",
     "light_point": "image",
     "look": "look",
     "look_check": "look",

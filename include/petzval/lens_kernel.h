@@ -8,6 +8,7 @@
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,10 @@ PETZVAL_API Result<LensDisc> lens_point_spread(const LensChoice& lens, const Len
                                                double coc_radius_px, double field_x = 0, double field_y = 0,
                                                int size_px = 0, bool raw = false);
 inline constexpr int kLargestDiscPx = 8192;
+// Several discs of one place, the lens mounted once. Errors: as above.
+PETZVAL_API Result<std::vector<LensDisc>> lens_point_spreads(const Lens& lens, const LensMount& mount,
+                                                             std::span<const double> coc_radii_px,
+                                                             double field_x = 0, double field_y = 0);
 
 struct BokehTextureSettings {
     int columns = 512;

@@ -74,27 +74,45 @@ void fill(BokehTexture& texture, const std::vector<std::vector<Rgba>>& profiles)
         }
 }
 
+Result<LensDisc> disc_of(const kernel::LensModel& lens, double coc_radius_px, FieldPosition field,
+                         int size_px, bool raw) {
+    if (const Status status = check_radius(lens, coc_radius_px); !status) return status.error();
+    if (!(std::hypot(field.x, field.y) <= 1.001))
+        return refuse("disc.field must lie within the half diagonal, as 0.5,-0.3");
+    if (size_px < 0 || size_px > kLargestDiscPx)
+        return refuse("disc.size_px must be 0 (as the disc needs) to " + std::to_string(kLargestDiscPx));
+    const kernel::PointSpread spread =
+        raw ? lens.raw_point_spread(coc_radius_px, field) : lens.point_spread(coc_radius_px, field);
+    const Rect e = spread.extent;
+    const int needed = 2 * std::max({-e.x0, -e.y0, e.x1 - 1, e.y1 - 1, 0}) + 1;
+    LensDisc disc{centred(spread, size_px == 0 ? needed : size_px | 1), lens.description(), 1};
+    for (std::size_t i = 0; i < disc.weights.size(); ++i)
+        disc.lost_share -= double(disc.weights.pixels()[i].g);
+    if (std::abs(disc.lost_share) < 1e-5) disc.lost_share = 0;
+    return disc;
+}
+
 }  // namespace
 
 Result<LensDisc> lens_point_spread(const Lens& opened, const LensMount& mount, double coc_radius_px,
                                    double field_x, double field_y, int size_px, bool raw) {
     const auto lens = mounted(opened, mount);
     if (!lens) return lens.error();
-    if (const Status status = check_radius(**lens, coc_radius_px); !status) return status.error();
-    if (!(std::hypot(field_x, field_y) <= 1.001))
-        return refuse("disc.field must lie within the half diagonal, as 0.5,-0.3");
-    if (size_px < 0 || size_px > kLargestDiscPx)
-        return refuse("disc.size_px must be 0 (as the disc needs) to " + std::to_string(kLargestDiscPx));
-    const kernel::FieldPosition field{field_x, field_y};
-    const kernel::PointSpread spread =
-        raw ? (*lens)->raw_point_spread(coc_radius_px, field) : (*lens)->point_spread(coc_radius_px, field);
-    const Rect e = spread.extent;
-    const int needed = 2 * std::max({-e.x0, -e.y0, e.x1 - 1, e.y1 - 1, 0}) + 1;
-    LensDisc disc{centred(spread, size_px == 0 ? needed : size_px | 1), (*lens)->description(), 1};
-    for (std::size_t i = 0; i < disc.weights.size(); ++i)
-        disc.lost_share -= double(disc.weights.pixels()[i].g);
-    if (std::abs(disc.lost_share) < 1e-5) disc.lost_share = 0;
-    return disc;
+    return disc_of(**lens, coc_radius_px, {field_x, field_y}, size_px, raw);
+}
+
+Result<std::vector<LensDisc>> lens_point_spreads(const Lens& opened, const LensMount& mount,
+                                                 std::span<const double> coc_radii_px, double field_x,
+                                                 double field_y) {
+    const auto lens = mounted(opened, mount);
+    if (!lens) return lens.error();
+    std::vector<LensDisc> discs;
+    for (const double radius : coc_radii_px) {
+        auto disc = disc_of(**lens, radius, {field_x, field_y}, 0, false);
+        if (!disc) return disc.error();
+        discs.push_back(std::move(*disc));
+    }
+    return discs;
 }
 
 Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
