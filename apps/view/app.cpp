@@ -24,8 +24,8 @@ Rect Mapping::seen() const {
             int(std::ceil(frame_y(y0 + height)))};
 }
 
-App::App(const Setup& setup, std::function<void()> wake)
-    : setup_(setup), darkroom_(setup.ocio_codes, wake), maker_(setup.session, wake) {
+App::App(const Setup& setup, const std::function<void()>& wake)
+    : setup_(setup), darkroom_(setup.ocio_codes, wake), bench_(wake), maker_(setup.session, wake) {
     state.choice = setup.choice;
     read_again();
 }
@@ -91,7 +91,9 @@ std::optional<float> App::radius_at(PixelPosition pixel) const {
 
 void App::note_action() { acted_ = Clock::now(); }
 
-bool App::is_busy() const { return reading_ || !maker_.is_idle() || !darkroom_.is_idle() || saving_.valid(); }
+bool App::is_busy() const {
+    return reading_ || !maker_.is_idle() || !darkroom_.is_idle() || !bench_.is_idle() || saving_.valid();
+}
 
 void App::save(const std::string& path) {
     if (saving_.valid()) {
@@ -115,6 +117,7 @@ void App::take_news() {
     for (MadeFrame& made : news.frames) take_frame(std::move(made));
     for (const std::string& line : news.changed) notice = line;
     for (Print& print : darkroom_.prints()) take_print(std::move(print));
+    for (LensMade& made : bench_.news()) take_lens(std::move(made));
     if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         const Status done = saving_.get();
         notice = done ? "wrote " + saving_to_ : "";
@@ -197,6 +200,7 @@ void App::ask() {
         maker_.forget(1);
         sides_[1] = {};
     }
+    if (state.lens) ask_lens();
     const std::string& shown = state.left.shown;
     const bool is_light = shown == "result" || shown == "sharp" || shown == "against";
     if (!state.overlay || !is_light || !sides_[0].radii) return clear_print(kOverlayTarget);
@@ -269,6 +273,37 @@ void App::ask_prints(int index, const Side& side) {
     Negative detail;
     detail.picture = frames.detail, detail.area = frames.detail_area;
     ask_print(detail_target(index), std::move(detail));
+}
+
+// Of the picked pixel, else of the middle of the frame at the distance in focus.
+void App::ask_lens() {
+    const auto numbers = camera();
+    if (!numbers) return;
+    const Place& place = shot_->shot.place;
+    LensWish wish;
+    wish.choice = state.choice.look.lens;
+    wish.mount = {*numbers, place.display_window.width(), place.display_window.height(), place.pixel_aspect};
+    wish.depth_m = numbers->focus_distance_m;
+    if (state.pick) {
+        const FieldPosition field =
+            Place::whole({0, 0, wish.mount.width_px, wish.mount.height_px}, place.pixel_aspect)
+                .field()
+                .field_at(state.pick->x, state.pick->y);
+        if (std::hypot(field.x, field.y) <= 1) wish.field_x = field.x, wish.field_y = field.y;
+        wish.depth_m = depth_near(*state.pick).value_or(INFINITY);
+    }
+    if (lens_wish_ && *lens_wish_ == wish) return;
+    lens_wish_ = wish;
+    bench_.make(std::move(wish));
+}
+
+void App::take_lens(LensMade made) {
+    if (made.error) trouble = made.error->message;
+    const LensCodes* codes[] = {&made.disc, &made.front, &made.behind, &made.strip};
+    for (std::size_t i = 0; i < LensMade::kPictures; ++i)
+        if (!codes[i]->rgba.empty())
+            lens_pictures_[i].load(codes[i]->width, codes[i]->height, codes[i]->rgba);
+    lens_made_ = std::move(made);
 }
 
 // What is seen of it, and a little more, so that moving about shows no gaps; as fine as the screen.

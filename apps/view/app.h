@@ -1,6 +1,7 @@
 // What is open, what is chosen, what has been made of it: everything but how it is drawn.
 #pragma once
 
+#include "bench.h"
 #include "darkroom.h"
 #include "maker.h"
 #include "state.h"
@@ -58,12 +59,14 @@ struct Slowest {
 
 class App {
 public:
-    App(const Setup& setup, std::function<void()> wake);
+    App(const Setup& setup, const std::function<void()>& wake);
 
     const Setup& setup() const { return setup_; }
     const ShotPointer& shot() const { return shot_; }
     const ShotPointer& against() const { return against_; }
     const SideFrames& side(int index) const { return sides_[std::size_t(index)]; }
+    const LensMade& lens_made() const { return lens_made_; }
+    const std::array<Texture, LensMade::kPictures>& lens_pictures() const { return lens_pictures_; }
     const std::array<Shown, Darkroom::kTargets>& on_screen() const { return on_screen_; }
 
     State state;
@@ -98,11 +101,13 @@ public:
 
 private:
     void take_shot(ReadShot read);
-    void take_frame(MadeFrame frame);
+    void take_frame(MadeFrame made);
     void take_print(Print print);
     void ask_frame(int index, const Side& side);
     std::optional<Rect> region_for(const SideFrames& frames, const Wish& wish) const;
     void ask_prints(int index, const Side& side);
+    void ask_lens();
+    void take_lens(LensMade made);
     void ask_print(int target, Negative negative);
     void clear_print(int target);
 
@@ -115,7 +120,11 @@ private:
     std::future<Status> saving_;
     std::string saving_to_;
     bool reading_ = false;
+    LensMade lens_made_;
+    std::array<Texture, LensMade::kPictures> lens_pictures_;
+    std::optional<LensWish> lens_wish_;
     Darkroom darkroom_;
+    LensBench bench_;
     Maker maker_;  // last: its thread uses the above
 };
 

@@ -184,6 +184,23 @@ Status save_look(App& app, const Words& words) {
     app.notice = "wrote " + words[0];
     return Done{};
 }
+Status light(App& app, const Words& words) {
+    const auto x = number_of(words[0]), y = number_of(words[1]);
+    if (!x || !y) return invalid("light: not two numbers");
+    app.state.lit = {*x, *y};
+    return Done{};
+}
+// A look that chooses a lens and nothing else.
+Status save_lens(App& app, const Words& words) {
+    const Look& now = app.state.choice.look;
+    Look lens;
+    lens.lens = now.lens;
+    lens.aperture_image = now.aperture_image;
+    lens.kernel_image_far = now.kernel_image_far, lens.kernel_image_near = now.kernel_image_near;
+    if (Status done = write_look(lens, words[0]); !done) return done;
+    app.notice = "wrote " + words[0];
+    return Done{};
+}
 Status reload(App& app, const Words&) {
     app.read_again();
     return Done{};
@@ -219,6 +236,8 @@ const std::vector<Command>& commands() {
         {"copy", "", "the command that makes this frame, to the clipboard", copy},
         {"load_look", "FILE", "", load_look},
         {"save_look", "FILE", "", save_look},
+        {"light", "X Y", "light up the rays that land there in the disc, pixels from its middle", light},
+        {"save_lens", "FILE", "the lens alone, as a look", save_lens},
         {"reload", "", "read the files again", reload},
         {"quit", "", "", quit},
     };
@@ -252,6 +271,7 @@ const std::vector<Binding>& bindings() {
         {"shift+e", "exposure_by -0.5", "darker"},
         {"o", "toggle view.overlay", "what is in focus, near and far"},
         {"w", "wipe toggle", "compare: drag the line"},
+        {"l", "toggle view.lens", "the lens in section, its discs and curves"},
         {"enter", "toggle view.final", "final quality"},
         {"ctrl+c", "copy", "copy the command that makes this frame"},
         {"ctrl+r", "reload", "read the files again"},

@@ -3,6 +3,8 @@
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 
+#include "lens_panel.h"
+
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -117,6 +119,9 @@ std::vector<Field> facts() {
                  return std::to_string(wish->region.value_or(app.shot()->shot.place.data_window).width());
              }),
         fact("left.shown", [](const App& app) { return app.state.left.shown; }),
+        fact("lens.rays", [](const App& app) { return std::to_string(app.lens_made().section.rays.size()); }),
+        fact("lens.lit_rays", [](const App& app) { return std::to_string(lit_rays(app).size()); }),
+        fact("lens.disc_px", [](const App& app) { return std::to_string(app.lens_made().disc.width); }),
         fact("slowest.tick_ms", [](const App& app) { return text_of(app.slowest.tick, 4); }),
         fact("slowest.picture_ms", [](const App& app) { return text_of(app.slowest.first_picture, 4); }),
     };
@@ -147,6 +152,8 @@ std::vector<Field> choices() {
             "view.final", +[](State& s) -> bool& { return s.final_quality; }),
         toggle(
             "view.panels", +[](State& s) -> bool& { return s.panels; }),
+        toggle(
+            "view.lens", +[](State& s) -> bool& { return s.lens; }),
         toggle(
             "view.help", +[](State& s) -> bool& { return s.help; }),
         number(

@@ -3,6 +3,7 @@
 
 #include "view.h"
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -26,7 +27,9 @@ struct State {
     Channel channel = Channel::Colour;
     bool overlay = false;  // what is in focus, near and far, tinted
     bool final_quality = false;
-    bool help = false, panels = true;
+    bool help = false, panels = true, lens = false;  // lens: in section, with its discs
+    // A place in the disc of the picked pixel, pixels from its middle: rays that land there are lit.
+    std::optional<std::array<double, 2>> lit;
     double zoom = 0;                    // display pixels per pixel of the picture; 0: all of it fits
     double centre_x = 0, centre_y = 0;  // of what is seen, in pixels of the frame; where zoom > 0
     std::optional<PixelPosition> pick;  // what was clicked last, in pixels of the frame

@@ -2,6 +2,7 @@
 #include "app.h"
 #include "canvas.h"
 #include "commands.h"
+#include "lens_panel.h"
 #include "panels.h"
 #include "script.h"
 #include "texture.h"
@@ -159,18 +160,25 @@ void draw(App& app) {
         ImGui::SetNextWindowPos({x, y});
         ImGui::SetNextWindowSize({std::max(1.0f, width), std::max(1.0f, height)});
     };
-    place(0, 0, size.x - panel, size.y - status);
+    const float lens = app.state.lens ? 0.45f * size.y : 0;
+    place(0, 0, size.x - panel, size.y - status - lens);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
     ImGui::Begin("picture", nullptr, flags | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar(2);
     draw_canvas(app);
     ImGui::End();
+    app.widgets.clear();
+    if (app.state.lens) {
+        place(0, size.y - status - lens, size.x - panel, lens);
+        ImGui::Begin("lens", nullptr, flags);
+        draw_lens(app);
+        ImGui::End();
+    }
     place(0, size.y - status, size.x - panel, status);
     ImGui::Begin("status", nullptr, flags);
     draw_status_line(app);
     ImGui::End();
-    app.widgets.clear();
     app.screen_height = double(size.y);
     if (app.state.panels) {
         place(size.x - panel, 0, panel, size.y);

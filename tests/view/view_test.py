@@ -191,6 +191,37 @@ class ViewTest(unittest.TestCase):
         whole, part = self.contents("zoomed0.png", "zoomed1.png")
         self.assertTrue(whole == part, "the screen shows something else")
 
+    def test_the_lens_panel_follows_the_picked_pixel_and_a_click_in_the_disc_lights_its_rays(self):
+        out, _ = self.do("""
+            wait
+            set lens double-gauss
+            set fstop 2.1
+            set focus 0.5
+            pick 250 40
+            key l
+            wait
+            expect no error
+            say lens.rays
+            say lens.disc_px
+            say lens.lit_rays
+            click disc
+            wait
+            say lens.lit_rays
+            shot lens.png
+            set fstop 8
+            wait
+            say lens.disc_px
+            save_lens lens.json
+            expect no error
+        """)
+        rays, disc_px, unlit, lit, small_px = map(int, out.split())
+        self.assertGreater(rays, 150)
+        self.assertEqual(unlit, 0)
+        self.assertTrue(0 < lit < rays / 4, lit)
+        self.assertLess(small_px, disc_px / 2)
+        subprocess.run([PETZVAL, "defocus", "table.exr", "-o", "lens.exr", "--look", "lens.json", "--fstop", "4"],
+                       cwd=self.shared, check=True, capture_output=True)
+
     def test_what_is_wrong_is_said_in_the_window_which_stays(self):
         shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gone.exr"))
         self.do("""

@@ -1,0 +1,215 @@
+#include "lens_panel.h"
+
+#include "commands.h"
+#include "fields.h"
+#include "widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <imgui.h>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace petzval::view {
+namespace {
+
+constexpr ImU32 kGlass = IM_COL32(70, 110, 140, 90), kFlint = IM_COL32(90, 100, 140, 130);
+constexpr ImU32 kRay = IM_COL32(150, 190, 120, 110), kLit = IM_COL32(255, 220, 90, 230);
+constexpr ImU32 kLine = IM_COL32(150, 150, 150, 160);
+
+struct Box {
+    ImVec2 from, to;
+    float width() const { return to.x - from.x; }
+    float height() const { return to.y - from.y; }
+};
+
+Box box_of(const char* name, const ImVec2& size) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton(name, {std::max(1.0f, size.x), std::max(1.0f, size.y)});
+    const Box box{from, {from.x + size.x, from.y + size.y}};
+    ImGui::GetWindowDrawList()->AddRectFilled(box.from, box.to, IM_COL32(12, 12, 12, 255));
+    return box;
+}
+
+ImTextureID id_of(const Texture& texture) {
+    return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));  // NOLINT: as the backend has it
+}
+
+// From millimetres to the screen: all of the section, the same scale both ways.
+struct SectionFrame {
+    double scale = 1, left = 0, middle = 0, z0 = 0;
+
+    SectionFrame(const LensSection& section, const Box& box) {
+        double first = 0, tallest = std::max(1.0, section.stop_radius_mm);
+        for (const SectionGlass& glass : section.glass)
+            for (const SectionPoint& p : glass.outline) tallest = std::max(tallest, std::abs(p.y_mm));
+        for (const SectionRay& ray : section.rays) first = std::min(first, ray.path.front().z_mm);
+        tallest = std::max(tallest, std::abs(section.image_y_mm));
+        const double length = std::max(1.0, section.sensor_z_mm - first);
+        scale = std::min(0.94 * double(box.width()) / length, 0.44 * double(box.height()) / tallest);
+        z0 = first + 0.5 * length;
+        left = double(box.from.x) + 0.5 * double(box.width()),
+        middle = double(box.from.y) + 0.5 * double(box.height());
+    }
+    ImVec2 operator()(const SectionPoint& p) const {
+        return {float(left + (p.z_mm - z0) * scale), float(middle - p.y_mm * scale)};
+    }
+};
+
+void draw_path(const SectionFrame& at, const SectionRay& ray, ImU32 colour, float width) {
+    std::vector<ImVec2> line;
+    for (const SectionPoint& p : ray.path) line.push_back(at(p));
+    ImGui::GetWindowDrawList()->AddPolyline(line.data(), int(line.size()), colour, 0, width);
+}
+
+void draw_glass(const SectionFrame& at, const LensSection& section) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    for (const SectionGlass& glass : section.glass) {
+        std::vector<ImVec2> outline;
+        for (const SectionPoint& p : glass.outline) outline.push_back(at(p));
+        // Not convex: two halves of slices from front to back are.
+        const std::size_t half = outline.size() / 2;
+        for (std::size_t i = 0; i + 1 < half; ++i)
+            list->AddQuadFilled(outline[i], outline[i + 1], outline[outline.size() - 2 - i],
+                                outline[outline.size() - 1 - i], glass.is_flint ? kFlint : kGlass);
+        list->AddPolyline(outline.data(), int(outline.size()), kLine, ImDrawFlags_Closed, 1);
+    }
+}
+
+void draw_section(const App& app, const Box& box) {
+    const LensSection& section = app.lens_made().section;
+    if (section.rays.empty()) return;
+    const SectionFrame at(section, box);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->PushClipRect(box.from, box.to, true);
+    list->AddLine({box.from.x, float(at.middle)}, {box.to.x, float(at.middle)}, IM_COL32(90, 90, 90, 120));
+    draw_glass(at, section);
+    const std::vector<std::size_t> lit = lit_rays(app);
+    for (const SectionRay& ray : section.rays)
+        if (std::abs(ray.off_plane) < 1e-6)
+            draw_path(at, ray, lit.empty() ? kRay : IM_COL32(150, 190, 120, 50), 1);
+    for (const std::size_t i : lit) draw_path(at, section.rays[i], kLit, 1.2f);
+    for (const double side : {-1.0, 1.0})
+        list->AddLine(at({section.stop_z_mm, side * section.stop_radius_mm}),
+                      at({section.stop_z_mm, side * 1.35 * section.stop_radius_mm}),
+                      IM_COL32(235, 235, 235, 255), 2);
+    const double half = std::max(std::abs(section.image_y_mm) * 1.1, 2.0);
+    list->AddLine(at({section.sensor_z_mm, -half}), at({section.sensor_z_mm, half}),
+                  IM_COL32(235, 235, 235, 255), 2);
+    if (!section.has_surfaces)
+        list->AddLine(at({0, -section.stop_radius_mm}), at({0, section.stop_radius_mm}),
+                      IM_COL32(120, 170, 210, 200), 3);
+    list->PopClipRect();
+}
+
+// The disc fills the box, its middle in the middle; one of its pixels is `scale` wide.
+float draw_disc(const Box& box, const Texture& texture, const LensCodes& codes) {
+    if (texture.empty() || codes.width == 0) return 1;
+    const float scale = std::min(box.width() / float(codes.width), box.height() / float(codes.height));
+    const ImVec2 middle{0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y)};
+    const ImVec2 half{0.5f * scale * float(codes.width), 0.5f * scale * float(codes.height)};
+    ImGui::GetWindowDrawList()->AddImage(id_of(texture), {middle.x - half.x, middle.y - half.y},
+                                         {middle.x + half.x, middle.y + half.y});
+    return scale;
+}
+
+void note_in(const Box& box, const std::string& text) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetWindowDrawList()->AddRectFilled(box.from, {box.from.x + size.x + 8, box.from.y + size.y + 4},
+                                              IM_COL32(0, 0, 0, 150));
+    ImGui::GetWindowDrawList()->AddText({box.from.x + 4, box.from.y + 2}, IM_COL32(235, 235, 235, 200),
+                                        text.c_str());
+}
+
+void picked_disc(App& app, float side) {
+    const LensMade& made = app.lens_made();
+    const Box box = box_of("disc", {side, side});
+    is_field(app, "disc");
+    const float scale = draw_disc(box, app.lens_pictures()[0], made.disc);
+    note_in(box, "radius " + text_of(made.coc_px, 3) + " px");
+    const ImVec2 middle{0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y)};
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (ImGui::IsItemActive() && ImGui::IsMouseDown(0)) {
+        const double x = double((mouse.x - middle.x) / scale), y = double((mouse.y - middle.y) / scale);
+        static_cast<void>(act(app, "light " + text_of(x, 5) + " " + text_of(y, 5)));
+    }
+    if (app.state.lit)
+        ImGui::GetWindowDrawList()->AddCircle(
+            {middle.x + scale * float((*app.state.lit)[0]), middle.y + scale * float((*app.state.lit)[1])},
+            0.3f * ImGui::GetFontSize(), kLit, 0, 2);
+}
+
+// Focus of the zones of the pupil, one curve a wavelength.
+void draw_curves(const LensMade& made, const Box& box) {
+    const LongitudinalAberrationFacts& curves = made.curves;
+    double most = 1e-9;
+    for (const auto& curve : curves.shift_mm)
+        for (const double shift : curve)
+            if (std::isfinite(shift)) most = std::max(most, std::abs(shift));
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float middle = 0.5f * (box.from.x + box.to.x);
+    list->AddLine({middle, box.from.y}, {middle, box.to.y}, kLine);
+    if (curves.shift_mm.empty()) return note_in(box, "no aberration");
+    for (std::size_t w = 0; w < curves.shift_mm.size(); ++w) {
+        const double um = curves.wavelengths_um[w];
+        const ImU32 colour = um < 0.47   ? IM_COL32(110, 130, 255, 255)
+                             : um < 0.52 ? IM_COL32(90, 200, 230, 255)
+                             : um < 0.6  ? IM_COL32(150, 220, 90, 255)
+                                         : IM_COL32(255, 110, 90, 255);
+        std::vector<ImVec2> line;
+        for (std::size_t z = 0; z < curves.zones.size(); ++z)
+            if (std::isfinite(curves.shift_mm[w][z]))
+                line.push_back({middle + float(0.45 * curves.shift_mm[w][z] / most) * box.width(),
+                                box.to.y - float(curves.zones[z]) * 0.95f * box.height()});
+        list->AddPolyline(line.data(), int(line.size()), colour, 0, 1.5f);
+    }
+    note_in(box, "zones, ± " + text_of(most, 2) + " mm");
+}
+
+}  // namespace
+
+std::vector<std::size_t> lit_rays(const App& app) {
+    std::vector<std::size_t> lit;
+    if (!app.state.lit) return lit;
+    const auto& rays = app.lens_made().section.rays;
+    // A twelfth of the disc around the place.
+    double reach = 0;
+    for (const SectionRay& ray : rays) reach = std::max(reach, std::hypot(ray.disc_x_px, ray.disc_y_px));
+    const double near = std::max(0.75, reach / 12);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (std::hypot(rays[i].disc_x_px - (*app.state.lit)[0], rays[i].disc_y_px - (*app.state.lit)[1]) <
+            near)
+            lit.push_back(i);
+    return lit;
+}
+
+void draw_lens(App& app) {
+    const LensMade& made = app.lens_made();
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float strip = std::min(0.22f * all.y, all.x / float(kStripDiscs));
+    const float high = std::max(8.0f, all.y - strip - 2 * ImGui::GetTextLineHeightWithSpacing());
+    const float side = std::min(high, 0.3f * all.x), small = 0.5f * (high - gap);
+    const Box section = box_of("section", {all.x - side - 2 * small - 3 * gap, high});
+    draw_section(app, section);
+    ImGui::SameLine();
+    picked_disc(app, side);
+    ImGui::SameLine();
+    ImGui::BeginGroup();
+    const Box front = box_of("front", {small, small});
+    draw_disc(front, app.lens_pictures()[1], made.front);
+    note_in(front, "in front");
+    const Box behind = box_of("behind", {small, small});
+    draw_disc(behind, app.lens_pictures()[2], made.behind);
+    note_in(behind, "behind");
+    ImGui::EndGroup();
+    ImGui::SameLine();
+    draw_curves(made, box_of("curves", {small, high}));
+    const Box strip_box = box_of("strip", {all.x, strip});
+    draw_disc(strip_box, app.lens_pictures()[3], made.strip);
+    note_in(strip_box, "-60 … +60 px, on the axis");
+    ImGui::TextUnformatted(made.words.c_str());
+}
+
+}  // namespace petzval::view
