@@ -27,7 +27,7 @@ function(petzval_component target)
 endfunction()
 
 file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
-list(FILTER core_headers EXCLUDE REGEX "/(files|lens_report|look_file|ocio|output|scene|shot)\\.h$")
+list(FILTER core_headers EXCLUDE REGEX "/(files|focus_track|frames|lens_report|look_file|ocio|output|scene|shot|track)\\.h$")
 list(FILTER core_headers EXCLUDE REGEX "/petzval_c\\.h$")
 if(PETZVAL_TBB)
   set(tbb_module tbb)
@@ -35,8 +35,9 @@ endif()
 petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES ${tbb_module} libhwy
                   DESCRIPTION "The depth of field of a real lens, for rendered pictures")
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
-                  ${headers}/look_file.h ${headers}/output.h ${headers}/shot.h
-                  REQUIRES petzval OpenEXR libpng DESCRIPTION "EXR and PNG for petzval")
+                  ${headers}/look_file.h ${headers}/output.h ${headers}/shot.h ${headers}/frames.h ${headers}/track.h
+                  ${headers}/focus_track.h
+                  REQUIRES petzval OpenEXR libpng libdeflate DESCRIPTION "EXR and PNG for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h

@@ -119,6 +119,11 @@ void DefocusFlags::add_to(Verb& verb) {
     develop.add_to(verb);
     ocio.add_to(verb);
     run.add_threads_to(verb);
+    FlagGroup(verb, "Run")
+        .value("--device", "DEVICE",
+               "what draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a GPU that is no software "
+               "driver, else the CPU. What it has no program for, the CPU draws",
+               parse_text, device);
     add_kernel_cache_to(verb);
     run.add_log_to(verb, true);
 }
@@ -224,7 +229,8 @@ std::string DefocusFlags::default_kernel_cache() {
 
 SessionSettings DefocusFlags::session() const {
     const DefocusJob bare = job({});
-    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes};
+    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes, nullptr,
+            device};
 }
 
 DefocusJob DefocusFlags::job(DefocusJob job) const {

@@ -34,6 +34,7 @@ struct DefocusFlags {
     std::string points;  // lights
     std::size_t max_memory_bytes = 0;
     std::optional<std::string> kernel_cache;  // a folder, or "off"
+    std::string device = "cpu";               // SessionSettings::device
     std::string output;
     ViewKind view = ViewKind::Beauty;
     std::optional<int> overscan_px;  // kAutomatic: as far as the blur reaches

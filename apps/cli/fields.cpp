@@ -51,6 +51,7 @@ const Rows& other_flags() {
         {"scene.overscan_px", "--overscan"},
         {"scene.truth_samples", "--samples"},
         {"scene.width", "--width"},
+        {"session.device", "--device"},
         {"shot.behind", "--behind"},
         {"shot.holdout", "--holdout"},
         {"shot.lights", "--points"},

@@ -81,6 +81,7 @@ Status parse_and_act(int argc, const char* const* argv, Words& words) {
     add_focus_track(program, chosen);
     add_sheet(program, chosen);
     add_lens(program, chosen);
+    add_devices(program, chosen);
     add_view(program, chosen);
     add_help(program, chosen);
     const auto said = [](const std::string& text) {

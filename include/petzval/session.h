@@ -26,6 +26,10 @@ struct SessionSettings {
     std::string kernel_cache_folder = {};
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
     std::shared_ptr<Workers> workers = nullptr;  // those of a host, in place of `threads`; null: our own
+    // What draws: "cpu", "gpu" (the first of devices() that is no CPU), "gpu:1", or "auto": the first that is
+    // neither a CPU nor a software driver, else the CPU. What it has no program for, the CPU draws; the
+    // report says who drew.
+    std::string device = "cpu";
 };
 
 // The job with all that a look chooses of a defocus.
@@ -61,7 +65,9 @@ public:
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
 
-    // The settings of the session stand in place of the job's own. Errors: those of petzval::defocus().
+    // The settings of the session stand in place of the job's own. Errors: those of petzval::defocus();
+    // InvalidArgument or Unsupported: settings.device is none that there is, or cannot be used; Unsupported:
+    // it was lost; OutOfMemory: also of its own.
     Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
     // A whole frame, in the order of physics: a plate's highlights given back, blur, light lost towards the
     // corners, glare, and back into the plate's range. `rendered` says what there is (pictures, place,

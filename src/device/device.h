@@ -13,6 +13,7 @@
 
 namespace petzval::engine {
 struct GatherPlan;
+struct GaussianPlan;
 struct LightsPlan;
 struct ScatterPlan;
 }  // namespace petzval::engine
@@ -48,6 +49,9 @@ struct Work {
     static Work of_taps(std::size_t taps) { return {48 * taps, 4 * taps}; }
 };
 
+enum class Verb { Composite, Gather, Mix, AddLights };
+
+// Any of its verbs may throw Failed (device/failure.h); nothing is then added to the result.
 class Device {
 public:
     Device() = default;
@@ -56,6 +60,8 @@ public:
     Device& operator=(const Device&) = delete;
 
     virtual const char* name() const = 0;
+    // Whether it does that itself; if not, the CPU does.
+    virtual bool has(Verb) const { return true; }
 
     // Makes what is missing of a set, in parallel, before anything is drawn with it. Kernels are kept in
     // `memory`, under the name of their source. Incomplete once cancelled.
@@ -68,6 +74,8 @@ public:
     // Writes the plan's tiles of `out`, the whole frame.
     virtual void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
                         const Control& control) const = 0;
+    // Writes all of `out`.
+    virtual void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const = 0;
     // Adds to the plan's rows of `out`, the whole frame.
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                             const Control& control) const = 0;

@@ -1,5 +1,8 @@
 #include "files/exr_bands.h"
 
+#include "files/exr_file.h"
+#include "files/exr_zip.h"
+
 #include <algorithm>
 
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -91,6 +94,13 @@ void write_bands(Imf::MultiPartOutputFile& output, int part, const std::vector<C
         out.setFrameBuffer(frame_buffer(band, window.min.x, window.min.y + y));
         out.writePixels(count);
     }
+}
+
+void write_one_part(Imf::OStream& stream, const Imf::Header& header, const std::vector<Channel>& channels,
+                    const FillBand& fill, Workers& workers) {
+    if (is_zip_of_lines(header, channels)) return write_zip_file(stream, header, channels, fill, workers);
+    Imf::MultiPartOutputFile output(stream, &header, 1, false, exr_threads(workers));
+    write_bands(output, 0, channels, fill);
 }
 
 }  // namespace petzval

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/workers.h"
 
 #include "files/layout.h"
 
@@ -32,6 +33,10 @@ using FillBand = std::function<void(std::vector<BandChannel>&, int y0, int y1)>;
 // Writes every row of part `part` of `output`, which must be flat. Throws what OpenEXR throws.
 void write_bands(Imf::MultiPartOutputFile& output, int part, const std::vector<Channel>& channels,
                  const FillBand& fill);
+
+// Writes a file of this one flat part. Throws what the stream and OpenEXR throw.
+void write_one_part(Imf::OStream& stream, const Imf::Header& header, const std::vector<Channel>& channels,
+                    const FillBand& fill, Workers& workers);
 
 // A slice for a band whose first sample is that of pixel (x0, y0).
 Imf::Slice slice_of(const BandChannel& channel, int x0, int y0);

@@ -98,12 +98,12 @@ Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& o
     if (Status s = apply(options, frame.place.display_window, header); !s) return s;
     const std::optional<PrimariesConversion> rec709;
     ColourSource colour(frame, rec709, workers);
-    Imf::MultiPartOutputFile output(stream, &header, 1, false, exr_threads(workers));
-    write_bands(output, 0, channels, [&](std::vector<BandChannel>& band, int y0, int y1) {
+    const auto fill = [&](std::vector<BandChannel>& band, int y0, int y1) {
         const int colours = frame.has_alpha ? 4 : 3;
         for (int c = 0; c < colours; ++c) colour.fill(band[std::size_t(c)], c, y0, y1);
         if (!frame.depth.empty()) copy_floats(band.back(), frame.depth, y0 - frame.place.data_window.y0);
-    });
+    };
+    write_one_part(stream, header, channels, fill, workers);
     if (options.report) *options.report = colour.report();
     return Done{};
 }
@@ -260,22 +260,26 @@ Status write_carried(Imf::OStream& stream, const Frame& frame, const WriteOption
     if (Status s = apply(options, frame.place.display_window, headers[colour_out]); !s) return s;
 
     ColourSource colour(frame, carried.primaries, workers);
-    Imf::MultiPartOutputFile output(stream, headers.data(), int(headers.size()), false, exr_threads(workers));
     std::optional<CarriedSource> others;
     if (!exr.layout.parts[part].deep)
         others.emplace(
             exr, part,
             std::vector<Channel>(channels.all.begin() + std::ptrdiff_t(channels.colours), channels.all.end()),
             frame.place.data_window, carried.depth_channel);
-    for (std::size_t p = 0; p < headers.size(); ++p) {
-        if (p != colour_out) {
-            copy_part(*exr.parts, source[p], output, int(p));
-            continue;
-        }
-        write_bands(output, int(p), channels.all, [&](std::vector<BandChannel>& band, int y0, int y1) {
-            for (std::size_t c = 0; c < channels.colours; ++c) colour.fill(band[c], int(c), y0, y1);
-            if (others) others->fill(band, channels.colours, y0, y1);
-        });
+    const auto fill = [&](std::vector<BandChannel>& band, int y0, int y1) {
+        for (std::size_t c = 0; c < channels.colours; ++c) colour.fill(band[c], int(c), y0, y1);
+        if (others) others->fill(band, channels.colours, y0, y1);
+    };
+    if (headers.size() == 1) {
+        write_one_part(stream, headers[0], channels.all, fill, workers);
+    } else {
+        Imf::MultiPartOutputFile output(stream, headers.data(), int(headers.size()), false,
+                                        exr_threads(workers));
+        for (std::size_t p = 0; p < headers.size(); ++p)
+            if (p == colour_out)
+                write_bands(output, int(p), channels.all, fill);
+            else
+                copy_part(*exr.parts, source[p], output, int(p));
     }
     if (options.report) *options.report = colour.report();
     return Done{};
@@ -307,11 +311,11 @@ Status write_exr_planes(const std::string& path, const Place& place, const std::
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) -> Status {
         Imf::Header header = new_header(place, channels);
         if (Status s = apply(options, place.display_window, header); !s) return s;
-        Imf::MultiPartOutputFile output(stream, &header, 1, false, exr_threads(*workers));
-        write_bands(output, 0, channels, [&](std::vector<BandChannel>& band, int y0, int) {
+        const auto fill = [&](std::vector<BandChannel>& band, int y0, int) {
             for (std::size_t i = 0; i < planes.size(); ++i)
                 copy_floats(band[i], planes[i].plane, y0 - place.data_window.y0);
-        });
+        };
+        write_one_part(stream, header, channels, fill, *workers);
         return Done{};
     });
 }

@@ -5,7 +5,9 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "device/failure.h"
 #include "session/mounted_lens.h"
+#include "session/open_device.h"
 
 #include <algorithm>
 #include <list>
@@ -26,6 +28,7 @@ struct Session::Contents {
     SessionSettings settings;
     mutable std::mutex mutex;  // of all below
     std::list<std::pair<std::string, std::shared_ptr<MountedLens>>> lenses;
+    std::shared_ptr<const device::Device> device;  // null: not opened yet
 
     std::size_t most_kept_bytes() const {
         constexpr std::size_t kUnlimited = std::size_t(1) << 30;
@@ -45,7 +48,18 @@ struct Session::Contents {
             return body(progress, cancellable);
         } catch (const Cancelled&) {
             return Error{ErrorCode::Cancelled, "cancelled"};
+        } catch (const device::Failed& failed) {
+            return failed.error;
         }
+    }
+
+    // Errors: those of open_device().
+    Result<std::shared_ptr<const device::Device>> opened_device() {
+        const std::lock_guard lock(mutex);
+        if (device) return device;
+        auto opened = open_device(settings.device);
+        if (opened) device = *opened;
+        return opened;
     }
 
     // Errors: those of the lens.

@@ -2,7 +2,6 @@
 #include "petzval/session.h"
 
 #include "base/parallel.h"
-#include "device/cpu/cpu_device.h"
 #include "engine/waist/memory.h"
 #include "session/contents.h"
 #include "session/depth_edges.h"
@@ -114,13 +113,13 @@ DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, Workers& wor
 }
 
 Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, const engine::Engine& chosen,
-                                 const Radii& radii, MountedLens& lens, const Clock& clock,
-                                 Progress& progress) {
+                                 const Radii& radii, MountedLens& lens, const NotingDevice& drawing,
+                                 const Clock& clock, Progress& progress) {
     const double lens_ready = clock.seconds();
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
     engine::Input& input = frame.input;
     input.lens_levels = lens.levels;
-    input.device = &device::cpu_device();
+    input.device = &drawing;
     input.memory = &lens.kernels;
     input.progress = &progress;
     const std::unique_ptr<views::PlanView> view = views::plan_view(job.scatter.view);
@@ -155,7 +154,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     if (report.panels.empty()) finish(report.image);
     for (Picture& layer : report.layers) finish(layer);
     report.engine = chosen.name;
-    report.device = input.device->name();
+    report.device = drawing.drawn_by();
     report.lens = lens.levels.front()->description();
     report.kernels_from_cache = lens.store ? lens.store->kernels_found() : 0;
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
@@ -194,6 +193,9 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
         if (const Status status = check_region(*region, job); !status) return status.error();
     const auto engine = find_engine(job);
     if (!engine) return engine.error();
+    const auto opened = opened_device();
+    if (!opened) return opened.error();
+    const NotingDevice drawing(**opened);
     const auto radii = Radii::make(job);
     if (!radii) return radii.error();
     if (const Status status = open_lens(job); !status) return status.error();
@@ -210,8 +212,13 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     const Rect asked = region ? region->intersected(job.place.data_window) : job.place.data_window;
     auto report =
         made_frame(wider ? wider->job() : job, {asked.moved(-window.x0, -window.y0), region.has_value()},
-                   **engine, *radii, **lens, clock, progress);
+                   **engine, *radii, **lens, drawing, clock, progress);
     if (report && !edges.what_was_done().empty()) report->warnings.push_back(edges.what_was_done());
+    // Whoever asks for a GPU is told where he did not get it.
+    if (report && settings.device.starts_with("gpu") && report->device != drawing.name())
+        report->warnings.push_back("session.device " + settings.device +
+                                   " has no program for all that job.engine " + job.engine +
+                                   " draws; the CPU drew the rest");
     trim(most_kept_bytes());
     return report;
 }

@@ -79,8 +79,8 @@ void accumulate(const PlannedStrip& strip, int level, View<Rgba> out) {
     const Input& input = strip.input;
     const SourceArray& sources = strip.scatter.levels[std::size_t(level)];
     const device::KernelSet set = kernels_of(strip.kernels, input.frame, sources, level);
-    const device::StampAtlas atlas(strip.kernels, set, "stamping", *input.memory,
-                                   {*input.workers, *input.progress});
+    const device::StampAtlas atlas(device::laid_out<device::StampSet>(
+        strip.kernels, set, "stamping", *input.memory, {*input.workers, *input.progress}));
     parallel_for((out.height() + kBand - 1) / kBand, *input.workers, [&](int band) {
         if (input.progress->cancelled()) return;
         const Rect rows{0, band * kBand, out.width(), std::min(out.height(), (band + 1) * kBand)};

@@ -13,7 +13,7 @@ PAGE = (ROOT / "docs/command-line.md").read_text()
 NOT_YET = re.search(r"Not there yet, and refused:(.*?)\n", PAGE).group(1)
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 VERBS = ["defocus", "inspect", "scene list", "scene make", "scene points", "compare", "develop", "lens list", "lens show",
-         "lens psf", "lens table", "lens report", "help"]
+         "lens psf", "lens table", "lens report", "devices", "help"]
 
 
 class Help(CommandLineTest):
@@ -65,7 +65,7 @@ class Help(CommandLineTest):
 
     def test_bash_completes_verbs_flags_and_values(self):
         script = self.file("bash")
-        for typed, expected in ((["de"], "defocus develop"), (["lens", ""], "list"), (["defocus", "a.exr", "--en"], "--engine"),
+        for typed, expected in ((["de"], "defocus develop devices"), (["lens", ""], "list"), (["defocus", "a.exr", "--en"], "--engine"),
                                 (["defocus", "--engine", ""], "scatter gather"), (["defocus", "--lens", "double"], "double-gauss"),
                                 (["lens", "psf", "doublet", "--defo"], "--defocus"), (["defocus", "--look", ""], "")):
             words = " ".join(f"'{w}'" for w in ["petzval", *typed])

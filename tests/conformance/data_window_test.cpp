@@ -1,5 +1,5 @@
 // Where the data window begins changes nothing but its border: an autocropped sequence does not flicker.
-#include "shots.h"
+#include "drawers.h"
 
 namespace petzval::conformance {
 namespace {
@@ -9,10 +9,9 @@ namespace {
 // tile of scatter that is composited alike.
 constexpr int margin_px(int largest_px) { return 4 * largest_px + 96; }
 
-class DataWindow : public testing::TestWithParam<std::string> {};
+class DataWindow : public EveryDrawer {};
 
-DefocusJob cropped(const Shot& shot, const std::string& engine, const Rect& window) {
-    DefocusJob job = shot.job(engine);
+DefocusJob cropped(const Shot& shot, DefocusJob job, const Rect& window) {
     job.colour = shot.colour.view().part(window);
     job.coc_px = shot.coc_px.view().part(window);
     job.place.data_window = window;
@@ -43,10 +42,10 @@ TEST_P(DataWindow, AnyCropOfItLeavesWhatIsFartherFromItsBorderAsItWas) {
         for (int v = y; v < std::min(370, y + 25); ++v)
             for (int u = x + 2; u < std::min(400, x + 19); ++u) shot.coc_px(u, v) = coc;
     }
-    const Picture whole = rendered(shot.job(GetParam()));
+    const Picture whole = picture(shot);
     for (const auto& [left, top] : {std::pair{1, 0}, {0, 1}, {4, 2}, {7, 13}, {8, 8}, {31, 5}, {64, 64}}) {
         const Rect window{left, top, 397, 366};
-        const Picture part = rendered(cropped(shot, GetParam(), window));
+        const Picture part = drawn(cropped(shot, job(shot), window));
         const Rect inside = window.grown(-margin_px(kLargest));
         EXPECT_EQ(changes(part, whole, inside, window), 0) << "cropped by " << left << ", " << top;
     }
@@ -55,23 +54,15 @@ TEST_P(DataWindow, AnyCropOfItLeavesWhatIsFartherFromItsBorderAsItWas) {
 TEST_P(DataWindow, SoItIsForALensThatDiffersOverTheField) {
     Shot shot = flat(390, 330, {}, 6);
     paint_rectangles(shot.colour, 4);
-    DefocusJob whole = shot.job(GetParam());
+    DefocusJob whole = job(shot);
     whole.lens.cats_eye = 0.7;
     const Rect window{5, 9, 387, 328};
-    DefocusJob part = cropped(shot, GetParam(), window);
-    part.lens.cats_eye = 0.7;
+    const DefocusJob part = cropped(shot, whole, window);
     const Rect inside = window.grown(-margin_px(6));
-    EXPECT_EQ(changes(rendered(part), rendered(whole), inside, window), 0);
+    EXPECT_EQ(changes(drawn(part), drawn(whole), inside, window), 0);
 }
 
-std::vector<std::string> engines_with_a_grid() {
-    std::vector<std::string> names = engine_names();
-    std::erase(names, "reference");
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Engines, DataWindow, testing::ValuesIn(engines_with_a_grid()),
-                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Guessing, DataWindow, testing::ValuesIn(guessing_drawers()), name_of_drawer);
 
 }  // namespace
 }  // namespace petzval::conformance

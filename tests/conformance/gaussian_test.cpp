@@ -1,10 +1,11 @@
-// The Gaussian engine against its laws, and its published style against the published formulas.
+// Styles of the Gaussian engine that the laws of every engine do not see; the published one against the
+// published formulas.
 #include "shots.h"
 
 namespace petzval::conformance {
 namespace {
 
-const GaussianStyle kStyles[] = {GaussianStyle::Layered, GaussianStyle::Plain, GaussianStyle::Wgld};
+const GaussianStyle kStyles[] = {GaussianStyle::Plain, GaussianStyle::Wgld};
 
 DefocusJob job_of(const Shot& shot, GaussianStyle style) {
     DefocusJob job = shot.job("gaussian");
@@ -39,16 +40,6 @@ TEST(Gaussian, InFocusIsUntouched) {
         EXPECT_EQ(largest_difference(rendered(job_of(shot, style)), shot.colour), 0) << int(style);
 }
 
-TEST(Gaussian, WhatIsInFocusBesideBlurIsUntouchedByBlurFromBehind) {
-    Shot shot = flat(128, 48, {}, 0);
-    paint_noise(shot.colour, 1);
-    for (int y = 0; y < 48; ++y)
-        for (int x = 64; x < 128; ++x) shot.coc_px(x, y) = 20, shot.colour(x, y) = {50, 50, 50, 1};
-    const Picture image = rendered(shot.job("gaussian"));
-    for (int x = 0; x < 64; ++x) EXPECT_NEAR(image(x, 20).g, shot.colour(x, 20).g, 1e-5f) << x;
-    for (int x = 64; x < 128; ++x) EXPECT_NEAR(image(x, 20).g, 50, 0.01) << x;
-}
-
 TEST(Gaussian, AConstantPictureStaysConstantUpToTheBorder) {
     for (const GaussianStyle style : kStyles)
         for (const float coc : {-70.0f, -9.0f, 0.7f, 2.5f, 13.0f, 33.0f}) {
@@ -61,7 +52,7 @@ TEST(Gaussian, AConstantPictureStaysConstantUpToTheBorder) {
 
 // Radius of the disc that has the same mean square distance; a pixel's own square adds 1/6.
 TEST(Gaussian, APointHasTheSecondMomentOfItsDiscAtEveryConstantRadius) {
-    for (const GaussianStyle style : {GaussianStyle::Layered, GaussianStyle::Plain})
+    for (const GaussianStyle style : {GaussianStyle::Plain})
         for (const float coc : {-40.0f, -12.5f, -3.3f, 1.5f, 2.7f, 7.0f, 13.0f, 32.0f}) {
             double mean_sum = 0, mean_radius = 0;
             for (int at = 148; at < 156; ++at) {
@@ -130,31 +121,20 @@ TEST(Gaussian, TheFocusDistanceLiesInThePublishedBandUnlessAnOffsetIsGiven) {
     EXPECT_LT(index(10, 20).r, 1);
 }
 
-TEST(Gaussian, EveryOptionChangesThePicture) {
+TEST(Gaussian, EveryBufferIsAnotherPicture) {
     const Shot shot = noise_at_several_depths();
-    for (const GaussianStyle style : kStyles) {
-        const Picture plain = rendered(job_of(shot, style));
-        const auto changed = [&](const auto& set) {
+    for (const GaussianStyle style : {GaussianStyle::Layered, GaussianStyle::Plain, GaussianStyle::Wgld}) {
+        std::vector<Picture> seen;
+        for (const GaussianView view : {GaussianView::Result, GaussianView::Sharp, GaussianView::BlurSmall,
+                                        GaussianView::BlurLarge, GaussianView::FocusIndex}) {
             DefocusJob job = job_of(shot, style);
-            set(job.gaussian);
-            return largest_difference(rendered(job), plain) > 1e-3;
-        };
-        EXPECT_TRUE(changed([](GaussianOptions& o) { o.focus_band = 4.0; }) || style == GaussianStyle::Wgld);
-        EXPECT_TRUE(changed([](GaussianOptions& o) { o.focus_band = 0.6; }) || style != GaussianStyle::Wgld);
-        EXPECT_TRUE(changed([](GaussianOptions& o) { o.depth_offset = 0.3; }) ||
-                    style != GaussianStyle::Wgld);
-        for (const GaussianView view : {GaussianView::Sharp, GaussianView::BlurSmall, GaussianView::BlurLarge,
-                                        GaussianView::FocusIndex})
-            EXPECT_TRUE(changed([&](GaussianOptions& o) { o.view = view; }))
-                << int(style) << " view " << int(view);
-        for (const GaussianStyle other : kStyles)
-            if (other != style) EXPECT_TRUE(changed([&](GaussianOptions& o) { o.style = other; }));
+            job.gaussian.view = view;
+            seen.push_back(rendered(job));
+            for (std::size_t i = 0; i + 1 < seen.size(); ++i)
+                EXPECT_GT(largest_difference(seen.back(), seen[i]), 1e-3)
+                    << int(style) << " views " << i << ", " << int(view);
+        }
     }
-    const DepthShot by_depth;
-    DefocusJob job = by_depth.job();
-    const Picture before = rendered(job);
-    job.gaussian.depth_near_m = 0.1, job.gaussian.depth_far_m = 30;
-    EXPECT_GT(largest_difference(rendered(job), before), 1e-3);
 }
 
 TEST(Gaussian, TheSameBitsForAnyThreadCount) {

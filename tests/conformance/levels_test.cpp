@@ -80,20 +80,5 @@ TEST(Memory, GatherInStripsGivesTheSameBits) {
     }
 }
 
-TEST(Memory, TooLittleIsRefusedWithWhatItTakes) {
-    const Shot shot = tall_with_screens();
-    for (const char* engine : {"scatter", "gather", "gaussian", "sprites"}) {
-        DefocusJob job = shot.job(engine);
-        job.max_memory_bytes = std::size_t(30) << 20;
-        const auto refused = defocus(job);
-        ASSERT_FALSE(refused) << engine;
-        EXPECT_EQ(refused.error().code, ErrorCode::OutOfMemory) << engine;
-        EXPECT_NE(refused.error().message.find("job.max_memory_bytes"), std::string::npos) << engine;
-        const Picture usual = rendered(shot.job(engine));
-        job.max_memory_bytes = std::size_t(2) << 30;
-        EXPECT_EQ(largest_difference(rendered(job), usual), 0) << engine;
-    }
-}
-
 }  // namespace
 }  // namespace petzval::conformance

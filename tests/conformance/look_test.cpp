@@ -6,7 +6,7 @@
 #include "petzval/look_json.h"
 #include "petzval/session.h"
 
-#include "shots.h"
+#include "drawers.h"
 
 #include <sstream>
 
@@ -156,17 +156,11 @@ bool depends_on_the_shot(const std::string& path) {
            path == "glare.ghosts" || path == "lens.name";
 }
 
-// Of the fields whose paths begin so, or of all.
-void expect_choices_to_show_or_be_told(const std::vector<Choice>& choices,
-                                       const std::vector<std::string>& beginnings = {""}) {
+// Of the fields whose paths begin so.
+void expect_choices_to_show_or_be_told(const Drawer& drawer, const Look& base,
+                                       const std::vector<std::string>& beginnings) {
     static const Plate plate;
-    std::string all;
-    for (const auto& [path, value] : choices) all += std::string(path) + " " + value + ", ";
-    SCOPED_TRACE(all);
-    Session session;
-    Look base;
-    base.pupil_points = 16;
-    base = with(base, choices);
+    Session session(drawer.session());
     const Picture before = plate.taken(session, base);
     ASSERT_FALSE(before.empty());
     for (const auto& [path, value] : changes()) {
@@ -185,6 +179,19 @@ void expect_choices_to_show_or_be_told(const std::vector<Choice>& choices,
                           << (same ? " changes nothing, and nobody says so"
                                    : " is said to have no effect, and has one");
     }
+}
+
+// On every device, of the fields whose paths begin so, or of all.
+void expect_choices_to_show_or_be_told(const std::vector<Choice>& choices,
+                                       const std::vector<std::string>& beginnings = {""}) {
+    std::string all;
+    for (const auto& [path, value] : choices) all += std::string(path) + " " + value + ", ";
+    SCOPED_TRACE(all);
+    Look base;
+    base.pupil_points = 16;
+    base = with(base, choices);
+    for (const std::string& device : device_names())
+        expect_choices_to_show_or_be_told(Drawer{base.engine, device}, base, beginnings);
 }
 
 TEST(LookChoices, EveryFieldIsAmongThem) {

@@ -1,7 +1,5 @@
 // What outlives a frame never shows in one: sessions against frames made alone, for every engine.
-#include "petzval/session.h"
-
-#include "shots.h"
+#include "drawers.h"
 
 #include <atomic>
 #include <string>
@@ -13,8 +11,7 @@
 namespace petzval::conformance {
 namespace {
 
-DefocusJob with_lens(const Shot& shot, const std::string& engine, const char* lens) {
-    DefocusJob job = shot.job(engine);
+DefocusJob with_lens(DefocusJob job, const char* lens) {
     job.lens.name = lens;
     job.camera = {50, 36, 2, 3};
     job.pupil_points = 16;
@@ -37,42 +34,42 @@ struct TwoFrames {
     }
 };
 
-class EverySession : public testing::TestWithParam<std::string> {};
+class EverySession : public EveryDrawer {};
 
 TEST_P(EverySession, GivesTheBitsOfFramesMadeAlone) {
     const TwoFrames frames;
-    Session session;
+    Session session(drawer().session());
     for (const char* lens : {"doublet", "uncorrected", "ideal"})
         for (const Shot* shot : {&frames.first, &frames.second, &frames.first}) {
-            const DefocusJob job = with_lens(*shot, GetParam(), lens);
-            EXPECT_EQ(largest_difference(through(session, job), rendered(job)), 0) << lens;
+            const DefocusJob job = with_lens(drawer().job(*shot), lens);
+            EXPECT_EQ(largest_difference(through(session, job), drawn(job)), 0) << lens;
         }
     // Another quality, and a lens stopped down, are other kernels.
-    DefocusJob job = with_lens(frames.second, GetParam(), "doublet");
+    DefocusJob job = with_lens(drawer().job(frames.second), "doublet");
     job.quality = Quality::Draft;
-    EXPECT_EQ(largest_difference(through(session, job), rendered(job)), 0);
+    EXPECT_EQ(largest_difference(through(session, job), drawn(job)), 0);
     job.camera.f_number = 4;
-    EXPECT_EQ(largest_difference(through(session, job), rendered(job)), 0);
+    EXPECT_EQ(largest_difference(through(session, job), drawn(job)), 0);
 }
 
 TEST_P(EverySession, MakesTwoFramesAtOnce) {
     const TwoFrames frames;
-    Session session;
-    const DefocusJob first = with_lens(frames.first, GetParam(), "doublet"),
-                     second = with_lens(frames.second, GetParam(), "doublet");
+    Session session(drawer().session());
+    const DefocusJob first = with_lens(drawer().job(frames.first), "doublet"),
+                     second = with_lens(drawer().job(frames.second), "doublet");
     Picture made_first, made_second;
     {
         std::thread beside([&] { made_first = through(session, first); });
         made_second = through(session, second);
         beside.join();
     }
-    EXPECT_EQ(largest_difference(made_first, rendered(first)), 0);
-    EXPECT_EQ(largest_difference(made_second, rendered(second)), 0);
+    EXPECT_EQ(largest_difference(made_first, drawn(first)), 0);
+    EXPECT_EQ(largest_difference(made_second, drawn(second)), 0);
 }
 
 TEST(Session, KeepsNoMoreThanItMayAndLosesNoBitByIt) {
     const TwoFrames frames;
-    const DefocusJob job = with_lens(frames.second, "scatter", "doublet");
+    const DefocusJob job = with_lens(frames.second.job("scatter"), "doublet");
     Session session;
     const Picture first = through(session, job);
     EXPECT_GT(session.usage().kept_bytes, 0u);
@@ -90,7 +87,7 @@ TEST(Session, CountsWhatItKeepsAgainstItsMemory) {
     constexpr std::size_t kLimit = std::size_t(200) << 20;
     Session session({.threads = 0, .max_memory_bytes = kLimit});
     for (const char* lens : {"doublet", "uncorrected", "triplet", "asphere"})
-        through(session, with_lens(frames.second, "scatter", lens));
+        through(session, with_lens(frames.second.job("scatter"), lens));
     EXPECT_LE(session.usage().kept_bytes, kLimit / 8);
     EXPECT_EQ(session.usage().lenses, 4);
 }
@@ -99,8 +96,8 @@ TEST(Session, CountsWhatItKeepsAgainstItsMemory) {
 // whole.
 TEST_P(EverySession, EndsWhereverItIsAskedTo) {
     const TwoFrames frames;
-    const DefocusJob job = with_lens(frames.second, GetParam(), "doublet");
-    Session session;
+    const DefocusJob job = with_lens(drawer().job(frames.second), "doublet");
+    Session session(drawer().session());
     const Picture whole = through(session, job);
     for (const int questions : {0, 1, 3, 10, 30, 100, 300}) {
         std::atomic<int> asked{0};
@@ -115,8 +112,7 @@ TEST_P(EverySession, EndsWhereverItIsAskedTo) {
     EXPECT_EQ(largest_difference(through(session, job), whole), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, EverySession, testing::ValuesIn(engine_names()),
-                         [](const auto& engine) { return engine.param; });
+PETZVAL_EVERY_DRAWER(EverySession);
 
 void expect_kernels_are_kept(const DefocusJob& job) {
     Session session;

@@ -313,21 +313,6 @@ TEST(Sprites, TheSameBitsForAnyThreadCount) {
     EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
 }
 
-TEST(Sprites, EveryOptionChangesThePicture) {
-    Shot shot = flat(120, 90, {0.1f, 0.1f, 0.1f, 1}, 9);
-    shot.colour(40, 40) = {30, 30, 30, 1};
-    shot.colour(80, 40) = {0.9f, 0.9f, 0.9f, 1};
-    const Picture plain = rendered(shot.job("sprites"));
-    const auto changed = [&](const auto& set) {
-        DefocusJob job = shot.job("sprites");
-        set(job.sprites);
-        return largest_difference(rendered(job), plain) > 1e-4;
-    };
-    EXPECT_TRUE(changed([](SpriteOptions& o) { o.find = false; }));
-    EXPECT_TRUE(changed([](SpriteOptions& o) { o.background = SpriteBackground::Gaussian; }));
-    EXPECT_TRUE(changed([](SpriteOptions& o) { o.bright_factor = 100; }));
-}
-
 TEST(Sprites, AwkwardPicturesStayFinite) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 17}, {17, 1}, {257, 3}}) {
         Lights lights(width, height, 5);

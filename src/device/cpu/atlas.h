@@ -3,14 +3,13 @@
 
 #include "device/cpu/stamp.h"
 #include "device/cpu/tap_kernel.h"
-#include "device/device.h"
+#include "device/laid_out.h"
 
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <memory>
-#include <mutex>
-#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace petzval::device {
@@ -23,28 +22,11 @@ struct StampSet {
     static std::shared_ptr<const StampSet> laid_out(const KernelSource::Made& spreads);
 };
 
-// All that was made of one source and not dropped yet. Of a Kernel are asked laid_out() and bytes.
-template <typename Kernel>
-class KernelTable final : public Memory::Thing {
-public:
-    std::shared_ptr<const Kernel> find(const KernelAsk& ask) const;
-    void add(const KernelAsk& ask, std::shared_ptr<const Kernel> kernel);
-    std::size_t bytes() const override;
-    // Those that no atlas holds.
-    void trim(std::size_t max_bytes) override;
-
-private:
-    mutable std::mutex mutex_;
-    std::map<KernelAsk, std::shared_ptr<const Kernel>> kernels_;
-    std::size_t bytes_ = 0;
-};
-
-// use: what the kernels are laid out for, in a word.
 template <typename Kernel>
 class LaidOutAtlas final : public Atlas {
 public:
-    LaidOutAtlas(const KernelSource& source, const KernelSet& set, const std::string& use, Memory& memory,
-                 const Control& control);
+    explicit LaidOutAtlas(std::vector<std::shared_ptr<const Kernel>> kernels)
+        : kernels_(std::move(kernels)) {}
     const Kernel& operator[](std::uint32_t kernel) const { return *kernels_[kernel]; }
 
 private:

@@ -4,6 +4,7 @@
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
 #include "device/cpu/gather.h"
+#include "device/cpu/mix.h"
 #include "device/cpu/stamp_lights.h"
 #include "engine/lights/plan.h"
 
@@ -19,11 +20,13 @@ public:
             case KernelUse::ByPixel:
                 return std::make_shared<const SpreadAtlas>(source, set, control);
             case KernelUse::Gathered:
-                return std::make_shared<const TapAtlas>(source, set, "gathering", memory, control);
+                return std::make_shared<const TapAtlas>(
+                    laid_out<TapKernel>(source, set, "gathering", memory, control));
             case KernelUse::Stamped:
                 break;
         }
-        return std::make_shared<const StampAtlas>(source, set, "stamping", memory, control);
+        return std::make_shared<const StampAtlas>(
+            laid_out<StampSet>(source, set, "stamping", memory, control));
     }
     Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
                    const Control& control) const override {
@@ -32,6 +35,9 @@ public:
     void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
                 const Control& control) const override {
         gather_tiles(plan, dynamic_cast<const TapAtlas&>(atlas), out, control);
+    }
+    void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
+        mix_blurs(plan, out, control);
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {

@@ -29,7 +29,7 @@ MixWeights RadiusMix::operator()(float radius_px) const {
     return {0, 1 - large, large};
 }
 
-DepthMix::DepthMix(const Input& input, float largest_px) : in_(input) {
+DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_m), coc_px_(input.coc_px) {
     const GaussianOptions& o = input.gaussian;
     half_band_ = 0.5f * std::clamp(float(o.focus_band.value_or(0.2)), 0.0f, 1.0f);
     if (input.depth_m.empty()) {
@@ -54,8 +54,8 @@ DepthMix::DepthMix(const Input& input, float largest_px) : in_(input) {
 }
 
 float DepthMix::normalised(int x, int y) const {
-    if (in_.depth_m.empty()) return std::clamp((in_.coc_px(x, y) - near_) * scale_, 0.0f, 1.0f);
-    const float z = in_.depth_m(x, y);
+    if (depth_m_.empty()) return std::clamp((coc_px_(x, y) - near_) * scale_, 0.0f, 1.0f);
+    const float z = depth_m_(x, y);
     if (!(z > 0) || !std::isfinite(z)) return 1;
     return std::clamp((z - near_) * scale_, 0.0f, 1.0f);
 }

@@ -16,6 +16,7 @@ struct MixWeights {
 // so that the second moment of the mixture is that of the pixel's own disc.
 class RadiusMix {
 public:
+    RadiusMix() = default;  // all is sharp
     // What is within the band is held sharp; the largest radius stays what it is.
     RadiusMix(float largest_px, float band_px);
     bool blurs() const { return large_px_ > kWithinPixelPx; }
@@ -24,8 +25,8 @@ public:
     MixWeights operator()(float radius_px) const;
 
 private:
-    float band_px_, stretch_ = 1, small_px_, large_px_;
-    float per_small_, per_large_;  // 1 / what squared radii grow by, up to each
+    float band_px_ = 0, stretch_ = 1, small_px_ = 0, large_px_ = 0;
+    float per_small_ = 0, per_large_ = 0;  // 1 / what squared radii grow by, up to each
 };
 
 // By depth, as published (wgld.org): x = clamp(depth + offset, 0, 1); the index d is 1 in the band around
@@ -33,6 +34,7 @@ private:
 // to 1: d + (1 - d)(d + 1 - d).
 class DepthMix {
 public:
+    DepthMix() = default;
     // largest_px: where radii stand for depth, they are mapped to 0…1 with 0 in the middle.
     DepthMix(const Input& input, float largest_px);
     float index(int x, int y) const;
@@ -44,7 +46,7 @@ public:
 private:
     float normalised(int x, int y) const;
 
-    const Input& in_;
+    View<const float> depth_m_, coc_px_;  // the former empty: not known
     float near_ = 0, scale_ = 1, offset_ = 0, half_band_ = 0.1f;
 };
 

@@ -1,17 +1,19 @@
-// A host's own threads do all the work, and nobody else's.
-#include "shots.h"
+// Two threads of a host, which do not even use the one that calls.
+#pragma once
 
+#include "petzval/workers.h"
+
+#include <algorithm>
 #include <array>
-#include <atomic>
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
 #include <thread>
 
-namespace petzval::conformance {
-namespace {
+#include <gtest/gtest.h>
 
-// Two threads of a host, which do not even use the one that calls.
+namespace petzval::conformance {
+
 class HostPool : public Workers {
 public:
     HostPool() {
@@ -61,43 +63,4 @@ private:
     std::array<std::thread, 2> threads_;
 };
 
-std::size_t threads_of_this_process() {
-    std::size_t n = 0;
-    for ([[maybe_unused]] const auto& t : std::filesystem::directory_iterator("/proc/self/task")) ++n;
-    return n;
-}
-
-// A lens whose kernels differ over the picture, so that all stages have work.
-DefocusJob busy_job(const Shot& shot, const std::string& engine) {
-    DefocusJob job = shot.job(engine);
-    job.pupil_points = 64;
-    job.lens.cats_eye = 0.5;
-    job.lens.aperture.blades = 6;
-    return job;
-}
-
-TEST(LentWorkers, DoAllOfADefocusAndGiveTheSameBits) {
-    Shot shot = noise_at_several_depths();
-    put_behind(
-        shot,
-        [](int x, int y) {
-            return Rgba{0.1f * float(x % 7), 0.1f * float(y % 5), 0.3f, 1};
-        },
-        [](int, int) { return 9.0f; });
-    for (const std::string& engine : engine_names()) {
-        DefocusJob job = busy_job(shot, engine);
-        HostPool pool;
-        job.workers = &pool;
-        const std::size_t before = threads_of_this_process();
-        const Picture lent = rendered(job);
-        EXPECT_EQ(threads_of_this_process(), before) << engine << " started threads of its own";
-        EXPECT_GT(pool.loops(), 3) << engine;
-        EXPECT_LE(pool.most_at_once(), pool.width()) << engine;
-        job.workers = nullptr, job.threads = 1;
-        EXPECT_EQ(largest_difference(lent, rendered(job)), 0) << engine;
-        EXPECT_EQ(threads_of_this_process(), before) << engine << " needs no more than one thread";
-    }
-}
-
-}  // namespace
 }  // namespace petzval::conformance

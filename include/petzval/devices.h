@@ -1,0 +1,24 @@
+// What a session can draw with.
+#pragma once
+
+#include "petzval/export.h"
+
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+struct DeviceFacts {
+    std::string name;          // as SessionSettings::device takes it: "cpu", "gpu:0", "gpu:1", …
+    std::string title;         // as its driver calls it; of the CPU its instruction set
+    bool is_software = false;  // a driver that computes on the CPU
+    std::string lacks;         // why it cannot be used; empty: it can
+};
+
+// The CPU, then hardware, then software drivers. Starts drivers, which may take a while.
+PETZVAL_API std::vector<DeviceFacts> devices();
+
+// Why there is no device but the CPU, in one sentence; empty: there is one.
+PETZVAL_API std::string why_no_gpu();
+
+}  // namespace petzval

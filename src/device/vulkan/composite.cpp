@@ -1,0 +1,262 @@
+#include "device/vulkan/composite.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace petzval::device::vulkan {
+namespace {
+
+using engine::Arrival;
+using engine::LevelRun;
+using engine::ScatterPlan;
+using engine::Source;
+using engine::Tile;
+using engine::TileLayer;
+
+constexpr std::size_t kTilePixels = std::size_t(ScatterPlan::kTile) * ScatterPlan::kTile;
+constexpr std::size_t kPartialBytes = kTilePixels * (sizeof(Rgba) + sizeof(float));  // of a tile's sector
+constexpr std::uint32_t kGroupsPerTile = 16;
+
+static_assert(ScatterPlan::kBorder == 2 && Source::kSkirtBits == 2, "as composite.comp has it");
+
+// Where the parts of a batch lie in the words of the plan (composite.comp's Push).
+struct Push {
+    std::uint32_t tiles = 0, layers = 0, runs = 0, arrivals = 0, shares = 0;
+    std::uint32_t first_layer = 0, first_run = 0, first_arrival = 0;
+    std::uint32_t records = 0;
+    std::uint32_t held_row = 0, held_width = 0, held_samples = 0;
+};
+static_assert(sizeof(Push) == 48);
+
+std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+// Tiles begin…end - 1 of a plan.
+struct Batch {
+    std::size_t begin = 0, end = 0, sectors = 0;
+};
+
+class Compositor {
+public:
+    Compositor(Context& context, const ScatterPlan& plan, const PackedAtlas& atlas, const BatchRule& rule)
+        : context_(context), plan_(plan), atlas_(atlas), rule_(rule) {}
+
+    // Of the tiles from `begin` on, as many as one submission draws.
+    Batch batch_from(std::size_t begin) const {
+        constexpr std::size_t kMostTiles = 4000;  // groups are counted up to 65535
+        Batch batch{begin, begin, 0};
+        std::uint64_t taps = 0;
+        while (batch.end + 1 < plan_.tiles.size() && batch.end - begin < kMostTiles) {
+            const std::size_t sectors = std::size_t(plan_.tiles[batch.end].sectors);
+            const std::uint64_t more = taps_of(batch.end);
+            const bool is_full = (batch.sectors + sectors) * kPartialBytes > rule_.most_partial_bytes ||
+                                 4 * (taps + more) > rule_.most_multiply_adds;
+            if (is_full && batch.end > begin) break;
+            batch.sectors += sectors, taps += more, ++batch.end;
+        }
+        return batch;
+    }
+
+    // Returns the taps of what arrived.
+    std::uint64_t draw(const Batch& batch, View<Rgba> out) {
+        Recording recording(context_);
+        Push push;
+        const Piece words = recording.uploaded(std::span<const std::uint32_t>(words_of(batch, push)));
+        const Piece sources = recording.uploaded(std::span<const Source>(sources_));
+        const KernelsOnDevice kernels = kernels_for(batch, recording);
+        const Piece holdout = recording.uploaded(std::span<const std::uint32_t>(holdout_for(batch, push)));
+        push.records = kernels.records;
+        const std::size_t tiles = batch.end - batch.begin, pixels = batch.sectors * kTilePixels;
+        Heap& heap = context_.heap();
+        const Piece light = heap.allocate(Kind::OnDevice, pixels * sizeof(Rgba)),
+                    taken = heap.allocate(Kind::OnDevice, pixels * sizeof(float)),
+                    result = heap.allocate(Kind::OnDevice, tiles * kTilePixels * sizeof(Rgba));
+        int most_sectors = 1;
+        for (std::size_t t = batch.begin; t < batch.end; ++t)
+            most_sectors = std::max(most_sectors, plan_.tiles[t].sectors);
+        recording.pass("composite", context_.program(Shader::Composite, plan_.holdout.empty() ? 0 : 1),
+                       {&words, &sources, &kernels.words, &kernels.weights, &holdout, &light, &taken}, push,
+                       {std::uint32_t(tiles) * kGroupsPerTile, std::uint32_t(most_sectors)});
+        recording.pass("add sectors", context_.program(Shader::AddSectors), {&words, &light, &taken, &result},
+                       push.tiles, {std::uint32_t(tiles) * kGroupsPerTile});
+        const std::byte* const seen = recording.downloaded(result, tiles * kTilePixels * sizeof(Rgba));
+        recording.run();
+        copy(batch, seen, out);
+        return taps_of_batch_;
+    }
+
+private:
+    std::uint64_t taps_of(std::size_t tile) const {
+        std::uint64_t taps = 0;
+        const auto [begin, end] = arrivals_of(tile, tile + 1);
+        for (std::size_t i = begin; i < end; ++i) taps += atlas_[plan_.arrivals[i].kernel].taps;
+        return taps;
+    }
+    // Of tiles begin…end - 1.
+    std::pair<std::size_t, std::size_t> arrivals_of(std::size_t begin, std::size_t end) const {
+        const auto first = [&](std::size_t tile) {
+            return plan_.runs[plan_.layers[plan_.tiles[tile].first_layer].first_run].first_arrival;
+        };
+        return {first(begin), first(end)};
+    }
+
+    // The batch's part of the plan's lists, each with the element that closes it; its sources.
+    std::vector<std::uint32_t> words_of(const Batch& batch, Push& push) {
+        std::vector<std::uint32_t> words;
+        const std::uint32_t first_layer = plan_.tiles[batch.begin].first_layer,
+                            last_layer = plan_.tiles[batch.end].first_layer;
+        const std::uint32_t first_run = plan_.layers[first_layer].first_run,
+                            last_run = plan_.layers[last_layer].first_run;
+        const auto [first_arrival, last_arrival] = arrivals_of(batch.begin, batch.end);
+        push.first_layer = first_layer, push.first_run = first_run;
+        push.first_arrival = std::uint32_t(first_arrival);
+        const auto here = [&] { return std::uint32_t(words.size()); };
+        add_tiles(batch, words);
+        push.layers = here();
+        for (std::uint32_t l = first_layer; l <= last_layer; ++l) add_layer(l, l < last_layer, words);
+        const auto bases = take_sources(first_run, last_run);
+        push.runs = here();
+        for (std::uint32_t r = first_run; r <= last_run; ++r) {
+            const LevelRun& run = plan_.runs[r];
+            const std::uint32_t base = r < last_run ? bases[std::size_t(run.level)] : 0;
+            words.insert(words.end(), {run.first_arrival, std::uint32_t(run.level), base});
+        }
+        push.arrivals = here();
+        for (std::size_t i = first_arrival; i < last_arrival; ++i)
+            words.insert(words.end(), {plan_.arrivals[i].source, plan_.arrivals[i].kernel});
+        if (!plan_.shares.empty()) {
+            push.shares = here();
+            for (std::size_t i = first_arrival; i < last_arrival; ++i)
+                words.push_back(bits_of(plan_.shares[i]));
+        }
+        return words;
+    }
+    void add_tiles(const Batch& batch, std::vector<std::uint32_t>& words) const {
+        std::size_t partial = 0;
+        for (std::size_t t = batch.begin; t <= batch.end; ++t) {
+            const Tile& tile = plan_.tiles[t];
+            const Rect& r = tile.pixels;
+            words.insert(words.end(),
+                         {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1), std::uint32_t(r.y1),
+                          tile.first_layer, std::uint32_t(tile.sectors), std::uint32_t(partial), 0});
+            partial += std::size_t(tile.sectors) * kTilePixels;
+        }
+    }
+    // With the radii that its light comes from, where a holdout asks.
+    void add_layer(std::uint32_t number, bool has_light, std::vector<std::uint32_t>& words) const {
+        const TileLayer& layer = plan_.layers[number];
+        float low = 1e30f, high = -1e30f;
+        if (has_light && !plan_.holdout.empty())
+            for (std::uint32_t r = layer.first_run; r < layer.first_empty_run; ++r) {
+                const int level = plan_.runs[r].level;
+                const auto& sources = plan_.levels[std::size_t(level)].sources;
+                for (std::size_t i = plan_.runs[r].first_arrival; i < plan_.runs[r + 1].first_arrival; ++i) {
+                    const float coc_px =
+                        engine::radius_in_pixels(sources[plan_.arrivals[i].source].radius, level);
+                    low = std::min(low, coc_px), high = std::max(high, coc_px);
+                }
+            }
+        words.insert(words.end(), {layer.first_run, layer.first_empty_run, std::uint32_t(layer.sectors),
+                                   bits_of(low), bits_of(high)});
+    }
+    // Of each level those from the first to the last that arrives. Returns by level what is to be taken off
+    // the number of a source to find it in here.
+    std::vector<std::uint32_t> take_sources(std::uint32_t first_run, std::uint32_t last_run) {
+        struct Span {
+            std::uint32_t begin = std::numeric_limits<std::uint32_t>::max(), end = 0;
+        };
+        std::vector<Span> spans(plan_.levels.size());
+        for (std::uint32_t r = first_run; r < last_run; ++r) {
+            Span& span = spans[std::size_t(plan_.runs[r].level)];
+            for (std::size_t i = plan_.runs[r].first_arrival; i < plan_.runs[r + 1].first_arrival; ++i) {
+                const std::uint32_t source = plan_.arrivals[i].source;
+                span = {std::min(span.begin, source), std::max(span.end, source + 1)};
+            }
+        }
+        sources_.clear();
+        std::vector<std::uint32_t> bases;
+        for (std::size_t l = 0; l < spans.size(); ++l) {
+            const Span& span = spans[l];
+            bases.push_back(span.begin - std::uint32_t(sources_.size()));
+            if (span.begin >= span.end) continue;
+            const Source* const from = plan_.levels[l].sources.data();
+            sources_.insert(sources_.end(), from + span.begin, from + span.end);
+        }
+        return bases;
+    }
+
+    KernelsOnDevice kernels_for(const Batch& batch, Recording& recording) {
+        std::vector<bool> asked(atlas_.size());
+        taps_of_batch_ = 0;
+        const auto [begin, end] = arrivals_of(batch.begin, batch.end);
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t kernel = plan_.arrivals[i].kernel;
+            asked[kernel] = true, taps_of_batch_ += atlas_[kernel].taps;
+        }
+        std::vector<std::uint32_t> kernels;
+        for (std::uint32_t k = 0; k < asked.size(); ++k)
+            if (asked[k]) kernels.push_back(k);
+        return atlas_.uploaded(kernels, recording);
+    }
+
+    // For the rows of the batch: where each pixel's samples begin; then radius and coverage of each.
+    std::vector<std::uint32_t> holdout_for(const Batch& batch, Push& push) const {
+        std::vector<std::uint32_t> first, samples;
+        if (plan_.holdout.empty()) return {0};
+        int begin = std::numeric_limits<int>::max(), end = 0;
+        for (std::size_t t = batch.begin; t < batch.end; ++t) {
+            begin = std::min(begin, plan_.tiles[t].pixels.y0);
+            end = std::max(end, plan_.tiles[t].pixels.y1);
+        }
+        for (int y = begin; y < end; ++y)
+            for (int x = 0; x < plan_.rows.x1; ++x) {
+                first.push_back(std::uint32_t(samples.size() / 2));
+                for (const engine::CocSample& s : plan_.holdout.at(x, y))
+                    samples.insert(samples.end(), {bits_of(s.coc_px), bits_of(s.colour.a)});
+            }
+        first.push_back(std::uint32_t(samples.size() / 2));
+        push.held_row = std::uint32_t(begin), push.held_width = std::uint32_t(plan_.rows.x1);
+        push.held_samples = std::uint32_t(first.size());
+        first.insert(first.end(), samples.begin(), samples.end());
+        return first;
+    }
+
+    void copy(const Batch& batch, const std::byte* result, View<Rgba> out) const {
+        const auto* pixels = reinterpret_cast<const Rgba*>(result);
+        for (std::size_t t = batch.begin; t < batch.end; ++t, pixels += kTilePixels) {
+            const Rect& tile = plan_.tiles[t].pixels;
+            for (int y = 0; y < tile.height(); ++y)
+                std::copy_n(pixels + std::ptrdiff_t(y) * ScatterPlan::kTile, tile.width(),
+                            out.row(plan_.first_row + tile.y0 + y) + tile.x0);
+        }
+    }
+
+    Context& context_;
+    const ScatterPlan& plan_;
+    const PackedAtlas& atlas_;
+    const BatchRule rule_;
+    std::vector<Source> sources_;  // of the batch
+    std::uint64_t taps_of_batch_ = 0;
+};
+
+}  // namespace
+
+Work composite_tiles(Context& context, const ScatterPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+                     const Control& control, const BatchRule& rule) {
+    Compositor compositor(context, plan, atlas, rule);
+    const std::size_t tiles = plan.tiles.size() - 1;
+    std::uint64_t taps = 0;
+    for (std::size_t begin = 0; begin < tiles && !control.progress.cancelled();) {
+        const Batch batch = compositor.batch_from(begin);
+        taps += compositor.draw(batch, out);
+        control.progress.advance(control.share * double(batch.end - begin) / double(tiles));
+        begin = batch.end;
+    }
+    Work work = Work::of_taps(taps);
+    work.bytes += plan.arrivals.size() * (sizeof(Arrival) + sizeof(Source));
+    return work;
+}
+
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,119 @@
+#include "device/vulkan/context.h"
+
+#include "device/vulkan/failure.h"
+
+#include <utility>
+
+namespace petzval::device::vulkan {
+
+Result<std::shared_ptr<Context>> Context::open(std::shared_ptr<Instance> instance, std::size_t number) {
+    const Candidate& candidate = instance->candidates()[number];
+    if (!candidate.lacks.empty())
+        return Error{ErrorCode::Unsupported, candidate.name + " lacks " + candidate.lacks};
+    std::shared_ptr<Context> context(new Context(std::move(instance), candidate));
+    if (const Status created = context->create(number); !created) return created.error();
+    return context;
+}
+
+Status Context::create(std::size_t number) {
+    opened_.name = "gpu:" + std::to_string(number);
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue = {};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = candidate_.queue_family;
+    queue.queueCount = 1, queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
+    vk_ = instance_->functions();
+    if (vk_.vkCreateDevice(candidate_.handle, &info, nullptr, &opened_.device) != VK_SUCCESS) {
+        opened_.device = VK_NULL_HANDLE;
+        return Error{ErrorCode::Unsupported, candidate_.name + " does not start"};
+    }
+#define PETZVAL_VK_FIND(name) \
+    vk_.name = reinterpret_cast<PFN_##name>(vk_.vkGetDeviceProcAddr(opened_.device, #name));
+    PETZVAL_VK_DEVICE(PETZVAL_VK_FIND)
+#undef PETZVAL_VK_FIND
+    opened_.vk = &vk_;
+    vk_.vkGetDeviceQueue(opened_.device, candidate_.queue_family, 0, &queue_);
+    heap_ = std::make_unique<Heap>(opened_, candidate_.memory);
+    return Done{};
+}
+
+Context::~Context() {
+    if (!opened_.device) return;
+    for (auto& [key, p] : programs_) {
+        vk_.vkDestroyPipeline(opened_.device, p.pipeline, nullptr);
+        vk_.vkDestroyPipelineLayout(opened_.device, p.layout, nullptr);
+        vk_.vkDestroyDescriptorSetLayout(opened_.device, p.set_layout, nullptr);
+    }
+    heap_.reset();
+    vk_.vkDestroyDevice(opened_.device, nullptr);
+}
+
+const Program& Context::program(Shader shader, std::uint32_t variant) {
+    const std::lock_guard lock(mutex_);
+    const std::pair key(shader, variant);
+    const auto known = programs_.find(key);
+    if (known != programs_.end()) return known->second;
+    return programs_.emplace(key, make_program(words_of(shader), variant)).first->second;
+}
+
+Program Context::make_program(const ShaderWords& words, std::uint32_t variant) const {
+    const std::string what = "a program";
+    Program program;
+    program.buffers = words.buffers, program.push_bytes = words.push_bytes;
+    std::vector<VkDescriptorSetLayoutBinding> bindings(std::size_t(words.buffers));
+    for (std::size_t i = 0; i < bindings.size(); ++i)
+        bindings[i] = {std::uint32_t(i), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT,
+                       nullptr};
+    VkDescriptorSetLayoutCreateInfo set = {};
+    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set.bindingCount = std::uint32_t(bindings.size()), set.pBindings = bindings.data();
+    check(vk_.vkCreateDescriptorSetLayout(handle(), &set, nullptr, &program.set_layout), name(), what);
+    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, words.push_bytes};
+    VkPipelineLayoutCreateInfo layout = {};
+    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layout.setLayoutCount = 1, layout.pSetLayouts = &program.set_layout;
+    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &push;
+    check(vk_.vkCreatePipelineLayout(handle(), &layout, nullptr, &program.layout), name(), what);
+    VkShaderModuleCreateInfo module = {};
+    module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    module.codeSize = words.spirv.size_bytes(), module.pCode = words.spirv.data();
+    VkShaderModule code = VK_NULL_HANDLE;
+    check(vk_.vkCreateShaderModule(handle(), &module, nullptr, &code), name(), what);
+    const VkSpecializationMapEntry entry = {0, 0, sizeof variant};
+    const VkSpecializationInfo special = {1, &entry, sizeof variant, &variant};
+    VkComputePipelineCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = code, info.stage.pName = "main", info.stage.pSpecializationInfo = &special;
+    info.layout = program.layout;
+    const VkResult made =
+        vk_.vkCreateComputePipelines(handle(), VK_NULL_HANDLE, 1, &info, nullptr, &program.pipeline);
+    vk_.vkDestroyShaderModule(handle(), code, nullptr);
+    check(made, name(), what);
+    return program;
+}
+
+void Context::submit(VkCommandBuffer commands, VkFence fence) {
+    VkSubmitInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1, info.pCommandBuffers = &commands;
+    const std::lock_guard lock(mutex_);
+    check(vk_.vkQueueSubmit(queue_, 1, &info, fence), name(), "drawing");
+}
+
+void Context::add_time(const std::string& pass, double seconds) {
+    const std::lock_guard lock(mutex_);
+    PassTime& time = times_[pass];
+    ++time.runs, time.seconds += seconds;
+}
+
+std::map<std::string, PassTime> Context::pass_times() const {
+    const std::lock_guard lock(mutex_);
+    return times_;
+}
+
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,62 @@
+// The loader, an instance, and the devices there are.
+#pragma once
+
+#include "petzval/result.h"
+
+#include "device/vulkan/functions.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace petzval::device::vulkan {
+
+// A device as a user chooses it.
+struct Candidate {
+    VkPhysicalDevice handle = VK_NULL_HANDLE;
+    std::string name;
+    bool is_software = false;
+    std::string lacks;  // what of the floor it does not have; empty: nothing
+    std::uint32_t queue_family = 0;
+    VkPhysicalDeviceLimits limits = {};
+    VkPhysicalDeviceMemoryProperties memory = {};
+    std::uint32_t timestamp_bits = 0;
+};
+
+// Opened once and kept: drivers take long to start.
+class Instance {
+public:
+    // Errors: Unsupported: what is missing.
+    static Result<std::shared_ptr<Instance>> open();
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    const Functions& functions() const { return vk_; }
+    // Hardware first, then software, each in the order of the loader.
+    const std::vector<Candidate>& candidates() const { return candidates_; }
+    // What the validation layer said since it was last asked; empty: nothing, or it is not on. It is on, with
+    // its checks of synchronisation, where $PETZVAL_VULKAN_VALIDATION is set: for tests.
+    std::string complaints();
+
+private:
+    Instance() = default;
+    Status create();
+    Status create_instance();
+    static VKAPI_ATTR VkBool32 VKAPI_CALL note(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                               VkDebugUtilsMessageTypeFlagsEXT type,
+                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* self);
+    void find_candidates();
+
+    void* library_ = nullptr;
+    Functions vk_;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    std::vector<Candidate> candidates_;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    std::mutex mutex_;
+    std::string complaints_;
+};
+
+}  // namespace petzval::device::vulkan

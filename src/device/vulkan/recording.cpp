@@ -1,0 +1,148 @@
+#include "device/vulkan/recording.h"
+
+#include "device/vulkan/failure.h"
+
+#include <cstring>
+#include <limits>
+
+namespace petzval::device::vulkan {
+namespace {
+
+constexpr std::uint32_t kMostBuffers = 8;  // of a pass
+
+}  // namespace
+
+Recording::Recording(Context& context) : context_(context), vk_(context.vk()) {
+    const std::string what = "commands";
+    VkCommandPoolCreateInfo pool = {};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool.queueFamilyIndex = context.candidate().queue_family;
+    check(vk_.vkCreateCommandPool(context.handle(), &pool, nullptr, &pool_), context.name(), what);
+    VkCommandBufferAllocateInfo commands = {};
+    commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    commands.commandPool = pool_, commands.commandBufferCount = 1;
+    check(vk_.vkAllocateCommandBuffers(context.handle(), &commands, &commands_), context.name(), what);
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kMostPasses * kMostBuffers};
+    VkDescriptorPoolCreateInfo sets = {};
+    sets.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    sets.maxSets = kMostPasses, sets.poolSizeCount = 1, sets.pPoolSizes = &size;
+    check(vk_.vkCreateDescriptorPool(context.handle(), &sets, nullptr, &sets_), context.name(), what);
+    VkFenceCreateInfo fence = {};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    check(vk_.vkCreateFence(context.handle(), &fence, nullptr, &fence_), context.name(), what);
+    VkCommandBufferBeginInfo begin = {};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vk_.vkBeginCommandBuffer(commands_, &begin), context.name(), what);
+    if (!context.times_passes()) return;
+    VkQueryPoolCreateInfo queries = {};
+    queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP, queries.queryCount = 2 * kMostPasses;
+    check(vk_.vkCreateQueryPool(context.handle(), &queries, nullptr, &queries_), context.name(), what);
+    vk_.vkCmdResetQueryPool(commands_, queries_, 0, 2 * kMostPasses);
+}
+
+Recording::~Recording() {
+    // Memory must not go while the device still writes to it.
+    if (submitted_)
+        vk_.vkWaitForFences(context_.handle(), 1, &fence_, VK_TRUE,
+                            std::numeric_limits<std::uint64_t>::max());
+    if (queries_) vk_.vkDestroyQueryPool(context_.handle(), queries_, nullptr);
+    if (fence_) vk_.vkDestroyFence(context_.handle(), fence_, nullptr);
+    if (sets_) vk_.vkDestroyDescriptorPool(context_.handle(), sets_, nullptr);
+    if (pool_) vk_.vkDestroyCommandPool(context_.handle(), pool_, nullptr);
+}
+
+Piece Recording::uploaded(std::span<const std::byte> bytes) {
+    Piece piece = context_.heap().allocate(Kind::OnDevice, bytes.size());
+    if (bytes.empty()) return piece;
+    if (std::byte* const seen = piece.mapped()) {
+        std::memcpy(seen, bytes.data(), bytes.size());
+        return piece;
+    }
+    const Piece& from = staging_.emplace_back(context_.heap().allocate(Kind::ToDevice, bytes.size()));
+    std::memcpy(from.mapped(), bytes.data(), bytes.size());
+    const VkBufferCopy copy = {from.offset(), piece.offset(), bytes.size()};
+    vk_.vkCmdCopyBuffer(commands_, from.buffer(), piece.buffer(), 1, &copy);
+    return piece;
+}
+
+// All that was written before is seen by what follows, and nothing is overwritten before it was read.
+void Recording::order(VkPipelineStageFlags to, VkAccessFlags access) {
+    VkMemoryBarrier barrier = {};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = access;
+    vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                             to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+VkDescriptorSet Recording::set_for(const Program& program, std::initializer_list<const Piece*> buffers) {
+    VkDescriptorSetAllocateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorPool = sets_, info.descriptorSetCount = 1, info.pSetLayouts = &program.set_layout;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    check(vk_.vkAllocateDescriptorSets(context_.handle(), &info, &set), context_.name(), "buffers of a pass");
+    std::vector<VkDescriptorBufferInfo> ranges;
+    for (const Piece* piece : buffers) ranges.push_back({piece->buffer(), piece->offset(), piece->size()});
+    VkWriteDescriptorSet write = {};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set, write.descriptorCount = std::uint32_t(ranges.size());
+    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, write.pBufferInfo = ranges.data();
+    vk_.vkUpdateDescriptorSets(context_.handle(), 1, &write, 0, nullptr);
+    return set;
+}
+
+void Recording::pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
+                     std::span<const std::byte> push, Groups groups) {
+    VkDescriptorSet set = set_for(program, buffers);
+    order(VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    vk_.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
+    vk_.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1, &set, 0,
+                                nullptr);
+    vk_.vkCmdPushConstants(commands_, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                           std::uint32_t(push.size()), push.data());
+    const auto query = std::uint32_t(2 * passes_.size());
+    if (queries_) vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_, query);
+    vk_.vkCmdDispatch(commands_, groups.x, groups.y, groups.z);
+    if (queries_)
+        vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_, query + 1);
+    passes_.emplace_back(name);
+}
+
+const std::byte* Recording::downloaded(const Piece& piece, std::size_t bytes) {
+    const Piece& to = staging_.emplace_back(context_.heap().allocate(Kind::FromDevice, bytes));
+    order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    const VkBufferCopy copy = {piece.offset(), to.offset(), bytes};
+    vk_.vkCmdCopyBuffer(commands_, piece.buffer(), to.buffer(), 1, &copy);
+    return to.mapped();
+}
+
+void Recording::run() {
+    order(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    check(vk_.vkEndCommandBuffer(commands_), context_.name(), "commands");
+    context_.submit(commands_, fence_);
+    submitted_ = true;
+    check(vk_.vkWaitForFences(context_.handle(), 1, &fence_, VK_TRUE,
+                              std::numeric_limits<std::uint64_t>::max()),
+          context_.name(), "drawing");
+    submitted_ = false;
+    note_times();
+    if (const std::string said = context_.instance().complaints(); !said.empty())
+        throw Failed{{ErrorCode::Unsupported, context_.name() + ": " + said}};
+}
+
+void Recording::note_times() {
+    if (!queries_ || passes_.empty()) return;
+    std::vector<std::uint64_t> ticks(2 * passes_.size());
+    check(vk_.vkGetQueryPoolResults(context_.handle(), queries_, 0, std::uint32_t(ticks.size()),
+                                    ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
+                                    VK_QUERY_RESULT_64_BIT),
+          context_.name(), "timing");
+    const double period = double(context_.candidate().limits.timestampPeriod) * 1e-9;
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+        context_.add_time(passes_[i], double(ticks[2 * i + 1] - ticks[2 * i]) * period);
+}
+
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,65 @@
+// Commands for a device, from the first to the end of the last.
+#pragma once
+
+#include "device/vulkan/context.h"
+
+#include <cstddef>
+#include <cstring>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace petzval::device::vulkan {
+
+// Groups of a pass, at least one each.
+struct Groups {
+    std::uint32_t x = 1, y = 1, z = 1;
+};
+
+// Passes that follow each other see what those before them wrote. Throws Failed.
+class Recording {
+public:
+    explicit Recording(Context& context);
+    ~Recording();
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+
+    // A new piece on the device with this in it, once run; lives until then at least.
+    Piece uploaded(std::span<const std::byte> bytes);
+    template <typename T>
+    Piece uploaded(std::span<const T> values) {
+        return uploaded(std::as_bytes(values));
+    }
+    // buffers, push: as the program declares them.
+    template <typename Push>
+    void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
+              const Push& push, Groups groups) {
+        pass(name, program, buffers, std::as_bytes(std::span(&push, 1)), groups);
+    }
+    // The piece's bytes once run, in memory that the host sees; lives as long as this.
+    const std::byte* downloaded(const Piece& piece, std::size_t bytes);
+    // Starts; then waits for the end. Nothing is recorded afterwards.
+    void run();
+
+private:
+    void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
+              std::span<const std::byte> push, Groups groups);
+    VkDescriptorSet set_for(const Program& program, std::initializer_list<const Piece*> buffers);
+    void order(VkPipelineStageFlags to, VkAccessFlags access);
+    void note_times();
+
+    static constexpr std::uint32_t kMostPasses = 32;
+    Context& context_;
+    const Functions& vk_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkDescriptorPool sets_ = VK_NULL_HANDLE;
+    VkQueryPool queries_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+    bool submitted_ = false;
+    std::vector<Piece> staging_;
+    std::vector<std::string> passes_;
+};
+
+}  // namespace petzval::device::vulkan

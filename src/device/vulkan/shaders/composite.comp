@@ -1,0 +1,250 @@
+// Draws 16 x 16 pixels of a tile, through one sector of the pupil (docs/design/vulkan.md, "Composite").
+// The words of the plan are those that composite.cpp writes; formulas are device/cpu's.
+#version 450
+layout(local_size_x = 256) in;
+layout(constant_id = 0) const uint kHeld = 0;  // 1: a holdout dims what lands in a pixel
+
+layout(std430, binding = 0) readonly buffer PlanWords { uint plan[]; };
+layout(std430, binding = 1) readonly buffer Sources { vec4 sources[]; };      // three to a source
+layout(std430, binding = 2) readonly buffer KernelWords { uint kernels[]; };
+layout(std430, binding = 3) readonly buffer Weights { float weights[]; };
+layout(std430, binding = 4) readonly buffer Holdout { uint holdout[]; };
+layout(std430, binding = 5) writeonly buffer Light { vec4 light_of[]; };      // by pixel of a tile's sector
+layout(std430, binding = 6) writeonly buffer Taken { float taken_of[]; };
+layout(push_constant) uniform Push {
+    uint tiles, layers, runs, arrivals, shares;  // where these begin in `plan`; shares 0: there are none
+    uint first_layer, first_run, first_arrival;  // numbers of the first of each
+    uint records;                                // where records of kernels begin in `kernels`
+    uint held_rows, held_width, held_samples;    // row 0 of the holdout, its width; where samples begin
+} at;
+
+const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
+const int kTilePixels = 64 * 64;
+const float kSpent = 0.002;
+
+// Arrivals of a chunk that touch the group's pixels.
+shared vec4 hit_light[kChunk];  // and, when they are done, sums of cells
+shared vec4 hit_shape[kChunk];  // tilt x, y; off the middle x, y
+shared int hit_x[kChunk], hit_y[kChunk];
+shared uint hit_corner[kChunk], hit_size[kChunk], hit_weights[kChunk];
+shared uint hit_words[kChunk / 32];
+shared uint any_free;
+
+struct Box { ivec2 low, high; };
+
+ivec2 halves(uint word) { return ivec2(int(word << 16) >> 16, int(word) >> 16); }
+
+// The weights at an offset from a source. A kernel: its corner and size as pairs of 16 bits, where its weights
+// begin, in fours; bit 31: one weight stands for all channels.
+vec4 weight(ivec2 offset, uint corner, uint size, uint where) {
+    const ivec2 d = offset - halves(corner), wide = halves(size);
+    if (any(lessThan(d, ivec2(0))) || any(greaterThanEqual(d, wide))) return vec4(0);
+    const int tap = d.y * wide.x + d.x;
+    const uint first = 4u * (where & 0x7fffffffu);
+    if ((where >> 31) != 0u) return vec4(weights[first + uint(tap)]);
+    const uint i = first + 4u * uint(tap);
+    return vec4(weights[i], weights[i + 1u], weights[i + 2u], weights[i + 3u]);
+}
+
+// What hit number k sends to a cell.
+vec4 sent(uint k, ivec2 cell) {
+    const vec4 shape = hit_shape[k];
+    const ivec2 d = cell - ivec2(hit_x[k], hit_y[k]);
+    const uint corner = hit_corner[k], size = hit_size[k], where = hit_weights[k];
+    if (shape.zw == vec2(0)) {
+        const vec4 w = weight(d, corner, size, where);
+        return w == vec4(0) ? w : w * (hit_light[k] * max(0.0, 1 + dot(shape.xy, vec2(d))));
+    }
+    // Off the middle of its cell it is shared with its neighbours.
+    const ivec2 to = ivec2(shape.z < 0 ? -1 : 1, shape.w < 0 ? -1 : 1);
+    const vec2 share = abs(shape.zw);
+    vec4 sum = vec4(0);
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+            const float part = (i == 0 ? 1 - share.x : share.x) * (j == 0 ? 1 - share.y : share.y);
+            const ivec2 e = d - ivec2(i, j) * to;
+            if (part > 0)
+                sum += weight(e, corner, size, where) * (part * max(0.0, 1 + dot(shape.xy, vec2(e))));
+        }
+    return sum * hit_light[k];
+}
+
+// Notes which arrivals from `first` on, `count` of them, touch the box; returns how many.
+uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
+    const uint own = gl_LocalInvocationIndex;
+    if (own < kChunk / 32) hit_words[own] = 0u;
+    barrier();
+    bool hits = false;
+    vec4 light, shape;
+    ivec2 place;
+    uint record = 0u;
+    float share = 1;
+    if (own < count) {
+        const uint i = at.arrivals + 2u * (first + own);
+        const uint source = 3u * (plan[i] - base);
+        record = at.records + 3u * (kernels[plan[i + 1u]] + sector);
+        const vec4 shapes = sources[source + 1u], places = sources[source + 2u];
+        place = ivec2(floatBitsToInt(places.z), floatBitsToInt(places.w) >> 2);
+        shape = vec4(shapes.yzw, places.x);
+        const ivec2 corner = place + halves(kernels[record]), size = halves(kernels[record + 1u]);
+        // Neighbours of its cell may send as well.
+        const ivec2 low = corner + ivec2(min(sign(shape.zw), vec2(0)));
+        const ivec2 high = corner + size + ivec2(max(sign(shape.zw), vec2(0)));
+        hits = all(lessThan(low, box.high)) && all(greaterThan(high, box.low)) && size.x > 0;
+        if (hits) {
+            if (at.shares != 0u) share = uintBitsToFloat(plan[at.shares + first + own]);
+            light = sources[source] * share;
+            atomicOr(hit_words[own / 32u], 1u << (own % 32u));
+        }
+    }
+    barrier();
+    uint rank = 0u, all_hits = 0u;
+    for (uint w = 0u; w < kChunk / 32; ++w) {
+        const uint word = hit_words[w];
+        if (w < own / 32u) rank += bitCount(word);
+        if (w == own / 32u) rank += bitCount(word & ((1u << (own % 32u)) - 1u));
+        all_hits += bitCount(word);
+    }
+    if (hits) {
+        hit_light[rank] = light, hit_shape[rank] = shape;
+        hit_x[rank] = place.x, hit_y[rank] = place.y;
+        hit_corner[rank] = kernels[record], hit_size[rank] = kernels[record + 1u];
+        hit_weights[rank] = kernels[record + 2u];
+    }
+    barrier();
+    return all_hits;
+}
+
+// What a run sends to a cell: from every arrival whose number among the hits is `slice` of `slices`.
+vec4 gathered(uint run, uint sector, Box box, ivec2 cell, bool wanted, uint slice, uint slices) {
+    const uint word = at.runs + kRunWords * (run - at.first_run);
+    const uint begin = plan[word] - at.first_arrival, end = plan[word + kRunWords] - at.first_arrival;
+    const uint base = plan[word + 2u];
+    vec4 sum = vec4(0);
+    for (uint first = begin; first < end; first += kChunk) {
+        const uint hits = find_hits(first, min(uint(kChunk), end - first), base, sector, box);
+        if (wanted)
+            for (uint k = slice; k < hits; k += slices) sum += sent(k, cell);
+        barrier();
+    }
+    return sum;
+}
+
+// Weights of the four cells around a position t (0…1) between the middle two: Catmull-Rom.
+vec4 cubic(float t) {
+    const float t2 = t * t, t3 = t2 * t;
+    return 0.5 * vec4(-t3 + 2 * t2 - t, 3 * t3 - 5 * t2 + 2, -3 * t3 + 4 * t2 + t, t3 - t2);
+}
+
+// Never negative where none of the four is.
+vec4 interpolated(vec4 a, vec4 b, vec4 c, vec4 d, vec4 w) {
+    const vec4 least = min(min(min(a, b), min(c, d)), vec4(0));
+    return max(w.x * a + w.y * b + w.z * c + w.w * d, least);
+}
+
+vec4 enlarged(ivec2 pixel, int level, Box cells) {
+    const vec2 position = (vec2(pixel) + 0.5) / float(1 << level) - 0.5;
+    const ivec2 cell = ivec2(floor(position));
+    const vec4 wx = cubic(position.x - float(cell.x)), wy = cubic(position.y - float(cell.y));
+    const int wide = cells.high.x - cells.low.x;
+    vec4 rows[4];
+    for (int j = 0; j < 4; ++j) {
+        const int i = (cell.y - 1 + j - cells.low.y) * wide + cell.x - 1 - cells.low.x;
+        rows[j] = interpolated(hit_light[i], hit_light[i + 1], hit_light[i + 2], hit_light[i + 3], wx);
+    }
+    return interpolated(rows[0], rows[1], rows[2], rows[3], wy);
+}
+
+// What runs send to a pixel, through one sector.
+vec4 arrived(uint begin, uint end, uint sector, Box box, ivec2 pixel, bool inside) {
+    const uint own = gl_LocalInvocationIndex;
+    vec4 sum = vec4(0);
+    for (uint run = begin; run < end; ++run) {
+        const int level = int(plan[at.runs + kRunWords * (run - at.first_run) + 1u]);
+        if (level == 0) {
+            sum += gathered(run, sector, box, pixel, inside, 0u, 1u);
+            continue;
+        }
+        const Box cells = Box((box.low >> level) - kBorder, ((box.high - 1) >> level) + 1 + kBorder);
+        const ivec2 size = cells.high - cells.low;
+        const uint count = uint(size.x * size.y), slices = uint(kChunk) / count;
+        const ivec2 cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
+        const vec4 part = gathered(run, sector, cells, cell, own < slices * count, own / count, slices);
+        hit_light[own] = part;
+        barrier();
+        vec4 whole = vec4(0);
+        if (own < count)
+            for (uint s = 0u; s < slices; ++s) whole += hit_light[own + s * count];
+        barrier();
+        if (own < count) hit_light[own] = whole;
+        barrier();
+        if (inside) sum += enlarged(pixel, level, cells);
+        barrier();
+    }
+    return sum;
+}
+
+// engine/waist/holdout.h
+float let_through(ivec2 pixel, float nearest_px, float farthest_px) {
+    const float kSameDepthPx = 0.02;
+    const float nearest = nearest_px - kSameDepthPx, farthest = farthest_px - kSameDepthPx;
+    const uint i = uint(pixel.y - int(at.held_rows)) * at.held_width + uint(pixel.x);
+    float open = 1, from = nearest, sum = 0;
+    for (uint s = holdout[i]; s < holdout[i + 1u]; ++s) {
+        const float coc = uintBitsToFloat(holdout[at.held_samples + 2u * s]);
+        if (coc >= farthest) break;
+        if (coc > from) {
+            sum += open * (coc - from);
+            from = coc;
+        }
+        open *= 1 - uintBitsToFloat(holdout[at.held_samples + 2u * s + 1u]);
+    }
+    if (farthest <= nearest) return open;
+    return (sum + open * (farthest - from)) / (farthest - nearest);
+}
+
+void main() {
+    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / 16u), own = gl_LocalInvocationIndex;
+    const uint sector = gl_WorkGroupID.y;
+    if (sector >= plan[tile + 5u]) return;
+    const ivec2 corner = ivec2(int(plan[tile]), int(plan[tile + 1u])),
+                end = ivec2(int(plan[tile + 2u]), int(plan[tile + 3u]));
+    const uint part = gl_WorkGroupID.x % 16u;
+    Box box;
+    box.low = corner + kSide * ivec2(part % 4u, part / 4u);
+    box.high = min(box.low + kSide, end);
+    if (any(greaterThanEqual(box.low, end))) return;
+    const ivec2 pixel = box.low + ivec2(own % 16u, own / 16u);
+    const bool inside = all(lessThan(pixel, box.high));
+
+    vec4 sum = vec4(0);
+    float free = 1, empty = 0;
+    const uint last_layer = plan[tile + kTileWords + 4u];
+    for (uint layer = plan[tile + 4u]; layer < last_layer; ++layer) {
+        if (own == 0u) any_free = 0u;
+        barrier();
+        if (inside && free >= kSpent) atomicOr(any_free, 1u);
+        barrier();
+        if (any_free == 0u) break;
+        const uint word = at.layers + kLayerWords * (layer - at.first_layer);
+        const uint of = min(sector, plan[word + 2u] - 1u);
+        const uint begin = plan[word], middle = plan[word + 1u], close = plan[word + kLayerWords];
+        const vec4 light = arrived(begin, middle, of, box, pixel, inside);
+        const float emptiness = middle < close ? arrived(middle, close, of, box, pixel, inside).a : 0.0;
+        const float arrives = light.a + emptiness;
+        if (inside && arrives > 0) {
+            const float taken = min(arrives, free), share = taken / arrives;
+            float through = 1;
+            if (kHeld != 0u)
+                through = let_through(pixel, uintBitsToFloat(plan[word + 3u]), uintBitsToFloat(plan[word + 4u]));
+            sum += light * (share * through);
+            empty += light.a * share * (1 - through) + emptiness * share;
+            free -= taken;
+        }
+    }
+    if (!inside) return;
+    const uint pixel_of_tile = uint(pixel.y - corner.y) * 64u + uint(pixel.x - corner.x);
+    const uint place = plan[tile + 6u] + sector * kTilePixels + pixel_of_tile;
+    light_of[place] = sum;
+    taken_of[place] = sum.a + empty;
+}

@@ -1,0 +1,27 @@
+// A device of Vulkan among the devices that draw plans.
+#pragma once
+
+#include "petzval/result.h"
+
+#include "device/device.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace petzval::device {
+
+struct VulkanChoice {
+    std::string name;  // as its driver calls it
+    bool is_software = false;
+    std::string lacks;  // empty: it can be used
+};
+
+// The devices there are, hardware first: "gpu:0" and on. Errors: Unsupported: no loader, no driver.
+Result<std::vector<VulkanChoice>> vulkan_choices();
+
+// Requires: number is in vulkan_choices(). otherwise: draws what this device has no program for. Opened once
+// in a process while anybody holds it. Errors: Unsupported.
+Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number, const Device& otherwise);
+
+}  // namespace petzval::device

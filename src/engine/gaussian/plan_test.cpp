@@ -1,0 +1,107 @@
+// What is planned of a draft, told from the plan alone: nothing is drawn here.
+#include "engine/gaussian/plan.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kWidth = 300, kHeight = 200;
+
+double sum_of(const std::vector<float>& weights) {
+    double sum = 0;
+    for (const float w : weights) sum += double(w);
+    return sum;
+}
+
+// Of the whole blur in pixels^2: averaging into cells, the kernel, reading between cells.
+double variance_px(const BlurAxis& axis, int level) {
+    double moment = 0;
+    for (int k = -axis.radius(); k <= axis.radius(); ++k)
+        moment += double(axis.weights[std::size_t(k + axis.radius())]) * k * k;
+    const double s = std::ldexp(1.0, level);
+    return moment * s * s + (level > 0 ? s * s / 4 : 0);
+}
+
+TEST(GaussianPlan, ABlurHasTheSecondMomentOfTheDisc) {
+    for (const double radius : {1.7, 4.0, 11.0, 60.0, 333.0}) {
+        const Blur blur = blur_of(radius, 2, kWidth, kHeight);
+        EXPECT_NEAR(sum_of(blur.x.weights), 1, 1e-6) << radius;
+        EXPECT_NEAR(variance_px(blur.x, blur.level), radius * radius / 4 + 1.0 / 12, 0.01 * radius * radius);
+        EXPECT_NEAR(variance_px(blur.y, blur.level), radius * radius + 1.0 / 12, 0.04 * radius * radius);
+    }
+}
+
+TEST(GaussianPlan, WiderBlursAreOnCoarserCellsAndTakeNoMoreWeights) {
+    for (const double radius : {3.0, 30.0, 300.0}) {
+        const Blur blur = blur_of(radius, 1, kWidth, kHeight);
+        EXPECT_LE(blur.x.weights.size(), 13U) << radius;
+        EXPECT_EQ(blur.cells_across(), (kWidth + (1 << blur.level) - 1) >> blur.level);
+        EXPECT_EQ(blur.cells_down(), (kHeight + (1 << blur.level) - 1) >> blur.level);
+    }
+    EXPECT_LT(blur_level(3, 1), blur_level(30, 1));
+    EXPECT_LT(blur_level(30, 1), blur_level(300, 1));
+}
+
+TEST(GaussianPlan, ShareInsideIsAllAwayFromTheBordersAndHalfOfTheKernelAtThem) {
+    const Blur blur = blur_of(2, 1, 101, 101);
+    const BlurAxis& x = blur.x;
+    EXPECT_NEAR(x.inside[x.inside.size() / 2], 1, 1e-6);
+    const float middle = x.weights[std::size_t(x.radius())];
+    EXPECT_NEAR(x.inside.front(), 0.5f * (1 + middle), 1e-6);
+    EXPECT_LT(x.inside.back(), x.inside.front() + 1e-6f);
+}
+
+TEST(GaussianPlan, MixturesHaveTheSecondMomentOfTheirRadius) {
+    const RadiusMix mix(20, 0);
+    for (float r = 0.5f; r <= 20; r += 0.7f) {
+        const MixWeights w = mix(r);
+        EXPECT_NEAR(w.sharp + w.small + w.large, 1, 1e-6) << r;
+        const float moment = w.sharp * kWithinPixelPx * kWithinPixelPx +
+                             w.small * mix.small_px() * mix.small_px() +
+                             w.large * mix.large_px() * mix.large_px();
+        EXPECT_NEAR(moment, r * r, 1e-3f * r * r) << r;
+    }
+}
+
+class Drafts {
+public:
+    Drafts(float nearest_px, float farthest_px) {
+        input_.colour = colour_, input_.coc_px = coc_px_;
+        input_.nearest_coc_px = nearest_px, input_.farthest_coc_px = farthest_px;
+    }
+    GaussianPlan plan(GaussianStyle style, GaussianView view = GaussianView::Result) {
+        input_.gaussian.style = style, input_.gaussian.view = view;
+        return plan_gaussian(input_);
+    }
+
+private:
+    Picture colour_{kWidth, kHeight, Rgba{0.5f, 0.5f, 0.5f, 1}};
+    Plane coc_px_{kWidth, kHeight, 3.0f};
+    Input input_;
+};
+
+TEST(GaussianPlan, WhereNothingIsNearNothingIsBlurredForIt) {
+    const GaussianPlan plan = Drafts(0, 9).plan(GaussianStyle::Layered);
+    ASSERT_EQ(plan.blurs.size(), 5U);
+    for (const int blur : {GaussianPlan::kNearLarge, GaussianPlan::kNearSmall, GaussianPlan::kBackdrop})
+        EXPECT_FALSE(plan.blurs[std::size_t(blur)].is_used()) << blur;
+    EXPECT_TRUE(plan.blurs[GaussianPlan::kFarSmall].is_used());
+    EXPECT_TRUE(plan.blurs[GaussianPlan::kFarLarge].is_used());
+}
+
+TEST(GaussianPlan, OfOneLawForAllPixelsThereAreTwoBlurs) {
+    Drafts drafts(-4, 12);
+    EXPECT_EQ(drafts.plan(GaussianStyle::Layered).blurs.size(), 5U);
+    EXPECT_EQ(drafts.plan(GaussianStyle::Plain).blurs.size(), 2U);
+    EXPECT_EQ(drafts.plan(GaussianStyle::Wgld).blurs.size(), 2U);
+    EXPECT_EQ(drafts.plan(GaussianStyle::Layered, GaussianView::BlurSmall).blurs.size(), 2U);
+    const GaussianPlan plan = drafts.plan(GaussianStyle::Plain);
+    EXPECT_LT(plan.blurs[GaussianPlan::kSmall].level, plan.blurs[GaussianPlan::kLarge].level);
+}
+
+}  // namespace
+}  // namespace petzval::engine

@@ -1,0 +1,141 @@
+#include "files/exr_zip.h"
+
+#include "base/parallel.h"
+#include "files/exr_output.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <libdeflate.h>
+#include <memory>
+#include <new>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfVersion.h>
+
+namespace petzval {
+namespace {
+
+// Files about as large as zlib's at OpenEXR's level 4: docs/measurements.md.
+constexpr int kLevel = 4;
+
+template <typename Number>
+void write_number(Imf::OStream& stream, Number value) {
+    static_assert(std::endian::native == std::endian::little, "EXR files are little-endian");
+    char bytes[sizeof(Number)];
+    std::memcpy(bytes, &value, sizeof(Number));
+    stream.write(bytes, sizeof(Number));
+}
+
+int lines_of_chunk(const Imf::Header& header) {
+    return header.compression() == Imf::ZIPS_COMPRESSION ? 1 : 16;
+}
+
+bool has_long_names(const Imf::Header& header) {
+    constexpr std::size_t kShort = 31;
+    for (auto i = header.begin(); i != header.end(); ++i)
+        if (std::strlen(i.name()) > kShort || std::strlen(i.attribute().typeName()) > kShort) return true;
+    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+        if (std::strlen(i.name()) > kShort) return true;
+    return false;
+}
+
+// Lines y0 … y1 - 1 of the band: of each line all channels, in the order of their names.
+std::vector<unsigned char> lines_of(std::vector<BandChannel>& band, const std::vector<std::size_t>& order,
+                                    int y0, int y1) {
+    std::size_t line = 0;
+    for (const BandChannel& c : band) line += c.row_bytes;
+    std::vector<unsigned char> bytes(line * std::size_t(y1 - y0));
+    unsigned char* to = bytes.data();
+    for (int y = y0; y < y1; ++y)
+        for (const std::size_t c : order) {
+            std::memcpy(to, band[c].row(y), band[c].row_bytes);
+            to += band[c].row_bytes;
+        }
+    return bytes;
+}
+
+struct FreeCompressor {
+    void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
+};
+
+// What does not become smaller is stored as it is; readers know it by its size.
+std::vector<unsigned char> packed(std::vector<unsigned char> raw) {
+    std::vector<unsigned char> prepared(raw.size()), small(raw.size());
+    prepare_for_zip(raw, prepared);
+    const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+        libdeflate_alloc_compressor(kLevel));
+    if (!compressor) throw std::bad_alloc();
+    const std::size_t size = libdeflate_zlib_compress(compressor.get(), prepared.data(), prepared.size(),
+                                                      small.data(), small.size());
+    if (size == 0 || size >= raw.size()) return raw;  // 0: it did not fit
+    small.resize(size);
+    return small;
+}
+
+}  // namespace
+
+void prepare_for_zip(const std::vector<unsigned char>& from, std::vector<unsigned char>& to) {
+    const std::size_t half = (from.size() + 1) / 2;
+    for (std::size_t i = 0; i < from.size() / 2; ++i) to[i] = from[2 * i], to[half + i] = from[2 * i + 1];
+    if (from.size() % 2 == 1) to[half - 1] = from.back();
+    for (std::size_t i = to.size(); i-- > 1;) to[i] = static_cast<unsigned char>(to[i] - to[i - 1] + 128);
+}
+
+bool is_zip_of_lines(const Imf::Header& header, const std::vector<Channel>& channels) {
+    const bool zip =
+        header.compression() == Imf::ZIP_COMPRESSION || header.compression() == Imf::ZIPS_COMPRESSION;
+    const bool lines = !header.hasType() || header.type() == Imf::SCANLINEIMAGE;
+    const Imath::Box2i& window = header.dataWindow();
+    const double chunk_bytes =
+        4.0 * double(channels.size()) * (double(window.max.x) - window.min.x + 1) * lines_of_chunk(header);
+    return zip && lines && chunk_bytes < (1u << 31) && !header.hasTileDescription() &&
+           header.lineOrder() == Imf::INCREASING_Y &&
+           std::none_of(channels.begin(), channels.end(), [](const Channel& c) { return c.subsampled(); });
+}
+
+void write_zip_file(Imf::OStream& stream, const Imf::Header& header, const std::vector<Channel>& channels,
+                    const FillBand& fill, Workers& workers) {
+    header.sanityCheck();
+    const Imath::Box2i& window = header.dataWindow();
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    const int lines = lines_of_chunk(header), chunks = (height + lines - 1) / lines;
+    write_number(stream, std::int32_t(Imf::MAGIC));
+    write_number(stream,
+                 std::int32_t(Imf::EXR_VERSION | (has_long_names(header) ? Imf::LONG_NAMES_FLAG : 0)));
+    header.writeTo(stream);
+    std::vector<std::uint64_t> table(std::size_t(chunks), 0);
+    const std::uint64_t table_at = stream.tellp();
+    const auto write_table = [&] {
+        for (const std::uint64_t at : table) write_number(stream, at);
+    };
+    write_table();
+
+    std::vector<BandChannel> band;
+    std::vector<std::size_t> order;
+    for (const Channel& c : channels) order.push_back(order.size()), band.push_back({c, {}, 0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return channels[a].name < channels[b].name; });
+    const int rows = std::min((band_rows(channels, width, height) + lines - 1) / lines * lines, height);
+    for (int y = 0; y < height; y += rows) {
+        const int count = std::min(rows, height - y);
+        resize_band(band, width, count);
+        fill(band, window.min.y + y, window.min.y + y + count);
+        std::vector<std::vector<unsigned char>> done(std::size_t((count + lines - 1) / lines));
+        parallel_for(int(done.size()), workers, [&](int i) {
+            done[std::size_t(i)] = packed(lines_of(band, order, i * lines, std::min((i + 1) * lines, count)));
+        });
+        for (std::size_t i = 0; i < done.size(); ++i) {
+            table[std::size_t(y / lines) + i] = stream.tellp();
+            write_number(stream, std::int32_t(window.min.y + y + int(i) * lines));
+            write_number(stream, std::int32_t(done[i].size()));
+            stream.write(reinterpret_cast<const char*>(done[i].data()), int(done[i].size()));
+        }
+    }
+    stream.seekp(table_at);
+    write_table();
+}
+
+}  // namespace petzval

@@ -1,0 +1,30 @@
+// Writing a part of ZIP or ZIPS chunks with libdeflate: a third of the time that OpenEXR's own zlib takes, by
+// the same format.
+#pragma once
+
+#include "petzval/workers.h"
+
+#include "files/exr_bands.h"
+
+#include <cstddef>
+#include <vector>
+
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+
+namespace petzval {
+
+// Whether the part is one that write_zip_file() can write: flat, in lines that follow each other downwards,
+// nothing subsampled. What is not, OpenEXR writes.
+bool is_zip_of_lines(const Imf::Header& header, const std::vector<Channel>& channels);
+
+// Writes a file of this one part: magic number, header, table of chunks, chunks, packed on the workers.
+// Requires: is_zip_of_lines(). Throws what the stream and OpenEXR throw.
+void write_zip_file(Imf::OStream& stream, const Imf::Header& header, const std::vector<Channel>& channels,
+                    const FillBand& fill, Workers& workers);
+
+// Bytes as OpenEXR's ZIP compression hands them to deflate: even ones, then odd ones, each as its difference
+// to the one before, plus 128 (OpenEXR, "Technical Introduction": predictor). `to` has their size.
+void prepare_for_zip(const std::vector<unsigned char>& from, std::vector<unsigned char>& to);
+
+}  // namespace petzval

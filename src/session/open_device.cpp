@@ -1,0 +1,119 @@
+#include "session/open_device.h"
+
+#include "petzval/devices.h"
+
+#include "device/cpu/cpu_device.h"
+#include "device/cpu/stamp.h"
+
+#ifdef PETZVAL_VULKAN
+#include "device/vulkan/vulkan_device.h"
+#endif
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+namespace petzval {
+namespace {
+
+#ifndef PETZVAL_VULKAN
+// What a build without that room has in its place.
+struct VulkanChoice {
+    std::string name;
+    bool is_software = false;
+    std::string lacks;
+};
+Result<std::vector<VulkanChoice>> vulkan_choices() {
+    return Error{ErrorCode::Unsupported,
+                 "this build has none: the headers of Vulkan and glslc were not found when it was made"};
+}
+Result<std::shared_ptr<const device::Device>> open_vulkan(std::size_t, const device::Device&) {
+    return vulkan_choices().error();
+}
+#else
+using device::open_vulkan;
+using device::vulkan_choices;
+using device::VulkanChoice;
+#endif
+
+std::string gpu_name(std::size_t number) { return "gpu:" + std::to_string(number); }
+
+// "cpu, gpu:0 (its name)".
+std::string listed(const std::vector<VulkanChoice>& choices) {
+    std::string text = "cpu";
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        text += ", " + gpu_name(i) + " (" + choices[i].name + ")";
+    return text;
+}
+
+// Number N of "gpu:N".
+std::optional<std::size_t> number_of(const std::string& choice) {
+    if (!choice.starts_with("gpu:")) return std::nullopt;
+    std::size_t number = 0;
+    const char* const end = choice.data() + choice.size();
+    const auto [at, error] = std::from_chars(choice.data() + 4, end, number);
+    if (error != std::errc() || at != end) return std::nullopt;
+    return number;
+}
+
+// A device that lives for ever, as one that is shared.
+std::shared_ptr<const device::Device> the_cpu() {
+    return {&device::cpu_device(), [](const auto*) {}};
+}
+
+Error refused(ErrorCode code, const std::string& message) {
+    return {code, "session.device " + message, "session.device"};
+}
+
+Result<std::shared_ptr<const device::Device>> opened(std::size_t number) {
+    auto device = open_vulkan(number, device::cpu_device());
+    if (!device) return refused(device.error().code, gpu_name(number) + ": " + device.error().message);
+    return device;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const device::Device>> open_device(const std::string& choice) {
+    if (choice == "cpu") return the_cpu();
+    const auto number = number_of(choice);
+    if (choice != "gpu" && choice != "auto" && !number)
+        return refused(ErrorCode::InvalidArgument,
+                       "\"" + choice + "\" is none; it is cpu, gpu, gpu:N or auto");
+    const auto choices = vulkan_choices();
+    if (choice == "auto") {
+        if (choices)
+            for (std::size_t i = 0; i < choices->size(); ++i)
+                if (!(*choices)[i].is_software && (*choices)[i].lacks.empty()) return opened(i);
+        return the_cpu();
+    }
+    if (!choices) return refused(choices.error().code, choice + ": " + choices.error().message);
+    if (choices->empty())
+        return refused(ErrorCode::Unsupported, choice + ": no driver of Vulkan is installed");
+    if (!number) return opened(0);
+    if (*number >= choices->size())
+        return refused(ErrorCode::InvalidArgument, choice + " is not there; there are: " + listed(*choices));
+    return opened(*number);
+}
+
+std::string NotingDevice::drawn_by() const {
+    const std::string cpu = device::cpu_device().name();
+    if (!itself_) return cpu;
+    return other_ ? std::string(name()) + " and " + cpu : name();
+}
+
+std::vector<DeviceFacts> devices() {
+    std::vector<DeviceFacts> facts{{"cpu", engine::instruction_set(), false, {}}};
+    if (const auto choices = vulkan_choices())
+        for (std::size_t i = 0; i < choices->size(); ++i)
+            facts.push_back(
+                {gpu_name(i), (*choices)[i].name, (*choices)[i].is_software, (*choices)[i].lacks});
+    return facts;
+}
+
+std::string why_no_gpu() {
+    const auto choices = vulkan_choices();
+    if (!choices) return choices.error().message;
+    return choices->empty() ? "no driver of Vulkan is installed" : "";
+}
+
+}  // namespace petzval

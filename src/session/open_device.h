@@ -1,0 +1,63 @@
+// From the name of a device to the device.
+#pragma once
+
+#include "petzval/result.h"
+
+#include "device/device.h"
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <string>
+
+namespace petzval {
+
+// choice: as SessionSettings::device. Errors: InvalidArgument: no such device; Unsupported: it cannot be
+// used.
+Result<std::shared_ptr<const device::Device>> open_device(const std::string& choice);
+
+// A device for one frame, that notes what was drawn with it.
+class NotingDevice final : public device::Device {
+public:
+    explicit NotingDevice(const device::Device& drawing) : device_(drawing) {}
+
+    const char* name() const override { return device_.name(); }
+    bool has(device::Verb verb) const override { return device_.has(verb); }
+    std::shared_ptr<const device::Atlas> atlas(const device::KernelSource& source,
+                                               const device::KernelSet& set, device::Memory& memory,
+                                               const device::Control& control) const override {
+        return device_.atlas(source, set, memory, control);
+    }
+    device::Work composite(const engine::ScatterPlan& plan, const device::Atlas& atlas, View<Rgba> out,
+                           const device::Control& control) const override {
+        note(device::Verb::Composite);
+        return device_.composite(plan, atlas, out, control);
+    }
+    void gather(const engine::GatherPlan& plan, const device::Atlas& atlas, View<Rgba> out,
+                const device::Control& control) const override {
+        note(device::Verb::Gather);
+        device_.gather(plan, atlas, out, control);
+    }
+    void mix(const engine::GaussianPlan& plan, View<Rgba> out,
+             const device::Control& control) const override {
+        note(device::Verb::Mix);
+        device_.mix(plan, out, control);
+    }
+    device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, View<Rgba> out,
+                            const device::Control& control) const override {
+        note(device::Verb::AddLights);
+        return device_.add_lights(plan, atlas, out, control);
+    }
+
+    // Who drew: "cpu", "gpu:0 its name", or "gpu:0 its name and cpu".
+    std::string drawn_by() const;
+
+private:
+    void note(device::Verb verb) const {
+        (device_.has(verb) ? itself_ : other_).store(true, std::memory_order_relaxed);
+    }
+    const device::Device& device_;
+    mutable std::atomic<bool> itself_ = false, other_ = false;
+};
+
+}  // namespace petzval

@@ -1,0 +1,176 @@
+// Laws of every device but the CPU: it draws what the CPU draws, twice the same, whatever the size.
+#include "petzval/devices.h"
+#include "petzval/session.h"
+
+#include "shots.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace petzval::conformance {
+namespace {
+
+std::vector<std::string> gpus() {
+    std::vector<std::string> names;
+    for (const DeviceFacts& device : devices())
+        if (device.name != "cpu" && device.lacks.empty()) names.push_back(device.name);
+    return names;
+}
+
+Session session_on(const std::string& device) {
+    SessionSettings settings;
+    settings.device = device;
+    return Session(settings);
+}
+
+Picture drawn(Session& session, const DefocusJob& job, const std::string& by) {
+    auto report = session.defocus(job);
+    EXPECT_TRUE(report) << report.error().message;
+    if (!report) return {};
+    EXPECT_TRUE(report->device.starts_with(by)) << "drawn by " << report->device;
+    return std::move(report->image);
+}
+
+// Of all channels, of the brighter picture's peak.
+double psnr(const Picture& a, const Picture& b) {
+    double peak = 0, squares = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Rgba d = a.pixels()[i] - b.pixels()[i], p = a.pixels()[i];
+        for (const float v : {d.r, d.g, d.b, d.a}) squares += double(v) * double(v);
+        for (const float v : {p.r, p.g, p.b, p.a}) peak = std::max(peak, double(std::abs(v)));
+    }
+    return squares == 0 ? 1e3 : 10 * std::log10(peak * peak * 4 * double(a.size()) / squares);
+}
+
+// Several depths, a lamp, and hidden layers behind, on a picture whose size fits no tile.
+Shot small_shot() {
+    Shot shot = flat(51, 37, {}, 5);
+    paint_rectangles(shot.colour, 3);
+    for (int y = 0; y < 37; ++y)
+        for (int x = 0; x < 51; ++x)
+            shot.coc_px(x, y) = x > 20 && x < 27 ? -9.0f : y > 22 ? 0.1f * float(x - 20) : 5.0f;
+    shot.colour(40, 12) = {700, 60, 20, 1};
+    put_behind(
+        shot,
+        [](int x, int) {
+            return Rgba{0.3f, 0.01f * float(x), 0.2f, 1};
+        },
+        [](int, int) { return 7.0f; });
+    return shot;
+}
+
+TEST(Device, CpuIsAlwaysThereAndComesFirst) {
+    ASSERT_FALSE(devices().empty());
+    EXPECT_EQ(devices().front().name, "cpu");
+    EXPECT_TRUE(devices().front().lacks.empty());
+    EXPECT_EQ(devices().size() == 1, !why_no_gpu().empty());
+}
+
+TEST(Device, OneThatIsNotThereIsRefusedByName) {
+    const Shot shot = flat(8, 8, {1, 1, 1, 1}, 2);
+    for (const char* name : {"gpu:99", "gpu:", "gpu:-1", "gpu:1x", "tpu", ""}) {
+        Session session = session_on(name);
+        const auto report = session.defocus(shot.job("scatter"));
+        ASSERT_FALSE(report) << name;
+        EXPECT_NE(report.error().message.find("session.device"), std::string::npos);
+    }
+}
+
+// Software drivers are not what `auto` means; where nothing else is there the CPU draws.
+TEST(Device, AutoNeverTakesASoftwareDriver) {
+    bool any_hardware = false;
+    for (const DeviceFacts& d : devices())
+        any_hardware = any_hardware || (d.name != "cpu" && !d.is_software && d.lacks.empty());
+    Session session = session_on("auto");
+    const auto report = session.defocus(flat(8, 8, {1, 1, 1, 1}, 2).job("scatter"));
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->device != "cpu", any_hardware);
+}
+
+TEST(Device, ScatterDrawsAsTheCpuDoes) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    const Shot shot = small_shot();
+    for (const std::string& gpu : gpus()) {
+        Session cpu = session_on("cpu"), session = session_on(gpu);
+        for (const auto& [quality, lens] : {std::pair(Quality::Draft, "ideal"),
+                                            {Quality::Standard, "doublet"},
+                                            {Quality::Final, "ideal"}}) {
+            DefocusJob job = shot.job("scatter");
+            job.quality = quality, job.lens.name = lens, job.camera = {50, 36, 2, 3};
+            const Picture expected = drawn(cpu, job, "cpu"), made = drawn(session, job, gpu);
+            EXPECT_GE(psnr(expected, made), 80) << gpu << " " << lens;
+            EXPECT_EQ(largest_difference(drawn(session, job, gpu), made), 0) << "not twice the same bits";
+        }
+    }
+}
+
+TEST(Device, DrawsPicturesOfAnySize) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    for (const std::string& gpu : gpus()) {
+        Session cpu = session_on("cpu"), session = session_on(gpu);
+        for (const auto& [width, height] : {std::pair(1, 1), {1, 65}, {129, 2}, {16, 16}, {65, 17}}) {
+            Shot shot = flat(width, height, {}, 3);
+            paint_noise(shot.colour, 7);
+            const DefocusJob job = shot.job("scatter");
+            EXPECT_GE(psnr(drawn(cpu, job, "cpu"), drawn(session, job, gpu)), 80)
+                << width << " x " << height << " on " << gpu;
+        }
+    }
+}
+
+TEST(Device, HoldsOutWhatTheCpuHoldsOut) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    Shot shot = small_shot();
+    std::vector<std::size_t> first;
+    std::vector<DeepSample> samples;
+    for (int y = 0; y < 37; ++y)
+        for (int x = 0; x < 51; ++x) {
+            first.push_back(samples.size());
+            if (x > 33) samples.push_back({{0, 0, 0, 0.4f}, -3, -3});
+            if (x > 12) samples.push_back({{0, 0, 0, 0.5f}, 2, 2});
+        }
+    first.push_back(samples.size());
+    const DeepPicture holdout(51, 37, std::move(first), std::move(samples));
+    DefocusJob job = shot.job("scatter");
+    const Picture free = rendered(job);
+    job.holdout = &holdout;
+    for (const std::string& gpu : gpus()) {
+        Session cpu = session_on("cpu"), session = session_on(gpu);
+        const Picture expected = drawn(cpu, job, "cpu");
+        EXPECT_GT(largest_difference(expected, free), 0.1);
+        EXPECT_GE(psnr(expected, drawn(session, job, gpu)), 80) << gpu;
+    }
+}
+
+// A source in focus lands where it is, and a wide one around it.
+TEST(Device, PutsPointsWhereTheCpuPutsThem) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    const auto centroid = [](const Picture& p) {
+        double sum = 0, x_sum = 0, y_sum = 0;
+        for (int y = 0; y < p.height(); ++y)
+            for (int x = 0; x < p.width(); ++x) {
+                const double light = double(p(x, y).g);
+                sum += light, x_sum += light * x, y_sum += light * y;
+            }
+        return std::array{sum, x_sum / sum, y_sum / sum};
+    };
+    for (const std::string& gpu : gpus()) {
+        Session cpu = session_on("cpu"), session = session_on(gpu);
+        for (const float coc_px : {-3.3f, 21.0f}) {
+            Shot shot = flat(80, 70, {0, 0, 0, 1}, coc_px);
+            shot.colour(37, 33) = {0.4f, 0.5f, 0.6f, 1};
+            const DefocusJob job = shot.job("scatter");
+            const auto expected = centroid(drawn(cpu, job, "cpu")), made = centroid(drawn(session, job, gpu));
+            EXPECT_NEAR(made[0] / expected[0], 1, 1e-4) << "energy at radius " << coc_px;
+            EXPECT_NEAR(made[1], expected[1], 0.02);
+            EXPECT_NEAR(made[2], expected[2], 0.02);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace petzval::conformance

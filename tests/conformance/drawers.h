@@ -1,0 +1,135 @@
+// Every engine on every device, and how far each may be from the laws that all are held against: a new one is
+// held to the tightest numbers until it has a row of its own.
+#pragma once
+
+#include "petzval/session.h"
+
+#include "shots.h"
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace petzval::conformance {
+
+// Largest differences of a channel, unless said otherwise.
+struct Tolerances {
+    std::string engine;
+    bool traces = false;  // ray by ray what it is given: smaller pictures, and no guess at what is hidden
+    double in_focus = 0;
+    double constant = 2e-5;   // a picture of one colour, at any radius
+    double light = 1e-3;      // of an isolated pixel: share of its light
+    double radius = 0.01;     // of its disc: share of the radius, beside 0.05 px
+    double tails = 1e-6;      // farther away than its radius
+    double bled = 1e-5;       // over an edge in focus, from what is behind it
+    double mirrored = 2e-6;   // between a picture and its mirror image: sums in another order
+    double emptiness = 2e-3;  // of colour against coverage, in an element on nothing
+    double steps = 5e-3;      // of constant coverage, across steps of depth
+    double near_edge = 6e-3;  // a plane in front of focus, as much of it as the lens sees
+    // Least PSNR against the reference, in dB.
+    double points_db = 60, slant_db = 60, radii_db = 60, corner_db = 60;
+};
+
+// A number that is not the tightest stands beside its reason. Decibels are what was measured, rounded down.
+inline const std::vector<Tolerances>& tolerances() {
+    static const std::vector<Tolerances> rows{
+        {.engine = "scatter",
+         .bled = 2e-5,        // the sums of kernels of several levels
+         .radii_db = 54.5,    // cells of the next level, at its smallest radii
+         .corner_db = 50},    // one budget for the lens: which part a surface takes is not known
+        {.engine = "gather",  // half resolution, rings of taps, and no lights apart from surfaces
+         .points_db = 21,
+         .slant_db = 45,
+         .radii_db = 50,
+         .corner_db = 42.5},
+        {.engine = "gaussian",
+         .light = 2e-3,       // its tails are cut at the picture
+         .radius = 0.021,     // two Gaussians on coarse grids, mixed by variance
+         .tails = 5e-3,       // a Gaussian ends nowhere
+         .near_edge = 0.045,  // and falls off otherwise than a disc: all below follows from that
+         .points_db = 16,
+         .slant_db = 27,
+         .radii_db = 30.5,
+         .corner_db = 36},
+        {.engine = "sprites",  // gather, but for the lights
+         .points_db = 40.5,
+         .slant_db = 45,
+         .radii_db = 50,
+         .corner_db = 42.5},
+        {.engine = "reference",
+         .traces = true,
+         .in_focus = 2e-6,  // each pixel is a mean of rays
+         .mirrored = 5e-3,  // rays are drawn by chance, pixel by pixel
+         .emptiness = 0.01},
+    };
+    return rows;
+}
+
+// What draws: an engine on a device.
+struct Drawer {
+    std::string engine, device;
+
+    Tolerances allows() const {
+        for (const Tolerances& row : tolerances())
+            if (row.engine == engine) return row;
+        return {.engine = engine};
+    }
+    DefocusJob job(const Shot& shot) const { return shot.job(engine); }
+    // What a session on this device is opened with, for jobs like this one.
+    SessionSettings session(const DefocusJob& like = {}) const {
+        SessionSettings settings;
+        settings.device = device;
+        settings.threads = like.threads, settings.max_memory_bytes = like.max_memory_bytes;
+        if (like.workers) settings.workers = {std::shared_ptr<Workers>(), like.workers};
+        return settings;
+    }
+    Result<DefocusReport> made(const DefocusJob& job) const { return Session(session(job)).defocus(job); }
+    // The picture of a job; fails where it was not this engine and this device that drew it.
+    Picture drawn(const DefocusJob& job) const {
+        auto report = made(job);
+        EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
+        if (!report) return {};
+        EXPECT_EQ(report->engine, engine);
+        EXPECT_TRUE(report->device.starts_with(device)) << "drawn by " << report->device;
+        return std::move(report->image);
+    }
+    friend void PrintTo(const Drawer& drawer, std::ostream* out) {
+        *out << drawer.engine << " on " << drawer.device;
+    }
+};
+
+inline std::vector<std::string> device_names() { return {"cpu"}; }
+
+inline std::vector<Drawer> drawers() {
+    std::vector<Drawer> all;
+    for (const std::string& device : device_names())
+        for (const std::string& engine : engine_names()) all.push_back({engine, device});
+    return all;
+}
+
+// Those that guess what nothing tells them.
+inline std::vector<Drawer> guessing_drawers() {
+    std::vector<Drawer> some = drawers();
+    std::erase_if(some, [](const Drawer& drawer) { return drawer.allows().traces; });
+    return some;
+}
+
+// A law: a test for each of them.
+class EveryDrawer : public testing::TestWithParam<Drawer> {
+protected:
+    static const Drawer& drawer() { return GetParam(); }
+    static Tolerances allows() { return GetParam().allows(); }
+    static bool traces() { return allows().traces; }
+    static DefocusJob job(const Shot& shot) { return GetParam().job(shot); }
+    static Picture picture(const Shot& shot) { return drawn(job(shot)); }
+    static Picture drawn(const DefocusJob& job) { return drawer().drawn(job); }
+};
+
+inline std::string name_of_drawer(const testing::TestParamInfo<Drawer>& test) {
+    return test.param.engine + "_" + test.param.device;
+}
+
+}  // namespace petzval::conformance
+
+#define PETZVAL_EVERY_DRAWER(Law) \
+    INSTANTIATE_TEST_SUITE_P(Every, Law, testing::ValuesIn(drawers()), name_of_drawer)
