@@ -34,7 +34,8 @@ struct KernelSet {
 
 // How kernels are drawn: many small ones on top of each other; few that may be wide, shaded pixel by pixel;
 // or read tap by tap for every pixel of a tile.
-enum class KernelUse { Stamped, ByPixel, Gathered };
+// Masked: stamped as well, each through what is seen of the pupil.
+enum class KernelUse { Stamped, ByPixel, Gathered, Masked };
 
 // Where kernels come from. Safe to use from many threads; what it makes depends on the ask alone.
 class KernelSource {

@@ -146,6 +146,25 @@ TEST(Device, HoldsOutWhatTheCpuHoldsOut) {
     }
 }
 
+TEST(Device, EveryEngineDrawsWithItAndSaysWhoDrew) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    const Shot shot = small_shot();
+    const std::vector<LightPoint> points{{.x = 20, .y = 10, .r = 90, .g = 80, .b = 70, .coc_px = 6}};
+    for (const std::string& gpu : gpus())
+        for (const std::string& engine : engine_names()) {
+            Session cpu = session_on("cpu"), session = session_on(gpu);
+            DefocusJob job = shot.job(engine);
+            job.behind = nullptr, job.pupil_points = 4;
+            if (engine == "sprites") job.points = &points;
+            const Picture expected = drawn(cpu, job, "cpu");
+            const auto report = session.defocus(job);
+            ASSERT_TRUE(report) << report.error().message;
+            EXPECT_GE(psnr(expected, report->image), 80) << engine;
+            EXPECT_EQ(report->warnings.empty(), report->device.find("cpu") == std::string::npos)
+                << engine << " by " << report->device;
+        }
+}
+
 // A source in focus lands where it is, and a wide one around it.
 TEST(Device, PutsPointsWhereTheCpuPutsThem) {
     if (gpus().empty()) GTEST_SKIP() << why_no_gpu();

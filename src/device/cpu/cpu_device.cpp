@@ -23,6 +23,7 @@ public:
                 return std::make_shared<const TapAtlas>(
                     laid_out<TapKernel>(source, set, "gathering", memory, control));
             case KernelUse::Stamped:
+            case KernelUse::Masked:
                 break;
         }
         return std::make_shared<const StampAtlas>(

@@ -166,7 +166,7 @@ float SpriteGrid::reach_px(int level, float coc_px) const {
 
 SpriteKernels::SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid)
     : KernelSource("sprites in " + std::to_string(grid.columns()) + " x " + std::to_string(grid.rows()),
-                   device::KernelUse::Stamped),
+                   device::KernelUse::Masked),
       lens_(lens.from(lens.frame.x0, lens.frame.y0)),
       grid_(grid) {}
 
