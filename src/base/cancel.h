@@ -28,9 +28,26 @@ private:
     const Progress& progress_;
 };
 
-// For loops that are no parallel_for. Throws Cancelled where these are CancellableWorkers that are cancelled.
+// For long work on threads of others. Throws Cancelled where these are CancellableWorkers that are cancelled.
 inline void check_cancelled(const Workers& workers) {
     if (const auto* cancellable = dynamic_cast<const CancellableWorkers*>(&workers)) cancellable->check();
 }
+
+// While it lives, this thread works for these workers: bodies of their parallel_for do.
+class WorksFor {
+public:
+    // It outlives this.
+    explicit WorksFor(const CancellableWorkers& workers);
+    ~WorksFor();
+    WorksFor(const WorksFor&) = delete;
+    WorksFor& operator=(const WorksFor&) = delete;
+
+private:
+    const CancellableWorkers* before_;
+};
+
+// For long work that is no parallel_for, as one wide kernel: to be asked every few milliseconds. Throws
+// Cancelled where this thread works for workers that are cancelled.
+void check_cancelled();
 
 }  // namespace petzval

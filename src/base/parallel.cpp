@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 
 namespace petzval {
 namespace {
@@ -60,11 +61,14 @@ std::shared_ptr<Workers> workers_of(int threads, Workers* lent) {
 void parallel_for(int count, Workers& workers, FunctionRef<void(int)> body) {
     if (count <= 0) return;
     const auto* const cancellable = dynamic_cast<const CancellableWorkers*>(&workers);
+    const auto run = [&](int i) {
+        std::optional<WorksFor> these;
+        if (cancellable) these.emplace(*cancellable);
+        check_cancelled();
+        body(i);
+    };
     if (count == 1 || t_inside_a_body || workers.width() <= 1) {
-        for (int i = 0; i < count; ++i) {
-            if (cancellable) cancellable->check();
-            body(i);
-        }
+        for (int i = 0; i < count; ++i) run(i);
         return;
     }
     FirstError error;
@@ -72,8 +76,7 @@ void parallel_for(int count, Workers& workers, FunctionRef<void(int)> body) {
         if (error.any()) return;
         const InsideABody inside;
         try {
-            if (cancellable) cancellable->check();
-            body(i);
+            run(i);
         } catch (...) {
             error.keep(std::current_exception());
         }

@@ -44,6 +44,7 @@ struct Session::Contents {
     Result<DefocusReport> unless_cancelled(const Control& control, const Body& body) {
         Progress progress(control.progress, control.cancelled);
         CancellableWorkers cancellable(*settings.workers, progress);
+        const WorksFor these(cancellable);
         try {
             return body(progress, cancellable);
         } catch (const Cancelled&) {

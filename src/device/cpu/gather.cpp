@@ -1,5 +1,6 @@
 #include "device/cpu/gather.h"
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "device/cpu/gather_taps.h"
 #include "device/cpu/workspaces.h"
@@ -253,15 +254,20 @@ private:
     void sum_taps(const TapKernel& kernel, const Rect& reached, Planes& into) {
         const int in_x = reached.x0 + target_.x0 - window_.x0, in_y = reached.y0 + target_.y0 - window_.y0;
         const int groups = (reached.width() + kGatherGroup - 1) / kGatherGroup;
-        const engine::StepJob job{w_.offsets.data(), kernel.weights.data(), int(kernel.steps.size()),
-                                  kernel.neutral,    groups * kGatherGroup, reached.height(),
-                                  w_.window.width(), into.width()};
-        const auto plane = [&](int k) {
-            return engine::TapPlane{w_.window.row(k, in_y) + in_x, into.row(k, reached.y0) + reached.x0};
-        };
-        gather_two(job, plane(kRed), 0, plane(kGreen), 1);
-        gather_two(job, plane(kBlue), 2, plane(kCovered), 3);
-        if (planes_ == kPlanes) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
+        for (int y = 0; y < reached.height(); y += kGatherRows) {
+            check_cancelled();
+            const engine::StepJob job{w_.offsets.data(),        kernel.weights.data(),
+                                      int(kernel.steps.size()), kernel.neutral,
+                                      groups * kGatherGroup,    std::min(kGatherRows, reached.height() - y),
+                                      w_.window.width(),        into.width()};
+            const auto plane = [&](int k) {
+                return engine::TapPlane{w_.window.row(k, in_y + y) + in_x,
+                                        into.row(k, reached.y0 + y) + reached.x0};
+            };
+            gather_two(job, plane(kRed), 0, plane(kGreen), 1);
+            gather_two(job, plane(kBlue), 2, plane(kCovered), 3);
+            if (planes_ == kPlanes) gather_two(job, plane(kAlpha), 3, plane(kBeyond), 3);
+        }
     }
 
     // Of each cell's lens, the area that the ring arrives with, or what is left.

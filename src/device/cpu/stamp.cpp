@@ -1,5 +1,7 @@
 #include "device/cpu/stamp.h"
 
+#include "base/cancel.h"
+
 #include <algorithm>
 
 namespace petzval::engine {
@@ -26,6 +28,7 @@ StampKernel::StampKernel(const kernel::PointSpread& spread) {
     weights_ = Picture(groups_ * kGroup, extent_.height());
     spans_.reset(new short[std::size_t(std::max(1, 2 * extent_.height()))]);
     for (int y = 0; y < extent_.height(); ++y) {
+        check_cancelled();
         int first = groups_, last = 0;
         for (int x = 0; x < extent_.width(); ++x) {
             const Rgba w = weights_(x, y) = spread.weights(lit.x0 + x, lit.y0 + y);

@@ -1,5 +1,6 @@
 #include "device/cpu/tap_kernel.h"
 
+#include "base/cancel.h"
 #include "device/cpu/gather_taps.h"
 
 #include <array>
@@ -13,7 +14,8 @@ std::shared_ptr<const TapKernel> TapKernel::laid_out(const KernelSource::Made& s
     made->neutral = spread.neutral;
     made->extent = spread.extent;
     const Rect& e = spread.extent;
-    for (int dy = 1 - e.y1; dy < kGatherRows - e.y0; ++dy)
+    for (int dy = 1 - e.y1; dy < kGatherRows - e.y0; ++dy) {
+        check_cancelled();
         for (int dx = 1 - e.x1; dx <= -e.x0; ++dx) {
             std::array<Rgba, kGatherRows> rows;  // of output: each lies its number further from what is read
             for (int k = 0; k < kGatherRows; ++k)
@@ -27,6 +29,7 @@ std::shared_ptr<const TapKernel> TapKernel::laid_out(const KernelSource::Made& s
                 else
                     made->weights.insert(made->weights.end(), {w.r, w.g, w.b, w.a});
         }
+    }
     made->bytes = sizeof(*made) + made->steps.size() * sizeof(Step) + made->weights.size() * sizeof(float);
     return made;
 }

@@ -1,5 +1,7 @@
 #include "engine/lights/highlight_kernels.h"
 
+#include "base/cancel.h"
+
 namespace petzval::engine {
 
 // A lens that sees squares of pixels instead of points: each kernel averaged over `size` x `size` places of
@@ -14,14 +16,18 @@ public:
         const Rect e = point.extent;
         const int width = e.width(), height = e.height(), more = size_ - 1;
         Picture wide(width + more, height);
-        for (int y = 0; y < height; ++y)
+        for (int y = 0; y < height; ++y) {
+            check_cancelled();
             for (int x = 0; x < width; ++x)
                 for (int i = 0; i < size_; ++i) wide(x + i, y) += point.weights(x, y);
+        }
         Picture square(width + more, height + more);
         const float share = 1 / float(size_ * size_);
-        for (int y = 0; y < height; ++y)
+        for (int y = 0; y < height; ++y) {
+            check_cancelled();
             for (int x = 0; x < width + more; ++x)
                 for (int i = 0; i < size_; ++i) square(x, y + i) += share * wide(x, y);
+        }
         return {Rect{e.x0, e.y0, e.x1 + more, e.y1 + more}, std::move(square), point.neutral};
     }
     std::vector<kernel::PupilRay> rays(int count, kernel::FieldPosition field,

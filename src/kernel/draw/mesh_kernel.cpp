@@ -1,5 +1,6 @@
 #include "kernel/draw/mesh_kernel.h"
 
+#include "base/cancel.h"
 #include "kernel/draw/outline.h"
 
 #include <algorithm>
@@ -33,11 +34,13 @@ public:
             return (density[p] + density[q] + density[r]) / 3 *
                    light(pupil, points_[p], points_[q], points_[r]);
         };
-        for (int j = 0; j < rings_; ++j)
+        for (int j = 0; j < rings_; ++j) {
+            check_cancelled();
             for (int k = 0; k < spokes_; ++k) {
                 const std::size_t a = at(j, k), b = at(j, k + 1), c = at(j + 1, k + 1), d = at(j + 1, k);
                 light_.push_back({light_of(a, d, c), light_of(a, c, b)});
             }
+        }
     }
 
     int rings() const { return rings_; }
@@ -70,7 +73,8 @@ public:
     void draw(const Point* landed) {
         landed_ = landed;
         find_densities();
-        for (int j = 0; j < mesh_.rings(); ++j)
+        for (int j = 0; j < mesh_.rings(); ++j) {
+            check_cancelled();
             for (int k = 0; k < mesh_.spokes(); ++k) {
                 const Halves& here = density_[mesh_.at(j, k)];
                 const Point a = landed[mesh_.at(j, k)], d = landed[mesh_.at(j + 1, k)];
@@ -82,6 +86,7 @@ public:
                 draw_edge(d, c, here.outer - beyond);
                 draw_edge(a, c, here.inner - here.outer);
             }
+        }
     }
 
 private:
@@ -137,7 +142,10 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
     const Mesh mesh(pupil);
     const std::size_t count = mesh.points().size();
     std::vector<Point> landed(count * bands.size());
-    for (std::size_t i = 0; i < bands.size(); ++i) bands[i].land(mesh.points(), &landed[i * count]);
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+        check_cancelled();
+        bands[i].land(mesh.points(), &landed[i * count]);
+    }
 
     const Rect extent = extent_of(landed);
     CoverageBuffer<double> buffer(extent);
@@ -145,9 +153,11 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
     Image<Light> sum(extent.width(), extent.height());
     for (std::size_t i = 0; i < bands.size(); ++i) {
         drawing.draw(&landed[i * count]);
-        for (int y = 0; y < extent.height(); ++y)
+        for (int y = 0; y < extent.height(); ++y) {
+            check_cancelled();
             buffer.drain_row(
                 y, [&, row = sum.row(y)](int x, double covered) { row[x] += covered * bands[i].weight; });
+        }
     }
 
     PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), false};

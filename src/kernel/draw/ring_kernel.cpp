@@ -1,5 +1,6 @@
 #include "kernel/draw/ring_kernel.h"
 
+#include "base/cancel.h"
 #include "kernel/model/gamut.h"
 
 #include <algorithm>
@@ -145,6 +146,7 @@ std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_
     const int zones = int(std::clamp(8 * reach_px, 128.0, 4096.0));
     std::vector<Light> total(bins);
     for (const RingBand& band : bands) {
+        check_cancelled();
         RingGrid grid(reach_px, bins);
         double from = band.landing_px(0);
         for (int i = 1; i <= zones; ++i) {
@@ -174,13 +176,15 @@ PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px, Rin
         return Rgba{weight(c[0]), weight(c[1]), weight(c[2]), 0};
     };
     spread.weights(radius, radius) = as_weight(profile.in_middle_square());
-    for (int y = 0; y <= radius; ++y)
+    for (int y = 0; y <= radius; ++y) {
+        check_cancelled();
         for (int x = std::max(y, 1); x <= radius; ++x) {
             const Rgba weight = as_weight(pixel_share(profile, x, y));
             for (const auto& [px, py] : {std::pair{x, y}, {y, x}})
                 for (const int sx : {-1, 1})
                     for (const int sy : {-1, 1}) spread.weights(radius + sx * px, radius + sy * py) = weight;
         }
+    }
     normalise(spread);
     return spread;
 }

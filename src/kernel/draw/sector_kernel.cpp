@@ -1,5 +1,7 @@
 #include "kernel/draw/sector_kernel.h"
 
+#include "base/cancel.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -206,6 +208,7 @@ RingSweep::RingSweep(const std::vector<RingBand>& bands, double reach_px) : reac
     for (int i = 1; i <= zones_; ++i) {  // evenly wide
         const double inner = (i - 1.0) * (i - 1.0) / (double(zones_) * zones_);
         const double outer = double(i) * i / (double(zones_) * zones_);
+        check_cancelled();
         zone.clear();
         for (std::size_t b = 0; b < bands.size(); ++b) {
             const double to = bands[b].landing_px(outer);
@@ -227,11 +230,13 @@ PointSpread sector_kernel(const std::vector<Point>& outline, const RingSweep& sw
     if (wide <= 0 && tall <= 0) return single_pixel();
     const Directions directions(outline, sweep);
     PointSpread spread{{-wide, -tall, wide + 1, tall + 1}, Image<Rgba>(2 * wide + 1, 2 * tall + 1), false};
-    for (int y = -tall; y <= tall; ++y)
+    for (int y = -tall; y <= tall; ++y) {
+        check_cancelled();
         for (int x = -wide; x <= wide; ++x) {
             const Sample share = pixel_share(directions, x, y, vertical_scale);
             spread.weights(x + wide, y + tall) = {share.r, share.g, share.b, 0};
         }
+    }
     trim(spread);
     normalise(spread);
     return spread;

@@ -1,5 +1,6 @@
 #include "kernel/lenses/ideal_lens.h"
 
+#include "base/cancel.h"
 #include "kernel/draw/ray_set.h"
 #include "kernel/model/spread.h"
 
@@ -18,6 +19,7 @@ PointSpread share_of_pixels(CoverageBuffer<double>& coverage) {
     std::vector<const double*> rows;
     double sum = 0;
     for (int j = 0; j < extent.height(); ++j) {
+        check_cancelled();
         rows.push_back(coverage.resolve_row(j));
         for (int i = 0; i < extent.width(); ++i) sum += rows.back()[i];
     }
@@ -54,12 +56,14 @@ PointSpread IdealLens::point_spread(double coc_radius_px, FieldPosition field) c
 // By the texture's mean over each pixel.
 void IdealLens::dim(PointSpread& spread, double coc_radius_px) const {
     const double half = 0.5 / std::abs(coc_radius_px);
-    for (int y = spread.extent.y0; y < spread.extent.y1; ++y)
+    for (int y = spread.extent.y0; y < spread.extent.y1; ++y) {
+        check_cancelled();
         for (int x = spread.extent.x0; x < spread.extent.x1; ++x) {
             const Point place{x / coc_radius_px, y / (coc_radius_px * pixel_aspect_)};
             Rgba& w = spread.weights(x - spread.extent.x0, y - spread.extent.y0);
             w *= float(pupil_.transmission(place, half));
         }
+    }
     normalise(spread);
 }
 

@@ -1,5 +1,6 @@
 #include "kernel/lenses/image_lens.h"
 
+#include "base/cancel.h"
 #include "kernel/model/spread.h"
 
 #include <algorithm>
@@ -69,6 +70,7 @@ PointSpread ImageLens::point_spread(double coc_radius_px, FieldPosition field) c
     }
     PointSpread spread{extent, Image<Rgba>(extent.width(), extent.height()), false};
     for (int y = -tall; y <= tall; ++y) {
+        check_cancelled();
         const double* covered = coverage.resolve_row(y + tall);
         for (int x = -wide; x <= wide; ++x) {
             Rgba w = picture.mean({x / scale, y / (scale * pixel_aspect_)}, half_width, half_height);

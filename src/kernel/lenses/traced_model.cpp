@@ -1,5 +1,6 @@
 #include "kernel/lenses/traced_model.h"
 
+#include "base/cancel.h"
 #include "kernel/draw/band_groups.h"
 #include "kernel/draw/outline.h"
 #include "kernel/draw/ray_set.h"
@@ -228,6 +229,7 @@ std::optional<TracedModel::Node> TracedModel::traced_node(const optics::TracedLe
     Node node{{}, open.corners};
     std::vector<RayMap> all{fitter.fit(*primary)};
     for (const double nm : wavelength_nm_) {
+        check_cancelled();
         const auto beam = lens.beam(nm / 1000, field_rad);
         if (!beam) return std::nullopt;
         all.push_back(fitter.fit(*beam));

@@ -1,5 +1,6 @@
 #include "kernel/lenses/wave_lens.h"
 
+#include "base/cancel.h"
 #include "base/fft.h"
 #include "base/parallel.h"
 #include "colour/spectrum.h"
@@ -129,7 +130,8 @@ PointSpread summed_over_pixels(const std::vector<std::complex<float>>& field, in
     PointSpread spread{extent, Image<Rgba>(extent.width(), extent.height()), false};
     std::vector<std::vector<Share>> columns;
     for (int x = extent.x0; x < extent.x1; ++x) columns.push_back(samples_in(x, wide));
-    for (int y = extent.y0; y < extent.y1; ++y)
+    for (int y = extent.y0; y < extent.y1; ++y) {
+        check_cancelled();
         for (const Share& down : samples_in(y, tall)) {
             // The transform repeats: negative places are at its end.
             const std::complex<float>* row =
@@ -142,6 +144,7 @@ PointSpread summed_over_pixels(const std::vector<std::complex<float>>& field, in
                 w = w + Rgba{1, 1, 1, 0} * (down.part * sum);
             }
         }
+    }
     normalise(spread);
     return spread;
 }
@@ -150,7 +153,8 @@ PointSpread convolved(const PointSpread& a, const PointSpread& b) {
     const Rect e{a.extent.x0 + b.extent.x0, a.extent.y0 + b.extent.y0, a.extent.x1 + b.extent.x1 - 1,
                  a.extent.y1 + b.extent.y1 - 1};
     PointSpread sum{e, Image<Rgba>(e.width(), e.height()), false};
-    for (int y = 0; y < a.weights.height(); ++y)
+    for (int y = 0; y < a.weights.height(); ++y) {
+        check_cancelled();
         for (int x = 0; x < a.weights.width(); ++x) {
             const Rgba w = a.weights(x, y);
             if (w == Rgba{}) continue;
@@ -159,6 +163,7 @@ PointSpread convolved(const PointSpread& a, const PointSpread& b) {
                 for (int u = 0; u < b.weights.width(); ++u) row[u] += w * b.weights(u, v);
             }
         }
+    }
     return sum;
 }
 
@@ -222,6 +227,7 @@ PointSpread WaveLens::transformed(double wavelength_nm, FieldPosition field, con
     std::vector<double> turns(columns), amplitude(columns);
     std::vector<float> cosines(columns), sines(columns);
     for (int j = -half; j <= half; ++j) {
+        check_cancelled();
         const double* covered = coverage.resolve_row(j + half);
         for (std::size_t i = 0; i < columns; ++i) {
             const Point u{(int(i) - half) * step, j * step};

@@ -1,5 +1,6 @@
 #include "kernel/model/gamut.h"
 
+#include "base/cancel.h"
 #include "kernel/model/spread.h"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ public:
     // The square of a pixel is 2 reach + 1 wide.
     void operator()(const Values& values, std::size_t reach, Values& sums) {
         for (std::size_t y = 0; y < height_; ++y) {
+            check_cancelled();
             const double* row = values.data() + y * width_;
             std::partial_sum(row, row + width_, running_.begin() + 1);
             for (std::size_t x = 0; x < width_; ++x)

@@ -1,5 +1,7 @@
 #include "kernel/model/spread.h"
 
+#include "base/cancel.h"
+
 #include <algorithm>
 
 namespace petzval::kernel {
@@ -33,6 +35,7 @@ PointSpread mixed(std::span<const Share> shares) {
     PointSpread sum{e, Picture(e.width(), e.height()), neutral};
     for (const Share& s : shares)
         for (int y = 0; y < s.kernel->weights.height(); ++y) {
+            check_cancelled();
             const Rgba* from = s.kernel->weights.row(y);
             Rgba* to = sum.weights.row(y + s.kernel->extent.y0 - e.y0) + (s.kernel->extent.x0 - e.x0);
             for (int x = 0; x < s.kernel->weights.width(); ++x) to[x] += from[x] * s.share;
@@ -59,6 +62,7 @@ void trim(PointSpread& spread) {
 }
 
 void normalise(PointSpread& spread) {
+    check_cancelled();
     double r = 0, g = 0, b = 0;
     for (std::size_t i = 0; i < spread.weights.size(); ++i) {
         const Rgba& w = spread.weights.pixels()[i];
