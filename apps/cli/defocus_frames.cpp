@@ -22,8 +22,7 @@ std::vector<std::string*> paths_of(DefocusFlags& flags) {
 
 // The flags of one frame; what a track says of it stands in place of what was typed.
 Result<DefocusFlags> flags_of(const DefocusFlags& all, int frame, const Track* track) {
-    DefocusFlags flags = all;
-    for (std::string* path : paths_of(flags)) *path = at_frame(*path, frame);
+    DefocusFlags flags = at_frame(all, frame);
     flags.run.progress = ProgressMode::Off;  // that of the shot is shown
     if (!track) return flags;
     const TrackedFrame tracked = track->at(frame);
@@ -69,6 +68,11 @@ Result<std::optional<Track>> read_track(const TrackFlags& flags) {
 }
 
 }  // namespace
+
+DefocusFlags at_frame(DefocusFlags flags, int frame) {
+    for (std::string* path : paths_of(flags)) *path = at_frame(*path, frame);
+    return flags;
+}
 
 void TrackFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Frames")

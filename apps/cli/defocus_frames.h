@@ -22,6 +22,9 @@ struct TrackFlags {
     std::vector<std::string> given() const;
 };
 
+// Their files for that frame: no name has a place for a number any more.
+DefocusFlags at_frame(DefocusFlags flags, int frame);
+
 // Whether the flags are about more than one frame. Throws UsageError where they do not fit each other.
 bool is_sequence(const DefocusFlags& flags);
 

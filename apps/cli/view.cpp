@@ -2,6 +2,7 @@
 // this program: command lines, frames written as defocus writes them, OpenColorIO.
 #include "console.h"
 #include "defocus_flags.h"
+#include "defocus_frames.h"
 #include "fields.h"
 #include "look_rows.h"
 #include "verbs.h"
@@ -53,7 +54,8 @@ void add_number(std::vector<std::string>& words, const char* flag, const std::op
 std::vector<std::string> command_words(const ViewFlags& flags, const view::Choice& choice,
                                        const std::string& output) {
     std::vector<std::string> words{"petzval", "defocus"};
-    words.insert(words.end(), flags.files.begin(), flags.files.end());
+    for (const std::string& word : flags.files)
+        words.push_back(choice.frame ? at_frame(word, *choice.frame) : word);
     words.insert(words.end(), {"-o", output});
     add_number(words, "--fstop", choice.camera.f_number);
     add_number(words, "--focus", choice.camera.focus_distance_m);
@@ -85,6 +87,7 @@ std::string command_line(const ViewFlags& flags, const view::Choice& choice, con
 Status save(ViewFlags flags, Session& session, const view::Choice& choice, const std::string& output) {
     const auto kind = kind_of_output(output);
     if (!kind) return kind.error();
+    if (choice.frame) static_cast<DefocusFlags&>(flags) = at_frame(flags, *choice.frame);
     flags.output = output;
     flags.run.json.clear();
     flags.run.progress = ProgressMode::Off;
@@ -131,6 +134,12 @@ Status open_window(const ViewFlags& flags) {
     if (flags.ocio.is_on())
         if (Status fine = flags.ocio.try_out(); !fine) return fine;
     view::Setup setup;
+    if (has_pattern(flags.input.path)) {
+        const auto there = FramePattern::find(flags.input.path).value()->frames_there();
+        if (!there) return there.error();
+        if (there->empty()) return Error{ErrorCode::InvalidFile, flags.input.path + ": no frame is there"};
+        setup.frames = *there;
+    }
     setup.source = flags.input.source(flags.camera);
     setup.source.lights = flags.points;
     setup.choice.camera = flags.camera.choice();

@@ -1,5 +1,7 @@
 #include "app.h"
 
+#include "petzval/frames.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -27,12 +29,46 @@ Rect Mapping::seen() const {
 App::App(const Setup& setup, const std::function<void()>& wake)
     : setup_(setup), darkroom_(setup.ocio_codes, wake), bench_(wake), maker_(setup.session, wake) {
     state.choice = setup.choice;
+    Timeline& line = state.timeline;
+    line.frames = setup.frames;
+    if (line.is_shot()) {
+        line.frame = line.first = line.frames.front(), line.last = line.frames.back();
+        state.choice.frame = line.frame;
+    }
     read_again();
+}
+
+ShotSource App::source() const {
+    ShotSource source = setup_.source;
+    if (!state.timeline.is_shot()) return source;
+    std::vector<std::string*> paths{&source.path, &source.read.depth_file, &source.behind, &source.holdout,
+                                    &source.lights};
+    for (std::string& path : source.merge) paths.push_back(&path);
+    for (std::string* path : paths)
+        if (const auto pattern = FramePattern::find(*path); pattern && *pattern)
+            *path = (*pattern)->path(state.timeline.frame);
+    return source;
+}
+
+void App::go_to(int frame) {
+    state.timeline.frame = frame;
+    state.choice.frame = frame;
+    if (const auto focus = state.timeline.focus_at(frame)) state.choice.camera.focus_distance_m = *focus;
+    shown_since_ = Clock::now();
+    reading_ = true;
+    maker_.read(source(), false, {});
+}
+
+// On to the next frame when something of this one was to be seen, 24 a second at most.
+void App::play() {
+    const bool is_seen = !reading_ && ((sides_[0].whole && !sides_[0].whole_is_old) || !trouble.empty());
+    if (!state.timeline.playing || !is_seen) return;
+    if (Clock::now() - shown_since_ >= std::chrono::milliseconds(41)) go_to(state.timeline.stepped(1));
 }
 
 void App::read_again() {
     reading_ = true;
-    maker_.read(setup_.source, false, setup_.focus_point);
+    maker_.read(source(), false, setup_.focus_point);
     if (setup_.against.empty()) return;
     ShotSource other;
     other.path = setup_.against;
@@ -147,7 +183,10 @@ void App::take_shot(ReadShot read) {
             state.choice.camera.focus_distance_m = focus->value;
         setup_.focus_point.reset();
     }
-    sides_ = {};
+    for (SideFrames& side : sides_) {  // what was made of the frame before stays until there is something new
+        side.wish.reset(), side.radii.reset();
+        if (side.whole && side.whole_area != shot_->shot.place.data_window) side = {};
+    }
     note_action();
 }
 
@@ -190,6 +229,7 @@ void App::take_print(Print print) {
 }
 
 void App::ask() {
+    play();
     if (!shot_) return;
     ask_frame(0, state.left);
     ask_prints(0, state.left);

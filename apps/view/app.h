@@ -97,9 +97,12 @@ public:
     void note_action();
     bool is_busy() const;  // something is being read, made, developed or saved
     void read_again();
+    void go_to(int frame);
     void save(const std::string& path);
 
 private:
+    ShotSource source() const;  // of the frame that is shown
+    void play();
     void take_shot(ReadShot read);
     void take_frame(MadeFrame made);
     void take_print(Print print);
@@ -120,6 +123,7 @@ private:
     std::future<Status> saving_;
     std::string saving_to_;
     bool reading_ = false;
+    std::chrono::steady_clock::time_point shown_since_;  // the frame, while it is played
     LensMade lens_made_;
     std::array<Texture, LensMade::kPictures> lens_pictures_;
     std::optional<LensWish> lens_wish_;

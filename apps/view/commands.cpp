@@ -3,6 +3,7 @@
 #include "petzval/defocus.h"
 #include "petzval/look_file.h"
 #include "petzval/names.h"
+#include "petzval/output.h"
 
 #include "fields.h"
 
@@ -19,9 +20,9 @@ using Words = std::vector<std::string>;
 
 Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
-template <typename List>
-bool has(const List& list, const std::string& word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
+template <typename List, typename Value>
+bool has(const List& list, const Value& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
 }
 
 Result<PixelPosition> pixel_of(const Words& words) {
@@ -46,6 +47,8 @@ Status focus(App& app, const Words& words) {
     if (!depth) return invalid("nothing is seen there to focus on: a miss, or no depth");
     if (Status done = set_field(app, "focus", text_of(*depth, 6)); !done) return done;
     app.notice = "focus " + text_of(*depth, 4) + " m";
+    Timeline& line = app.state.timeline;
+    if (line.is_shot() && line.keying) line.keys[line.frame] = *app.state.choice.camera.focus_distance_m;
     return Done{};
 }
 
@@ -201,6 +204,50 @@ Status save_lens(App& app, const Words& words) {
     app.notice = "wrote " + words[0];
     return Done{};
 }
+Status no_shot() { return invalid("this is one picture; give names with #### for the frames of a shot"); }
+
+// A number, or so many steps on: +1, -1; first, last.
+Status frame(App& app, const Words& words) {
+    const Timeline& line = app.state.timeline;
+    if (!line.is_shot()) return no_shot();
+    const auto number = number_of(words[0]);
+    const bool steps = words[0].starts_with('+') || words[0] == "-1";
+    int wanted = words[0] == "first" ? line.first : line.last;
+    if (number)
+        wanted = steps ? line.stepped(int(*number)) : int(*number);
+    else if (words[0] != "first" && words[0] != "last")
+        return invalid("frame " + words[0] + ": not a number, first or last");
+    if (!has(line.frames, wanted)) return invalid("frame " + words[0] + " is not there");
+    if (wanted != line.frame) app.go_to(wanted);
+    return Done{};
+}
+Status range(App& app, const Words& words) {
+    Timeline& line = app.state.timeline;
+    if (!line.is_shot()) return no_shot();
+    const auto first = number_of(words[0]), last = number_of(words[1]);
+    if (!first || !last || *first > *last) return invalid("range: not two frames, the first before the last");
+    line.first = int(*first), line.last = int(*last);
+    return Done{};
+}
+Status key_focus(App& app, const Words&) {
+    Timeline& line = app.state.timeline;
+    const auto focus = app.found_camera().focus_distance_m;
+    if (!line.is_shot()) return no_shot();
+    if (!focus) return invalid("no focus yet; click on what is to be sharp");
+    line.keys[line.frame] = focus->value;
+    return Done{};
+}
+Status remove_key(App& app, const Words&) {
+    Timeline& line = app.state.timeline;
+    if (line.keys.erase(line.frame) == 0) return invalid("there is no key at this frame");
+    return Done{};
+}
+Status save_track(App& app, const Words& words) {
+    if (app.state.timeline.keys.empty()) return invalid("there are no keys yet");
+    if (Status done = write_text(words[0], app.state.timeline.as_track()); !done) return done;
+    app.notice = "wrote " + words[0] + "; defocus --track takes it";
+    return Done{};
+}
 Status reload(App& app, const Words&) {
     app.read_again();
     return Done{};
@@ -238,6 +285,11 @@ const std::vector<Command>& commands() {
         {"save_look", "FILE", "", save_look},
         {"light", "X Y", "light up the rays that land there in the disc, pixels from its middle", light},
         {"save_lens", "FILE", "the lens alone, as a look", save_lens},
+        {"frame", "N|+1|-1|first|last", "another frame of the shot", frame},
+        {"range", "FIRST LAST", "what is played", range},
+        {"key_focus", "", "this focus at this frame", key_focus},
+        {"remove_key", "", "of this frame", remove_key},
+        {"save_track", "FILE", "the focus over the frames, as defocus --track takes it", save_track},
         {"reload", "", "read the files again", reload},
         {"quit", "", "", quit},
     };
@@ -250,6 +302,10 @@ const std::vector<Binding>& bindings() {
         {"right", "focus_by 1", "focus farther"},
         {"up", "stop_by -1", "open the aperture by a third of a stop"},
         {"down", "stop_by 1", "close it"},
+        {"space", "toggle shot.playing", "play the shot, stop"},
+        {"period", "frame +1", "next frame"},
+        {"comma", "frame -1", "frame before"},
+        {"k", "key_focus", "a key: this focus at this frame"},
         {"1", "show result", "the picture"},
         {"2", "show sharp", "the sharp picture"},
         {"3", "show against", "the second picture"},
@@ -288,8 +344,8 @@ int key_code(const std::string& name) {
         {"left", GLFW_KEY_LEFT},     {"right", GLFW_KEY_RIGHT}, {"up", GLFW_KEY_UP},
         {"down", GLFW_KEY_DOWN},     {"enter", GLFW_KEY_ENTER}, {"tab", GLFW_KEY_TAB},
         {"escape", GLFW_KEY_ESCAPE}, {"space", GLFW_KEY_SPACE}, {"equal", GLFW_KEY_EQUAL},
-        {"minus", GLFW_KEY_MINUS},   {"slash", GLFW_KEY_SLASH}, {"home", GLFW_KEY_HOME},
-        {"end", GLFW_KEY_END}};
+        {"minus", GLFW_KEY_MINUS},   {"slash", GLFW_KEY_SLASH}, {"period", GLFW_KEY_PERIOD},
+        {"comma", GLFW_KEY_COMMA},   {"home", GLFW_KEY_HOME},   {"end", GLFW_KEY_END}};
     if (const auto found = named.find(name); found != named.end()) return found->second;
     if (name.size() != 1) return 0;
     if (name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + name[0] - 'a';

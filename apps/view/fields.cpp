@@ -119,6 +119,8 @@ std::vector<Field> facts() {
                  return std::to_string(wish->region.value_or(app.shot()->shot.place.data_window).width());
              }),
         fact("left.shown", [](const App& app) { return app.state.left.shown; }),
+        fact("shot.frame", [](const App& app) { return std::to_string(app.state.timeline.frame); }),
+        fact("shot.keys", [](const App& app) { return std::to_string(app.state.timeline.keys.size()); }),
         fact("lens.rays", [](const App& app) { return std::to_string(app.lens_made().section.rays.size()); }),
         fact("lens.lit_rays", [](const App& app) { return std::to_string(lit_rays(app).size()); }),
         fact("lens.disc_px", [](const App& app) { return std::to_string(app.lens_made().disc.width); }),
@@ -152,6 +154,12 @@ std::vector<Field> choices() {
             "view.final", +[](State& s) -> bool& { return s.final_quality; }),
         toggle(
             "view.panels", +[](State& s) -> bool& { return s.panels; }),
+        toggle(
+            "shot.playing", +[](State& s) -> bool& { return s.timeline.playing; }),
+        toggle(
+            "shot.keying", +[](State& s) -> bool& { return s.timeline.keying; }),
+        toggle(
+            "shot.easing", +[](State& s) -> bool& { return s.timeline.easing; }),
         toggle(
             "view.lens", +[](State& s) -> bool& { return s.lens; }),
         toggle(

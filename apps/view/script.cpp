@@ -21,8 +21,9 @@ struct Verb {
     const char* name;
     std::size_t least, most;  // words after it
 };
-constexpr Verb kVerbs[]{{"click", 1, 2}, {"drag", 2, 4}, {"move", 1, 2},   {"wheel", 1, 1},  {"key", 1, 1},
-                        {"wait", 0, 1},  {"shot", 1, 1}, {"resize", 2, 2}, {"expect", 1, 7}, {"say", 1, 1}};
+constexpr Verb kVerbs[]{{"click", 1, 2},  {"drag", 2, 4},   {"move", 1, 2},  {"wheel", 1, 1},
+                        {"key", 1, 1},    {"wait", 0, 1},   {"sleep", 1, 1}, {"shot", 1, 1},
+                        {"resize", 2, 2}, {"expect", 1, 7}, {"say", 1, 1}};
 
 const Verb* verb_called(const std::string& name) {
     for (const Verb& verb : kVerbs)
@@ -170,8 +171,8 @@ Hand Script::tick(App& app) {
         return now;
     }
     const Line& line = lines_[step_];
-    if (line.words[0] == "wait") {
-        if (has_waited(app)) ++step_;
+    if (line.words[0] == "wait" || line.words[0] == "sleep") {
+        if (line.words[0] == "wait" ? has_waited(app) : has_slept()) ++step_;
         return hand_;
     }
     looks_ = line.words[0] == "shot" || (line.words[0] == "expect" && line.words[1] == "screen");
@@ -196,6 +197,15 @@ bool Script::has_waited(App& app) {
     if (std::chrono::duration<double>(Clock::now() - *waiting_since_).count() > patience_s_)
         fail("still busy after " + text_of(patience_s_, 3) + " s");
     return false;
+}
+
+bool Script::has_slept() {
+    if (!waiting_since_) waiting_since_ = Clock::now();
+    const auto seconds = number_of(lines_[step_].words[1]);
+    if (seconds && std::chrono::duration<double>(Clock::now() - *waiting_since_).count() < *seconds)
+        return false;
+    waiting_since_.reset();
+    return true;
 }
 
 void Script::expect(App& app, const Words& words) {

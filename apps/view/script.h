@@ -5,6 +5,7 @@
 //   drag X Y X2 Y2 | drag NAME DX   held down over eight ticks
 //   move X Y, wheel N, key KEY      as "key shift+e"
 //   wait [SECONDS]                  until nothing is being made (at most so long, 60), or fail
+//   sleep SECONDS                   whatever is being made
 //   shot FILE.png                   what is on the screen
 //   resize W H
 //   expect FIELD VALUE [TOLERANCE]  of numbers, a share of the value; of texts: contained
@@ -60,6 +61,7 @@ private:
     void expect(App& app, const std::vector<std::string>& words);
     void expect_screen(App& app, const Screen& screen);
     bool has_waited(App& app);
+    bool has_slept();
     std::optional<std::pair<double, double>> place_of(App& app, const std::vector<std::string>& words,
                                                       std::size_t first);
     void fail(const std::string& why);

@@ -1,6 +1,7 @@
 // All that is chosen in the window. Changed by commands alone (commands.h); pictures follow from it.
 #pragma once
 
+#include "timeline.h"
 #include "view.h"
 
 #include <array>
@@ -22,6 +23,7 @@ struct Side {
 struct State {
     Choice choice;
     Side left, right;  // right: beyond the wipe
+    Timeline timeline;
     bool wiping = false;
     double wipe = 0.5;  // where, share of the canvas's width
     Channel channel = Channel::Colour;

@@ -30,12 +30,14 @@ struct FieldRow {
 struct Choice {
     CameraChoice camera;
     Look look;
-    DevelopSettings develop;  // of display pictures
+    std::optional<int> frame;  // of a shot; nothing: a single picture
+    DevelopSettings develop;   // of display pictures
     bool ocio = false;
 };
 
 struct Setup {
     ShotSource source;
+    std::vector<int> frames;  // that are there, where names of the source's files hold a place for a number
     Choice choice;
     std::optional<PixelPosition> focus_at;
     std::optional<WorldPoint> focus_point;

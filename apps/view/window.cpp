@@ -161,7 +161,8 @@ void draw(App& app) {
         ImGui::SetNextWindowSize({std::max(1.0f, width), std::max(1.0f, height)});
     };
     const float lens = app.state.lens ? 0.45f * size.y : 0;
-    place(0, 0, size.x - panel, size.y - status - lens);
+    const float frames = app.state.timeline.is_shot() ? std::min(6 * letter, 0.3f * size.y) : 0;
+    place(0, 0, size.x - panel, size.y - status - lens - frames);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
     ImGui::Begin("picture", nullptr, flags | ImGuiWindowFlags_NoScrollWithMouse);
@@ -170,9 +171,15 @@ void draw(App& app) {
     ImGui::End();
     app.widgets.clear();
     if (app.state.lens) {
-        place(0, size.y - status - lens, size.x - panel, lens);
+        place(0, size.y - status - lens - frames, size.x - panel, lens);
         ImGui::Begin("lens", nullptr, flags);
         draw_lens(app);
+        ImGui::End();
+    }
+    if (app.state.timeline.is_shot()) {
+        place(0, size.y - status - frames, size.x - panel, frames);
+        ImGui::Begin("shot", nullptr, flags);
+        draw_timeline(app);
         ImGui::End();
     }
     place(0, size.y - status, size.x - panel, status);
@@ -217,7 +224,8 @@ private:
             glfwWaitEventsTimeout(0.5);
         lively_ticks_ = std::max(lively_ticks_ - 1, 0);
         const ImGuiIO& io = ImGui::GetIO();
-        if (app_.is_busy() || io.MouseDown[0] || io.MouseDelta.x != 0 || io.MouseDelta.y != 0)
+        if (app_.is_busy() || app_.state.timeline.playing || io.MouseDown[0] || io.MouseDelta.x != 0 ||
+            io.MouseDelta.y != 0)
             lively_ticks_ = 6;
     }
 

@@ -222,6 +222,58 @@ class ViewTest(unittest.TestCase):
         subprocess.run([PETZVAL, "defocus", "table.exr", "-o", "lens.exr", "--look", "lens.json", "--fstop", "4"],
                        cwd=self.shared, check=True, capture_output=True)
 
+    def test_focus_keys_over_frames_become_the_track_that_defocus_takes(self):
+        for number in range(1, 6):
+            shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "shot.%04d.exr" % number))
+        out, _ = self.do("""
+            wait
+            expect shot.frame 1
+            set shot.keying on
+            click 165 100
+            frame last
+            wait
+            click 250 40
+            expect shot.keys 2
+            frame 3
+            wait
+            say focus
+            key comma
+            wait
+            expect shot.frame 2
+            save_track track.csv
+            save shot2.exr
+            wait
+            copy
+            say copied
+            set shot.easing on
+            save_track eased.csv
+            range 3 4
+            frame first
+            wait
+            key space
+            sleep 1
+            expect shot.playing on
+            key space
+            wait
+            say shot.frame
+        """, "shot.####.exr")
+        middle, command, played = out.splitlines()
+        self.assertIn(played, "34")
+        track = [line.split(",") for line in "".join(
+            text.decode() for text in self.contents("track.csv")).splitlines()[1:]]
+        self.assertEqual([int(frame) for frame, _ in track], [1, 5])
+        near, far = (float(metres) for _, metres in track)
+        self.assertAlmostEqual(1 / float(middle), (1 / near + 1 / far) / 2, 4)
+        self.assertIn("shot.0002.exr", command)
+        done = subprocess.run([PETZVAL, "defocus", "shot.####.exr", "-o", "tracked.####.exr", "--frames", "2",
+                               "--track", "track.csv", "--kernel-cache", "off"], cwd=self.shared, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        compared = subprocess.run([PETZVAL, "compare", "tracked.0002.exr", "shot2.exr"], cwd=self.shared,
+                                  capture_output=True, text=True)
+        self.assertIn("inf", compared.stdout + compared.stderr)
+        eased = next(self.contents("eased.csv")).decode()
+        self.assertEqual(len(eased.splitlines()), 6)
+
     def test_what_is_wrong_is_said_in_the_window_which_stays(self):
         shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gone.exr"))
         self.do("""
