@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "device/cpu/dimmer.h"
 #include "device/cpu/workspaces.h"
+#include "engine/waist/cells.h"
 
 #include <atomic>
 #include <cmath>
@@ -16,13 +17,6 @@ using namespace engine;
 namespace {
 
 constexpr int kBorder = 1;  // cells around a tile that enlarging reads
-
-Rect cells_of(const Rect& tile, int level) {
-    if (level == 0) return tile;
-    return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
-                ((tile.y1 - 1) >> level) + 1}
-        .grown(kBorder);
-}
 
 // Between the cells of coarser levels bilinear, which keeps their light.
 void add_cells(const Accumulator& cells, int level, const LightsPlan& plan, const Rect& tile,
@@ -68,7 +62,7 @@ public:
     std::size_t run(View<Rgba> out) {
         for (std::size_t i = 0; i < order_.size();) {
             const int level = level_of(i);
-            w_.cells.reset(cells_of(tile_, level));
+            w_.cells.reset(cells_of(tile_, level, kBorder));
             while (i < order_.size() && level_of(i) == level) i = stamp_kernel(i);
             add_cells(w_.cells, level, plan_, tile_, out);
         }

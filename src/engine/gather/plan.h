@@ -5,6 +5,7 @@
 #include "engine/gather/gather_cells.h"
 #include "engine/gather/gather_fill.h"
 #include "engine/gather/gather_rings.h"
+#include "engine/waist/cells.h"
 #include "engine/waist/engine.h"
 
 #include <cmath>
@@ -22,12 +23,7 @@ struct GatherPlan {
     static constexpr int kTile = 128;
     static constexpr int kTentBorder = 1;  // cells around a tile that enlarging reads
     // The cells of a level that a tile needs.
-    static Rect cells_of(const Rect& tile, int level) {
-        if (level == 0) return tile;
-        return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
-                    ((tile.y1 - 1) >> level) + 1}
-            .grown(kTentBorder);
-    }
+    static Rect cells_of(const Rect& tile, int level) { return engine::cells_of(tile, level, kTentBorder); }
 
     struct Tile {
         Rect pixels;            // of the result

@@ -8,6 +8,7 @@
 #include "device/kernels.h"
 #include "engine/samples/layers.h"
 #include "engine/samples/sample_set.h"
+#include "engine/waist/cells.h"
 #include "engine/waist/engine.h"
 #include "image/big_vector.h"
 
@@ -115,12 +116,7 @@ struct ScatterPlan {
     static constexpr int kTile = 64;
     static constexpr int kBorder = 2;  // cells around a tile that enlarging reads
     // The cells of a level that a tile needs.
-    static Rect cells_of(const Rect& tile, int level) {
-        if (level == 0) return tile;
-        return Rect{tile.x0 >> level, tile.y0 >> level, ((tile.x1 - 1) >> level) + 1,
-                    ((tile.y1 - 1) >> level) + 1}
-            .grown(kBorder);
-    }
+    static Rect cells_of(const Rect& tile, int level) { return engine::cells_of(tile, level, kBorder); }
 
     Rect rows;          // pixels to be drawn
     int first_row = 0;  // row of the frame that is row 0
