@@ -18,8 +18,9 @@
 namespace petzval {
 namespace {
 
-// Files about as large as zlib's at OpenEXR's level 4: docs/measurements.md.
-constexpr int kLevel = 4;
+// Of 99.5 MB of a 4K night: 32.7 MB in 0.54 s of one thread; level 4 32.3 in 0.83, zlib at OpenEXR's
+// level 32.1 in 1.36.
+constexpr int kLevel = 1;
 
 template <typename Number>
 void write_number(Imf::OStream& stream, Number value) {
