@@ -14,10 +14,10 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-// Energy of rings on a fine grid of radii, for one wavelength.
+// Energy of rings on a fine grid of radii, for one wavelength. Radii are in bins here.
 class RingGrid {
 public:
-    RingGrid(double reach_px, std::size_t bins) : step_(reach_px / double(bins)), energy_(bins, 0.0) {}
+    explicit RingGrid(std::size_t bins) : energy_(bins, 0.0), density_step_(bins, 0.0) {}
 
     // `energy` spread evenly over the area between radii a and b; either may be negative: the ring then
     // passes through the axis.
@@ -32,29 +32,33 @@ public:
             add_ordered(std::min(std::abs(a), std::abs(b)), std::max(std::abs(a), std::abs(b)), energy);
         }
     }
-    double step() const { return step_; }
-    std::vector<double>& energy() { return energy_; }
+    // Adds each bin's energy times `weight`.
+    void add_to(std::vector<Light>& total, Light weight) const {
+        double density = 0;
+        for (std::size_t i = 0; i < energy_.size(); ++i) {
+            density += density_step_[i];
+            total[i] += (energy_[i] + std::max(density, 0.0) * double(2 * i + 1)) * weight;
+        }
+    }
 
 private:
+    // Bins that are covered in part get their share; those between them, a density that begins and ends.
     void add_ordered(double a, double b, double energy) {
         const std::size_t top = energy_.size() - 1;
-        const std::size_t first = std::min(top, std::size_t(a / step_)),
-                          last = std::min(top, std::size_t(b / step_));
+        const std::size_t first = std::min(top, std::size_t(a)), last = std::min(top, std::size_t(b));
         if (first == last) {
             energy_[first] += energy;
             return;
         }
         const double per_area = energy / (b * b - a * a);
-        double inner = a;
-        for (std::size_t i = first; i <= last; ++i) {
-            const double outer = i == last ? b : step_ * double(i + 1);
-            energy_[i] += per_area * (outer * outer - inner * inner);
-            inner = outer;
-        }
+        const double behind_first = double(first + 1), before_last = double(last);
+        energy_[first] += per_area * (behind_first * behind_first - a * a);
+        energy_[last] += per_area * (b * b - before_last * before_last);
+        density_step_[first + 1] += per_area;
+        density_step_[last] -= per_area;
     }
 
-    double step_;
-    std::vector<double> energy_;
+    std::vector<double> energy_, density_step_;  // of a bin, and per area (in bins squared) from it on
 };
 
 // Light per area against radius, constant within a bin, with its first and second integrals: what a square
@@ -145,16 +149,17 @@ std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_
     // Zones of even area, thinner than a tenth of a pixel at the rim.
     const int zones = int(std::clamp(8 * reach_px, 128.0, 4096.0));
     std::vector<Light> total(bins);
+    const double bins_per_px = double(bins) / reach_px;
     for (const RingBand& band : bands) {
         check_cancelled();
-        RingGrid grid(reach_px, bins);
-        double from = band.landing_px(0);
+        RingGrid grid(bins);
+        double from = band.landing_px(0) * bins_per_px;
         for (int i = 1; i <= zones; ++i) {
-            const double to = band.landing_px(double(i) / zones);
+            const double to = band.landing_px(double(i) / zones) * bins_per_px;
             grid.add_annulus(from, to, 1.0 / zones);
             from = to;
         }
-        for (std::size_t i = 0; i < bins; ++i) total[i] += grid.energy()[i] * band.weight;
+        grid.add_to(total, band.weight);
     }
     return total;
 }
