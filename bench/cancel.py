@@ -21,9 +21,10 @@ def main():
     parser.add_argument("--times", default="12")
     given = parser.parse_args()
     CACHE.mkdir(parents=True, exist_ok=True)
-    picture = CACHE / f"cancel_night_{given.width}.exr"
+    picture = CACHE / f"cancel_night_{given.width}_16x9.exr"
     if not picture.exists():
-        subprocess.run([PROGRAM, "scene", "make", "night", "-o", picture, "--width", str(given.width), "-q"], check=True)
+        subprocess.run([PROGRAM, "scene", "make", "night", "-o", picture, "--width", str(given.width),
+                        "--height", str(given.width * 9 // 16), "-q"], check=True)
     rows = []
     for lens in given.lenses:
         for engine in given.engines:
