@@ -1,7 +1,7 @@
 #include "engine/sprites/plan.h"
 
 #include "base/parallel.h"
-#include "engine/sprites/sprites_shadow.h"
+#include "engine/lights/pupil_masks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ public:
     LightsPlan plan(std::span<const Sprite> sprites) {
         plan_.lights.resize(sprites.size()), plan_.masks.resize(sprites.size());
         reached_.resize(sprites.size());
-        const SpriteShadows shadows(in_);
+        const PupilMasks shadows(in_);
         const std::vector<std::uint32_t> order = by_place(in_, sprites);
         in_batches(sprites.size(), 4096, *in_.workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end && !in_.progress->cancelled(); ++i)
@@ -73,7 +73,7 @@ private:
     };
 
     // Its kernel is that of the grid as yet.
-    void place(const Sprite& s, const SpriteShadows& shadows, std::size_t i) {
+    void place(const Sprite& s, const PupilMasks& shadows, std::size_t i) {
         const PupilMask mask = plan_.masks[i] = shadows.mask(s.x, s.y, s.coc_px);
         if (mask.is_closed()) return;
         const SpriteGrid::Place where = grid_.place(s.x, s.y, s.coc_px);

@@ -14,10 +14,10 @@
 
 namespace petzval::engine {
 
-class SpriteShadows {
+class PupilMasks {
 public:
     // input outlives this.
-    explicit SpriteShadows(const Input& input);
+    explicit PupilMasks(const Input& input);
     // (x, y) in pixels, centres at +0.5.
     PupilMask mask(float x, float y, float coc_px) const;
 

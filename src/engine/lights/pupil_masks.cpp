@@ -1,4 +1,4 @@
-#include "engine/sprites/sprites_shadow.h"
+#include "engine/lights/pupil_masks.h"
 
 #include "base/parallel.h"
 
@@ -36,18 +36,18 @@ std::uint64_t grid(unsigned columns, unsigned rows) {
 
 }  // namespace
 
-void SpriteShadows::Node::include(const Node& other) {
+void PupilMasks::Node::include(const Node& other) {
     nearest = std::min(nearest, other.nearest), farthest = std::max(farthest, other.farthest);
     is_whole = is_whole && other.is_whole;
     bins |= other.bins;
 }
 
-int SpriteShadows::bin(float coc_px) const {
+int PupilMasks::bin(float coc_px) const {
     return int(std::clamp((coc_px - in_.nearest_coc_px) * bins_per_px_, 0.0f, 63.0f));
 }
 
 // Up to the middle between it and each of its neighbours on one surface, so that a surface has no cracks.
-SpriteShadows::Node SpriteShadows::pixel(int x, int y) const {
+PupilMasks::Node PupilMasks::pixel(int x, int y) const {
     const View<const float> coc = in_.coc_px;
     const float own = coc(x, y);
     Node node{own, own, true, 0};
@@ -64,7 +64,7 @@ SpriteShadows::Node SpriteShadows::pixel(int x, int y) const {
     return node;
 }
 
-SpriteShadows::SpriteShadows(const Input& input) : in_(input) {
+PupilMasks::PupilMasks(const Input& input) : in_(input) {
     const float range = input.farthest_coc_px - input.nearest_coc_px;
     bins_per_px_ = range > 0 ? 64 / range : 0;
     for (int width = input.width(), height = input.height(); width > 1 || height > 1;) {
@@ -82,7 +82,7 @@ SpriteShadows::SpriteShadows(const Input& input) : in_(input) {
 }
 
 // The sides of a square of pixels as a light sees them.
-struct SpriteShadows::Square {
+struct PupilMasks::Square {
     float left, top, right, bottom;  // from the light; vertically as wide as a pixel
     // Pupil points behind the square wherever it stands between two radii, given as 1 / (way to them).
     std::uint64_t anywhere(float close, float far) const {
@@ -98,8 +98,7 @@ struct SpriteShadows::Square {
     }
 };
 
-SpriteShadows::Behind SpriteShadows::behind(const Light& light, int level, int x, int y,
-                                            const Node& node) const {
+PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int y, const Node& node) const {
     const Rect pixels =
         Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(in_.coc_px.rect());
     const float per_row = 1 / float(in_.pixel_aspect);
@@ -133,7 +132,7 @@ SpriteShadows::Behind SpriteShadows::behind(const Light& light, int level, int x
     return found;
 }
 
-void SpriteShadows::hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const {
+void PupilMasks::hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const {
     const Node here = node(level, x, y);
     if (here.nearest >= light.coc_px - kOwnSurfacePx) return;
     const Behind found = behind(light, level, x, y, here);
@@ -144,7 +143,7 @@ void SpriteShadows::hide(const Light& light, int level, int x, int y, std::uint6
               seen);
 }
 
-void SpriteShadows::hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const {
+void PupilMasks::hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const {
     // Where the light is first: what stands close behind others hides most, and ends the search.
     const float size = float(1 << level);
     const bool right = light.x >= float(squares.x1) * size, down = light.y >= float(squares.y1) * size;
@@ -154,7 +153,7 @@ void SpriteShadows::hide_four(const Light& light, int level, const Rect& squares
                  down ? squares.y1 - j : squares.y0 + j, seen);
 }
 
-PupilMask SpriteShadows::mask(float x, float y, float coc_px) const {
+PupilMask PupilMasks::mask(float x, float y, float coc_px) const {
     PupilMask mask;
     if (in_.nearest_coc_px >= coc_px - kOwnSurfacePx) return mask;
     const float reach =

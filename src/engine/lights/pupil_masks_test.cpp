@@ -1,0 +1,67 @@
+#include "engine/lights/pupil_masks.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kSide = 128;
+
+// A wall far away, and what is put in front of it.
+class Scene {
+public:
+    void put(const Rect& pixels, float coc_px) {
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            for (int x = pixels.x0; x < pixels.x1; ++x) coc_px_(x, y) = coc_px;
+        input_.nearest_coc_px = std::min(input_.nearest_coc_px, coc_px);
+    }
+    PupilMask mask(float x, float y, float coc_px) {
+        input_.colour = colour_, input_.coc_px = coc_px_;
+        return PupilMasks(input_).mask(x, y, coc_px);
+    }
+    Scene() { input_.nearest_coc_px = input_.farthest_coc_px = 40; }
+
+private:
+    Picture colour_{kSide, kSide};
+    Plane coc_px_{kSide, kSide, 40.0f};
+    Input input_;
+};
+
+TEST(PupilMasks, ALightBeforeEverythingIsSeenWhole) {
+    Scene scene;
+    EXPECT_TRUE(scene.mask(64, 64, 40).is_open());
+    scene.put({0, 0, kSide, kSide}, 25);
+    EXPECT_TRUE(scene.mask(64, 64, 25).is_open());
+}
+
+TEST(PupilMasks, AWallHidesALightBehindIt) {
+    Scene scene;
+    scene.put({0, 0, kSide, kSide}, 0);
+    EXPECT_TRUE(scene.mask(64, 64, 20).is_closed());
+}
+
+// From s = 64 at c = 20, what is in focus right of q hides u > (q - s) / 20.
+TEST(PupilMasks, AnEdgeInFocusHidesThePupilOnItsSide) {
+    for (const int edge : {54, 64, 69}) {
+        Scene scene;
+        scene.put({edge, 0, kSide, kSide}, 0);
+        const PupilMask mask = scene.mask(64, 64, 20);
+        for (int row = 0; row < PupilMask::kSide; ++row)
+            for (int column = 0; column < PupilMask::kSide; ++column) {
+                const float u = (float(column) + 0.5f) / 4 - 1;
+                const bool seen = mask.row(row) >> column & 1;
+                EXPECT_EQ(seen, u < float(edge - 64) / 20) << edge << ", " << column;
+            }
+    }
+}
+
+TEST(PupilMasks, WhatLiesBeyondTheDiscHidesNothing) {
+    Scene scene;
+    scene.put({90, 0, kSide, kSide}, 0);
+    EXPECT_TRUE(scene.mask(64, 64, 20).is_open());
+}
+
+}  // namespace
+}  // namespace petzval::engine
