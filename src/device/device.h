@@ -49,7 +49,8 @@ struct Work {
     static Work of_taps(std::size_t taps) { return {48 * taps, 4 * taps}; }
 };
 
-enum class Verb { Composite, Gather, Mix, AddLights };
+// Lights are added with their viewpoints, or stamped through masks.
+enum class Verb { Composite, Gather, Mix, AddLights, StampLights };
 
 // Any of its verbs may throw Failed (device/failure.h); nothing is then added to the result.
 class Device {

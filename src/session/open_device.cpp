@@ -4,6 +4,7 @@
 
 #include "device/cpu/cpu_device.h"
 #include "device/cpu/stamp.h"
+#include "engine/lights/plan.h"
 
 #ifdef PETZVAL_VULKAN
 #include "device/vulkan/vulkan_device.h"
@@ -93,6 +94,10 @@ Result<std::shared_ptr<const device::Device>> open_device(const std::string& cho
     if (*number >= choices->size())
         return refused(ErrorCode::InvalidArgument, choice + " is not there; there are: " + listed(*choices));
     return opened(*number);
+}
+
+device::Verb NotingDevice::verb_of(const engine::LightsPlan& plan) {
+    return plan.masks.empty() ? device::Verb::AddLights : device::Verb::StampLights;
 }
 
 std::string NotingDevice::drawn_by() const {

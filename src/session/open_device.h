@@ -45,7 +45,7 @@ public:
     }
     device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, View<Rgba> out,
                             const device::Control& control) const override {
-        note(device::Verb::AddLights);
+        note(verb_of(plan));
         return device_.add_lights(plan, atlas, out, control);
     }
 
@@ -53,6 +53,7 @@ public:
     std::string drawn_by() const;
 
 private:
+    static device::Verb verb_of(const engine::LightsPlan& plan);
     void note(device::Verb verb) const {
         (device_.has(verb) ? itself_ : other_).store(true, std::memory_order_relaxed);
     }

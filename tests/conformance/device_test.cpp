@@ -53,7 +53,7 @@ Shot small_shot() {
     for (int y = 0; y < 37; ++y)
         for (int x = 0; x < 51; ++x)
             shot.coc_px(x, y) = x > 20 && x < 27 ? -9.0f : y > 22 ? 0.1f * float(x - 20) : 5.0f;
-    shot.colour(40, 12) = {700, 60, 20, 1};
+    shot.colour(30, 12) = {700, 60, 20, 1};
     put_behind(
         shot,
         [](int x, int) {
@@ -143,6 +143,26 @@ TEST(Device, HoldsOutWhatTheCpuHoldsOut) {
         const Picture expected = drawn(cpu, job, "cpu");
         EXPECT_GT(largest_difference(expected, free), 0.1);
         EXPECT_GE(psnr(expected, drawn(session, job, gpu)), 80) << gpu;
+    }
+}
+
+// A lamp whose disc a bar cuts, alone: what is near it is dark.
+TEST(Device, ShadowsLightsAsTheCpuDoes) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    Shot shot = flat(60, 50, {0, 0, 0, 1}, 8);
+    for (int y = 0; y < 50; ++y)
+        for (int x = 33; x < 38; ++x) shot.coc_px(x, y) = y < 30 ? -6.0f : 2.0f;
+    Shot open = flat(60, 50, {0, 0, 0, 1}, 8);
+    for (Shot* s : {&shot, &open})
+        s->colour(30, 25) = {5000, 6000, 7000, 1}, s->colour(3, 44) = {900, 900, 900, 1};
+    Session cpu = session_on("cpu");
+    const Picture expected = drawn(cpu, shot.job("scatter"), "cpu");
+    EXPECT_GT(largest_difference(expected, drawn(cpu, open.job("scatter"), "cpu")), 1);
+    for (const std::string& gpu : gpus()) {
+        Session session = session_on(gpu);
+        const Picture made = drawn(session, shot.job("scatter"), gpu);
+        EXPECT_GE(psnr(expected, made), 90) << gpu;
+        EXPECT_EQ(largest_difference(drawn(session, shot.job("scatter"), gpu), made), 0);
     }
 }
 

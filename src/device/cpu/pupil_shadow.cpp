@@ -40,11 +40,8 @@ private:
 
 }  // namespace
 
-PupilShadow::PupilShadow(float coc_px, bool between)
-    : scale_(coc_px < 0 ? std::min(coc_px, -0.5f) : std::max(coc_px, 0.5f)),
-      taps_(2 * int(std::floor(std::abs(coc_px) + 0.5f)) + (between ? 2 : 1)),
-      parts_(std::max(1, kLeastCells / taps_)),
-      covered_(taps_ * parts_, taps_ * parts_) {}
+PupilShadow::PupilShadow(const engine::ShadowGrid& grid)
+    : scale_(grid.scale_px), taps_(grid.taps), parts_(grid.parts), covered_(taps_ * parts_, taps_ * parts_) {}
 
 void PupilShadow::cover(float u, float v, float side, float blur, float coverage) {
     const float per_radius = scale_ * float(parts_), middle = 0.5f * float(covered_.width());

@@ -3,6 +3,8 @@
 
 #include "petzval/image.h"
 
+#include "engine/lights/shadow_plan.h"
+
 #include <span>
 
 namespace petzval::device {
@@ -10,9 +12,7 @@ namespace petzval::device {
 // On a grid whose cells are the taps of the highlight's disc, or equal parts of them where the disc has few.
 class PupilShadow {
 public:
-    // Squares of an even number of pixels have their middle, and so the middle of their taps, between two
-    // pixels: `between`.
-    PupilShadow(float coc_px, bool between);
+    explicit PupilShadow(const engine::ShadowGrid& grid);
 
     // A square of the given side around (u, v), in pupil radii, whose edges are blurred by a box that wide.
     void cover(float u, float v, float side, float blur, float coverage);
@@ -24,7 +24,6 @@ public:
     void visible(int dx, int dy, std::span<float> shares) const;
 
 private:
-    static constexpr int kLeastCells = 16;
     void cover_few(float x, float y, float side, float coverage);  // in cells
     float visible(int x0, int y0) const;                           // of the tap whose first cell this is
 

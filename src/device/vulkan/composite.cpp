@@ -1,5 +1,7 @@
 #include "device/vulkan/composite.h"
 
+#include "device/vulkan/holdout.h"
+
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -66,7 +68,9 @@ public:
         const Piece words = recording.uploaded(std::span<const std::uint32_t>(words_of(batch, push)));
         const Piece sources = recording.uploaded(std::span<const Source>(sources_));
         const KernelsOnDevice kernels = kernels_for(batch, recording);
-        const Piece holdout = recording.uploaded(std::span<const std::uint32_t>(holdout_for(batch, push)));
+        const HoldoutWords held = holdout_for(batch);
+        push.held_row = held.row, push.held_width = held.width, push.held_samples = held.samples;
+        const Piece holdout = recording.uploaded(std::span<const std::uint32_t>(held.words));
         push.records = kernels.records;
         const std::size_t tiles = batch.end - batch.begin, pixels = batch.sectors * kTilePixels;
         Heap& heap = context_.heap();
@@ -201,26 +205,14 @@ private:
         return atlas_.uploaded(kernels, recording);
     }
 
-    // For the rows of the batch: where each pixel's samples begin; then radius and coverage of each.
-    std::vector<std::uint32_t> holdout_for(const Batch& batch, Push& push) const {
-        std::vector<std::uint32_t> first, samples;
-        if (plan_.holdout.empty()) return {0};
+    // Of the rows of the batch.
+    HoldoutWords holdout_for(const Batch& batch) const {
         int begin = std::numeric_limits<int>::max(), end = 0;
         for (std::size_t t = batch.begin; t < batch.end; ++t) {
             begin = std::min(begin, plan_.tiles[t].pixels.y0);
             end = std::max(end, plan_.tiles[t].pixels.y1);
         }
-        for (int y = begin; y < end; ++y)
-            for (int x = 0; x < plan_.rows.x1; ++x) {
-                first.push_back(std::uint32_t(samples.size() / 2));
-                for (const engine::CocSample& s : plan_.holdout.at(x, y))
-                    samples.insert(samples.end(), {bits_of(s.coc_px), bits_of(s.colour.a)});
-            }
-        first.push_back(std::uint32_t(samples.size() / 2));
-        push.held_row = std::uint32_t(begin), push.held_width = std::uint32_t(plan_.rows.x1);
-        push.held_samples = std::uint32_t(first.size());
-        first.insert(first.end(), samples.begin(), samples.end());
-        return first;
+        return {plan_.holdout, begin, end, plan_.rows.x1};
     }
 
     void copy(const Batch& batch, const std::byte* result, View<Rgba> out) const {

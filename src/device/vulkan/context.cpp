@@ -105,15 +105,27 @@ void Context::submit(VkCommandBuffer commands, VkFence fence) {
     check(vk_.vkQueueSubmit(queue_, 1, &info, fence), name(), "drawing");
 }
 
+void Context::time_passes() {
+    const std::lock_guard lock(mutex_);
+    times_passes_ = true, times_.clear();
+}
+
+bool Context::times_passes() const {
+    const std::lock_guard lock(mutex_);
+    return times_passes_ && candidate_.timestamp_bits > 0;
+}
+
 void Context::add_time(const std::string& pass, double seconds) {
     const std::lock_guard lock(mutex_);
     PassTime& time = times_[pass];
-    ++time.runs, time.seconds += seconds;
+    time.pass = pass, ++time.runs, time.seconds += seconds;
 }
 
-std::map<std::string, PassTime> Context::pass_times() const {
+std::vector<PassTime> Context::pass_times() const {
     const std::lock_guard lock(mutex_);
-    return times_;
+    std::vector<PassTime> times;
+    for (const auto& [name, time] : times_) times.push_back(time);
+    return times;
 }
 
 }  // namespace petzval::device::vulkan

@@ -3,6 +3,7 @@
 
 #include "device/vulkan/heap.h"
 #include "device/vulkan/instance.h"
+#include "device/vulkan/pass_time.h"
 #include "device/vulkan/shaders.h"
 
 #include <cstdint>
@@ -22,12 +23,6 @@ struct Program {
     VkPipeline pipeline = VK_NULL_HANDLE;
     int buffers = 0;
     std::uint32_t push_bytes = 0;
-};
-
-// What one kind of pass took on the device, by its own clock.
-struct PassTime {
-    std::uint64_t runs = 0;
-    double seconds = 0;
 };
 
 // Safe to use from many threads.
@@ -52,10 +47,10 @@ public:
     void submit(VkCommandBuffer commands, VkFence fence);
 
     // Passes are timed from here on.
-    void time_passes() { times_passes_ = true; }
-    bool times_passes() const { return times_passes_ && candidate_.timestamp_bits > 0; }
+    void time_passes();
+    bool times_passes() const;
     void add_time(const std::string& pass, double seconds);
-    std::map<std::string, PassTime> pass_times() const;
+    std::vector<PassTime> pass_times() const;
 
 private:
     Context(std::shared_ptr<Instance> instance, Candidate candidate)

@@ -113,10 +113,14 @@ void Recording::pass(const char* name, const Program& program, std::initializer_
 
 const std::byte* Recording::downloaded(const Piece& piece, std::size_t bytes) {
     const Piece& to = staging_.emplace_back(context_.heap().allocate(Kind::FromDevice, bytes));
-    order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-    const VkBufferCopy copy = {piece.offset(), to.offset(), bytes};
-    vk_.vkCmdCopyBuffer(commands_, piece.buffer(), to.buffer(), 1, &copy);
+    copy(piece, to, bytes);
     return to.mapped();
+}
+
+void Recording::copy(const Piece& from, const Piece& to, std::size_t bytes) {
+    order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkBufferCopy copied = {from.offset(), to.offset(), bytes};
+    vk_.vkCmdCopyBuffer(commands_, from.buffer(), to.buffer(), 1, &copied);
 }
 
 void Recording::run() {

@@ -37,6 +37,8 @@ public:
               const Push& push, Groups groups) {
         pass(name, program, buffers, std::as_bytes(std::span(&push, 1)), groups);
     }
+    // From the beginning of one piece to that of another.
+    void copy(const Piece& from, const Piece& to, std::size_t bytes);
     // The piece's bytes once run, in memory that the host sees; lives as long as this.
     const std::byte* downloaded(const Piece& piece, std::size_t bytes);
     // Starts; then waits for the end. Nothing is recorded afterwards.

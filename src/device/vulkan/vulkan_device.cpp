@@ -1,7 +1,12 @@
 #include "device/vulkan/vulkan_device.h"
 
+#include "base/parallel.h"
+#include "device/vulkan/add_lights.h"
 #include "device/vulkan/composite.h"
+#include "device/vulkan/recording.h"
+#include "engine/lights/plan.h"
 
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -18,9 +23,10 @@ public:
           name_(context_->name() + " " + context_->candidate().name) {}
 
     const char* name() const override { return name_.c_str(); }
-    bool has(Verb verb) const override { return verb == Verb::Composite; }
+    bool has(Verb verb) const override { return verb == Verb::Composite || verb == Verb::AddLights; }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
                                        const Control& control) const override {
+        if (source.use() == KernelUse::ByPixel) return kept_by_source(source, set, control);
         if (source.use() != KernelUse::Stamped) return otherwise_.atlas(source, set, memory, control);
         return std::make_shared<const PackedAtlas>(
             laid_out<PackedSet>(source, set, "programs of a device", memory, control));
@@ -38,10 +44,25 @@ public:
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {
-        return otherwise_.add_lights(plan, atlas, out, control);
+        if (!plan.masks.empty()) return otherwise_.add_lights(plan, atlas, out, control);
+        return add_planned_lights(*context_, plan, dynamic_cast<const PackedAtlas&>(atlas), out, control);
     }
 
+    Context& context() const { return *context_; }
+
 private:
+    // Few kernels, that may be large: they are not kept twice.
+    static std::shared_ptr<const Atlas> kept_by_source(const KernelSource& source, const KernelSet& set,
+                                                       const Control& control) {
+        std::vector<std::shared_ptr<const PackedSet>> sets(set.asks.size());
+        parallel_for(int(sets.size()), control.workers, [&](int i) {
+            if (!control.progress.cancelled())
+                sets[std::size_t(i)] =
+                    PackedSet::laid_out(source.make({&set.asks[std::size_t(i)], 1}).front());
+        });
+        return std::make_shared<const PackedAtlas>(std::move(sets));
+    }
+
     std::shared_ptr<Context> context_;
     const Device& otherwise_;
     const std::string name_;
@@ -72,6 +93,36 @@ Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number, const Devi
         std::make_shared<const vulkan::VulkanDevice>(std::move(*context), otherwise);
     opened[number] = device;
     return device;
+}
+
+namespace {
+
+vulkan::Context& context_of(const Device& device) {
+    return dynamic_cast<const vulkan::VulkanDevice&>(device).context();
+}
+
+}  // namespace
+
+void start_timing(const Device& device) { context_of(device).time_passes(); }
+
+std::vector<PassTime> pass_times(const Device& device) { return context_of(device).pass_times(); }
+
+double copied_bytes_per_s(const Device& device) {
+    constexpr std::size_t kBytes = std::size_t(128) << 20;
+    vulkan::Context& context = context_of(device);
+    const auto from = context.heap().allocate(vulkan::Kind::OnDevice, kBytes),
+               to = context.heap().allocate(vulkan::Kind::OnDevice, kBytes);
+    constexpr int kWarmUp = 2, kRuns = 5;
+    double seconds = 0;
+    for (int i = 0; i < kWarmUp + kRuns; ++i) {
+        vulkan::Recording recording(context);
+        recording.copy(from, to, kBytes);
+        const auto start = std::chrono::steady_clock::now();
+        recording.run();
+        if (i >= kWarmUp)
+            seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    return 2.0 * kRuns * double(kBytes) / seconds;
 }
 
 }  // namespace petzval::device

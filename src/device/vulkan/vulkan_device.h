@@ -4,6 +4,7 @@
 #include "petzval/result.h"
 
 #include "device/device.h"
+#include "device/vulkan/pass_time.h"
 
 #include <memory>
 #include <string>
@@ -23,5 +24,12 @@ Result<std::vector<VulkanChoice>> vulkan_choices();
 // Requires: number is in vulkan_choices(). otherwise: draws what this device has no program for. Opened once
 // in a process while anybody holds it. Errors: Unsupported.
 Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number, const Device& otherwise);
+
+// For benchmarks. Passes are timed by the device's own clock from here on, and what was noted is forgotten.
+// All three require a device of open_vulkan().
+void start_timing(const Device& device);
+std::vector<PassTime> pass_times(const Device& device);
+// What its memory copies, reads and writes counted.
+double copied_bytes_per_s(const Device& device);
 
 }  // namespace petzval::device

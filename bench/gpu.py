@@ -1,0 +1,124 @@
+"""What a GPU takes for each pass of an engine, and what it should take by the numbers of its data sheet.
+
+Usage: ./dev bench gpu [--device gpu:N] [--widths W,W] [--radii R,R] [--scenes A,B] [--repeat N]
+One unattended command: on a machine with a GPU it measures 1080p and 4K and writes Markdown to
+bench/results/gpu_NAME.md, beside the model. Milliseconds are the device's own, by timestamps, after a frame that
+warms it up. A software driver is measured on small pictures only, and its times are not shown: they say nothing
+about a GPU; bytes and operations do not depend on the driver.
+
+The model of the pass `composite`: the larger of the bytes that must cross memory at least once (sources, arrivals, sums of
+one sector, the result), divided by the bandwidth, and its multiply-adds, divided by the rate; both as published, so
+that no pass can be faster. What a frame at 1080p needs is counted by drawing it on the CPU; 4K is four times that.
+Not in it: what is looked at and not hit, waiting, copies from and to the host. How near a GPU comes is not known yet.
+"""
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+from quality import CACHE, PROGRAM, ROOT, machine, petzval, scene_state
+
+BENCH = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_gpu"
+SPEED = BENCH.with_name("petzval_bench_speed")
+# As their makers publish them: bytes a second of memory, FP32 multiply-adds a second (half the FLOPS).
+DATA_SHEETS = {
+    "GeForce RTX 4060": (272e9, 15.1e12 / 2),
+    "Radeon RX 7800 XT": (624e9, 37.3e12 / 2),
+    "H100 SXM": (3350e9, 67e12 / 2),
+}
+
+
+def picture(scene, width):
+    path = CACHE / f"{scene}_{width}_{scene_state()}_gpu.exr"
+    if not path.exists():
+        CACHE.mkdir(parents=True, exist_ok=True)
+        petzval("scene", "make", scene, "-o", path, "--width", width, "--height", width * 9 // 16, "--pinhole-samples", 16,
+                "-q")
+    return path
+
+
+def measure(path, given, device, radius):
+    words = ["--device", device, "--radius", radius, "--repeat", given.repeat, "--engine", given.engine]
+    result = subprocess.run([BENCH, path, *map(str, words)], stdout=subprocess.PIPE, text=True)
+    if result.returncode:
+        sys.exit(result.returncode)
+    return json.loads(result.stdout)
+
+
+def chosen_device(name):
+    found = json.loads(subprocess.run([PROGRAM, "devices", "--json", "-"], stdout=subprocess.PIPE, check=True).stdout)
+    gpus = [d for d in found["devices"] if d["name"] != "cpu" and not d["lacks"]]
+    if not gpus:
+        sys.exit(f"bench gpu: {found['no_gpu']}")
+    return next((d for d in gpus if name in (None, d["name"])), None) or sys.exit(f"bench gpu: {name} is not there")
+
+
+# The stage of the report that counts what a pass does.
+STAGE_OF = {"composite": "spread", "add sectors": None, "cover pupils": None, "open pupils": None, "add lights": "highlights"}
+
+
+def model(scene, radius):
+    """Rows of what composite would take at least, by data sheet."""
+    words = [SPEED, picture(scene, 1920), "--radius", str(radius)]
+    spread = json.loads(subprocess.run(words, stdout=subprocess.PIPE, check=True).stdout)["stages"]["spread"]
+    pixels = 1920 * 1080
+    # Of the stage's bytes 48 for every 4 multiply-adds are kernels and sums, which stay in caches.
+    moved = (spread["bytes"] - 12 * spread["multiply_adds"]) / pixels + 2 * 20 + 16
+    madds = spread["multiply_adds"] / pixels
+    for size, name in ((pixels, "1080p"), (4 * pixels, "4K")):
+        yield [scene, f"{radius:g}", name, f"{madds:.0f}", f"{moved:.0f}"] + [
+            f"{1e3 * size * max(moved / bandwidth, madds / rate):.2f}" for bandwidth, rate in DATA_SHEETS.values()]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--device")
+    parser.add_argument("--engine", default="scatter")
+    parser.add_argument("--widths", type=lambda s: [int(w) for w in s.split(",")])
+    parser.add_argument("--radii", type=lambda s: [float(r) for r in s.split(",")], default=[16, 64])
+    parser.add_argument("--scenes", type=lambda s: s.split(","), default=["night", "table"])
+    parser.add_argument("--repeat", type=int, default=3)
+    given = parser.parse_args()
+    device = chosen_device(given.device)
+    software = device["software"]
+    widths = given.widths or ([320] if software else [1920, 3840])
+    if software:
+        given.repeat = 1
+    rows = []
+    for scene in given.scenes:
+        for width in widths:
+            for radius in given.radii:
+                scaled = radius * width / 1920 if software else radius
+                found = measure(picture(scene, width), given, device["name"], scaled)
+                pixels = found["width"] * found["height"]
+                for name, p in found["passes"].items():
+                    stage = found["stages"].get(STAGE_OF.get(name) or "", {})
+                    madds = stage.get("multiply_adds", 0)
+                    rows.append([scene, found["width"], f"{scaled:.3g}", name, "–" if software else f"{p['ms']:.3f}", f"{p['runs']:g}",
+                                 f"{madds / pixels:.0f}" if madds else "–",
+                                 "–" if software or not madds else f"{madds / (p['ms'] / 1e3) / 1e9:.0f}"])
+    text = []
+    say = text.append
+    say(f"# {given.engine} on {device['name']}, {device['title']}\n")
+    say(f"{machine()}; `./dev bench gpu`." + (" A software driver: no milliseconds." if software else
+        f" Its memory copies {found['copied_bytes_per_s'] / 1e9:.0f} GB/s, reads and writes counted.") + "\n")
+    say(table(["scene", "width", "radius", "pass", "ms", "submissions", "multiply-adds/px", "G multiply-adds/s"], rows))
+    say("\nThe model: no faster than this, by published bandwidth and rate; ms for the pass `composite`.\n")
+    say(table(["scene", "radius", "size", "multiply-adds/px", "bytes/px", *DATA_SHEETS],
+              [row for scene in given.scenes for radius in given.radii for row in model(scene, radius)]))
+    page = "\n".join(text) + "\n"
+    print(page)
+    if not software:
+        folder = ROOT / "bench/results"
+        folder.mkdir(exist_ok=True)
+        (folder / f"gpu_{re.sub('[^A-Za-z0-9]+', '_', device['title']).strip('_')}.md").write_text(page)
+
+
+def table(head, rows):
+    return "\n".join("| " + " | ".join(map(str, r)) + " |" for r in [head, ["---"] * len(head), *rows])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,256 @@
+#include "device/vulkan/add_lights.h"
+
+#include "base/parallel.h"
+#include "device/vulkan/holdout.h"
+#include "engine/lights/shadow_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace petzval::device::vulkan {
+namespace {
+
+using engine::LightsPlan;
+using engine::PlannedLight;
+using engine::SeenCaster;
+using engine::ShadowGrid;
+using engine::Viewpoint;
+
+constexpr int kTile = 64;
+constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
+constexpr std::uint32_t kGroupsPerTile = 16;
+constexpr int kBlock = 16;  // cells of a pupil that a group covers
+
+std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+struct Push {
+    std::uint32_t tiles = 0, order = 0, lights = 0, views = 0, records = 0;
+    std::uint32_t held_row = 0, held_width = 0, held_samples = 0;
+};
+static_assert(sizeof(Push) == 32);
+
+// Lights begin…end - 1 of a plan, with the viewpoints that they have.
+struct Batch {
+    std::size_t begin = 0, end = 0;
+    std::vector<std::uint32_t> views;  // numbers in the plan
+    std::vector<std::uint32_t>
+        number_of;  // by viewpoint of the plan: place in `views` from 1 on; 0: not here
+};
+
+class LightAdder {
+public:
+    LightAdder(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, const LightsRule& rule)
+        : context_(context), plan_(plan), atlas_(atlas), rule_(rule) {}
+
+    Batch batch_from(std::size_t begin) const {
+        Batch batch{begin, begin, {}, std::vector<std::uint32_t>(plan_.viewpoints.size())};
+        std::size_t cells = 0;
+        for (std::uint64_t taps = 0; batch.end < plan_.lights.size(); ++batch.end) {
+            const PlannedLight& light = plan_.lights[batch.end];
+            taps += atlas_[light.kernel].taps;
+            const ShadowGrid grid(plan_.viewpoints[light.viewpoint]);
+            const std::size_t side = std::size_t(grid.taps) * std::size_t(grid.parts);
+            const bool is_known = batch.number_of[light.viewpoint] > 0;
+            const bool is_full = 4 * taps > rule_.most_multiply_adds ||
+                                 (!is_known && (cells + side * side > rule_.most_cells ||
+                                                batch.views.size() >= rule_.most_views));
+            if (is_full && batch.end > begin) break;
+            if (is_known) continue;
+            cells += side * side;
+            batch.views.push_back(light.viewpoint);
+            batch.number_of[light.viewpoint] = std::uint32_t(batch.views.size());
+        }
+        return batch;
+    }
+
+    // Returns the taps drawn.
+    std::uint64_t draw(const Batch& batch, View<Rgba> out, const Control& control) {
+        std::vector<std::vector<SeenCaster>> casters(batch.views.size());
+        parallel_for(int(casters.size()), control.workers, [&](int i) {
+            casters[std::size_t(i)] =
+                engine::seen_casters(plan_, plan_.viewpoints[batch.views[std::size_t(i)]]);
+        });
+        if (control.progress.cancelled()) return 0;
+        words_.clear();
+        list_tiles(batch);
+        if (tiles_.empty()) return 0;
+        list_lights(batch, casters);
+        Recording recording(context_);
+        const Piece visible = found_shadows(batch, casters, recording);
+        const HoldoutWords held(plan_.holdout, plan_.rows.y0, plan_.rows.y1, plan_.rows.x1);
+        push_.held_row = held.row, push_.held_width = held.width, push_.held_samples = held.samples;
+        const Piece holdout = recording.uploaded(std::span<const std::uint32_t>(held.words));
+        const KernelsOnDevice kernels = kernels_for(batch, recording);
+        push_.records = kernels.records;
+        for (std::size_t first = 0; first < tiles_.size(); first += rule_.most_tiles) {
+            const std::size_t count = std::min(rule_.most_tiles, tiles_.size() - first);
+            if (first == 0) {
+                add(recording, first, count, kernels, visible, holdout, out);
+                continue;
+            }
+            Recording more(context_);
+            add(more, first, count, kernels, visible, holdout, out);
+        }
+        return taps_;
+    }
+
+private:
+    Rect extent_of(const PlannedLight& light) const {
+        return atlas_[light.kernel].kernels.front().extent.moved(light.highlight.x, light.highlight.y);
+    }
+
+    // Tiles that lights land in, and the lights of each, in order.
+    void list_tiles(const Batch& batch) {
+        const Rect& rows = plan_.rows;
+        const int columns = (rows.width() + kTile - 1) / kTile, lines = (rows.height() + kTile - 1) / kTile;
+        std::vector<std::vector<std::uint32_t>> lights(std::size_t(columns) * std::size_t(lines));
+        taps_ = 0;
+        for (std::size_t i = batch.begin; i < batch.end; ++i) {
+            const Rect e = extent_of(plan_.lights[i]).intersected(rows);
+            if (e.empty()) continue;
+            taps_ += std::uint64_t(e.width()) * std::uint64_t(e.height());
+            for (int y = (e.y0 - rows.y0) / kTile; y <= (e.y1 - 1 - rows.y0) / kTile; ++y)
+                for (int x = (e.x0 - rows.x0) / kTile; x <= (e.x1 - 1 - rows.x0) / kTile; ++x)
+                    lights[std::size_t(y) * std::size_t(columns) + std::size_t(x)].push_back(
+                        std::uint32_t(i - batch.begin));
+        }
+        tiles_.clear();
+        std::vector<std::uint32_t> order;
+        push_ = {};
+        for (std::size_t t = 0; t < lights.size(); ++t) {
+            if (lights[t].empty()) continue;
+            const int x = rows.x0 + int(t) % columns * kTile, y = rows.y0 + int(t) / columns * kTile;
+            const Rect tile = Rect{x, y, x + kTile, y + kTile}.intersected(rows);
+            tiles_.push_back(tile);
+            words_.insert(words_.end(),
+                          {std::uint32_t(tile.x0), std::uint32_t(tile.y0), std::uint32_t(tile.x1),
+                           std::uint32_t(tile.y1), std::uint32_t(order.size())});
+            order.insert(order.end(), lights[t].begin(), lights[t].end());
+        }
+        words_.insert(words_.end(), {0, 0, 0, 0, std::uint32_t(order.size())});
+        push_.order = std::uint32_t(words_.size());
+        words_.insert(words_.end(), order.begin(), order.end());
+    }
+
+    void list_lights(const Batch& batch, const std::vector<std::vector<SeenCaster>>& casters) {
+        push_.lights = std::uint32_t(words_.size());
+        for (std::size_t i = batch.begin; i < batch.end; ++i) {
+            const PlannedLight& light = plan_.lights[i];
+            const engine::Highlight& h = light.highlight;
+            const Rgba colour = h.colour * float(h.size * h.size);
+            const std::uint32_t number = batch.number_of[light.viewpoint];
+            words_.insert(words_.end(),
+                          {std::uint32_t(h.x), std::uint32_t(h.y), bits_of(colour.r), bits_of(colour.g),
+                           bits_of(colour.b), bits_of(colour.a), bits_of(h.coc_px), light.kernel,
+                           casters[number - 1].empty() ? 0 : number,
+                           std::uint32_t(plan_.viewpoints[light.viewpoint].first_tap())});
+        }
+    }
+
+    // Records what finds how much each tap of each viewpoint sees.
+    Piece found_shadows(const Batch& batch, const std::vector<std::vector<SeenCaster>>& casters,
+                        Recording& recording) {
+        push_.views = std::uint32_t(words_.size());
+        std::vector<SeenCaster> all;
+        std::vector<std::uint32_t> blocks;
+        std::uint32_t cells = 0, taps = 0, most_taps = 0;
+        for (std::uint32_t v = 0; v < batch.views.size(); ++v) {
+            const ShadowGrid grid(plan_.viewpoints[batch.views[v]]);
+            const auto& own = casters[v];
+            words_.insert(words_.end(),
+                          {std::uint32_t(all.size()), std::uint32_t(own.size()), std::uint32_t(grid.taps),
+                           std::uint32_t(grid.parts), bits_of(grid.scale_px), cells, taps});
+            if (own.empty()) continue;
+            all.insert(all.end(), own.begin(), own.end());
+            const int side = grid.taps * grid.parts;
+            for (int y = 0; y < side; y += kBlock)
+                for (int x = 0; x < side; x += kBlock)
+                    blocks.insert(blocks.end(),
+                                  {v, std::uint32_t(x / kBlock) | std::uint32_t(y / kBlock) << 16});
+            cells += std::uint32_t(side * side), taps += std::uint32_t(grid.taps * grid.taps);
+            most_taps = std::max(most_taps, std::uint32_t(grid.taps * grid.taps));
+        }
+        const auto first_block = std::uint32_t(words_.size());
+        words_.insert(words_.end(), blocks.begin(), blocks.end());
+        words_on_device_ = recording.uploaded(std::span<const std::uint32_t>(words_));
+        Piece visible = context_.heap().allocate(Kind::OnDevice, taps * sizeof(float));
+        if (all.empty()) return visible;
+        covered_ = context_.heap().allocate(Kind::OnDevice, cells * sizeof(float));
+        casters_on_device_ = recording.uploaded(std::span<const SeenCaster>(all));
+        cover(recording, std::uint32_t(blocks.size() / 2), first_block);
+        recording.pass("open pupils", context_.program(Shader::OpenPupil),
+                       {&words_on_device_, &covered_, &visible}, push_.views,
+                       {(most_taps + 255) / 256, std::uint32_t(batch.views.size())});
+        return visible;
+    }
+
+    void cover(Recording& recording, std::uint32_t blocks, std::uint32_t first_block) {
+        constexpr std::uint32_t kMostGroups = 65535;
+        for (std::uint32_t done = 0; done < blocks; done += kMostGroups) {
+            const std::array<std::uint32_t, 2> push{push_.views, first_block + 2 * done};
+            recording.pass("cover pupils", context_.program(Shader::CoverPupil),
+                           {&words_on_device_, &casters_on_device_, &covered_}, push,
+                           {std::min(kMostGroups, blocks - done)});
+        }
+    }
+
+    KernelsOnDevice kernels_for(const Batch& batch, Recording& recording) const {
+        std::vector<std::uint32_t> kernels;
+        for (std::size_t i = batch.begin; i < batch.end; ++i) kernels.push_back(plan_.lights[i].kernel);
+        std::sort(kernels.begin(), kernels.end());
+        kernels.erase(std::unique(kernels.begin(), kernels.end()), kernels.end());
+        return atlas_.uploaded(kernels, recording);
+    }
+
+    void add(Recording& recording, std::size_t first, std::size_t count, const KernelsOnDevice& kernels,
+             const Piece& visible, const Piece& holdout, View<Rgba> out) {
+        constexpr std::uint32_t kTileWords = 5;
+        const std::size_t bytes = count * kTilePixels * sizeof(Rgba);
+        const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
+        Push push = push_;
+        push.tiles = std::uint32_t(first) * kTileWords;
+        recording.pass("add lights", context_.program(Shader::AddLights, plan_.holdout.empty() ? 0 : 1),
+                       {&words_on_device_, &kernels.words, &kernels.weights, &visible, &holdout, &result},
+                       push, {std::uint32_t(count) * kGroupsPerTile});
+        const auto* pixels = reinterpret_cast<const Rgba*>(recording.downloaded(result, bytes));
+        recording.run();
+        for (std::size_t t = first; t < first + count; ++t, pixels += kTilePixels) {
+            const Rect& tile = tiles_[t];
+            for (int y = 0; y < tile.height(); ++y) {
+                Rgba* const to = out.row(plan_.first_row + tile.y0 + y) + tile.x0;
+                for (int x = 0; x < tile.width(); ++x) to[x] += pixels[y * kTile + x];
+            }
+        }
+    }
+
+    Context& context_;
+    const LightsPlan& plan_;
+    const PackedAtlas& atlas_;
+    const LightsRule rule_;
+    // Of the batch.
+    std::vector<std::uint32_t> words_;
+    std::vector<Rect> tiles_;
+    Push push_;
+    Piece words_on_device_, casters_on_device_, covered_;
+    std::uint64_t taps_ = 0;
+};
+
+}  // namespace
+
+Work add_planned_lights(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+                        const Control& control, const LightsRule& rule) {
+    LightAdder adder(context, plan, atlas, rule);
+    std::uint64_t taps = 0;
+    for (std::size_t begin = 0; begin < plan.lights.size() && !control.progress.cancelled();) {
+        const Batch batch = adder.batch_from(begin);
+        taps += adder.draw(batch, out, control);
+        begin = batch.end;
+    }
+    return Work::of_taps(taps);
+}
+
+}  // namespace petzval::device::vulkan

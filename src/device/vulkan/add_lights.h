@@ -1,0 +1,21 @@
+// Lights with viewpoints drawn on the device: what device/cpu/add_lights.h does.
+#pragma once
+
+#include "device/vulkan/atlas.h"
+#include "engine/lights/plan.h"
+
+namespace petzval::device::vulkan {
+
+// How much is drawn by one submission.
+struct LightsRule {
+    std::size_t most_cells = std::size_t(8) << 20;  // of pupils that are covered
+    std::size_t most_views = 1024;
+    std::size_t most_tiles = 1024;
+    std::uint64_t most_multiply_adds = std::uint64_t(1) << 30;
+};
+
+// Adds to the plan's rows of `out`. Throws Failed, and has added whole batches of lights then.
+Work add_planned_lights(Context& context, const engine::LightsPlan& plan, const PackedAtlas& atlas,
+                        View<Rgba> out, const Control& control, const LightsRule& rule = {});
+
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,15 @@
+// What the passes of one kind took on a device.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace petzval::device {
+
+struct PassTime {
+    std::string pass;
+    std::uint64_t runs = 0;
+    double seconds = 0;
+};
+
+}  // namespace petzval::device

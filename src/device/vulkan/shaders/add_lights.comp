@@ -1,0 +1,111 @@
+// The light of lights that are spread by themselves, on 16 x 16 pixels of a tile: each with its complete kernel,
+// dimmed tap by tap by what its viewpoint sees.
+#version 450
+layout(local_size_x = 256) in;
+layout(constant_id = 0) const uint kHeld = 0;  // 1: a holdout dims what lands in a pixel
+
+layout(std430, binding = 0) readonly buffer Words { uint words[]; };
+layout(std430, binding = 1) readonly buffer KernelWords { uint kernels[]; };
+layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
+layout(std430, binding = 3) readonly buffer Visible { float visible[]; };
+layout(std430, binding = 4) readonly buffer Holdout { uint holdout[]; };
+layout(std430, binding = 5) writeonly buffer Result { vec4 result[]; };  // by tile, 64 x 64 pixels each
+layout(push_constant) uniform Push {
+    uint tiles, order, lights, views;  // where these begin in `words`
+    uint records;                      // where records of kernels begin in `kernels`
+    uint held_row, held_width, held_samples;
+} at;
+
+// A tile: its rectangle, and where its lights begin in the order; the next one says where they end.
+// A light: x, y, its light, radius, kernel, 1 + viewpoint (0: nothing is in the way), first tap.
+const uint kTileWords = 5, kLightWords = 10, kViewWords = 7;
+const int kChunk = 256;
+
+shared vec4 hit_light[kChunk];
+shared int hit_x[kChunk], hit_y[kChunk], hit_tap[kChunk];
+shared uint hit_corner[kChunk], hit_size[kChunk], hit_weights[kChunk], hit_view[kChunk];
+shared float hit_coc[kChunk];
+shared uint hit_words[kChunk / 32];
+
+ivec2 halves(uint word) { return ivec2(int(word << 16) >> 16, int(word) >> 16); }
+
+// As in composite.comp.
+vec4 weight(ivec2 d, ivec2 wide, uint where) {
+    const int tap = d.y * wide.x + d.x;
+    const uint first = 4u * (where & 0x7fffffffu);
+    if ((where >> 31) != 0u) return vec4(weights[first + uint(tap)]);
+    const uint i = first + 4u * uint(tap);
+    return vec4(weights[i], weights[i + 1u], weights[i + 2u], weights[i + 3u]);
+}
+
+// The nearest tap of the disc's square stands for those outside.
+float seen(uint k, ivec2 pixel) {
+    if (hit_view[k] == 0u) return 1;
+    const uint view = at.views + kViewWords * (hit_view[k] - 1u);
+    const int taps = int(words[view + 2u]);
+    const ivec2 tap = clamp(pixel - ivec2(hit_x[k], hit_y[k]) - hit_tap[k], ivec2(0), ivec2(taps - 1));
+    return visible[words[view + 6u] + uint(tap.y * taps + tap.x)];
+}
+
+// engine/waist/holdout.h, for light of one radius.
+float let_through(ivec2 pixel, float coc_px) {
+    const uint i = uint(pixel.y - int(at.held_row)) * at.held_width + uint(pixel.x);
+    float open = 1;
+    for (uint s = holdout[i]; s < holdout[i + 1u]; ++s) {
+        if (uintBitsToFloat(holdout[at.held_samples + 2u * s]) >= coc_px - 0.02) break;
+        open *= 1 - uintBitsToFloat(holdout[at.held_samples + 2u * s + 1u]);
+    }
+    return open;
+}
+
+void main() {
+    const uint own = gl_LocalInvocationIndex, part = gl_WorkGroupID.x % 16u;
+    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / 16u);
+    const ivec2 corner = ivec2(int(words[tile]), int(words[tile + 1u])),
+                end = ivec2(int(words[tile + 2u]), int(words[tile + 3u]));
+    const ivec2 low = corner + 16 * ivec2(part % 4u, part / 4u), high = min(low + 16, end);
+    if (any(greaterThanEqual(low, end))) return;
+    const ivec2 pixel = low + ivec2(own % 16u, own / 16u);
+    vec4 sum = vec4(0);
+    const uint last = words[tile + kTileWords + 4u];
+    for (uint first = words[tile + 4u]; first < last; first += kChunk) {
+        if (own < kChunk / 32) hit_words[own] = 0u;
+        barrier();
+        uint light = 0u, record = 0u;
+        bool hits = first + own < last;
+        if (hits) {
+            light = at.lights + kLightWords * words[at.order + first + own];
+            record = at.records + 3u * kernels[words[light + 7u]];
+            const ivec2 from = ivec2(int(words[light]), int(words[light + 1u])) + halves(kernels[record]);
+            hits = all(lessThan(from, high)) && all(greaterThan(from + halves(kernels[record + 1u]), low));
+            if (hits) atomicOr(hit_words[own / 32u], 1u << (own % 32u));
+        }
+        barrier();
+        uint rank = 0u, all_hits = 0u;
+        for (uint w = 0u; w < kChunk / 32; ++w) {
+            const uint word = hit_words[w];
+            if (w < own / 32u) rank += bitCount(word);
+            if (w == own / 32u) rank += bitCount(word & ((1u << (own % 32u)) - 1u));
+            all_hits += bitCount(word);
+        }
+        if (hits) {
+            hit_x[rank] = int(words[light]), hit_y[rank] = int(words[light + 1u]);
+            hit_light[rank] = vec4(uintBitsToFloat(words[light + 2u]), uintBitsToFloat(words[light + 3u]),
+                                   uintBitsToFloat(words[light + 4u]), uintBitsToFloat(words[light + 5u]));
+            hit_coc[rank] = uintBitsToFloat(words[light + 6u]);
+            hit_view[rank] = words[light + 8u], hit_tap[rank] = int(words[light + 9u]);
+            hit_corner[rank] = kernels[record], hit_size[rank] = kernels[record + 1u];
+            hit_weights[rank] = kernels[record + 2u];
+        }
+        barrier();
+        for (uint k = 0u; k < all_hits; ++k) {
+            const ivec2 d = pixel - ivec2(hit_x[k], hit_y[k]) - halves(hit_corner[k]), wide = halves(hit_size[k]);
+            if (any(lessThan(d, ivec2(0))) || any(greaterThanEqual(d, wide))) continue;
+            const float held = kHeld != 0u && all(lessThan(pixel, high)) ? let_through(pixel, hit_coc[k]) : 1.0;
+            sum += weight(d, wide, hit_weights[k]) * hit_light[k] * (seen(k, pixel) * held);
+        }
+        barrier();
+    }
+    if (all(lessThan(pixel, high)))
+        result[gl_WorkGroupID.x / 16u * 4096u + uint(pixel.y - corner.y) * 64u + uint(pixel.x - corner.x)] = sum;
+}

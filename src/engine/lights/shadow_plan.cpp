@@ -1,0 +1,94 @@
+#include "engine/lights/shadow_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+// A bright light finds every crack between the squares of a sloping surface.
+constexpr float kOverlapPx = 0.02f;
+constexpr int kLeastCells = 16;  // along a side of a disc's square
+
+class Collector {
+public:
+    Collector(const LightsPlan& plan, const Viewpoint& view)
+        : plan_(plan),
+          view_(view),
+          // Taps at the rim of the disc reach beyond it by half their width.
+          pupil_end_(plan.stretch +
+                     (0.5f + 0.5f * float(view.size)) / std::max(0.5f, std::abs(view.coc_px))) {}
+
+    std::vector<SeenCaster> collect() {
+        constexpr int kBlock = ShadowCasters::kBlock;
+        const int farthest = int(reach_of(casters().nearest_coc_px())) + kBlock;
+        const Plane& blocks = casters().nearest_of_blocks();
+        const int x = int(view_.x), y = int(view_.y);
+        const Rect near = Rect{(x - farthest) / kBlock, (y - farthest) / kBlock, (x + farthest) / kBlock + 1,
+                               (y + farthest) / kBlock + 1}
+                              .intersected(blocks.rect());
+        for (int by = near.y0; by < near.y1; ++by)
+            for (int bx = near.x0; bx < near.x1; ++bx) {
+                const float c = blocks(bx, by);
+                if (c >= view_.coc_px - view_.own_surface_px) continue;
+                const int dx = std::max({bx * kBlock - x, x - (bx + 1) * kBlock + 1, 0});
+                const int dy = std::max({by * kBlock - y, y - (by + 1) * kBlock + 1, 0});
+                if (float(dx * dx + dy * dy) > reach_of(c) * reach_of(c)) continue;
+                add_block(bx, by);
+            }
+        return std::move(seen_);
+    }
+
+private:
+    const ShadowCasters& casters() const { return *plan_.casters; }
+    // How far from the light a caster of this radius can lie.
+    float reach_of(float c) const { return (view_.coc_px - c) * plan_.stretch + 1 + float(view_.size); }
+
+    void add_block(int bx, int by) {
+        float done = -1e30f;  // all that is nearer has been seen
+        for (int coarse = ShadowCasters::kViews - 1; coarse >= 0; --coarse) {
+            const float end = std::min(ShadowCasters::end_of_view(coarse, view_.coc_px),
+                                       view_.coc_px - view_.own_surface_px);
+            if (end <= done) continue;
+            for (const Caster& caster : casters().of_block(coarse, bx, by)) {  // nearest first
+                if (caster.coc_px > end) break;
+                if (caster.coc_px > done) add(caster);
+            }
+            done = end;
+        }
+    }
+
+    void add(const Caster& caster) {
+        const float apart = view_.coc_px - caster.coc_px;
+        if (caster.size > 1 && apart < ShadowCasters::kSameRadiusPx) return;
+        const float per_px = 1 / apart;
+        const float u = (caster.x - view_.x) * per_px, v = (caster.y - view_.y) * per_px;
+        // A tap sees each pixel of the highlight through another place of the caster's plane, wider apart the
+        // further that plane is from focus.
+        const float blur =
+            float(view_.size - 1) * std::abs(caster.coc_px) / std::max(1.0f, std::abs(view_.coc_px));
+        const float side = caster.size + kOverlapPx;
+        if (std::max(std::abs(u), std::abs(v)) - 0.5f * (side + blur) * per_px >= pupil_end_) return;
+        seen_.push_back({u, v, side * per_px, blur * per_px, caster.coverage});
+    }
+
+    const LightsPlan& plan_;
+    const Viewpoint& view_;
+    const float pupil_end_;
+    std::vector<SeenCaster> seen_;
+};
+
+}  // namespace
+
+// Squares of an even number of pixels have their middle, and so the middle of their taps, between two pixels.
+ShadowGrid::ShadowGrid(const Viewpoint& view)
+    : scale_px(view.coc_px < 0 ? std::min(view.coc_px, -0.5f) : std::max(view.coc_px, 0.5f)),
+      taps(2 * int(std::floor(std::abs(view.coc_px) + 0.5f)) + (view.size % 2 == 0 ? 2 : 1)),
+      parts(std::max(1, kLeastCells / taps)) {}
+
+std::vector<SeenCaster> seen_casters(const LightsPlan& plan, const Viewpoint& view) {
+    if (plan.casters->nearest_coc_px() >= view.coc_px - view.own_surface_px) return {};
+    return Collector(plan, view).collect();
+}
+
+}  // namespace petzval::engine
