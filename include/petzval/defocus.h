@@ -27,8 +27,7 @@ namespace petzval {
 struct ColourLayer {
     View<const Rgba> colour;  // scene-linear, premultiplied; its alpha is not read
     // True: light, of which the job's colour is the sum with that of other layers: layers that sum to it sum
-    // to it still when blurred (but for lens.distortion, which resamples each for itself). False: a matte or
-    // another value of surfaces, blurred as their coverage is.
+    // to it still when blurred. False: a matte or another value of surfaces, blurred as their coverage is.
     bool is_light = true;
 };
 

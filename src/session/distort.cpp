@@ -34,36 +34,84 @@ struct Sides {
             p.data_window.y1 < p.display_window.y1} {}
 };
 
-// Between pixels by cubic lines (E. Catmull, R. Rom, 1974), kept within the four nearest pixels: what is
-// bright throws no dark rings.
-Rgba sampled(const Picture& picture, const Rect& seen, const Sides& sides, double x, double y) {
-    const int left = int(std::floor(x)), top = int(std::floor(y));
-    const auto weights = [](double at) {
-        const float t = float(at), u = 1 - t;
-        return std::array{-0.5f * t * u * u, 1 - 2.5f * t * t + 1.5f * t * t * t,
-                          1 - 2.5f * u * u + 1.5f * u * u * u, -0.5f * u * t * t};
-    };
-    const auto across = weights(x - left), down = weights(y - top);
-    Rgba sum, least, most;
-    bool first = true;
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) {
-            const int px = sides.x.standing_for(left - 1 + i), py = sides.y.standing_for(top - 1 + j);
-            const Rgba p = px < 0 || py < 0 ? Rgba{}
-                                            : picture(std::clamp(px - seen.x0, 0, picture.width() - 1),
-                                                      std::clamp(py - seen.y0, 0, picture.height() - 1));
-            sum += p * (across[std::size_t(i)] * down[std::size_t(j)]);
-            if (i == 0 || i == 3 || j == 0 || j == 3) continue;
-            least = first ? p
-                          : Rgba{std::min(least.r, p.r), std::min(least.g, p.g), std::min(least.b, p.b),
-                                 std::min(least.a, p.a)};
-            most = first ? p
-                         : Rgba{std::max(most.r, p.r), std::max(most.g, p.g), std::max(most.b, p.b),
-                                std::max(most.a, p.a)};
-            first = false;
+// Sixteen pixels around a place between four of them, and their weights by cubic lines (E. Catmull, R. Rom,
+// 1974) and by straight ones.
+class Neighbours {
+public:
+    Neighbours(const Rect& seen, const Sides& sides, double x, double y) {
+        const int left = int(std::floor(x)), top = int(std::floor(y));
+        right_ = float(x - left), below_ = float(y - top);
+        across_ = cubic_weights(right_), down_ = cubic_weights(below_);
+        for (std::size_t i = 0; i < 4; ++i) {
+            columns_[i] = sides.x.standing_for(left - 1 + int(i));
+            rows_[i] = sides.y.standing_for(top - 1 + int(i));
+            if (columns_[i] >= 0) columns_[i] = std::clamp(columns_[i] - seen.x0, 0, seen.width() - 1);
+            if (rows_[i] >= 0) rows_[i] = std::clamp(rows_[i] - seen.y0, 0, seen.height() - 1);
         }
+    }
+
+    Rgba cubic(const Picture& picture) const {
+        Rgba sum;
+        for (std::size_t j = 0; j < 4; ++j)
+            for (std::size_t i = 0; i < 4; ++i) sum += at(picture, i, j) * (across_[i] * down_[j]);
+        return sum;
+    }
+    // The four nearest.
+    std::array<Rgba, 4> nearest(const Picture& picture) const {
+        return {at(picture, 1, 1), at(picture, 2, 1), at(picture, 1, 2), at(picture, 2, 2)};
+    }
+    Rgba straight(const std::array<Rgba, 4>& near) const {
+        return (near[0] * (1 - right_) + near[1] * right_) * (1 - below_) +
+               (near[2] * (1 - right_) + near[3] * right_) * below_;
+    }
+
+private:
+    static std::array<float, 4> cubic_weights(float t) {
+        const float u = 1 - t;
+        return {-0.5f * t * u * u, 1 - 2.5f * t * t + 1.5f * t * t * t, 1 - 2.5f * u * u + 1.5f * u * u * u,
+                -0.5f * u * t * t};
+    }
+    Rgba at(const Picture& picture, std::size_t i, std::size_t j) const {
+        return columns_[i] < 0 || rows_[j] < 0 ? Rgba{} : picture(columns_[i], rows_[j]);
+    }
+
+    std::array<int, 4> columns_{}, rows_{};  // -1: emptiness
+    std::array<float, 4> across_{}, down_{};
+    float right_ = 0, below_ = 0;
+};
+
+template <typename Pick>  // pick(std::array<float, 4>) of each channel
+Rgba of_channels(const std::array<Rgba, 4>& p, const Pick& pick) {
+    return {
+        pick(std::array{p[0].r, p[1].r, p[2].r, p[3].r}), pick(std::array{p[0].g, p[1].g, p[2].g, p[3].g}),
+        pick(std::array{p[0].b, p[1].b, p[2].b, p[3].b}), pick(std::array{p[0].a, p[1].a, p[2].a, p[3].a})};
+}
+Rgba least_of(const std::array<Rgba, 4>& p) {
+    return of_channels(p, [](const auto& v) { return *std::min_element(v.begin(), v.end()); });
+}
+Rgba most_of(const std::array<Rgba, 4>& p) {
+    return of_channels(p, [](const auto& v) { return *std::max_element(v.begin(), v.end()); });
+}
+
+// Cubic, kept within the four nearest pixels: what is bright throws no dark rings.
+Rgba sampled(const Picture& picture, const Neighbours& around) {
+    const auto near = around.nearest(picture);
+    const Rgba sum = around.cubic(picture), least = least_of(near), most = most_of(near);
     return {std::clamp(sum.r, least.r, most.r), std::clamp(sum.g, least.g, most.g),
             std::clamp(sum.b, least.b, most.b), std::clamp(sum.a, least.a, most.a)};
+}
+
+// How far sampled() went from the straight towards the cubic mean, 0…1 by channel.
+Rgba share_of_cubic(const Picture& picture, const Neighbours& around) {
+    const auto near = around.nearest(picture);
+    const Rgba cubic = around.cubic(picture), straight = around.straight(near), least = least_of(near),
+               most = most_of(near);
+    const auto share = [](float to, float from, float low, float high) {
+        const float end = std::clamp(to, low, high);
+        return end == to ? 1.0f : std::clamp((end - from) / (to - from), 0.0f, 1.0f);
+    };
+    return {share(cubic.r, straight.r, least.r, most.r), share(cubic.g, straight.g, least.g, most.g),
+            share(cubic.b, straight.b, least.b, most.b), share(cubic.a, straight.a, least.a, most.a)};
 }
 
 // Where what is seen at (x, y) comes from, in pixels; nothing where nothing is seen.
@@ -79,6 +127,21 @@ std::optional<Origin> origin_of(int x, int y, const PixelField& field, double am
     const double scale = target > 0 ? *from / target : 1;
     return Origin{field.field_centre_x + scale * right - 0.5,
                   field.field_centre_y + scale * down * field.pixel_aspect - 0.5};
+}
+
+// sample(Neighbours) at the origin of every pixel.
+template <typename Sample>
+Picture moved(const Rect& seen, const Place& place, double amount, Workers& workers, const Sample& sample) {
+    const PixelField field = place.field();
+    const Sides sides(place);
+    Picture result = Picture::uninitialised(seen.width(), seen.height());
+    parallel_for(seen.height(), workers, [&](int y) {
+        for (int x = 0; x < seen.width(); ++x) {
+            const auto from = origin_of(seen.x0 + x, seen.y0 + y, field, amount);
+            result(x, y) = from ? sample(Neighbours(seen, sides, from->x, from->y)) : Rgba{};
+        }
+    });
+    return result;
 }
 
 // The least rectangle that the border of some pixels shows: what lies inside of a border stays inside of it.
@@ -112,16 +175,20 @@ void reflect(int& first, int& end, int size) {
 
 Picture distorted(const Picture& picture, const Rect& seen, const Place& place, double amount,
                   Workers& workers) {
-    const PixelField field = place.field();
-    const Sides sides(place);
-    Picture result = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(picture.height(), workers, [&](int y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const auto from = origin_of(seen.x0 + x, seen.y0 + y, field, amount);
-            result(x, y) = from ? sampled(picture, seen, sides, from->x, from->y) : Rgba{};
-        }
+    return moved(seen, place, amount, workers,
+                 [&](const Neighbours& around) { return sampled(picture, around); });
+}
+
+Picture distorted_beside(const Picture& picture, const Picture& layer, bool is_light, const Rect& seen,
+                         const Place& place, double amount, Workers& workers) {
+    return moved(seen, place, amount, workers, [&](const Neighbours& around) {
+        const Rgba share = share_of_cubic(picture, around);
+        const Rgba of = is_light ? share : Rgba{share.a, share.a, share.a, share.a};
+        const Rgba straight = around.straight(around.nearest(layer));
+        Rgba sum = straight + (around.cubic(layer) - straight) * of;
+        sum.a = sampled(layer, around).a;
+        return sum;
     });
-    return result;
 }
 
 Rect before_distortion(const Rect& pixels, const Place& place, double amount) {

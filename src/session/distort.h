@@ -18,6 +18,12 @@ namespace petzval {
 Picture distorted(const Picture& picture, const Rect& seen, const Place& place, double amount,
                   Workers& workers);
 
+// The same of a layer of that picture, of its size: by straight lines where the picture's own sampling was
+// held back, so that layers which sum to the picture do so still. is_light: as in ColourLayer; alpha is the
+// picture's.
+Picture distorted_beside(const Picture& picture, const Picture& layer, bool is_light, const Rect& seen,
+                         const Place& place, double amount, Workers& workers);
+
 // The pixels of the data window, counted from its corner, that these show: their least rectangle, with those
 // that lie between it and its neighbours.
 Rect before_distortion(const Rect& pixels, const Place& place, double amount);

@@ -11,11 +11,11 @@ namespace petzval::engine {
 std::span<const Engine> engines() {
     static constexpr Engine kEngines[] = {
         {"scatter", "final frames: every pixel spreads its own kernel, in depth order", run_scatter, true,
-         true},
+         Layers::ByPlan},
         {"gather", "previews: every pixel collects from a few sizes of the lens's kernel, at half resolution",
-         run_gather},
+         run_gather, false, Layers::OneByOne},
         {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
-         run_gaussian},
+         run_gaussian, false, Layers::OneByOne},
         {"sprites", "lights as the lens's own kernels, found or given, over gather or gaussian", run_sprites},
         {"reference", "the definition of a correct result, traced through the lens; slow", run_reference,
          true},

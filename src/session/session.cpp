@@ -23,6 +23,27 @@ namespace {
 
 Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
+// Errors: InvalidArgument where the engine takes no layers, or would mix them with what the picture alone
+// knows.
+Status check_layers(const DefocusJob& job, const engine::Engine& e) {
+    if (job.layers.empty() || e.layers == engine::Layers::ByPlan) return Done{};
+    if (e.layers == engine::Layers::None)
+        return Error{
+            ErrorCode::InvalidArgument,
+            "shot.layers are blurred by job.engine scatter, gather and gaussian, not by " + job.engine,
+            "shot.layers"};
+    if (job.deep || job.behind)
+        return Error{
+            ErrorCode::InvalidArgument,
+            "shot.layers of pictures with hidden layers are blurred by job.engine scatter alone, not by " +
+                job.engine,
+            "shot.layers"};
+    if (job.gather.stage != GatherStage::Final || job.gaussian.view != GaussianView::Result)
+        return Error{ErrorCode::InvalidArgument,
+                     "shot.layers are blurred for results, not for stages and views", "shot.layers"};
+    return Done{};
+}
+
 // Errors: InvalidArgument, with the names that would do.
 Result<const engine::Engine*> find_engine(const DefocusJob& job) {
     std::string known;
@@ -31,9 +52,7 @@ Result<const engine::Engine*> find_engine(const DefocusJob& job) {
             known += (known.empty() ? "" : ", ") + std::string(e.name);
             continue;
         }
-        if (!job.layers.empty() && !e.takes_layers)
-            return Error{ErrorCode::InvalidArgument,
-                         "shot.layers are blurred by job.engine scatter alone, not by " + job.engine};
+        if (const Status fine = check_layers(job, e); !fine) return fine.error();
         if (job.holdout && !e.takes_holdout)
             return invalid("job.engine " + job.engine + " takes no holdout; scatter and reference do");
         return &e;
@@ -112,6 +131,42 @@ DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, Workers& wor
     return job;
 }
 
+// Each layer as the picture, with its alpha.
+Status run_layers(const engine::Engine& chosen, const engine::Input& drawn, engine::Output& output) {
+    for (const engine::Input::Layer& layer : drawn.layers) {
+        Picture colour(drawn.width(), drawn.height());
+        for (int y = 0; y < colour.height(); ++y)
+            for (int x = 0; x < colour.width(); ++x) {
+                colour(x, y) = layer.colour(x, y);
+                colour(x, y).a = drawn.colour(x, y).a;
+            }
+        engine::Input input = drawn;
+        input.colour = colour;
+        Result<engine::Output> blurred = chosen.run(input);
+        if (!blurred) return blurred.error();
+        output.layers.push_back(std::move(blurred->image));
+    }
+    return Done{};
+}
+
+// What follows an engine: distortion, and the pixels that were asked for.
+void finish(DefocusReport& report, const DefocusJob& job, const Asked& asked, const Rect& seen) {
+    const auto cut = [&](Picture& image) {
+        if (asked.pixels != seen) image = part_of(image, asked.pixels.moved(-seen.x0, -seen.y0));
+    };
+    for (std::size_t i = 0; i < report.layers.size(); ++i) {
+        if (job.lens.distortion != 0)
+            report.layers[i] = distorted_beside(report.image, report.layers[i], job.layers[i].is_light, seen,
+                                                job.place, job.lens.distortion, *job.workers);
+        cut(report.layers[i]);
+    }
+    if (report.panels.empty()) {
+        if (job.lens.distortion != 0)
+            report.image = distorted(report.image, seen, job.place, job.lens.distortion, *job.workers);
+        cut(report.image);
+    }
+}
+
 Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, const engine::Engine& chosen,
                                  const Radii& radii, MountedLens& lens, const NotingDevice& drawing,
                                  const Clock& clock, Progress& progress) {
@@ -137,6 +192,8 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
 
     Result<engine::Output> output = chosen.run(drawn);
     if (!output) return output.error();
+    if (chosen.layers == engine::Layers::OneByOne)
+        if (const Status done = run_layers(chosen, drawn, *output); !done) return done.error();
     DefocusReport report;
     report.image = std::move(output->image);
     if (view) {
@@ -146,13 +203,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
         output->warnings = std::move(shown.warnings);
     }
     report.layers = std::move(output->layers);
-    const auto finish = [&](Picture& image) {
-        if (job.lens.distortion != 0)
-            image = distorted(image, seen, job.place, job.lens.distortion, *job.workers);
-        if (asked.pixels != seen) image = part_of(image, asked.pixels.moved(-seen.x0, -seen.y0));
-    };
-    if (report.panels.empty()) finish(report.image);
-    for (Picture& layer : report.layers) finish(layer);
+    finish(report, job, asked, seen);
     report.engine = chosen.name;
     report.device = drawing.drawn_by();
     report.lens = lens.levels.front()->description();

@@ -57,6 +57,34 @@ TEST(ColourLayers, ThatSumToThePictureDoSoWhenBlurred) {
         }
 }
 
+TEST(ColourLayers, SumToThePictureAlsoWhereTheLensDistorts) {
+    Shot shot = noise_at_several_depths();
+    shot.colour(40, 31) = shot.colour(41, 31) = {900, 700, 500, 1};  // in focus: cubic lines would ring
+    for (std::size_t i = 0; i < shot.coc_px.size(); ++i) shot.coc_px.pixels()[i] *= 0.2f;
+    const Lights lights(shot);
+    for (const double amount : {0.2, -0.2}) {
+        DefocusJob job = with_lights(shot.job("scatter"), lights);
+        job.lens.distortion = amount, job.camera = {50, 36, 2, 3};
+        const auto made = defocus(job);
+        ASSERT_TRUE(made) << made.error().message;
+        EXPECT_LT(largest_difference(made->image, made->layers[0], made->layers[1]), 1e-4) << amount;
+    }
+}
+
+TEST(ColourLayers, SumToThePictureInEnginesThatRunThemOneByOne) {
+    const Shot shot = noise_at_several_depths();
+    const Lights lights(shot);
+    for (const char* engine : {"gather", "gaussian"})
+        for (const double distortion : {0.0, 0.1}) {
+            DefocusJob job = with_lights(shot.job(engine), lights);
+            job.lens.distortion = distortion, job.camera = {50, 36, 2, 3};
+            const auto made = defocus(job);
+            ASSERT_TRUE(made) << made.error().message;
+            EXPECT_LT(largest_difference(made->image, made->layers[0], made->layers[1]), 1e-4) << engine;
+            EXPECT_EQ(made->layers[0](20, 20).a, made->image(20, 20).a);
+        }
+}
+
 TEST(ColourLayers, ThatAreThePictureAreItsBlurBitForBit) {
     const Shot shot = tall_with_screens();
     DefocusJob job = shot.job("scatter");
@@ -133,7 +161,7 @@ TEST(ColourLayers, AreCroppedAndFinishedWithThePicture) {
 
 TEST(ColourLayers, OfOtherEnginesOrSizesAreRefused) {
     const Shot shot = flat(30, 20, {1, 1, 1, 1}, 3);
-    DefocusJob job = shot.job("gather");
+    DefocusJob job = shot.job("reference");
     job.layers = {{shot.colour}};
     EXPECT_FALSE(defocus(job));
     const Picture small(10, 10);

@@ -188,12 +188,19 @@ struct Output {
     std::vector<std::string> warnings;
 };
 
+// What an engine makes of Input::layers.
+enum class Layers {
+    None,
+    ByPlan,    // drawn by the picture's own plan
+    OneByOne,  // looks at depth and alpha alone when it decides: each layer is run as the picture
+};
+
 struct Engine {
     const char* name;
     const char* purpose;  // one line for help texts
     Result<Output> (*run)(const Input&);
     bool takes_holdout = false;
-    bool takes_layers = false;
+    Layers layers = Layers::None;
 };
 
 }  // namespace petzval::engine
