@@ -45,6 +45,7 @@ private:
     Status write();
     Status save_look();
     Status finish();
+    void say_layers();
     void warn(const std::vector<std::string>& lines);
     void tell_new_warnings();
 
@@ -106,9 +107,26 @@ Status Run::read() {
     if (expands_plate()) note("highlights: " + in_words(look().expansion));
     report_["seconds"]["read"] = watch.seconds();
     report_["detected"] = shot_.detected;
+    say_layers();
     report_["non_finite"] = {{"colour", shot_.non_finite_colour}, {"depth", shot_.depth_report.non_finite}};
     report_["depth"] = depth_json(shot_.depth_report, flags_.input.depth_kind.value_or(DepthKind::Planar));
     return Done{};
+}
+
+// What else the file has to be blurred, and what became of it.
+void Run::say_layers() {
+    Json blurred = Json::array(), carried = Json::array();
+    std::vector<std::string> sharp;
+    for (const FrameLayer& layer : shot_.layers)
+        for (const std::string& name : layer.names)
+            blurred.push_back({{"name", name}, {"guide", layer.is_light ? "light" : "coverage"}});
+    for (const CarriedLayer& layer : shot_.layers_carried) {
+        carried.push_back({{"name", layer.name}, {"why", layer.why}});
+        if (layer.why == kNotAskedFor) sharp.push_back(layer.name);
+    }
+    report_["layers"] = {{"blurred", blurred}, {"carried", carried}};
+    if (flags_.input.read.layers.empty() && !sharp.empty() && is_beauty())
+        note("layers: " + listed(sharp) + " stay as they are; --layers all blurs them with the colour");
 }
 
 void Run::warn(const std::vector<std::string>& lines) {
@@ -206,6 +224,7 @@ Status Run::render(const DefocusJob& job) {
          plain(done->smallest_radius_px, 3) + " to " + plain(done->largest_radius_px, 3) + " px, " +
          plain(seconds, 3) + " s");
     shot_.colour = std::move(done->image);
+    for (std::size_t i = 0; i < shot_.layers.size(); ++i) shot_.layers[i].colour = std::move(done->layers[i]);
     view_.panels = std::move(done->panels);
     return Done{};
 }

@@ -80,6 +80,7 @@ void DefocusFlags::add_output_to(Verb& verb) {
 
 void DefocusFlags::add_choices_to(Verb& verb) {
     input.add_to(verb);
+    input.add_layers_to(verb);
     input.add_depth_to(verb);
     input.add_others_to(verb);
     input.add_transfer_to(verb);
@@ -184,6 +185,7 @@ void DefocusFlags::check_view() const {
     const std::string here = " has no effect on --view " + std::string(name_of(view));
     if (!input.holdout.empty() && !computes) throw UsageError("--holdout" + here);
     if (overscan_px && !computes) throw UsageError("--overscan" + here);
+    if (!input.read.layers.empty() && view != ViewKind::Beauty) throw UsageError("--layers" + here);
     if (view == ViewKind::Beauty) return;
     if (look.is_typed("plate.expand_highlights"))
         throw UsageError("--expand-highlights is part of --view beauty only");
@@ -195,6 +197,8 @@ void DefocusFlags::check_view() const {
 void DefocusFlags::check_display() const {
     const auto kind = kind_of_output(output);
     if (!kind) throw UsageError(kind.error().message);
+    if (!input.read.layers.empty() && *kind != FileKind::Exr)
+        throw UsageError("--layers are written to an EXR; -o " + output + " is none");
     ocio.check(develop, input.transfer);
     if (ocio.is_on() && (*kind != FileKind::Png || view != ViewKind::Beauty))
         throw UsageError("--ocio is for display pictures: --view beauty with -o FILE.png");

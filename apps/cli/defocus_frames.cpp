@@ -48,6 +48,8 @@ Status write_black(const DefocusFlags& like, const DefocusFlags& flags) {
     if (!shot) return shot.error();
     shot->colour = Picture(shot->colour.width(), shot->colour.height(), Rgba{0, 0, 0, 1});
     shot->deep = {};
+    for (FrameLayer& layer : shot->layers)
+        layer.colour = Picture(shot->colour.width(), shot->colour.height());
     if (*kind_of_output(flags.output) == FileKind::Png)
         return write_developed(flags.output, shot->colour,
                                flags.develop.settings(shot->display_referred, {}, flags.run.threads),

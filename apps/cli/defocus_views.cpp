@@ -79,6 +79,7 @@ Status write_beauty(Frame& frame, const ViewSettings& settings) {
     WriteOptions options = exr_options(settings);
     options.report = &changed;
     Status done = write_exr(settings.output, frame, options);
+    if (changed.became_rgb) note("luminance of the input is written as R, G and B");
     if (changed.clamped_to_half > 0)
         settings.warnings->push_back(std::to_string(changed.clamped_to_half) +
                                      " colour values are too large for half float and were written as 65504");

@@ -48,6 +48,15 @@ void InputFlags::add_others_to(Verb& verb) {
                holdout);
 }
 
+void InputFlags::add_layers_to(Verb& verb) {
+    FlagGroup(verb, "Input")
+        .value("--layers", "LIST",
+               "blur more layers of the file with the colour, so that what sums to it still does: all, or "
+               "names of "
+               "layers, parts and channels with commas between; all,-NAME leaves one out",
+               parse_words, read.layers);
+}
+
 void InputFlags::check() const {
     if (const Status fine = petzval::check(source()); !fine) throw UsageError(in_flags(fine.error().message));
 }

@@ -204,6 +204,12 @@ Result<std::string> parse_text(const std::string& text) {
     return text;
 }
 
+Result<std::vector<std::string>> parse_words(const std::string& text) {
+    auto words = split_at(text, ',');
+    if (std::count(words.begin(), words.end(), "") > 0) return no("must be names with commas between");
+    return words;
+}
+
 Result<std::vector<BarrelRim>> parse_barrel(const std::string& text) {
     const auto wrong =
         no("must be rims as RADIUS,DISTANCE in mm, several with ; between, as \"14,20;14,-20\"");

@@ -56,6 +56,8 @@ Result<std::size_t> parse_bytes(const std::string& text);
 
 Result<std::string> parse_text(const std::string& text);  // anything but nothing
 
+Result<std::vector<std::string>> parse_words(const std::string& text);  // "a,b": none of them empty
+
 // What a value is called, in the order in which people should read it.
 template <typename T>
 using NameTable = std::vector<std::pair<std::string, T>>;

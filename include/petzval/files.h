@@ -26,7 +26,10 @@ struct ReadOptions {
     std::string depth_file;              // another file that holds the depth
     std::string depth_channel;           // e.g. "Z", "depth.R", "ViewLayer.Depth.Z"
     Transfer transfer = Transfer::Srgb;  // how PNG colour is decoded; EXR is linear by definition
-    bool need_depth = true;              // false: a file without depth is fine, depth stays empty
+    // What is blurred beside the colour: "all", and names of layers, parts or single channels; "-NAME" after
+    // "all" leaves one out. Empty: nothing. EXR only.
+    std::vector<std::string> layers;
+    bool need_depth = true;                         // false: a file without depth is fine, depth stays empty
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
     int threads = 0;  // 0: all this process may use; the result never depends on it.
                       // OpenEXR decodes on its own pool, of as many threads; for 1 that stays empty
@@ -58,6 +61,20 @@ struct PartSummary {
     std::vector<std::string> channels;  // "R half", "Z float", …
 };
 
+// More of what the colour shows, of its data window: a colour layer, or up to three single channels as red,
+// green and blue. Those of a file stand in the order in which write_exr() finds them again.
+struct FrameLayer {
+    std::vector<std::string> names;  // one of a colour, else one for each channel
+    Picture colour;                  // alpha: that of the frame's colour
+    bool is_light = false;           // as in ColourLayer
+};
+
+// A layer or channel that stays as it is, and why: this, where it would be blurred if asked for.
+inline constexpr const char* kNotAskedFor = "not asked for";
+struct CarriedLayer {
+    std::string name, why;
+};
+
 // Everything a file held that petzval does not process, kept to be written back (attributes, other channels,
 // parts).
 class CarriedContent;
@@ -74,6 +91,8 @@ struct Frame {
     // depth are then what it looks like from the front: samples one over the other, and the depth at which
     // coverage first reaches half of the pixel's: thin fog does not claim the pixel of the wall behind it.
     DeepPicture deep;
+    std::vector<FrameLayer> layers;            // as ReadOptions::layers asks
+    std::vector<CarriedLayer> layers_carried;  // all others
     FoundCamera camera;
     bool display_referred = false;  // read from PNG: 1.0 is clipped highlights
     std::size_t non_finite_colour =
@@ -99,6 +118,7 @@ enum class PixelType { Keep, Half, Float };
 struct WriteReport {
     std::size_t clamped_to_half = 0;  // finite colour values beyond 65504, written as 65504
     std::size_t non_finite = 0;       // NaN written as 0, infinities as 65504
+    bool became_rgb = false;          // luminance (Y) is no grey any more, or had chroma: written as R, G, B
 };
 
 struct WriteOptions {
@@ -116,9 +136,10 @@ struct WriteOptions {
     Workers* workers = nullptr;
 };
 
-// Replaces colour (and alpha when has_alpha) of the carried part by frame.colour, keeps every other channel,
-// part and attribute, and writes a flat EXR. If frame.depth is not empty and nothing is carried, it is
-// written as float Z. Written beside `path`, synced, renamed: `path` is either complete or untouched.
+// Replaces colour (and alpha when has_alpha) of the carried part by frame.colour and the channels of its
+// layers by those, keeps every other channel, part and attribute, and writes a flat EXR. If frame.depth is
+// not empty and nothing is carried, it is written as float Z. Written beside `path`, synced, renamed: `path`
+// is either complete or untouched.
 //
 // Carried channels are copied bit for bit from the input, which must still be what was read; where
 // the frame's data window is larger than the input's they are 0 there (depth: +infinity). Colour goes back to

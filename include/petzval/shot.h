@@ -72,6 +72,9 @@ struct Shot {
     DeepPicture deep;  // all samples of a deep input or of several files, else empty
     // Hidden layers, and a matte; empty where there are none. All three know depth in the unit of `depth`.
     DeepPicture behind, holdout;
+    // More of what the colour shows, as source.read.layers asks, and what stays as it is.
+    std::vector<FrameLayer> layers;
+    std::vector<CarriedLayer> layers_carried;
     std::vector<LightPoint> lights;  // in pixels of the data window
     FoundCamera camera;              // the user's numbers over the file's, each with its origin
     FoundCamera camera_of_file;

@@ -4,12 +4,14 @@
 
 #include "files/channel_choice.h"
 #include "files/input_file.h"
+#include "files/layer_choice.h"
 #include "files/layout.h"
 #include "files/primaries.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace petzval {
 
@@ -18,7 +20,8 @@ public:
     std::shared_ptr<const InputFile> file;
     Layout layout;
     ColourChoice colour;
-    std::string depth_channel;  // of the colour's part, empty if it has none
+    std::vector<LayerChoice> layers;  // those of Frame::layers
+    std::string depth_channel;        // of the colour's part, empty if it has none
     std::optional<PrimariesConversion> primaries;
     std::size_t max_pixels = 0;
 };

@@ -51,6 +51,16 @@ ReadOptions with_depth(const std::string& name) {
     return o;
 }
 
+TEST(ChannelChoice, NamesThatCanBeTypedAreListed) {
+    ReadOptions options;
+    options.layer = "nothing";
+    const Layout stereo =
+        layout({part("rgba", {"R", "G", "B", "left.R", "left.G", "left.B"}, "", {"right", "left"})},
+               {"right", "left"});
+    EXPECT_THAT(red_of(stereo, options), HasSubstr("it has 'right', 'left'"));
+    EXPECT_THAT(red_of(layout({part("", {"G"})})), HasSubstr("all of R, G and B are needed, or Y"));
+}
+
 TEST(ChannelNames, SplitIntoLayerViewAndBaseAsOpenExrDefines) {
     const std::vector<std::string> views{"right", "left"};
     const auto parts_of = [&](const std::string& name) {

@@ -28,6 +28,18 @@ namespace {
 
 Rect rect_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}; }
 
+// Cryptomatte 1.2: attributes cryptomatte/<key>/name hold what its channels begin with.
+std::vector<std::string> cryptomattes_of(const Imf::Header& header) {
+    std::vector<std::string> names;
+    for (auto a = header.begin(); a != header.end(); ++a) {
+        const std::string name = a.name();
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
+        if (text && !text->value().empty() && name.starts_with("cryptomatte/") && name.ends_with("/name"))
+            names.push_back(text->value());
+    }
+    return names;
+}
+
 Part part_of(const Imf::Header& header, const std::vector<std::string>& declared_views) {
     Part part;
     if (header.hasName()) part.name = header.name();
@@ -41,6 +53,7 @@ Part part_of(const Imf::Header& header, const std::vector<std::string>& declared
     part.readable = Imf::isSupportedType(part.type);
     part.compression = compression_name(header.compression());
     part.data_window = rect_of(header.dataWindow());
+    part.cryptomattes = cryptomattes_of(header);
     const Imf::ChannelList& list = header.channels();
     for (auto c = list.begin(); c != list.end(); ++c) {
         Channel channel = split_channel_name(c.name(), declared_views);

@@ -4,6 +4,7 @@
 #include "files/carried.h"
 #include "files/exr_deep.h"
 #include "files/exr_header.h"
+#include "files/exr_layers.h"
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
 #include "files/wording.h"
@@ -102,9 +103,17 @@ void convert(Picture& colour, const Matrix3& matrix, Workers& workers) {
     });
 }
 
+// Single channels have no primaries.
+void convert(Frame& frame, const std::vector<LayerChoice>& layers, const Matrix3& matrix, Workers& workers) {
+    convert(frame.colour, matrix, workers);
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        if (layers[i].is_colour) convert(frame.layers[i].colour, matrix, workers);
+}
+
 struct Choices {
     ColourChoice colour;
     std::optional<DepthChoice> depth;
+    std::vector<LayerChoice> layers;
 };
 
 // Finds depth in the same file where it is wanted there; a header alone may lack it.
@@ -231,7 +240,7 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
         return frame;
     }
     if (!colour) return colour.error();
-    Choices choices{*colour, std::nullopt};
+    Choices choices{*colour, std::nullopt, {}};
     const Part& part = exr.layout.parts[colour->part];
     frame.place.data_window = part.data_window;
     frame.has_alpha = !colour->alpha.empty();
@@ -242,6 +251,10 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     if (Status s = choose_depth_of(exr, options, pixels, choices, frame); !s) return s.error();
     if (part.deep)
         if (Status s = check_deep(exr, choices, options, frame); !s) return s.error();
+    Result<LayersChoice> layers = choose_layers(file->path(), exr.layout, *colour, choices.depth, options);
+    if (!layers) return layers.error();
+    describe_layers(*layers, frame);
+    choices.layers = std::move(layers->layers);
     frame.camera = camera_of(exr, colour->part);
     describe_camera(frame.camera, frame.detected);
     const auto primaries = primaries_of(exr, colour->part, frame);
@@ -255,11 +268,13 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     } else {
         if (Status s = read_pixels(exr, choices, options, frame); !s) return s.error();
         frame.non_finite_colour = replace_non_finite(frame.colour, *options.workers);
-        if (primaries) convert(frame.colour, primaries->to_rec709, *options.workers);
+        if (Status s = read_layers(exr, choices.layers, frame); !s) return s.error();
+        if (primaries) convert(frame, choices.layers, primaries->to_rec709, *options.workers);
     }
     const bool own_depth = choices.depth && choices.depth->part == colour->part;
-    frame.carried = std::make_shared<CarriedContent>(CarriedContent{
-        file, exr.layout, *colour, own_depth ? choices.depth->channel : "", primaries, options.max_pixels});
+    frame.carried = std::make_shared<CarriedContent>(
+        CarriedContent{file, exr.layout, *colour, std::move(choices.layers),
+                       own_depth ? choices.depth->channel : "", primaries, options.max_pixels});
     return frame;
 }
 

@@ -32,6 +32,7 @@ struct Part {
     bool readable = true;  // false: of a type this OpenEXR does not know
     bool complete = true;  // false: chunks are missing, it was cut off or is still being written
     std::vector<Channel> channels;
+    std::vector<std::string> cryptomattes;  // names of such layers, by the part's metadata
 
     const Channel* find(const std::string& channel_name) const;
     // "part 3 'depth_right'"; "" in a file of one part.

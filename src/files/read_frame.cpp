@@ -114,6 +114,9 @@ Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const
             return Error{
                 ErrorCode::InvalidArgument,
                 printable(file->path(), 4096) + ": a PNG has no layer or view '" + printable(*asked) + "'"};
+    if (!options.layers.empty())
+        return Error{ErrorCode::InvalidArgument,
+                     "read.layers is for EXR; " + printable(file->path(), 4096) + " is a PNG", "read.layers"};
     Frame frame;
     frame.place = Place::whole({0, 0, png->width, png->height});
     frame.has_alpha = png->channels == 4;

@@ -49,6 +49,7 @@ Result<bool> grow_empty_sides(Shot& shot, int by_px) {
                                                      " would make a picture of " + shot::window_text(wider) +
                                                      "; give fewer pixels"};
     shot.colour = grown(shot.colour, old, wider, false);
+    for (FrameLayer& layer : shot.layers) layer.colour = grown(layer.colour, old, wider, false);
     std::visit(
         [&](auto& depth) {
             if constexpr (!std::is_same_v<std::decay_t<decltype(depth)>, std::monostate>)

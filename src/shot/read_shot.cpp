@@ -22,6 +22,8 @@ Shot shot_of(Frame& frame, const ShotSource& source) {
     shot.colour = std::move(frame.colour);
     shot.has_alpha = frame.has_alpha;
     shot.deep = std::move(frame.deep);
+    shot.layers = std::move(frame.layers);
+    shot.layers_carried = std::move(frame.layers_carried);
     shot.camera_of_file = frame.camera;
     shot.camera = merged_camera(frame.camera, source.camera, source.depth.unit_scale_m);
     shot.image_scale = source.camera.image_scale;
@@ -110,6 +112,10 @@ Status check(const ShotSource& source) {
         return invalid("depth.kind " + name + " needs depth.range NEAR,FAR, as depth.range 0.1,100");
     if (!ranged && has_range)
         return invalid("depth.range is for depth.kind normalized or device; depth here is " + name);
+    if (!source.read.layers.empty() && !source.merge.empty())
+        return Error{ErrorCode::InvalidArgument,
+                     "read.layers cannot be used with shot.merge: the other pictures hold no such layers",
+                     "read.layers"};
     if (kind == DepthKind::CocPx && source.depth.unit_scale_m != 1)
         return invalid("depth.unit_scale_m has no meaning with depth.kind coc-px: radii are in pixels");
     return Done{};
@@ -136,6 +142,8 @@ Frame to_frame(Shot shot) {
     frame.place = shot.place;
     frame.colour = std::move(shot.colour);
     frame.has_alpha = shot.has_alpha;
+    frame.layers = std::move(shot.layers);
+    frame.layers_carried = std::move(shot.layers_carried);
     if (auto* metres = std::get_if<DepthMetres>(&shot.depth)) frame.depth = std::move(metres->plane);
     frame.camera = std::move(shot.camera);
     frame.display_referred = shot.display_referred;

@@ -91,6 +91,7 @@ Result<DefocusJob> rendered(const Shot& shot) {
     if (!shot.behind.empty()) job.behind = &shot.behind;
     if (!shot.holdout.empty()) job.holdout = &shot.holdout;
     if (!shot.lights.empty()) job.points = &shot.lights;
+    for (const FrameLayer& layer : shot.layers) job.layers.push_back({layer.colour, layer.is_light});
     job.place = shot.place;
     return job;
 }
