@@ -2,6 +2,7 @@
 #pragma once
 
 #include "petzval/export.h"
+#include "petzval/result.h"
 
 #include <string>
 #include <vector>
@@ -20,5 +21,8 @@ PETZVAL_API std::vector<DeviceFacts> devices();
 
 // Why there is no device but the CPU, in one sentence; empty: there is one.
 PETZVAL_API std::string why_no_gpu();
+
+// Whether a session can draw with it: SessionSettings::device. Errors: those that its first frame would have.
+PETZVAL_API Status check_device(const std::string& device);
 
 }  // namespace petzval

@@ -70,6 +70,9 @@ typedef struct petzval_session_settings {
     uint64_t max_memory_bytes;      /* for everything, what is kept between frames included; 0: no limit */
     const char* kernel_folder;      /* kernels that take long are kept here between runs; null: nowhere */
     const petzval_workers* workers; /* in place of `threads`; copied; null: our own */
+    /* What draws: "cpu", "gpu", "gpu:1", "auto" (SessionSettings::device); null: the CPU. One that is not
+     * there, or cannot be used, is refused when the session is opened. */
+    const char* device;
 } petzval_session_settings;
 
 /* settings may be null: all threads, no limits. */
@@ -94,6 +97,8 @@ PETZVAL_C_API petzval_status petzval_session_trim(petzval_session* session, uint
 /* The engines and the lenses that ship, from 0 on; null behind the last. Live for ever. */
 PETZVAL_C_API const char* petzval_engine_name(int index);
 PETZVAL_C_API const char* petzval_lens_name(int index);
+/* The devices that were there when this was first asked: "cpu", "gpu:0", …. Starts drivers. */
+PETZVAL_C_API const char* petzval_device_name(int index);
 
 /* --- Looks: all that an artist chooses
  * ------------------------------------------------------------------------ */

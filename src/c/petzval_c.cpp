@@ -2,6 +2,7 @@
 // that catches.
 #include "petzval/petzval_c.h"
 
+#include "petzval/devices.h"
 #include "petzval/lens_facts.h"
 #include "petzval/look_json.h"
 #include "petzval/session.h"
@@ -93,6 +94,7 @@ Result<SessionSettings> settings_of(const petzval_session_settings* given) {
     settings.threads = s.threads;
     settings.max_memory_bytes = std::size_t(s.max_memory_bytes);
     if (s.kernel_folder) settings.kernel_cache_folder = s.kernel_folder;
+    if (s.device) settings.device = s.device;
     auto workers = c::workers_of(s.workers);
     if (!workers) return workers.error();
     settings.workers = std::move(*workers);
@@ -178,6 +180,7 @@ petzval_status petzval_session_open(const petzval_session_settings* settings, pe
     return guarded([&] {
         auto taken = settings_of(settings);
         if (!taken) return fail(taken.error());
+        if (const Status there = check_device(taken->device); !there) return fail(there.error());
         *session = new petzval_session{Session(std::move(*taken))};
         return PETZVAL_OK;
     });
@@ -210,6 +213,15 @@ const char* petzval_engine_name(int index) {
 }
 
 const char* petzval_lens_name(int index) { return name_at(lens_names(), index); }
+
+const char* petzval_device_name(int index) {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> found;
+        for (const petzval::DeviceFacts& device : petzval::devices()) found.push_back(device.name);
+        return found;
+    }();
+    return name_at(names, index);
+}
 
 petzval_status petzval_look_new(petzval_look** look) {
     if (!look) return missing("look");

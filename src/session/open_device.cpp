@@ -115,6 +115,12 @@ std::vector<DeviceFacts> devices() {
     return facts;
 }
 
+Status check_device(const std::string& device) {
+    const auto opened = open_device(device);
+    if (!opened) return opened.error();
+    return Done{};
+}
+
 std::string why_no_gpu() {
     const auto choices = vulkan_choices();
     if (!choices) return choices.error().message;

@@ -241,13 +241,15 @@ static void test_a_region_is_a_crop_of_the_whole(petzval_session* session) {
     control.region.y1 = Y + H;
     expect(petzval_defocus(session, &shot, NULL, &control, &into, NULL) == PETZVAL_OK, "a region");
     for (y = 0; y < H; ++y)
-        for (x = 0; x < W; ++x) same = same && memcmp(part[y][x], out.rgba[Y + y][X + x], sizeof part[0][0]) == 0;
+        for (x = 0; x < W; ++x)
+            same = same && memcmp(part[y][x], out.rgba[Y + y][X + x], sizeof part[0][0]) == 0;
     expect(same, "bit for bit");
     control.region.x1 += 1;
     expect(petzval_defocus(session, &shot, NULL, &control, &into, NULL) == PETZVAL_INVALID_ARGUMENT,
            "out of another size is refused");
-    expect(petzval_region_margin_px(session, &shot, NULL, &margin) == PETZVAL_OK && margin > 20 && margin < 400,
-           "it says what it looks at");
+    expect(
+        petzval_region_margin_px(session, &shot, NULL, &margin) == PETZVAL_OK && margin > 20 && margin < 400,
+        "it says what it looks at");
 }
 
 static int stop(void* host) {
@@ -306,8 +308,8 @@ static void test_what_lies_behind_and_lights(petzval_session* session) {
            "cancelled by being asked");
     usage.size = sizeof usage;
     expect(petzval_session_usage(session, &usage) == PETZVAL_OK && usage.lenses > 0, "what is kept");
-    expect(petzval_session_trim(session, 0) == PETZVAL_OK && petzval_session_usage(session, &usage) == PETZVAL_OK &&
-               usage.kept_bytes == 0,
+    expect(petzval_session_trim(session, 0) == PETZVAL_OK &&
+               petzval_session_usage(session, &usage) == PETZVAL_OK && usage.kept_bytes == 0,
            "may be let go");
     petzval_look_close(look);
 }
@@ -326,12 +328,32 @@ static void test_structs_of_older_hosts(void) {
     petzval_session_close(session);
 }
 
+static void test_devices(void) {
+    petzval_session_settings settings = {0};
+    petzval_session* session = NULL;
+    settings.size = sizeof settings;
+    settings.device = "auto";
+    expect(petzval_session_open(&settings, &session) == PETZVAL_OK, "some device is always there");
+    test_a_lamp_becomes_a_disc_of_the_same_light(session);
+    petzval_session_close(session);
+    settings.device = "gpu:99";
+    expect(petzval_session_open(&settings, &session) != PETZVAL_OK && session == NULL, "this one is not");
+    expect(strstr(petzval_error_text(), "session.device") != NULL, "and its field is named");
+    if (petzval_device_name(1) != NULL) {
+        settings.device = petzval_device_name(1);
+        expect(petzval_session_open(&settings, &session) == PETZVAL_OK, "a second device");
+        test_a_lamp_becomes_a_disc_of_the_same_light(session);
+        petzval_session_close(session);
+    }
+}
+
 static void test_names(void) {
     int engines = 0, lenses = 0;
     while (petzval_engine_name(engines) != NULL) ++engines;
     while (petzval_lens_name(lenses) != NULL) ++lenses;
     expect(engines >= 5 && lenses >= 40, "engines and lenses are listed");
     expect(petzval_engine_name(-1) == NULL && petzval_lens_name(lenses + 1) == NULL, "and end");
+    expect(strcmp(petzval_device_name(0), "cpu") == 0, "the CPU is the first device");
     expect(strcmp(petzval_status_name(PETZVAL_CANCELLED), "cancelled") == 0, "statuses have names");
     expect(strcmp(petzval_status_name((petzval_status)99), "unknown") == 0, "others have none");
     expect(strlen(petzval_version()) >= 5, "a version");
@@ -356,6 +378,7 @@ int main(void) {
     test_what_lies_behind_and_lights(session);
     petzval_session_close(session);
     test_structs_of_older_hosts();
+    test_devices();
     test_names();
     printf("petzval %s: %d failures\n", petzval_version(), failures);
     return failures > 0;
