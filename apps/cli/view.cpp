@@ -1,5 +1,7 @@
 // petzval view: a window. What it shows and how is apps/view's; here are its flags, and what it needs of
 // this program: command lines, frames written as defocus writes them, OpenColorIO.
+#include "petzval/scene.h"
+
 #include "console.h"
 #include "defocus_flags.h"
 #include "defocus_frames.h"
@@ -7,6 +9,7 @@
 #include "look_rows.h"
 #include "verbs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -19,9 +22,9 @@ namespace petzval::cli {
 namespace {
 
 struct ViewFlags : DefocusFlags {
-    std::string against, script;
+    std::string against, script, scene;
     std::optional<double> scale;
-    std::optional<std::pair<int, int>> size;
+    std::optional<std::pair<int, int>> size, scene_size;
     std::vector<std::string> files;  // IN and flags that say where and what it is, as typed
 };
 
@@ -140,6 +143,12 @@ Status open_window(const ViewFlags& flags) {
         if (there->empty()) return Error{ErrorCode::InvalidFile, flags.input.path + ": no frame is there"};
         setup.frames = *there;
     }
+    setup.scene = flags.scene;
+    if (flags.scene_size)
+        setup.scene_width = flags.scene_size->first, setup.scene_height = flags.scene_size->second;
+    for (const SceneSummary& known : scene_list())
+        for (int frame = 0; known.name == flags.scene && known.frames > 1 && frame < known.frames; ++frame)
+            setup.frames.push_back(frame);
     setup.source = flags.input.source(flags.camera);
     setup.source.lights = flags.points;
     setup.choice.camera = flags.camera.choice();
@@ -178,27 +187,48 @@ Status open_window(const ViewFlags&) {
 
 #endif
 
+// Its name stands where that of a file would.
+void check_scene(ViewFlags& flags) {
+    if (flags.scene.empty()) {
+        if (flags.scene_size) throw UsageError("--scene-size has no effect without --scene");
+        return;
+    }
+    refuse_both(!flags.input.path.empty(), "IN", true, "--scene");
+    std::vector<std::string> known;
+    for (const SceneSummary& one : scene_list()) known.push_back(one.name);
+    if (std::find(known.begin(), known.end(), flags.scene) == known.end())
+        throw UsageError("--scene " + flags.scene + ": no such scene" + did_you_mean(flags.scene, known) +
+                         "; petzval scene list tells them");
+    flags.input.path = flags.scene;
+}
+
 }  // namespace
 
 void add_view(Verb& program, Action& chosen) {
     Verb& verb = add_verb(program, "view", "a window: find focus, aperture and lens with the mouse",
                           "petzval view beauty.exr\n"
-                          "petzval view beauty.exr --lens doublet --against truth.exr");
+                          "petzval view beauty.exr --lens doublet --against truth.exr\n"
+                          "petzval view --scene tori --engine gaussian");
     auto flags = std::make_shared<ViewFlags>();
     flags->add_shown_to(verb);
     FlagGroup(verb, "Window")
         .value("--against", "FILE", "another picture to compare with, as the truth or a frame made before",
                parse_text, flags->against)
+        .value("--scene", "NAME", "a built-in scene in place of IN, rendered at every move of its camera",
+               parse_text, flags->scene)
+        .value("--scene-size", "WxH", "its picture (default 480x270)", parse_window, flags->scene_size)
         .value("--script", "FILE", "do what the lines of a file say (docs/view.md), then close", parse_text,
                flags->script)
         .value("--window", "WxH", "its size (default 1280x800)", parse_window, flags->size)
         .value("--ui-scale", "FACTOR", "size of letters and widgets; the display's by default",
                parse_positive, flags->scale);
     when_typed(verb, [flags, &verb, &chosen] {
+        check_scene(*flags);
         flags->check_shown(verb);
         std::vector<std::string> of_look;
         for (const LookRow& row : look_rows()) of_look.emplace_back(row.flag);
         flags->files = typed_words(verb, {"Input", "Engine sprites"}, of_look);
+        if (!flags->scene.empty()) flags->files = {flags->scene + ".exr"};
         chosen = [flags] { return open_window(*flags); };
     });
 }

@@ -55,8 +55,7 @@ void App::go_to(int frame) {
     state.choice.frame = frame;
     if (const auto focus = state.timeline.focus_at(frame)) state.choice.camera.focus_distance_m = *focus;
     shown_since_ = Clock::now();
-    reading_ = true;
-    maker_.read(source(), false, {});
+    read_again();
 }
 
 // On to the next frame when something of this one was to be seen, 24 a second at most.
@@ -68,14 +67,27 @@ void App::play() {
 
 void App::read_again() {
     reading_ = true;
-    maker_.read(source(), false, setup_.focus_point);
-    if (setup_.against.empty()) return;
+    Reading reading{source(), false, setup_.focus_point};
+    if (is_live()) reading.scene = scene_wish();
+    maker_.read(std::move(reading));
+    if (setup_.against.empty() || (is_live() && against_)) return;
     ShotSource other;
     other.path = setup_.against;
     other.read = setup_.source.read;
     other.read.layer.clear(), other.read.depth_file.clear(), other.read.depth_channel.clear();
     other.read.need_depth = false;
-    maker_.read(other, true, {});
+    maker_.read({other, true});
+}
+
+SceneWish App::scene_wish() const {
+    SceneWish wish{setup_.scene, {}};
+    wish.settings.width = setup_.scene_width, wish.settings.height = setup_.scene_height;
+    wish.settings.samples = 4;
+    wish.settings.frame = state.timeline.frame;
+    if (state.orbit.is_home() || !home_) return wish;
+    const Stand stand = orbited(stand_of(*home_, home_->focus_distance_m->value), state.orbit);
+    wish.settings.camera_at = stand.at, wish.settings.look_at = stand.target;
+    return wish;
 }
 
 FoundCamera App::found_camera() const {
@@ -132,15 +144,36 @@ bool App::is_busy() const {
 }
 
 void App::save(const std::string& path) {
+    start_saving(path, [save = setup_.save, choice = state.choice, path] { return save(choice, path); });
+}
+
+void App::record(const std::string& path) {
+    const Timeline& line = state.timeline;
+    std::vector<int> frames{line.frame};
+    if (line.is_shot()) frames.clear();
+    for (const int frame : line.frames)
+        if (frame >= line.first && frame <= line.last) frames.push_back(frame);
+    const auto pattern = FramePattern::find(path);
+    if (!pattern || (!*pattern && frames.size() > 1)) {
+        error =
+            path + ": a name for many frames has a place for their number, as " + setup_.scene + "-####.exr";
+        return;
+    }
+    std::vector<std::string> paths;
+    for (const int frame : frames) paths.push_back(*pattern ? (*pattern)->path(frame) : path);
+    start_saving(path, [wish = scene_wish(), frames, paths] { return view::record(wish, frames, paths); });
+}
+
+void App::start_saving(const std::string& path, std::function<Status()> save) {
     if (saving_.valid()) {
         error = saving_to_ + " is still being written";
         return;
     }
     saving_to_ = path;
     notice = "writing " + path + " …";
-    saving_ = std::async(std::launch::async, [save = setup_.save, choice = state.choice, path]() -> Status {
+    saving_ = std::async(std::launch::async, [save = std::move(save), path]() -> Status {
         try {
-            return save(choice, path);
+            return save();
         } catch (const std::bad_alloc&) {
             return Error{ErrorCode::OutOfMemory, path + ": not enough memory"};
         }
@@ -171,6 +204,7 @@ void App::take_shot(ReadShot read) {
     if (read.error) return;
     trouble.clear();
     shot_ = std::move(read.shot);
+    if (state.orbit.is_home()) home_ = shot_->shot.camera_of_file;
     if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
     notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
     if (setup_.focus_at) {

@@ -98,10 +98,14 @@ public:
     bool is_busy() const;  // something is being read, made, developed or saved
     void read_again();
     void go_to(int frame);
+    bool is_live() const { return !setup_.scene.empty(); }
+    SceneWish scene_wish() const;  // requires: is_live()
+    void record(const std::string& path);
     void save(const std::string& path);
 
 private:
     ShotSource source() const;  // of the frame that is shown
+    void start_saving(const std::string& path, std::function<Status()> save);
     void play();
     void take_shot(ReadShot read);
     void take_frame(MadeFrame made);
@@ -123,6 +127,7 @@ private:
     std::future<Status> saving_;
     std::string saving_to_;
     bool reading_ = false;
+    std::optional<FoundCamera> home_;                    // of a scene: its own view
     std::chrono::steady_clock::time_point shown_since_;  // the frame, while it is played
     LensMade lens_made_;
     std::array<Texture, LensMade::kPictures> lens_pictures_;

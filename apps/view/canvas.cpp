@@ -130,6 +130,18 @@ std::string pixel_words(const App& app, const ImVec2& p) {
            text_of(std::floor(app.mapping.frame_y(double(p.y))) - frame.y0);
 }
 
+// Of a scene: a drag turns its camera, a click focuses.
+void turn_camera(App& app, bool is_wipe) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (is_wipe) return;
+    if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 4) &&
+        (io.MouseDelta.x != 0 || io.MouseDelta.y != 0))
+        static_cast<void>(act(app, "orbit " + text_of(-0.4 * double(io.MouseDelta.x), 6) + " " +
+                                       text_of(0.4 * double(io.MouseDelta.y), 6)));
+    if (ImGui::IsMouseReleased(0) && ImGui::IsItemHovered() && io.MouseDragMaxDistanceSqr[0] < 16)
+        static_cast<void>(act(app, "focus " + pixel_words(app, io.MousePos)));
+}
+
 // Left: focus; right: look at; middle or space and left: move; wheel: zoom about the pointer.
 void take_mouse(App& app) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -147,6 +159,7 @@ void take_mouse(App& app) {
                          text_of(std::clamp(app.mapping.scale_y * std::pow(1.25, double(io.MouseWheel)), 0.02,
                                             256.0)) +
                          " " + pixel_words(app, io.MousePos)));
+    if (app.is_live()) return turn_camera(app, is_wipe);
     // Held down, the focus follows the pointer.
     const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
     if (!is_wipe && ImGui::IsItemActive() && ImGui::IsMouseDown(0) && (ImGui::IsMouseClicked(0) || moved))

@@ -167,11 +167,19 @@ Status pan(App& app, const Words& words) {
 }
 
 Status save(App& app, const Words& words) {
+    if (app.is_live())
+        return invalid("a scene is no file; record FILE-####.exr writes its frames, which defocus takes");
     app.save(words[0]);
     return Done{};
 }
 Status copy(App& app, const Words&) {
     app.copied = app.setup().command_line(app.state.choice, "out.exr");
+    if (app.is_live()) {
+        std::string make;
+        for (const std::string& word : scene_words(app.scene_wish(), app.setup().scene + ".exr"))
+            make += word + " ";
+        app.copied = make + "&& " + app.copied;
+    }
     app.notice = "copied: " + app.copied;
     return Done{};
 }
@@ -203,6 +211,35 @@ Status save_lens(App& app, const Words& words) {
     if (Status done = write_look(lens, words[0]); !done) return done;
     app.notice = "wrote " + words[0];
     return Done{};
+}
+Status no_scene() { return invalid("this is a picture; --scene NAME is seen from anywhere"); }
+
+Status orbit(App& app, const Words& words) {
+    const auto yaw = number_of(words[0]), pitch = number_of(words[1]);
+    if (!app.is_live()) return no_scene();
+    if (!yaw || !pitch) return invalid("orbit: not two angles");
+    app.state.orbit.yaw_deg += *yaw, app.state.orbit.pitch_deg += *pitch;
+    app.read_again();
+    return Done{};
+}
+Status dolly(App& app, const Words& words) {
+    const auto factor = number_of(words[0]);
+    if (!app.is_live()) return no_scene();
+    if (!factor || !(*factor > 0.01 && *factor < 100)) return invalid("dolly " + words[0] + ": not a factor");
+    app.state.orbit.distance *= *factor;
+    app.read_again();
+    return Done{};
+}
+Status home(App& app, const Words&) {
+    if (!app.is_live()) return no_scene();
+    app.state.orbit = {};
+    app.read_again();
+    return Done{};
+}
+Status record(App& app, const Words& words) {
+    if (!app.is_live()) return no_scene();
+    app.record(words[0]);
+    return app.error.empty() ? Status(Done{}) : Status(invalid(app.error));
 }
 Status no_shot() { return invalid("this is one picture; give names with #### for the frames of a shot"); }
 
@@ -290,6 +327,10 @@ const std::vector<Command>& commands() {
         {"key_focus", "", "this focus at this frame", key_focus},
         {"remove_key", "", "of this frame", remove_key},
         {"save_track", "FILE", "the focus over the frames, as defocus --track takes it", save_track},
+        {"orbit", "YAW PITCH", "turn the camera of a scene by degrees about what was in focus", orbit},
+        {"dolly", "FACTOR", "its distance times this", dolly},
+        {"home", "", "the scene's own camera", home},
+        {"record", "FILE-####.exr", "sharp frames of a scene, with depth, for defocus", record},
         {"reload", "", "read the files again", reload},
         {"quit", "", "", quit},
     };
@@ -306,6 +347,7 @@ const std::vector<Binding>& bindings() {
         {"period", "frame +1", "next frame"},
         {"comma", "frame -1", "frame before"},
         {"k", "key_focus", "a key: this focus at this frame"},
+        {"home", "home", "the scene's own camera (a left drag turns it)"},
         {"1", "show result", "the picture"},
         {"2", "show sharp", "the sharp picture"},
         {"3", "show against", "the second picture"},

@@ -119,6 +119,8 @@ std::vector<Field> facts() {
                  return std::to_string(wish->region.value_or(app.shot()->shot.place.data_window).width());
              }),
         fact("left.shown", [](const App& app) { return app.state.left.shown; }),
+        fact("orbit.yaw_deg", [](const App& app) { return text_of(app.state.orbit.yaw_deg, 6); }),
+        fact("orbit.pitch_deg", [](const App& app) { return text_of(app.state.orbit.pitch_deg, 6); }),
         fact("shot.frame", [](const App& app) { return std::to_string(app.state.timeline.frame); }),
         fact("shot.keys", [](const App& app) { return std::to_string(app.state.timeline.keys.size()); }),
         fact("lens.rays", [](const App& app) { return std::to_string(app.lens_made().section.rays.size()); }),
@@ -205,7 +207,7 @@ const FieldRow* row_of(const App& app, const std::string& path) {
 std::string text_of(double value, int digits) {
     if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
     char text[64];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+    char* const end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
     return {text, end};
 }
 

@@ -122,10 +122,10 @@ Maker::~Maker() {
     thread_.join();
 }
 
-void Maker::read(const ShotSource& source, bool is_against, std::optional<WorldPoint> focus_point) {
+void Maker::read(Reading reading) {
     const std::lock_guard lock(mutex_);
-    std::erase_if(readings_, [&](const Reading& other) { return other.is_against == is_against; });
-    readings_.push_back({source, is_against, focus_point});
+    std::erase_if(readings_, [&](const Reading& other) { return other.is_against == reading.is_against; });
+    readings_.push_back(std::move(reading));
     interrupt_ = true;
     something_.notify_all();
 }
@@ -188,7 +188,8 @@ void Maker::do_reading(const Reading& reading) {
     ReadShot read{reading.is_against, reading.source.path, nullptr, {}};
     const auto time = time_of(reading.source.path);
     try {
-        auto shot = read_shot(reading.source);
+        auto shot = reading.scene ? shot_of(*reading.scene, [this] { return interrupt_.load(); })
+                                  : read_shot(reading.source);
         Status focused = Done{};
         if (shot && reading.focus_point) focused = focus_on_point(*shot, *reading.focus_point);
         if (shot && focused) {
@@ -202,13 +203,22 @@ void Maker::do_reading(const Reading& reading) {
     } catch (const std::bad_alloc&) {
         read.error = Error{ErrorCode::OutOfMemory, reading.source.path + ": not enough memory"};
     }
+    if (read.error && read.error->code == ErrorCode::Cancelled) return take_up_again(reading);
     std::erase_if(watched_, [&](const Watched& w) { return w.path == reading.source.path; });
-    if (read.shot) watched_.push_back({reading.source.path, time});
+    if (read.shot && !reading.scene) watched_.push_back({reading.source.path, time});
     {
         const std::lock_guard lock(mutex_);
         news_.shots.push_back(std::move(read));
     }
     wake_();
+}
+
+// What was cancelled by something else than another reading in its place.
+void Maker::take_up_again(const Reading& reading) {
+    const std::lock_guard lock(mutex_);
+    for (const Reading& other : readings_)
+        if (other.is_against == reading.is_against) return;
+    readings_.insert(readings_.begin(), reading);
 }
 
 void Maker::do_step(int side, const Order& order) {

@@ -7,6 +7,8 @@
 #include "petzval/session.h"
 #include "petzval/shot.h"
 
+#include "live_scene.h"
+
 #include <array>
 #include <atomic>
 #include <condition_variable>
@@ -74,6 +76,14 @@ struct ReadShot {
     std::optional<Error> error;
 };
 
+// Something to be opened.
+struct Reading {
+    ShotSource source;
+    bool is_against = false;
+    std::optional<WorldPoint> focus_point = {};  // what its camera is to be focused on, if anything
+    std::optional<SceneWish> scene = {};         // in place of the source
+};
+
 class Maker {
 public:
     // `wake` is called, by the maker's thread, whenever there is news.
@@ -82,8 +92,7 @@ public:
     Maker(const Maker&) = delete;
     Maker& operator=(const Maker&) = delete;
 
-    // `focus_point`: what shot.camera is to be focused on, if anything.
-    void read(const ShotSource& source, bool is_against, std::optional<WorldPoint> focus_point);
+    void read(Reading reading);
     // In place of what was wished for that side (0, 1) before; its number.
     std::uint64_t make(int side, Wish wish);
     void forget(int side);
@@ -102,11 +111,6 @@ private:
         std::uint64_t number = 0;
         int step = 0;
     };
-    struct Reading {
-        ShotSource source;
-        bool is_against = false;
-        std::optional<WorldPoint> focus_point;
-    };
     struct Watched {
         std::string path;
         std::optional<std::filesystem::file_time_type> time;
@@ -115,9 +119,11 @@ private:
     void work();
     void tell(MadeFrame frame);
     void do_reading(const Reading& reading);
+    void take_up_again(const Reading& reading);
     void do_step(int side, const Order& order);
     MadeFrame made(int side, const Order& order, const Control& control);
-    Status take_picture(const Order& order, const DefocusJob& job, const Control& control, MadeFrame& frame);
+    Status take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
+                        MadeFrame& frame);
     void look_at_files();
 
     std::shared_ptr<Session> session_;

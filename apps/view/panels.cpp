@@ -158,6 +158,11 @@ void compare_panel(App& app) {
         if (count++ % 3 != 0) ImGui::SameLine();
         wipe_button(engine);
     }
+    if (ImGui::BeginCombo("shown", app.state.left.shown.c_str())) {
+        for (const std::string& name : shown_names())
+            if (ImGui::Selectable(name.c_str(), name == app.state.left.shown)) say(app, "show " + name);
+        ImGui::EndCombo();
+    }
     bool overlay = app.state.overlay;
     if (ImGui::Checkbox("focus overlay", &overlay)) say(app, "toggle view.overlay");
     is_field(app, "view.overlay");
@@ -176,6 +181,13 @@ void files_panel(App& app) {
     ImGui::InputText("##look", look, sizeof look);
     ImGui::SameLine();
     command_button(app, "save look", "save_look \"" + std::string(look) + "\"");
+    if (app.is_live()) {
+        static char recorded[512] = "";
+        if (recorded[0] == 0) (app.setup().scene + "-####.exr").copy(recorded, sizeof recorded - 1);
+        ImGui::InputText("##record", recorded, sizeof recorded);
+        ImGui::SameLine();
+        command_button(app, "record", "record \"" + std::string(recorded) + "\"");
+    }
     command_button(app, "copy command", "copy");
     ImGui::SameLine();
     command_button(app, "load look", "load_look \"" + std::string(look) + "\"");
@@ -269,7 +281,6 @@ void draw_status_line(App& app) {
         ImGui::TextUnformatted(app.notice.c_str());
     else
         ImGui::TextDisabled("H: help");
-    ImGui::TextUnformatted(under_pointer(app).c_str());
     const MadeFrame& made = app.side(0).last;
     std::string state = !app.shot()           ? "reading …"
                         : made.engine.empty() ? "sharp"
@@ -278,6 +289,7 @@ void draw_status_line(App& app) {
     const float width = ImGui::CalcTextSize(state.c_str()).x;
     ImGui::SameLine(std::max(0.0f, ImGui::GetWindowWidth() - width - ImGui::GetFontSize()));
     ImGui::TextDisabled("%s", state.c_str());
+    ImGui::TextUnformatted(under_pointer(app).c_str());
 }
 
 void draw_help(App& app) {

@@ -36,6 +36,14 @@ bool is_command(const std::string& name) {
     return std::any_of(commands().begin(), commands().end(), same);
 }
 
+// Where a word begins with '#', not in names of frames as shot.####.exr.
+std::size_t comment_of(const std::string& line) {
+    std::size_t at = line.find('#');
+    while (at != std::string::npos && at > 0 && line[at - 1] != ' ' && line[at - 1] != '\t')
+        at = line.find('#', at + 1);
+    return std::min(at, line.size());
+}
+
 std::string why_refused(const Words& words) {
     if (is_command(words[0])) return "";
     const Verb* verb = verb_called(words[0]);
@@ -60,11 +68,12 @@ Result<Script> Script::read(const std::string& path) {
     int number = 0;
     for (std::string text; std::getline(file, text);) {
         ++number;
-        Words words = words_of(text.substr(0, text.find('#')));
+        text.erase(comment_of(text));
+        Words words = words_of(text);
         if (words.empty()) continue;
         if (const std::string why = why_refused(words); !why.empty())
             return Error{ErrorCode::InvalidFile, path + ":" + std::to_string(number) + ": " + why};
-        script.lines_.push_back({number, std::move(words), text.substr(0, text.find('#'))});
+        script.lines_.push_back({number, std::move(words), text});
     }
     return script;
 }

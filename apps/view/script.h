@@ -1,6 +1,6 @@
 // A hand made of text: moves the pointer and presses keys in the window's own event queue, waits, looks.
 //
-// One step a line, '#' begins a comment. Besides all commands (commands.h):
+// One step a line, a word that begins with '#' a comment. Besides all commands (commands.h):
 //   click X Y | click NAME          a pixel of the frame, or a widget
 //   drag X Y X2 Y2 | drag NAME DX   held down over eight ticks
 //   move X Y, wheel N, key KEY      as "key shift+e"

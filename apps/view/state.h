@@ -1,6 +1,7 @@
 // All that is chosen in the window. Changed by commands alone (commands.h); pictures follow from it.
 #pragma once
 
+#include "live_scene.h"
 #include "timeline.h"
 #include "view.h"
 
@@ -24,6 +25,7 @@ struct State {
     Choice choice;
     Side left, right;  // right: beyond the wipe
     Timeline timeline;
+    Orbit orbit;  // of a built-in scene's camera
     bool wiping = false;
     double wipe = 0.5;  // where, share of the canvas's width
     Channel channel = Channel::Colour;

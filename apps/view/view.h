@@ -37,6 +37,8 @@ struct Choice {
 
 struct Setup {
     ShotSource source;
+    std::string scene;  // a built-in scene in place of files; its source.path is only what it is called
+    int scene_width = 480, scene_height = 270;
     std::vector<int> frames;  // that are there, where names of the source's files hold a place for a number
     Choice choice;
     std::optional<PixelPosition> focus_at;

@@ -274,6 +274,43 @@ class ViewTest(unittest.TestCase):
         eased = next(self.contents("eased.csv")).decode()
         self.assertEqual(len(eased.splitlines()), 6)
 
+    def test_a_scene_is_turned_by_a_drag_and_recorded_for_defocus(self):
+        out, _ = self.do("""
+            wait
+            expect no error
+            expect frame.width 160
+            say focus
+            click 80 45
+            wait
+            expect orbit.yaw_deg 0
+            drag 80 45 100 45
+            wait
+            say orbit.yaw_deg
+            expect no error
+            show focus-index
+            wait
+            expect no error
+            show result
+            range 0 1
+            record turned-####.exr
+            wait
+            expect no error
+            copy
+            say copied
+            key home
+            wait
+            expect orbit.yaw_deg 0
+        """, "--scene", "tori", "--scene-size", "160x90", "--engine", "gaussian")
+        _, yaw, command = out.splitlines()
+        self.assertNotEqual(float(yaw), 0)
+        made, defocused = command.split(" && ")
+        for line in (made.replace("tori.exr", "made.exr").replace("--frame 0", "--frame 1"),
+                     defocused.replace("tori.exr", "turned-0001.exr")):
+            subprocess.run([PETZVAL, *shlex.split(line)[1:]], cwd=self.shared, check=True, capture_output=True)
+        compared = subprocess.run([PETZVAL, "compare", "made.exr", "turned-0001.exr"], cwd=self.shared,
+                                  capture_output=True, text=True)
+        self.assertIn("inf", compared.stdout + compared.stderr)
+
     def test_what_is_wrong_is_said_in_the_window_which_stays(self):
         shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gone.exr"))
         self.do("""

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Makes the pictures of docs/view.md: scripts under Xvfb write what is on the screen. They are made to be looked at.
+
+Usage: tools/view_pictures.py PROGRAM
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+PICTURES = pathlib.Path(__file__).resolve().parent.parent / "docs/pictures"
+WINDOW = ["--window", "880x560", "--ui-scale", "0.85"]
+# Name, what is opened, what is done; {shot} is the picture that is kept.
+SHOWN = [
+    ("view-focus", ["table.exr"], """
+        set fstop 0.8
+        click 320 200
+        wipe sharp
+        set view.wipe 0.72
+        key o
+        wait
+        shot {shot}"""),
+    ("view-lens", ["table.exr"], """
+        set lens.name double-gauss
+        set fstop 2.1
+        focus 320 200
+        pick 160 305
+        key l
+        wait
+        click disc
+        wait
+        shot {shot}"""),
+    ("view-shot", ["shot.####.exr", "--engine", "gather"], """
+        set shot.keying on
+        click 75 80
+        frame 6
+        wait
+        click 180 50
+        frame 11
+        wait
+        click 120 100
+        set shot.easing on
+        frame 3
+        wait
+        shot {shot}"""),
+    ("view-scene", ["--scene", "cubes", "--engine", "gather"], """
+        wait
+        orbit 12 8
+        click "panel Look"
+        click "panel Compare"
+        click "panel Frame"
+        wait
+        shot {shot}"""),
+]
+
+
+def make(program, name, opened, script, folder, environment):
+    path = folder / "script.txt"
+    path.write_text("wait\n" + script.format(shot=PICTURES / (name + ".png")) + "\n")
+    subprocess.run([program, "view", *opened, *WINDOW, "--script", path], cwd=folder, env=environment, check=True)
+
+
+def main(program):
+    program = str(pathlib.Path(program).resolve())
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24"], pass_fds=[write])
+    os.close(write)
+    with os.fdopen(read) as says, tempfile.TemporaryDirectory() as name:
+        environment = {**os.environ, "DISPLAY": ":" + says.readline().strip()}
+        folder = pathlib.Path(name)
+        size = ["--pinhole-samples", "16", "-q"]
+        subprocess.run([program, "scene", "make", "table", "-o", "table.exr", "--width", "640", "--height", "360", *size],
+                       cwd=folder, check=True)
+        for frame in range(12):
+            subprocess.run([program, "scene", "make", "tori", "-o", f"shot.{frame:04}.exr", "--frame", str(3 * frame),
+                            "--width", "240", "--height", "135", *size], cwd=folder, check=True)
+        for shown in SHOWN:
+            make(program, *shown, folder, environment)
+    server.terminate()
+    server.wait()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:] or sys.exit(__doc__))
