@@ -146,6 +146,27 @@ TEST(Device, HoldsOutWhatTheCpuHoldsOut) {
     }
 }
 
+// Rings of several levels, deep samples, and edges beyond which there is nothing.
+TEST(Device, GatherDrawsAsTheCpuDoes) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    Shot shot = flat(45, 37, {}, 5);
+    paint_rectangles(shot.colour, 3);
+    for (int y = 0; y < 37; ++y)
+        for (int x = 0; x < 45; ++x)
+            shot.coc_px(x, y) = x > 10 && x < 16 ? -8.0f : x > 35 ? 11.0f : 0.05f * float(y);
+    for (const std::string& gpu : gpus()) {
+        Session cpu = session_on("cpu"), session = session_on(gpu);
+        for (const char* lens : {"ideal", "doublet"}) {
+            DefocusJob job = shot.job("gather");
+            job.lens.name = lens, job.camera = {50, 36, 2, 3};
+            if (lens[0] == 'd') job.place.display_window = job.place.data_window.grown(20);
+            const Picture expected = drawn(cpu, job, "cpu"), made = drawn(session, job, gpu);
+            EXPECT_GE(psnr(expected, made), 90) << gpu << " " << lens;
+            EXPECT_EQ(largest_difference(drawn(session, job, gpu), made), 0) << "not twice the same bits";
+        }
+    }
+}
+
 // A lamp whose disc a bar cuts, alone: what is near it is dark.
 TEST(Device, ShadowsLightsAsTheCpuDoes) {
     if (gpus().empty()) GTEST_SKIP() << why_no_gpu();

@@ -20,6 +20,10 @@ constexpr std::uint32_t kAddLights[] =
 #include "add_lights.comp.inc"
     ;
 
+constexpr std::uint32_t kGather[] =
+#include "gather.comp.inc"
+    ;
+
 }  // namespace
 
 ShaderWords words_of(Shader shader) {
@@ -33,9 +37,11 @@ ShaderWords words_of(Shader shader) {
         case Shader::OpenPupil:
             return {kOpenPupil, 3, 4};
         case Shader::AddLights:
+            return {kAddLights, 6, 32};
+        case Shader::Gather:
             break;
     }
-    return {kAddLights, 6, 32};
+    return {kGather, 4, 32};
 }
 
 }  // namespace petzval::device::vulkan

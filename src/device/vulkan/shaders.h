@@ -6,7 +6,7 @@
 
 namespace petzval::device::vulkan {
 
-enum class Shader { Composite, AddSectors, CoverPupil, OpenPupil, AddLights };
+enum class Shader { Composite, AddSectors, CoverPupil, OpenPupil, AddLights, Gather };
 
 struct ShaderWords {
     std::span<const std::uint32_t> spirv;

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "device/vulkan/add_lights.h"
 #include "device/vulkan/composite.h"
+#include "device/vulkan/gather.h"
 #include "device/vulkan/recording.h"
 #include "engine/lights/plan.h"
 
@@ -23,11 +24,13 @@ public:
           name_(context_->name() + " " + context_->candidate().name) {}
 
     const char* name() const override { return name_.c_str(); }
-    bool has(Verb verb) const override { return verb == Verb::Composite || verb == Verb::AddLights; }
+    bool has(Verb verb) const override {
+        return verb == Verb::Composite || verb == Verb::Gather || verb == Verb::AddLights;
+    }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
                                        const Control& control) const override {
         if (source.use() == KernelUse::ByPixel) return kept_by_source(source, set, control);
-        if (source.use() != KernelUse::Stamped) return otherwise_.atlas(source, set, memory, control);
+        if (source.use() == KernelUse::Masked) return otherwise_.atlas(source, set, memory, control);
         return std::make_shared<const PackedAtlas>(
             laid_out<PackedSet>(source, set, "programs of a device", memory, control));
     }
@@ -37,7 +40,7 @@ public:
     }
     void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
                 const Control& control) const override {
-        otherwise_.gather(plan, atlas, out, control);
+        gather_tiles(*context_, plan, dynamic_cast<const PackedAtlas&>(atlas), out, control);
     }
     void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
         otherwise_.mix(plan, out, control);

@@ -1,0 +1,217 @@
+#include "device/vulkan/gather.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace petzval::device::vulkan {
+namespace {
+
+using engine::CellLevel;
+using engine::CellLight;
+using engine::GatherPlan;
+using engine::RingSizes;
+
+constexpr int kTile = GatherPlan::kTile;
+constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
+constexpr std::uint32_t kGroupsPerTile = 64;
+constexpr std::size_t kMostTiles = 16;  // of one submission, so that none is long
+
+static_assert(kTile == 128 && GatherPlan::kTentBorder == 1, "as gather.comp has it");
+
+std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+struct Push {
+    std::uint32_t tiles = 0, levels = 0, rings = 0, places = 0;
+    std::uint32_t ring_count = 0, records = 0, is_opaque = 0, open_edges = 0;
+};
+static_assert(sizeof(Push) == 32);
+
+// Cells of one level, rows begin…end - 1: their light by ring.
+struct Cells {
+    int width = 0, height = 0, begin = 0, end = 0;
+    std::vector<std::uint32_t> first;
+    std::vector<CellLight> lights;
+};
+
+class Gatherer {
+public:
+    Gatherer(Context& context, const GatherPlan& plan, const PackedAtlas& atlas, Workers& workers)
+        : context_(context), plan_(plan), atlas_(atlas), workers_(workers) {}
+
+    // Tiles begin…end - 1, which lie in one row.
+    void draw(std::size_t begin, std::size_t end, View<Rgba> out) const {
+        std::vector<Rect> tiles;
+        for (std::size_t t = begin; t < end; ++t) tiles.push_back(plan_.tiles[t].pixels);
+        Push push;
+        const std::vector<std::uint32_t> said = words_of(tiles, push);
+        Recording recording(context_);
+        const Piece words = recording.uploaded(std::span<const std::uint32_t>(said));
+        std::vector<std::uint32_t> all(atlas_.size());
+        for (std::uint32_t k = 0; k < all.size(); ++k) all[k] = k;
+        const KernelsOnDevice kernels = atlas_.uploaded(all, recording);
+        push.records = kernels.records;
+        const std::size_t bytes = tiles.size() * kTilePixels * sizeof(Rgba);
+        const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
+        recording.pass("gather", context_.program(Shader::Gather),
+                       {&words, &kernels.words, &kernels.weights, &result}, push,
+                       {std::uint32_t(tiles.size()) * kGroupsPerTile});
+        const auto* pixels = reinterpret_cast<const Rgba*>(recording.downloaded(result, bytes));
+        recording.run();
+        for (const Rect& tile : tiles) {
+            for (int y = 0; y < tile.height(); ++y)
+                std::copy_n(pixels + std::ptrdiff_t(y) * kTile, tile.width(),
+                            out.row(plan_.first_row + tile.y0 + y) + tile.x0);
+            pixels += kTilePixels;
+        }
+    }
+
+private:
+    std::vector<std::uint32_t> words_of(const std::vector<Rect>& tiles, Push& push) const {
+        std::vector<std::uint32_t> words;
+        const auto here = [&] { return std::uint32_t(words.size()); };
+        for (const Rect& r : tiles)
+            words.insert(words.end(), {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1),
+                                       std::uint32_t(r.y1)});
+        push.rings = here(), push.ring_count = std::uint32_t(plan_.sizes.count());
+        for (int ring = 0; ring < plan_.sizes.count(); ++ring)
+            words.push_back(std::uint32_t(plan_.sizes.level(ring)));
+        push.places = here();
+        words.insert(words.end(), plan_.places.begin(), plan_.places.end());
+        push.levels = here();
+        constexpr std::size_t kLevelWords = 8;
+        words.resize(words.size() + std::size_t(plan_.sizes.levels()) * kLevelWords);
+        for (int level = 0; level < plan_.sizes.levels(); ++level) {
+            const Cells cells = cells_for(tiles, level);
+            const std::uint32_t first = here();
+            words.insert(words.end(), cells.first.begin(), cells.first.end());
+            const std::uint32_t lights = here();
+            for (const CellLight& l : cells.lights)
+                words.insert(words.end(), {bits_of(l.colour.r), bits_of(l.colour.g), bits_of(l.colour.b),
+                                           bits_of(l.colour.a), bits_of(l.covered), bits_of(l.beyond),
+                                           std::uint32_t(l.ring)});
+            const auto middle = [&](int cell) { return std::ldexp(cell + 0.5, level) - 0.5; };
+            const std::uint32_t columns = here();
+            for (int x = 0; x < cells.width; ++x)
+                words.push_back(std::uint32_t(plan_.zones.column_of(middle(x))));
+            const std::uint32_t rows = here();
+            for (int y = 0; y < cells.height; ++y)
+                words.push_back(std::uint32_t(plan_.zones.row_of(middle(y)) * plan_.zones.columns));
+            const std::array<std::uint32_t, kLevelWords> header{
+                std::uint32_t(cells.width),
+                std::uint32_t(cells.height),
+                std::uint32_t(cells.begin),
+                first,
+                lights,
+                columns,
+                rows,
+                std::uint32_t(plan_.reach[std::size_t(level)])};
+            std::copy(header.begin(), header.end(),
+                      words.begin() + std::ptrdiff_t(push.levels + std::size_t(level) * kLevelWords));
+        }
+        const engine::OpenEdges& open = plan_.strip.open_edges;
+        push.open_edges =
+            (open.left ? 1u : 0u) | (open.top ? 2u : 0u) | (open.right ? 4u : 0u) | (open.bottom ? 8u : 0u);
+        push.is_opaque = plan_.opaque ? 1 : 0;
+        return words;
+    }
+
+    // All that the tiles may read.
+    Cells cells_for(const std::vector<Rect>& tiles, int level) const {
+        Cells cells;
+        const CellLevel* const from = level > 0 ? &plan_.levels[std::size_t(level - 1)] : nullptr;
+        cells.width = from ? from->width() : plan_.strip.width();
+        cells.height = from ? from->height() : plan_.strip.height();
+        const Rect window = GatherPlan::cells_of(tiles.front(), level).grown(plan_.reach[std::size_t(level)]);
+        cells.begin = std::clamp(window.y0, 0, cells.height - 1);
+        cells.end = std::clamp(window.y1, cells.begin + 1, cells.height);
+        if (!from) return pixels(std::move(cells));
+        for (int y = cells.begin; y < cells.end; ++y)
+            for (int x = 0; x < cells.width; ++x) {
+                cells.first.push_back(std::uint32_t(cells.lights.size()));
+                const auto lights = from->at(x, y);
+                cells.lights.insert(cells.lights.end(), lights.begin(), lights.end());
+            }
+        cells.first.push_back(std::uint32_t(cells.lights.size()));
+        return cells;
+    }
+
+    // At full resolution, row by row in parallel.
+    Cells pixels(Cells cells) const {
+        struct Row {
+            std::vector<std::uint32_t> first;
+            std::vector<CellLight> lights;
+        };
+        std::vector<Row> rows(std::size_t(cells.end - cells.begin));
+        parallel_for(int(rows.size()), workers_, [&](int i) {
+            Row& row = rows[std::size_t(i)];
+            for (int x = 0; x < cells.width; ++x) {
+                row.first.push_back(std::uint32_t(row.lights.size()));
+                add_pixel(x, cells.begin + i, row.lights);
+            }
+        });
+        for (const Row& row : rows) {
+            const auto before = std::uint32_t(cells.lights.size());
+            for (const std::uint32_t first : row.first) cells.first.push_back(before + first);
+            cells.lights.insert(cells.lights.end(), row.lights.begin(), row.lights.end());
+        }
+        cells.first.push_back(std::uint32_t(cells.lights.size()));
+        return cells;
+    }
+
+    // The light of a pixel for each ring of level 0, once.
+    void add_pixel(int x, int y, std::vector<CellLight>& lights) const {
+        const std::size_t begin = lights.size();
+        const auto add = [&](int ring, float share, Rgba colour, float covered) {
+            if (share <= 0 || plan_.sizes.level(ring) != 0) return;
+            auto known = std::find_if(lights.begin() + std::ptrdiff_t(begin), lights.end(),
+                                      [ring](const CellLight& l) { return l.ring == ring; });
+            if (known == lights.end()) known = lights.insert(known, CellLight()), known->ring = ring;
+            known->colour += share * colour, known->covered += share * covered;
+        };
+        engine::for_each_sample(plan_.strip, plan_.fill, x, y, [&](Rgba colour, float coc_px, float covered) {
+            const RingSizes::Mix mix = plan_.sizes.mix(coc_px);
+            add(mix.inner, 1 - mix.outer_share, colour, covered);
+            add(mix.outer, mix.outer_share, colour, covered);
+        });
+    }
+
+    Context& context_;
+    const GatherPlan& plan_;
+    const PackedAtlas& atlas_;
+    Workers& workers_;
+};
+
+void copy_tile(const GatherPlan& plan, const Rect& tile, View<Rgba> out) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+        std::copy_n(plan.strip.colour.row(y) + tile.x0, tile.width(), out.row(plan.first_row + y) + tile.x0);
+}
+
+}  // namespace
+
+void gather_tiles(Context& context, const GatherPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+                  const Control& control) {
+    const Gatherer gatherer(context, plan, atlas, control.workers);
+    const std::size_t tiles = plan.tiles.size();
+    for (std::size_t begin = 0; begin < tiles && !control.progress.cancelled();) {
+        std::size_t end = begin;
+        const auto joins = [&] {
+            return end < tiles && plan.tiles[end].is_sharp == plan.tiles[begin].is_sharp &&
+                   plan.tiles[end].pixels.y0 == plan.tiles[begin].pixels.y0 && end - begin < kMostTiles;
+        };
+        while (joins()) ++end;
+        if (plan.tiles[begin].is_sharp)
+            for (std::size_t t = begin; t < end; ++t) copy_tile(plan, plan.tiles[t].pixels, out);
+        else
+            gatherer.draw(begin, end, out);
+        control.progress.advance(control.share * double(end - begin) / double(tiles));
+        begin = end;
+    }
+}
+
+}  // namespace petzval::device::vulkan

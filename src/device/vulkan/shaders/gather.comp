@@ -1,0 +1,201 @@
+// Gathers 16 x 16 pixels of a tile: rings from the nearest to the farthest, each from the light around that
+// belongs to it. Formulas are device/cpu/gather.cpp's; the words are those that gather.cpp beside this writes.
+#version 450
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 0) readonly buffer Words { uint words[]; };
+layout(std430, binding = 1) readonly buffer KernelWords { uint kernels[]; };
+layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
+layout(std430, binding = 3) writeonly buffer Result { vec4 result[]; };  // by tile, 128 x 128 pixels each
+layout(push_constant) uniform Push {
+    uint tiles, levels, rings, places;  // where these begin in `words`
+    uint ring_count, records;
+    uint is_opaque;   // alpha is coverage
+    uint open_edges;  // bits: left, top, right, bottom
+} at;
+
+// A tile: its rectangle. A level: cells across and down, the first row that is here, where the first lights of
+// its cells, the lights, zones of columns and zones of rows begin, and how far kernels reach. A light: colour,
+// covered, beyond, ring. A ring: its level. Places: kernels by zone and ring.
+const uint kTileWords = 4, kLevelWords = 8, kLightWords = 7, kNowhere = 0xffffffffu;
+const int kChunk = 256, kBorder = 1;
+const float kLeastArea = 1e-6;
+
+shared vec4 hit_colour[kChunk];  // and, when they are done, what cells hold
+shared vec2 hit_area[kChunk];    // covered, beyond
+shared int hit_x[kChunk], hit_y[kChunk];
+shared uint hit_corner[kChunk], hit_size[kChunk], hit_weights[kChunk];
+shared uint hit_words[kChunk / 32];
+
+struct Box { ivec2 low, high; };
+struct Sums {
+    vec4 colour;
+    vec2 area;
+};
+
+ivec2 halves(uint word) { return ivec2(int(word << 16) >> 16, int(word) >> 16); }
+float number(uint word) { return uintBitsToFloat(words[word]); }
+
+// As in composite.comp.
+vec4 weight(ivec2 d, ivec2 wide, uint where) {
+    const int tap = d.y * wide.x + d.x;
+    const uint first = 4u * (where & 0x7fffffffu);
+    if ((where >> 31) != 0u) return vec4(weights[first + uint(tap)]);
+    const uint i = first + 4u * uint(tap);
+    return vec4(weights[i], weights[i + 1u], weights[i + 2u], weights[i + 3u]);
+}
+
+// Which lights of a ring, of those of cell number `index` of the window, touch the box; returns how many.
+uint find_hits(uint ring, uint level, Box window, Box box, int index) {
+    const uint own = gl_LocalInvocationIndex;
+    if (own < kChunk / 32) hit_words[own] = 0u;
+    barrier();
+    const ivec2 wide = window.high - window.low;
+    const ivec2 place = window.low + ivec2(index % wide.x, index / wide.x);
+    bool hits = false;
+    uint light = 0u, record = 0u;
+    const ivec2 size = ivec2(words[level], words[level + 1u]);
+    const ivec2 cell = clamp(place, ivec2(0), size - 1);
+    if (index < wide.x * wide.y) {
+        const uint first = words[level + 3u] + uint((cell.y - int(words[level + 2u])) * size.x + cell.x);
+        for (uint i = words[first]; i < words[first + 1u] && !hits; ++i) {
+            light = words[level + 4u] + kLightWords * i;
+            hits = words[light + 6u] == ring;
+        }
+    }
+    if (hits) {
+        const uint zone = words[words[level + 5u] + uint(cell.x)] + words[words[level + 6u] + uint(cell.y)];
+        const uint kernel = words[at.places + zone * at.ring_count + ring];
+        hits = kernel != kNowhere;
+        if (hits) {
+            record = at.records + 3u * kernels[kernel];
+            const ivec2 from = place + halves(kernels[record]);
+            hits = all(lessThan(from, box.high)) && all(greaterThan(from + halves(kernels[record + 1u]), box.low));
+        }
+        if (hits) atomicOr(hit_words[own / 32u], 1u << (own % 32u));
+    }
+    barrier();
+    uint rank = 0u, all_hits = 0u;
+    for (uint w = 0u; w < kChunk / 32; ++w) {
+        const uint word = hit_words[w];
+        if (w < own / 32u) rank += bitCount(word);
+        if (w == own / 32u) rank += bitCount(word & ((1u << (own % 32u)) - 1u));
+        all_hits += bitCount(word);
+    }
+    if (hits) {
+        vec4 colour = vec4(number(light), number(light + 1u), number(light + 2u), number(light + 3u));
+        vec2 area = vec2(number(light + 4u), number(light + 5u));
+        // What goes on beyond the picture covers, in a colour that is not known; else there is emptiness.
+        if (place != cell) {
+            const bool goes_on = (place.x >= 0 || (at.open_edges & 1u) != 0u) &&
+                                 (place.y >= 0 || (at.open_edges & 2u) != 0u) &&
+                                 (place.x < size.x || (at.open_edges & 4u) != 0u) &&
+                                 (place.y < size.y || (at.open_edges & 8u) != 0u);
+            colour = vec4(0);
+            area = goes_on ? vec2(0, area.x + area.y) : vec2(area.x + area.y, 0);
+        }
+        hit_colour[rank] = colour, hit_area[rank] = area;
+        hit_x[rank] = place.x, hit_y[rank] = place.y;
+        hit_corner[rank] = kernels[record], hit_size[rank] = kernels[record + 1u];
+        hit_weights[rank] = kernels[record + 2u];
+    }
+    barrier();
+    return all_hits;
+}
+
+// What arrives at a cell from one ring: from every hit whose number is `slice` of `slices`.
+Sums gathered(uint ring, uint level, Box box, ivec2 cell, bool wanted, uint slice, uint slices) {
+    const int reach = int(words[level + 7u]);
+    const Box window = Box(box.low - reach, box.high + reach);
+    const ivec2 wide = window.high - window.low;
+    Sums sums = Sums(vec4(0), vec2(0));
+    for (int first = 0; first < wide.x * wide.y; first += kChunk) {
+        const uint hits =
+            find_hits(ring, level, window, box, first + int(gl_LocalInvocationIndex));
+        if (wanted)
+            for (uint k = slice; k < hits; k += slices) {
+                const ivec2 d = cell - ivec2(hit_x[k], hit_y[k]) - halves(hit_corner[k]), size = halves(hit_size[k]);
+                if (any(lessThan(d, ivec2(0))) || any(greaterThanEqual(d, size))) continue;
+                const vec4 w = weight(d, size, hit_weights[k]);
+                sums.colour += w * hit_colour[k];
+                sums.area += w.a * hit_area[k];
+            }
+        barrier();
+    }
+    return sums;
+}
+
+// Of the lens, the area that a ring arrives with, or what is left.
+void take(Sums ring, inout vec4 sum, inout float free) {
+    const bool covers = ring.area.x > kLeastArea;
+    const float taken = covers ? min(ring.area.x + ring.area.y, free) : 0.0;
+    const float share = covers ? taken / ring.area.x : free;
+    sum += share * vec4(ring.colour.rgb, at.is_opaque != 0u ? ring.area.x : ring.colour.a);
+    free -= taken;
+}
+
+void main() {
+    const uint own = gl_LocalInvocationIndex, part = gl_WorkGroupID.x % 64u;
+    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / 64u);
+    const ivec2 corner = ivec2(int(words[tile]), int(words[tile + 1u])),
+                end = ivec2(int(words[tile + 2u]), int(words[tile + 3u]));
+    Box box;
+    box.low = corner + 16 * ivec2(part % 8u, part / 8u);
+    box.high = min(box.low + 16, end);
+    if (any(greaterThanEqual(box.low, end))) return;
+    const ivec2 pixel = box.low + ivec2(own % 16u, own / 16u);
+    const bool inside = all(lessThan(pixel, box.high));
+
+    vec4 sum = vec4(0);
+    float free = 1;
+    for (uint ring = 0u; ring < at.ring_count;) {
+        const uint number_of_level = words[at.rings + ring], level = at.levels + kLevelWords * number_of_level;
+        if (number_of_level == 0u) {
+            take(gathered(ring, level, box, pixel, inside, 0u, 1u), sum, free);
+            ++ring;
+            continue;
+        }
+        // Rings of one level are combined on its grid and enlarged together.
+        const Box cells = Box((box.low >> int(number_of_level)) - kBorder,
+                              ((box.high - 1) >> int(number_of_level)) + 1 + kBorder);
+        const ivec2 size = cells.high - cells.low;
+        const uint count = uint(size.x * size.y), slices = uint(kChunk) / count;
+        const ivec2 cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
+        vec4 cell_sum = vec4(0);
+        float cell_free = 1;
+        for (; ring < at.ring_count && words[at.rings + ring] == number_of_level; ++ring) {
+            const Sums slice = gathered(ring, level, cells, cell, own < slices * count, own / count, slices);
+            hit_colour[own] = slice.colour, hit_area[own] = slice.area;
+            barrier();
+            Sums whole = Sums(vec4(0), vec2(0));
+            if (own < count)
+                for (uint s = 0u; s < slices; ++s) {
+                    whole.colour += hit_colour[own + s * count];
+                    whole.area += hit_area[own + s * count];
+                }
+            take(whole, cell_sum, cell_free);
+            barrier();
+        }
+        hit_colour[own] = cell_sum, hit_area[own] = vec2(cell_free, 0);
+        barrier();
+        if (inside) {
+            const vec2 place = (vec2(pixel) + 0.5) / float(1 << int(number_of_level)) - 0.5 - vec2(cells.low);
+            const ivec2 low = ivec2(place);
+            const vec2 t = place - vec2(low);
+            const int i = low.y * size.x + low.x;
+            const vec4 colour = mix(mix(hit_colour[i], hit_colour[i + size.x], t.y),
+                                    mix(hit_colour[i + 1], hit_colour[i + size.x + 1], t.y), t.x);
+            const float area = 1 - mix(mix(hit_area[i].x, hit_area[i + size.x].x, t.y),
+                                       mix(hit_area[i + 1].x, hit_area[i + size.x + 1].x, t.y), t.x);
+            const bool covers = area > kLeastArea;
+            const float taken = covers ? min(area, free) : 0.0;
+            sum += (covers ? taken / area : free) * colour;
+            free -= taken;
+        }
+        barrier();
+    }
+    const float taken = 1 - free;
+    if (inside)
+        result[gl_WorkGroupID.x / 64u * 16384u + uint(pixel.y - corner.y) * 128u + uint(pixel.x - corner.x)] =
+            sum * (taken > kLeastArea ? 1 / taken : 0.0);
+}
