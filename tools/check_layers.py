@@ -50,7 +50,7 @@ ALLOWED = {
 }
 # What tests beside the code may see as well.
 TESTS = {
-    "device/vulkan": {"device/cpu", "kernel/lenses"},
+    "device/vulkan": {"engine/samples", "engine/scatter", "kernel/lenses"},
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
     "engine/gather": {"kernel/lenses"},

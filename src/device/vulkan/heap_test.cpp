@@ -2,6 +2,7 @@
 
 #include "device/failure.h"
 #include "device/vulkan/recording.h"
+#include "device/vulkan/test_context.h"
 
 #include <algorithm>
 #include <numeric>
@@ -11,15 +12,6 @@
 
 namespace petzval::device::vulkan {
 namespace {
-
-// The first device that can be used; null: there is none.
-std::shared_ptr<Context> any_context() {
-    auto instance = Instance::open();
-    if (!instance) return nullptr;
-    for (std::size_t i = 0; i < (*instance)->candidates().size(); ++i)
-        if (auto context = Context::open(*instance, i)) return *context;
-    return nullptr;
-}
 
 TEST(Heap, PiecesNeverOverlapAndLeaveNothingBehind) {
     const auto context = any_context();

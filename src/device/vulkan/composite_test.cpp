@@ -1,0 +1,75 @@
+#include "device/vulkan/composite.h"
+
+#include "device/vulkan/test_context.h"
+#include "engine/samples/sample_set.h"
+#include "engine/scatter/scatter_kernels.h"
+#include "kernel/lenses/make_lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace petzval::device::vulkan {
+namespace {
+
+using engine::Input;
+
+constexpr int kWidth = 150, kHeight = 90;
+
+// A picture of two depths, and what a plan of it is made with.
+struct Shown {
+    Picture colour{kWidth, kHeight};
+    Plane coc_px{kWidth, kHeight, 2.0f};
+    std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
+    Progress progress;
+    Input input;
+
+    Shown() {
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                colour(x, y) = {float((7 * x + 3 * y) % 11) / 11, float((x * y) % 7) / 7, 0.3f, 1};
+                if (x > 60 && x < 90) coc_px(x, y) = -3;
+            }
+        const kernel::Mount mount{{50, 36, 1.4, 2}, kWidth, kHeight};
+        for (int level = 0; level < 2; ++level)
+            lenses.push_back(std::move(kernel::make_lens({}, mount)).value());
+        input.lens_levels = lenses;
+        input.field_per_px = 2 / std::hypot(kWidth, kHeight);
+        input.colour = colour, input.coc_px = coc_px, input.frame = colour.rect();
+        input.nearest_coc_px = -3, input.farthest_coc_px = 2;
+        input.quality = Quality::Draft, input.progress = &progress;
+    }
+};
+
+// A watchdog, a small memory, a slow device: what is drawn depends on none of them.
+TEST(Composite, IsTheSameBitsHoweverItIsCut) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    Shown shown;
+    const engine::LevelRule rule = engine::level_rule(shown.input);
+    const engine::ScatterKernels kernels(shown.input, rule);
+    const engine::SampleSet set = engine::complete_samples(shown.input);
+    const engine::ScatterPlan plan =
+        engine::make_plan(shown.input, set.samples, set.connected, shown.colour.rect(), 0, rule, kernels);
+    ASSERT_EQ(plan.tiles.size(), 7u) << "six tiles and the end";
+    Memory memory(std::numeric_limits<std::size_t>::max());
+    const Control control{*shown.input.workers, shown.progress};
+    const PackedAtlas atlas(laid_out<PackedSet>(kernels, plan.kernels, "test", memory, control));
+    Picture whole(kWidth, kHeight), cut(kWidth, kHeight);
+    context->time_passes();
+    const Work work = composite_tiles(*context, plan, atlas, whole, control);
+    EXPECT_GT(work.multiply_adds, std::uint64_t(kWidth * kHeight));
+    composite_tiles(*context, plan, atlas, cut, control, {.most_multiply_adds = 1, .most_partial_bytes = 1});
+    EXPECT_EQ(std::memcmp(whole.pixels(), cut.pixels(), whole.bytes()), 0);
+    EXPECT_GT(whole(75, 40).a, 0.99f);
+    for (const PassTime& pass : context->pass_times()) {
+        if (pass.pass != "composite") continue;
+        EXPECT_EQ(pass.runs, 7u) << "one submission, then one for each tile";
+    }
+}
+
+}  // namespace
+}  // namespace petzval::device::vulkan
