@@ -93,8 +93,12 @@ void DefocusFlags::add_choices_to(Verb& verb) {
     add_engines_to(verb);
 }
 
-void DefocusFlags::add_kernel_cache_to(Verb& verb) {
+void DefocusFlags::add_session_to(Verb& verb) {
     FlagGroup(verb, "Run")
+        .value("--device", "DEVICE",
+               "what draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a GPU that is no software "
+               "driver, else the CPU. What it has no program for, the CPU draws",
+               parse_text, device)
         .value("--kernel-cache", "FOLDER",
                "where kernels that take long to make are kept between runs, 1 GiB at most; off keeps none. "
                "Default: $PETZVAL_KERNEL_CACHE, else petzval/kernels in the user's cache folder",
@@ -106,7 +110,7 @@ void DefocusFlags::add_shown_to(Verb& verb) {
     develop.add_to(verb);
     ocio.add_to(verb);
     run.add_threads_to(verb);
-    add_kernel_cache_to(verb);
+    add_session_to(verb);
     run.add_log_to(verb, false);
 }
 
@@ -120,12 +124,7 @@ void DefocusFlags::add_to(Verb& verb) {
     develop.add_to(verb);
     ocio.add_to(verb);
     run.add_threads_to(verb);
-    FlagGroup(verb, "Run")
-        .value("--device", "DEVICE",
-               "what draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a GPU that is no software "
-               "driver, else the CPU. What it has no program for, the CPU draws",
-               parse_text, device);
-    add_kernel_cache_to(verb);
+    add_session_to(verb);
     run.add_log_to(verb, true);
 }
 

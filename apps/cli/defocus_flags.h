@@ -60,7 +60,7 @@ struct DefocusFlags {
 
 private:
     void add_choices_to(Verb& verb);
-    void add_kernel_cache_to(Verb& verb);
+    void add_session_to(Verb& verb);
     void check_choices(const Verb& verb);
     void add_engines_to(Verb& verb);
     void add_output_to(Verb& verb);

@@ -60,6 +60,7 @@ std::vector<std::string> command_words(const ViewFlags& flags, const view::Choic
     for (const std::string& word : flags.files)
         words.push_back(choice.frame ? at_frame(word, *choice.frame) : word);
     words.insert(words.end(), {"-o", output});
+    if (flags.device != "cpu") words.insert(words.end(), {"--device", flags.device});
     add_number(words, "--fstop", choice.camera.f_number);
     add_number(words, "--focus", choice.camera.focus_distance_m);
     add_number(words, "--focal-length", choice.camera.focal_length_mm);
@@ -166,6 +167,11 @@ Status open_window(const ViewFlags& flags) {
     if (flags.size) setup.width = flags.size->first, setup.height = flags.size->second;
     setup.fields = field_rows();
     setup.session = std::make_shared<Session>(flags.session());
+    if (flags.device != "cpu") {
+        SessionSettings settings = flags.session();
+        settings.device = "cpu";
+        setup.cpu_session = std::make_shared<Session>(settings);
+    }
     setup.command_line = [&](const view::Choice& choice, const std::string& output) {
         return command_line(flags, choice, output);
     };

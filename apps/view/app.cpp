@@ -27,7 +27,10 @@ Rect Mapping::seen() const {
 }
 
 App::App(const Setup& setup, const std::function<void()>& wake)
-    : setup_(setup), darkroom_(setup.ocio_codes, wake), bench_(wake), maker_(setup.session, wake) {
+    : setup_(setup),
+      darkroom_(setup.ocio_codes, wake),
+      bench_(wake),
+      maker_(setup.session, setup.cpu_session, wake) {
     state.choice = setup.choice;
     Timeline& line = state.timeline;
     line.frames = setup.frames;
@@ -309,6 +312,7 @@ void App::ask_frame(int index, const Side& side) {
     }
     Wish wish{shot_, *numbers, state.choice.look, is_made ? side.shown : "coc", {}, state.final_quality};
     if (!side.engine.empty()) wish.look.engine = side.engine;
+    wish.on_cpu = side.on_cpu;
     wish.region = region_for(frames, wish);
     const bool same = frames.wish && same_frame(*frames.wish, wish);
     if (same && frames.wish->region == wish.region && frames.wish->final_quality == wish.final_quality)

@@ -60,11 +60,6 @@ void draw_label(const ImVec2& where, const std::string& text, bool to_the_left =
     list->AddText(from, IM_COL32(235, 235, 235, 255), text.c_str());
 }
 
-std::string name_of_side(const App& app, const Side& side) {
-    if (side.shown != "result") return side.shown;
-    return side.engine.empty() ? app.state.choice.look.engine : side.engine;
-}
-
 void draw_pick(const App& app) {
     if (!app.state.pick || is_buffer(app.state.left.shown)) return;
     const Rect frame = app.frame();
@@ -169,6 +164,12 @@ void take_mouse(App& app) {
 }
 
 }  // namespace
+
+std::string name_of_side(const App& app, const Side& side) {
+    if (side.shown != "result") return side.shown;
+    if (side.on_cpu) return "cpu";
+    return side.engine.empty() ? app.state.choice.look.engine : side.engine;
+}
 
 void draw_canvas(App& app) {
     const ImVec2 min = ImGui::GetCursorScreenPos();

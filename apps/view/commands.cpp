@@ -122,12 +122,16 @@ Status wipe(App& app, const Words& words) {
     const std::string what = words[0];
     if (has(engine_names(), what))
         app.state.right = {"result", what};
+    else if (what == "cpu" && !app.setup().cpu_session)
+        return invalid("the CPU draws both sides; give --device gpu");
+    else if (what == "cpu")
+        app.state.right = {"result", "", true};
     else if (what == "against" && !app.against())
         return invalid("there is no second picture; give --against FILE");
     else if (has(shown_names(), what) && !is_buffer(what))
         app.state.right = {what, ""};
     else
-        return invalid("wipe " + what + ": not off, sharp, against, coc, depth or an engine");
+        return invalid("wipe " + what + ": not off, sharp, against, coc, depth, cpu or an engine");
     app.state.wiping = true;
     return Done{};
 }
@@ -313,7 +317,7 @@ const std::vector<Command>& commands() {
         {"exposure_by", "STOPS", "brighter, or darker", exposure_by},
         {"channel", "rgb|r|g|b|a", "one channel; again: all", channel},
         {"show", "NAME", "result, sharp, against, coc, depth, or a buffer of an engine", show},
-        {"wipe", "NAME|off", "compare with sharp, against, coc, depth, or another engine", wipe},
+        {"wipe", "NAME|off", "compare with sharp, against, coc, depth, another engine, the cpu", wipe},
         {"zoom", "fit|in|out|FACTOR [X Y]", "about the middle, or a pixel", zoom},
         {"pan", "DX DY", "move the picture by pixels", pan},
         {"save", "FILE", "the frame at the look's quality, as defocus writes it", save},

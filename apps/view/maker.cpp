@@ -106,11 +106,15 @@ bool is_buffer(const std::string& shown) {
 
 bool same_frame(const Wish& a, const Wish& b) {
     return a.shot == b.shot && numbers_of(a.camera) == numbers_of(b.camera) && a.shown == b.shown &&
-           a.look == b.look;
+           a.look == b.look && a.on_cpu == b.on_cpu;
 }
 
-Maker::Maker(std::shared_ptr<Session> session, std::function<void()> wake)
-    : session_(std::move(session)), wake_(std::move(wake)), thread_([this] { work(); }) {}
+Maker::Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session,
+             std::function<void()> wake)
+    : session_(std::move(session)),
+      cpu_session_(std::move(cpu_session)),
+      wake_(std::move(wake)),
+      thread_([this] { work(); }) {}
 
 Maker::~Maker() {
     {
@@ -285,7 +289,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     if (Status done = read_lens_images(look); !done) return done.error();
     Result<DefocusReport> done = Error{ErrorCode::InvalidArgument, ""};
     if (wish.shown == "result") {
-        done = session_->take(rendered, look, control);
+        done = (wish.on_cpu && cpu_session_ ? cpu_session_ : session_)->take(rendered, look, control);
     } else {
         DefocusJob job = with_look(rendered, look);
         if (const auto scatter = parse<ScatterView>(wish.shown)) job.scatter.view = *scatter;

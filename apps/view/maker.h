@@ -48,6 +48,7 @@ struct Wish {
     std::string shown = "result";     // one of shown_names() that is made: not "sharp", "against", "depth"
     std::optional<Rect> region = {};  // in pixels as the data window is
     bool final_quality = false;       // after standard quality
+    bool on_cpu = false;              // in place of the session's device
 };
 bool same_frame(const Wish& a, const Wish& b);  // but for the region and how far it is refined
 
@@ -87,7 +88,8 @@ struct Reading {
 class Maker {
 public:
     // `wake` is called, by the maker's thread, whenever there is news.
-    Maker(std::shared_ptr<Session> session, std::function<void()> wake);
+    // `cpu_session`: of wishes that are on_cpu; null: none are.
+    Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session, std::function<void()> wake);
     ~Maker();  // cancels
     Maker(const Maker&) = delete;
     Maker& operator=(const Maker&) = delete;
@@ -126,7 +128,7 @@ private:
                         MadeFrame& frame);
     void look_at_files();
 
-    std::shared_ptr<Session> session_;
+    std::shared_ptr<Session> session_, cpu_session_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable something_;

@@ -4,6 +4,7 @@
 #include "petzval/lens_facts.h"
 #include "petzval/names.h"
 
+#include "canvas.h"
 #include "commands.h"
 #include "fields.h"
 #include "widgets.h"
@@ -138,9 +139,10 @@ void display_panel(App& app) {
 
 void compare_panel(App& app) {
     const auto wipe_button = [&](const std::string& what) {
-        if (ImGui::RadioButton(what.c_str(), app.state.wiping && (app.state.right.engine == what ||
-                                                                  (app.state.right.engine.empty() &&
-                                                                   app.state.right.shown == what))))
+        if (ImGui::RadioButton(
+                what.c_str(),
+                app.state.wiping && (name_of_side(app, app.state.right) == what ||
+                                     (app.state.right.engine.empty() && app.state.right.shown == what))))
             say(app, "wipe " + what);
         is_field(app, "wipe " + what);
     };
@@ -149,6 +151,7 @@ void compare_panel(App& app) {
     command_button(app, "off", "wipe off");
     wipe_button("sharp");
     if (app.against()) ImGui::SameLine(), wipe_button("against");
+    if (app.setup().cpu_session) ImGui::SameLine(), wipe_button("cpu");
     ImGui::SameLine();
     wipe_button("coc");
     ImGui::SameLine();
@@ -195,6 +198,48 @@ void files_panel(App& app) {
     command_button(app, "read again", "reload");
 }
 
+std::string words_for(const char* name, const Rgba& p) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s %.4g %.4g %.4g %.3g", name, double(p.r), double(p.g), double(p.b),
+                  double(p.a));
+    return text;
+}
+
+void samples_of(const char* title, const DeepPicture& deep, int x, int y) {
+    if (deep.empty() || x < 0 || y < 0 || x >= deep.width() || y >= deep.height()) return;
+    const auto samples = deep.at(x, y);
+    ImGui::Text("%s: %zu samples", title, samples.size());
+    float covered = 0;
+    std::vector<float> coverage;  // as seen from the front, over the samples
+    for (const DeepSample& sample : samples) {
+        covered += (1 - covered) * sample.colour.a;
+        coverage.push_back(covered);
+        ImGui::Text("%9.5g m  alpha %.3f  %.4g %.4g %.4g", double(sample.depth_m), double(sample.colour.a),
+                    double(sample.colour.r), double(sample.colour.g), double(sample.colour.b));
+    }
+    if (coverage.size() > 1)
+        ImGui::PlotHistogram("coverage", coverage.data(), int(coverage.size()), 0, nullptr, 0, 1,
+                             {0, 4 * ImGui::GetFontSize()});
+}
+
+// All that the files say of the picked pixel.
+void pixel_panel(App& app) {
+    if (!app.state.pick || !app.shot())
+        return ImGui::TextWrapped("click on a pixel, with the right button to keep the focus");
+    const Shot& shot = app.shot()->shot;
+    const int x = app.state.pick->x + shot.place.display_window.x0 - shot.place.data_window.x0;
+    const int y = app.state.pick->y + shot.place.display_window.y0 - shot.place.data_window.y0;
+    if (!shot.colour.rect().contains(x, y)) return ImGui::TextWrapped("outside of the picture");
+    ImGui::Text("pixel %d, %d", app.state.pick->x, app.state.pick->y);
+    ImGui::TextUnformatted(words_for("sharp", shot.colour(x, y)).c_str());
+    if (const auto* depth = std::get_if<DepthMetres>(&shot.depth))
+        ImGui::Text("depth %.6g m", double(depth->plane(x, y)));
+    if (const auto radius = app.radius_at(*app.state.pick)) ImGui::Text("radius %.5g px", double(*radius));
+    samples_of("deep", shot.deep, x, y);
+    samples_of("hidden", shot.behind, x, y);
+    samples_of("holdout", shot.holdout, x, y);
+}
+
 void frame_panel(App& app) {
     const MadeFrame& made = app.side(0).last;
     if (made.engine.empty()) return;
@@ -217,13 +262,6 @@ void section(App& app, const char* title, bool open, DrawPanel draw) {
     ImGui::PushID(title);
     draw(app);
     ImGui::PopID();
-}
-
-std::string words_for(const char* name, const Rgba& p) {
-    char text[160];
-    std::snprintf(text, sizeof text, "%s %.4g %.4g %.4g %.3g", name, double(p.r), double(p.g), double(p.b),
-                  double(p.a));
-    return text;
 }
 
 const Rgba* pixel_of(const Picture* picture, const Rect& area, int x, int y) {
@@ -269,6 +307,7 @@ void draw_panels(App& app) {
     section(app, "Compare", true, compare_panel);
     section(app, "Display", false, display_panel);
     section(app, "Files", false, files_panel);
+    section(app, "Pixel", false, pixel_panel);
     section(app, "Frame", false, frame_panel);
     ImGui::PopItemWidth();
 }

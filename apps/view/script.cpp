@@ -163,6 +163,7 @@ void Script::begin(App& app, const Line& line) {
         const auto text = field_text(app, words[1]);
         if (!text) return fail(text.error().message);
         std::printf("%s\n", text->c_str());
+        std::fflush(stdout);  // whoever drives the window may wait for it
     } else {
         static_cast<void>(act(app, line.text));
     }

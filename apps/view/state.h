@@ -17,6 +17,7 @@ enum class Channel { Colour, Red, Green, Blue, Alpha };
 struct Side {
     std::string shown = "result";  // one of shown_names()
     std::string engine;            // another than the look's; empty: the look's
+    bool on_cpu = false;           // in place of the session's device
 
     bool operator==(const Side&) const = default;
 };

@@ -13,7 +13,9 @@ Texture::~Texture() {
 }
 
 void Texture::load(int width, int height, const std::vector<std::uint8_t>& rgba) {
-    if (name_ == 0) glGenTextures(1, &name_);
+    // A new one: the old may still be drawn from, and loading it would wait for that.
+    if (name_ != 0) glDeleteTextures(1, &name_);
+    glGenTextures(1, &name_);
     glBindTexture(GL_TEXTURE_2D, name_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

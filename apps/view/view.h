@@ -51,6 +51,8 @@ struct Setup {
     double scale = 0;  // of letters and lines; 0: the display's
     std::vector<FieldRow> fields;
     std::shared_ptr<Session> session;
+    std::shared_ptr<Session>
+        cpu_session;  // to compare with, where the session's device is another; else null
     // The command that makes this frame as that file; and the same, done. Called by another thread than the
     // window's.
     std::function<std::string(const Choice&, const std::string& output)> command_line;

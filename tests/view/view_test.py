@@ -2,11 +2,13 @@
 import os
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 PETZVAL = os.environ.get("PETZVAL", "petzval")
 TIME_LIMIT_S = 60
@@ -31,6 +33,28 @@ class Display:
         if self.server:
             self.server.terminate()
             self.server.wait()
+
+
+def png_codes(data):
+    """Rows of (r, g, b) of an 8-bit RGB PNG."""
+    at, chunks, width, height = 8, b"", 0, 0
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width, height = struct.unpack(">II", data[at + 8:at + 16])
+        chunks += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += size + 12
+    raw, rows, above = zlib.decompress(chunks), [], bytes(3 * width)
+    for y in range(height):
+        row = bytearray(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
+        for i in range(3 * width):
+            left, up, corner = (row[i - 3] if i > 2 else 0), above[i], (above[i - 3] if i > 2 else 0)
+            guess = left + up - corner
+            paeth = min((left, up, corner), key=lambda value: abs(guess - value))
+            row[i] = (row[i] + [0, left, up, (left + up) // 2, paeth][raw[y * (3 * width + 1)]]) & 255
+        above = bytes(row)
+        rows.append([tuple(row[3 * x:3 * x + 3]) for x in range(width)])
+    return rows
 
 
 class ViewTest(unittest.TestCase):
@@ -149,6 +173,27 @@ class ViewTest(unittest.TestCase):
         shots = list(self.contents(*[name + ".png" for name in names]))
         self.assertTrue(shots[0] == shots[-1])
         self.assertEqual(len(set(shots)), 6)
+
+    def test_the_screen_shows_what_develop_writes(self):
+        subprocess.run([PETZVAL, "develop", "table.exr", "-o", "developed.png", "--no-dither", "--exposure", "0.5"],
+                       cwd=self.shared, check=True, capture_output=True)
+        codes = png_codes(next(self.contents("developed.png")))
+        places = [(30, 20), (165, 100), (250, 40), (80, 150), (319, 179)]
+        self.do("wait\nset exposure 0.5\nzoom 2\nkey 2\nwait\n" + "".join(
+            "set view.centre_x %d\nset view.centre_y %d\nwait\nexpect screen %d %d %d %d %d 0\n"
+            % (x + 40, y + 30, x, y, *codes[y][x]) for x, y in places))
+
+    def test_a_file_that_changes_or_goes_is_told_of(self):
+        path = os.path.join(self.shared, "fleeting.exr")
+        shutil.copy(os.path.join(self.shared, "table.exr"), path)
+        with open(os.path.join(self.shared, "fleeting.txt"), "w") as file:
+            file.write("wait\nsay frame.engine\nsleep 3\nexpect notice gone\nset fstop 1\nwait\nexpect no error\n"
+                       "reload\nwait\nexpect error fleeting.exr\nexpect frame.engine gather\n")
+        window = self.start("fleeting.exr", "--engine", "gather", "--script", "fleeting.txt")
+        self.assertIn("gather", window.stdout.readline())
+        os.remove(path)
+        _, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, 0, err)
 
     def test_panels_and_wipe_answer_the_mouse(self):
         self.do("""
