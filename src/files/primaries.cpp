@@ -51,14 +51,19 @@ std::optional<Matrix3> xyz_from_rgb(const Chromaticities& c) {
     return primaries;
 }
 
-// From colours seen under the white of `c` to the same colours under D65.
-std::optional<Matrix3> adaptation(const Chromaticities& c) {
-    const auto from = product(kBradford, xyz_of(c[6], c[7]));
+// From colours seen under that light to the same colours under D65.
+std::optional<Matrix3> adaptation(const Chromaticity& neutral) {
+    const auto from = product(kBradford, xyz_of(neutral[0], neutral[1]));
     const auto to = product(kBradford, xyz_of(kRec709[6], kRec709[7]));
-    if (!std::all_of(from.begin(), from.end(), [](double v) { return std::abs(v) > 1e-6; }))
+    if (!std::all_of(from.begin(), from.end(),
+                     [](double v) { return std::abs(v) > 1e-6 && std::isfinite(v); }))
         return std::nullopt;
     const Matrix3 gain{to[0] / from[0], 0, 0, 0, to[1] / from[1], 0, 0, 0, to[2] / from[2]};
     return product(*inverse(kBradford), product(gain, kBradford));
+}
+
+bool is_d65(const Chromaticity& c) {
+    return std::abs(c[0] - kRec709[6]) <= 1e-3 && std::abs(c[1] - kRec709[7]) <= 1e-3;
 }
 
 }  // namespace
@@ -69,17 +74,28 @@ bool is_rec709(const Chromaticities& primaries) {
     return true;
 }
 
-std::optional<PrimariesConversion> conversion_of(const Chromaticities& primaries) {
+bool is_xyz(const Chromaticities& primaries) {
+    constexpr Chromaticities kXyz{1, 0, 0, 1, 0, 0, 1. / 3, 1. / 3};
+    for (std::size_t i = 0; i < primaries.size(); ++i)
+        if (std::abs(primaries[i] - kXyz[i]) > 1e-3) return false;
+    return true;
+}
+
+std::optional<PrimariesConversion> conversion_of(const Chromaticities& primaries,
+                                                 std::optional<Chromaticity> neutral) {
     const bool finite =
         std::all_of(primaries.begin(), primaries.end(), [](double v) { return std::isfinite(v); });
-    if (!finite || is_rec709(primaries)) return std::nullopt;
-    const std::optional<Matrix3> to_xyz = xyz_from_rgb(primaries), adapt = adaptation(primaries);
+    if (!neutral && !is_xyz(primaries)) neutral = Chromaticity{primaries[6], primaries[7]};
+    if (neutral && is_d65(*neutral)) neutral.reset();
+    if (!finite || (is_rec709(primaries) && !neutral)) return std::nullopt;
+    const std::optional<Matrix3> to_xyz = xyz_from_rgb(primaries);
+    const std::optional<Matrix3> adapt = neutral ? adaptation(*neutral) : Matrix3{1, 0, 0, 0, 1, 0, 0, 0, 1};
     if (!to_xyz || !adapt) return std::nullopt;
     const Matrix3 rec709_from_xyz = *inverse(*xyz_from_rgb(kRec709));
     const Matrix3 to_rec709 = product(rec709_from_xyz, product(*adapt, *to_xyz));
     const std::optional<Matrix3> back = inverse(to_rec709);
     if (!back) return std::nullopt;
-    return PrimariesConversion{to_rec709, *back};
+    return PrimariesConversion{to_rec709, *back, neutral};
 }
 
 }  // namespace petzval

@@ -13,14 +13,22 @@ namespace petzval {
 // Row-major; multiplies a column of R, G, B.
 using Matrix3 = std::array<double, 9>;
 
+using Chromaticity = std::array<double, 2>;
+
 struct PrimariesConversion {
     Matrix3 to_rec709, from_rec709;
+    std::optional<Chromaticity> adapted_from;  // the neutral that became D65; nothing where none was adapted
 };
 
-// Nothing when the primaries are those of Rec.709 (to 1e-3) or describe no colour space.
-// White goes to white (Bradford adaptation), so that neutral stays neutral.
-std::optional<PrimariesConversion> conversion_of(const Chromaticities& primaries);
+// Nothing when the primaries are those of Rec.709 (to 1e-3) and neutral is D65, or when they describe no
+// colour space. What is neutral becomes D65 (Bradford adaptation): `neutral` (OpenEXR's adoptedNeutral) where
+// it is given, else the white of the primaries; but for an encoding of CIE XYZ, whose white E is no light
+// that anybody saw, and which is taken as it is.
+std::optional<PrimariesConversion> conversion_of(const Chromaticities& primaries,
+                                                 std::optional<Chromaticity> neutral = {});
 bool is_rec709(const Chromaticities& primaries);
+// X, Y and Z themselves.
+bool is_xyz(const Chromaticities& primaries);
 
 inline Rgba transformed(const Matrix3& m, Rgba c) {
     const double r = c.r, g = c.g, b = c.b;

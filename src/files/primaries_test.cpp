@@ -37,6 +37,32 @@ TEST(Primaries, AcesCgMatchesThePublishedMatrix) {
     EXPECT_NEAR(conversion->to_rec709[8], 1.15297, 2e-4);
 }
 
+// X, Y, Z of D65 white are Rec.709's white: what an XYZ file holds is taken as it is.
+TEST(Primaries, XyzIsNotAdaptedFromItsWhiteE) {
+    constexpr Chromaticities kXyz{1, 0, 0, 1, 0, 0, 1. / 3, 1. / 3};
+    const auto conversion = conversion_of(kXyz);
+    ASSERT_TRUE(conversion);
+    EXPECT_FALSE(conversion->adapted_from);
+    const Rgba white = transformed(conversion->to_rec709, {0.95046f, 1, 1.08906f, 1});
+    EXPECT_NEAR(white.r, 1, 2e-4);
+    EXPECT_NEAR(white.g, 1, 2e-4);
+    EXPECT_NEAR(white.b, 1, 2e-4);
+}
+
+TEST(Primaries, TheAdoptedNeutralBecomesWhite) {
+    constexpr Chromaticity kD50{0.3457, 0.3585};
+    const auto conversion = conversion_of(kRec709, kD50);
+    ASSERT_TRUE(conversion);
+    EXPECT_EQ(conversion->adapted_from, kD50);
+    // D50 as Rec.709 has it, before adaptation: XYZ 0.9642, 1, 0.8251 by the matrix of the standard.
+    const Rgba white = transformed(conversion->to_rec709, {1.1763f, 0.9757f, 0.7218f, 1});
+    EXPECT_NEAR(white.r, 1, 5e-3);
+    EXPECT_NEAR(white.g, 1, 5e-3);
+    EXPECT_NEAR(white.b, 1, 5e-3);
+    EXPECT_FALSE(conversion_of(kRec709, Chromaticity{0.3127, 0.3290}));
+    EXPECT_TRUE(conversion_of(kAcesCg)->adapted_from);
+}
+
 TEST(Primaries, Rec709AndNonsenseNeedNoConversion) {
     EXPECT_FALSE(conversion_of(kRec709));
     EXPECT_TRUE(is_rec709(kRec709));
