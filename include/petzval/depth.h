@@ -18,10 +18,13 @@ namespace petzval {
 enum class DepthKind {
     Planar,      // distance along the optical axis
     Ray,         // distance from the pinhole to the point
-    Inverse,     // 1 / planar
+    Inverse,     // 1 / planar; with a range 0…1, 0 = range far, 1 = range near, linear in 1 / planar: the
+                 // affine disparity of stereo and of networks
     Normalized,  // 0 = range near, 1 = range far, linear in planar depth
     Device,      // z-buffer value, linear in 1/z: 0 = range near, 1 = range far; far < near is reversed z,
                  // and an infinite end is allowed
+    Mist,        // Blender's mist pass, falloff quadratic: the square of the way from range near (0) to range
+                 // far (1), by distance from the pinhole
     CocPx,       // already a signed circle-of-confusion radius in pixels, + is far
 };
 
@@ -35,9 +38,10 @@ enum class DepthEdges {
 
 struct DepthSettings {
     DepthKind kind = DepthKind::Planar;
-    double unit_scale_m = 1;                      // metres per unit of the channel, > 0
-    std::optional<double> range_near, range_far;  // in units of the channel; Normalized and Device need both
-    std::optional<double> focal_length_mm, sensor_width_mm;  // Ray needs both: the angle of each pixel
+    double unit_scale_m = 1;  // metres per unit of the channel, > 0
+    // In metres per unit_scale_m. Normalized, Device and Mist need both, Inverse may have both.
+    std::optional<double> range_near, range_far;
+    std::optional<double> focal_length_mm, sensor_width_mm;  // Ray and Mist need both: the angle of a pixel
     int threads = 0;             // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
@@ -51,12 +55,11 @@ struct DepthReport {
 
 // Rewrites a depth channel in place as planar metres; a miss becomes +infinity.
 //
-// A value is a miss if it is NaN, infinite, of size >= 1e10 or 65504 (the largest half), 0 (except in
-// Normalized and Device, where 0 is the near end), or if its planar depth is not > 0.
-// The plane covers the data window of `place`, which Ray needs to know the axis. If every finite value is
-// negative, absolute values are taken; otherwise negative values are misses; either way with one warning.
-// CocPx is not a depth: InvalidArgument. Errors: InvalidArgument naming the flag that is missing or out of
-// range.
+// A value is a miss if it is NaN, infinite, of size >= 1e10 or 65504 (the largest half), 0 (except where it
+// is an end of a range), or if its planar depth is not > 0. The plane covers the data window of `place`,
+// which Ray needs to know the axis. If every finite value is negative, absolute values are taken; otherwise
+// negative values are misses; either way with one warning. CocPx is not a depth: InvalidArgument. Errors:
+// InvalidArgument naming the flag that is missing or out of range.
 PETZVAL_API Result<DepthReport> depth_to_planar_metres(View<float> depth, const Place& place,
                                                        const DepthSettings& settings);
 

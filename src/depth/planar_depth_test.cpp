@@ -55,6 +55,26 @@ TEST(PlanarDepth, EveryKindOfMissIsInfinitelyFarAndNeverAnError) {
     EXPECT_TRUE(c.report.warnings.empty());
 }
 
+TEST(PlanarDepth, DisparityWithEndsIsLinearInOneOverDepth) {
+    const Converted c = convert({0, 0.5f, 1, kNan}, of_range(DepthKind::Inverse, 1, 4));
+    EXPECT_FLOAT_EQ(c.depth[0], 4);
+    EXPECT_FLOAT_EQ(c.depth[1], 1 / (0.5f / 1 + 0.5f / 4));
+    EXPECT_FLOAT_EQ(c.depth[2], 1);
+    EXPECT_EQ(c.depth[3], kInfinity);
+    EXPECT_EQ(convert({0, 1}, of_range(DepthKind::Inverse, 2, kInfinity)).depth[0], kInfinity);
+    EXPECT_THAT(convert({38}, of_range(DepthKind::Inverse, 1, 4)).report.warnings,
+                testing::Contains(testing::HasSubstr("above 1")));
+}
+
+TEST(PlanarDepth, MistIsTheSquareOfTheWayByDistance) {
+    DepthSettings mist = of_range(DepthKind::Mist, 5, 25);
+    EXPECT_THAT(refusal(mist), testing::HasSubstr("camera.focal_length_mm"));
+    mist.focal_length_mm = 1e6, mist.sensor_width_mm = 1;  // every ray along the axis
+    const Converted c = convert({0, 0.25f, 1}, mist);
+    EXPECT_THAT(c.depth,
+                testing::ElementsAre(testing::FloatEq(5), testing::FloatEq(15), testing::FloatEq(25)));
+}
+
 TEST(PlanarDepth, MissesAreRecognisedInTheStoredUnit) {
     DepthSettings centimetres;
     centimetres.unit_scale_m = 0.01;

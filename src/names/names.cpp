@@ -57,9 +57,10 @@ constexpr Named<Transfer> kTransfers[]{{Transfer::Srgb, "srgb", "the sRGB curve"
 constexpr Named<DepthKind> kDepthKinds[]{
     {DepthKind::Planar, "planar", "along the axis"},
     {DepthKind::Ray, "ray", "from the pinhole"},
-    {DepthKind::Inverse, "inverse", "1/planar"},
+    {DepthKind::Inverse, "inverse", "1/planar; with a range, disparity between its ends"},
     {DepthKind::Normalized, "normalized", "0 to 1 between the ends of a range"},
     {DepthKind::Device, "device", "z-buffer between the ends of a range"},
+    {DepthKind::Mist, "mist", "Blender's mist between the ends of a range"},
     {DepthKind::CocPx, "coc-px", "signed blur radius in pixels"}};
 constexpr Named<DepthEdges> kDepthEdges[]{
     {DepthEdges::Auto, "auto", "snap where most silhouettes are ramps"},
