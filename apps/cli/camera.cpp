@@ -10,7 +10,7 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner) {
         .value("--sensor-width", "MM", "width of the sensor that the picture spans, as 36mm", parse_length_mm,
                sensor_width_mm)
         .value("--fstop", "N", "f-number, as 2.8", parse_f_number, f_number)
-        .value("--focus", "M", "focus distance along the axis, as 2.5m or 120cm", parse_length_m,
+        .value("--focus", "M", "focus distance along the axis, as 2.5m, 120cm or 8ft", parse_length_m,
                focus_distance_m)
         .choice<ImageScale>(
             "--image-scale",

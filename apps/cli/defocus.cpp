@@ -36,8 +36,13 @@ public:
 
 private:
     Status read();
+    Status read_other_views();
     Status choose_camera();
+    Status focus_within_range();
     Status grow();
+    Result<Rect> wanted_window();
+    Status grow_to(const Rect& window);
+    Result<Rect> window_of_light(bool within_frame);
     Status compute();
     Status render(const DefocusJob& job);
     Result<DefocusReport> take(const DefocusJob& job);
@@ -46,6 +51,8 @@ private:
     Status save_look();
     Status finish();
     void say_layers();
+    std::string history() const;
+    std::string blurred_before() const;
     void warn(const std::vector<std::string>& lines);
     void tell_new_warnings();
 
@@ -64,6 +71,18 @@ private:
     std::size_t warnings_told_ = 0;  // of the shot
     std::optional<Lens> lens_;       // once read
     ViewSource view_;                // what compute() made and write() needs
+    struct OtherView;                // of a stereo file
+    std::vector<std::unique_ptr<OtherView>> others_;
+};
+
+// Another view in a run of its own, but for its writing.
+struct Run::OtherView {
+    DefocusFlags flags;
+    Run run;
+    OtherView(const DefocusFlags& of, const std::string& view, Session& session)
+        : flags(of), run(flags, session) {
+        flags.input.read.view_name = view;
+    }
 };
 
 Status Run::operator()() {
@@ -77,8 +96,8 @@ Status Run::operator()() {
         return fine;
     if (flags_.ocio.is_on())
         if (Status fine = flags_.ocio.try_out(); !fine) return fine;
-    for (const auto step :
-         {&Run::read, &Run::choose_camera, &Run::grow, &Run::compute, &Run::write, &Run::finish}) {
+    for (const auto step : {&Run::read, &Run::choose_camera, &Run::read_other_views, &Run::grow,
+                            &Run::compute, &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
@@ -95,11 +114,15 @@ Status Run::read() {
     if (!lens) return lens.error();
     lens_ = *lens;
     ShotSource source = flags_.input.source(flags_.camera);
+    if (source.read.view_name == kAllViews) source.read.view_name.clear();
     source.lights = flags_.points;
     auto shot = load_shot(source);
     if (!shot) return shot.error();
     shot_ = std::move(*shot);
     for (const auto& line : detected_in_picture(shot_)) note(line);
+    if (is_beauty() && ("\n" + shot_.history).find("\n" + blurred_before()) != std::string::npos)
+        shot_.warnings.push_back(
+            "it was blurred before, by its petzval:history; this blurs it a second time");
     tell_new_warnings();
     if (flags_.input.transfer && !shot_.display_referred && *kind_of_output(flags_.output) != FileKind::Png)
         return Error{ErrorCode::InvalidArgument, "--transfer is for PNG; neither " + flags_.input.path +
@@ -147,6 +170,7 @@ Status Run::choose_camera() {
         if (Status done = focus_on_pixel(shot_, *flags_.focus.focus_at); !done) return done;
     if (flags_.focus.focus_point)
         if (Status done = focus_on_point(shot_, *flags_.focus.focus_point); !done) return done;
+    if (Status done = focus_within_range(); !done) return done;
     tell_new_warnings();
     const auto camera = complete_camera(shot_.camera, shot_.image_scale);
     if (!camera)
@@ -160,20 +184,95 @@ Status Run::choose_camera() {
     return Done{};
 }
 
-// Room around the picture for the light that leaves it, where nothing follows.
-Status Run::grow() {
-    if (!flags_.overscan_px) return Done{};
-    int by_px = *flags_.overscan_px;
-    if (by_px == kAutomatic) {
-        const auto reach = reach_px(shot_, look());
-        if (!reach) return reach.error();
-        by_px = *reach;
+// The middle of a range that is held sharp, in dioptres, where nothing says the focus; else it lies inside.
+Status Run::focus_within_range() {
+    const double near = look().coc.focus_near_m, far = look().coc.focus_far_m;
+    auto& focus = shot_.camera.focus_distance_m;
+    if (!(far > 0)) return Done{};
+    if (!focus) {
+        const double middle = std::isinf(far) ? 2 * near : 2 * near * far / (near + far);
+        focus = FoundNumber{middle, "the middle of focus.range_m"};
     }
-    const auto grown = grow_empty_sides(shot_, by_px);
-    if (!grown) return grown.error();
-    note(*grown ? "overscan: " + plain(by_px) + " pixels more on each side that ends inside the frame"
-                : "overscan: the picture fills its frame on every side, so there is nothing to grow");
+    if (focus->value >= near && focus->value <= far) return Done{};
+    return Error{ErrorCode::InvalidArgument, "focus.range_m " + plain(near) + "," + plain(far) +
+                                                 " does not hold the focus distance, " + plain(focus->value) +
+                                                 " m (" + focus->origin + ")"};
+}
+
+Status Run::read_other_views() {
+    std::vector<std::string> others;
+    for (const std::string& view : shot_.views)
+        if (view != shot_.view) others.push_back(view);
+    if (flags_.input.read.view_name != kAllViews) {
+        if (!others.empty() && flags_.input.read.view_name.empty() && is_beauty())
+            warn({"view " + listed(others) + " stays as it is; read.view_name all blurs every view"});
+        return Done{};
+    }
+    for (const std::string& view : others) {
+        note("view " + view);
+        Run& run = others_.emplace_back(std::make_unique<OtherView>(flags_, view, session_))->run;
+        for (const auto step : {&Run::read, &Run::choose_camera})
+            if (Status done = (run.*step)(); !done) return done;
+    }
     return Done{};
+}
+
+// Room around the picture for the light that leaves it, where nothing follows; views that lie in one part of
+// a file have one window.
+Status Run::grow() {
+    std::vector<Run*> runs{this};
+    for (const auto& other : others_) runs.push_back(&other->run);
+    std::vector<Rect> windows;
+    for (Run* run : runs) {
+        const auto wanted = run->wanted_window();
+        if (!wanted) return wanted.error();
+        windows.push_back(*wanted);
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        Rect all = windows[i];
+        for (std::size_t k = 0; k < runs.size(); ++k)
+            if (runs[k]->shot_.place == runs[i]->shot_.place)
+                all = {std::min(all.x0, windows[k].x0), std::min(all.y0, windows[k].y0),
+                       std::max(all.x1, windows[k].x1), std::max(all.y1, windows[k].y1)};
+        windows[i] = all;
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        if (Status done = runs[i]->grow_to(windows[i]); !done) return done;
+    return Done{};
+}
+
+Result<Rect> Run::wanted_window() {
+    const bool makes_picture = is_beauty() || flags_.view == ViewKind::Alpha;
+    const int overscan = flags_.overscan_px.value_or(kWithinFrame);
+    if (!makes_picture || overscan == kNoOverscan) return shot_.place.data_window;
+    if (overscan > 0) return with_empty_sides(shot_.place, overscan);
+    return window_of_light(overscan == kWithinFrame);
+}
+
+Status Run::grow_to(const Rect& window) {
+    const Rect old = shot_.place.data_window;
+    if (const auto grown = petzval::grow_to(shot_, window); !grown) return grown.error();
+    const Rect& now = shot_.place.data_window;
+    if (now != old)
+        note("overscan: the data window grows by " + plain(old.x0 - now.x0) + ", " + plain(old.y0 - now.y0) +
+             ", " + plain(now.x1 - old.x1) + " and " + plain(now.y1 - old.y1) +
+             " pixels (left, top, right, bottom) for the light that leaves it" +
+             (flags_.overscan_px ? "" : "; --overscan off cuts it"));
+    else if (flags_.overscan_px && *flags_.overscan_px != kNoOverscan)
+        note("overscan: the picture fills its frame on every side, so there is nothing to grow");
+    return Done{};
+}
+
+Result<Rect> Run::window_of_light(bool within_frame) {
+    auto job = rendered(shot_);
+    if (!job) return job.error();
+    const DefocusJob chosen = flags_.job(std::move(*job));
+    const auto window = petzval::window_of_light(shot_, look(), 1, within_frame);
+    if (!window || *window == shot_.place.data_window) return window;
+    const auto reach = session_.reach_px(chosen);
+    const auto radius = petzval::reach_px(shot_, look());
+    if (!reach || !radius) return !reach ? reach.error() : radius.error();
+    return petzval::window_of_light(shot_, look(), std::max(1.0, *reach / *radius), within_frame);
 }
 
 Status Run::compute() {
@@ -184,6 +283,14 @@ Status Run::compute() {
     report_["look"] = look_json(look());
     report_["lens"] = lens_json(look(), "");
     report_["parameters"] = flags_.parameters_json(job);
+    for (const auto& other : others_) {
+        note("view " + other->run.shot_.view);
+        if (Status done = other->run.compute(); !done) return done;
+        Json view = {{"view", other->run.shot_.view}};
+        for (const char* key : {"detected", "camera", "depth", "layers", "radius_px", "warnings"})
+            view[key] = other->run.report_[key];
+        report_["views"].push_back(std::move(view));
+    }
     if (flags_.view == ViewKind::Depth) return Done{};
     if (is_rendered(flags_.view)) return render(job);
     const Stopwatch watch;
@@ -223,6 +330,10 @@ Status Run::render(const DefocusJob& job) {
     note(done->engine + " on " + done->device + ", " + done->lens + ": radius " +
          plain(done->smallest_radius_px, 3) + " to " + plain(done->largest_radius_px, 3) + " px, " +
          plain(seconds, 3) + " s");
+    if (const double largest = std::max(done->largest_radius_px, -done->smallest_radius_px);
+        largest > std::max(shot_.place.display_window.width(), shot_.place.display_window.height()))
+        warn({"a radius of " + plain(largest, 4) +
+              " px is larger than the picture: look at the focal length, the focus and the unit of depth"});
     shot_.colour = std::move(done->image);
     for (std::size_t i = 0; i < shot_.layers.size(); ++i) shot_.layers[i].colour = std::move(done->layers[i]);
     view_.panels = std::move(done->panels);
@@ -258,12 +369,21 @@ Status Run::write() {
         .permissible_radius_px = permissible_radius_px(),
         .depth = shot_.depth_report,
         .attributes = {},
+        .other_views = {},
         .warnings = &warnings};
     if (*kind_of_output(flags_.output) == FileKind::Png)
         report_["parameters"]["display"] = {{"exposure_stops", settings.develop.exposure_stops},
                                             {"contrast", settings.develop.contrast},
                                             {"tone", name_of(settings.develop.tone)},
                                             {"ocio", flags_.ocio.view}};
+    std::string done_to_it = shot_.history + (shot_.history.empty() ? "" : "\n") + history();
+    std::vector<Frame> others;
+    for (const auto& other : others_) {
+        done_to_it += "\n" + other->run.history();
+        others.push_back(to_frame(std::move(other->run.shot_)));
+    }
+    for (const Frame& other : others) settings.other_views.push_back(&other);
+    settings.attributes.emplace_back("petzval:history", done_to_it);
     if (expands_plate())
         settings.attributes.emplace_back("petzval:expandHighlights", in_words(look().expansion));
     Frame frame = to_frame(std::move(shot_));
@@ -274,6 +394,30 @@ Status Run::write() {
     note("wrote " + flags_.output);
     return save_look();
 }
+
+// What the file says of what was done to it: nothing that depends on where and when it was done.
+std::string Run::history() const {
+    const FoundCamera& camera = shot_.camera;
+    std::string line =
+        blurred_before() + "petzval " PETZVAL_VERSION ", " + look().engine + ", " + look().lens.name;
+    const auto add = [&](const char* before, const std::optional<FoundNumber>& n, const char* after) {
+        if (n) line += before + plain(n->value) + after;
+    };
+    if (shot_.has_radii()) {
+        line += ", radii as given";
+    } else {
+        add(", ", camera.focal_length_mm, " mm"), add(", sensor ", camera.sensor_width_mm, " mm");
+        add(", f/", camera.f_number, ""), add(", focus ", camera.focus_distance_m, " m");
+    }
+    std::vector<std::string> layers;
+    for (const FrameLayer& layer : shot_.layers)
+        layers.insert(layers.end(), layer.names.begin(), layer.names.end());
+    if (!layers.empty()) line += ", with " + listed(layers);
+    return line;
+}
+
+// How a line of the history begins that is about this colour.
+std::string Run::blurred_before() const { return "defocus " + shot_.colour_name + ": "; }
 
 Status Run::save_look() {
     const std::string& path = flags_.look.save_to();

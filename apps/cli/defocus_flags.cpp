@@ -11,8 +11,10 @@ namespace {
 
 Result<int> parse_overscan(const std::string& text) {
     if (text == "auto") return kAutomatic;
+    if (text == "fit") return kWithinFrame;
+    if (text == "off") return kNoOverscan;
     if (const auto count = parse_size_px(text)) return count;
-    return Error{ErrorCode::InvalidArgument, "not auto or a number of pixels, 1 to 65536"};
+    return Error{ErrorCode::InvalidArgument, "not off, fit, auto or a number of pixels, 1 to 65536"};
 }
 
 std::optional<GaussianView> gaussian_view(ViewKind view) {
@@ -71,11 +73,11 @@ void DefocusFlags::add_output_to(Verb& verb) {
                 "drew; "
                 "highlights, light spread by itself",
                 view_names(), view)
-        .value(
-            "--overscan", "PX",
-            "grow the data window by so many pixels, or by as many as the blur reaches (auto), where it ends "
-            "inside the frame",
-            parse_overscan, overscan_px);
+        .value("--overscan", "PX",
+               "room for light that leaves a data window which ends inside the frame: fit, as far as it "
+               "reaches in "
+               "the frame (default); auto, as far as it reaches; off; or so many pixels",
+               parse_overscan, overscan_px);
 }
 
 void DefocusFlags::add_choices_to(Verb& verb) {
@@ -196,6 +198,14 @@ void DefocusFlags::check_view() const {
 void DefocusFlags::check_display() const {
     const auto kind = kind_of_output(output);
     if (!kind) throw UsageError(kind.error().message);
+    if (input.read.view_name == kAllViews) {
+        if (*kind != FileKind::Exr || view != ViewKind::Beauty)
+            throw UsageError("--view-name all writes the picture of every view to one EXR");
+        if (!input.behind.empty() || !input.holdout.empty() || !input.merge.empty() || !points.empty())
+            throw UsageError(
+                "--view-name all cannot be used with --behind, --holdout, --merge and --points, which "
+                "are of one view");
+    }
     if (!input.read.layers.empty() && *kind != FileKind::Exr)
         throw UsageError("--layers are written to an EXR; -o " + output + " is none");
     ocio.check(develop, input.transfer);

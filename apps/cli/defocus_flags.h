@@ -24,7 +24,10 @@
 
 namespace petzval::cli {
 
-constexpr int kAutomatic = 0;
+// Overscan that is no number of pixels: as far as light reaches, the same within the frame, none.
+constexpr int kAutomatic = 0, kWithinFrame = -1, kNoOverscan = -2;
+
+inline const std::string kAllViews = "all";  // --view-name
 
 struct DefocusFlags {
     InputFlags input;
@@ -37,7 +40,7 @@ struct DefocusFlags {
     std::string device = "cpu";               // SessionSettings::device
     std::string output;
     ViewKind view = ViewKind::Beauty;
-    std::optional<int> overscan_px;  // kAutomatic: as far as the blur reaches
+    std::optional<int> overscan_px;  // or one of the above; not given: kWithinFrame
     DevelopFlags develop;
     OcioFlags ocio;
     OverwriteFlags overwrite;

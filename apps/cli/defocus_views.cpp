@@ -55,7 +55,8 @@ Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& 
         DevelopSettings as_it_is = settings.develop;
         as_it_is.tone = ToneCurve::None;
         as_it_is.exposure_stops = 0;
-        return write_developed(settings.output, picture.view(), as_it_is, settings.overwrite);
+        return write_developed(settings.output, picture.view(), as_it_is, settings.overwrite,
+                               frame.place.pixel_aspect);
     }
     Frame drawn;
     drawn.place = frame.place;
@@ -73,12 +74,17 @@ Status write_beauty(Frame& frame, const ViewSettings& settings) {
             if (!done) return done;
             note(used);
         }
-        return write_developed(settings.output, light.view(), develop, settings.overwrite);
+        return write_developed(settings.output, light.view(), develop, settings.overwrite,
+                               frame.place.pixel_aspect);
     }
     WriteReport changed;
     WriteOptions options = exr_options(settings);
+    options.camera = settings.camera;
     options.report = &changed;
-    Status done = write_exr(settings.output, frame, options);
+    std::vector<const Frame*> frames{&frame};
+    frames.insert(frames.end(), settings.other_views.begin(), settings.other_views.end());
+    Status done = frames.size() > 1 ? write_exr_views(settings.output, frames, options)
+                                    : write_exr(settings.output, frame, options);
     if (changed.became_rgb) note("luminance of the input is written as R, G and B");
     if (changed.clamped_to_half > 0)
         settings.warnings->push_back(std::to_string(changed.clamped_to_half) +
@@ -101,8 +107,10 @@ Status write_coc(Frame& frame, const ViewSource& source, const ViewSettings& set
 Status write_focus(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
     const Picture sharp = in_output_window(frame.colour, frame, settings, Rgba{});
     const Picture display = shown(sharp, settings.develop);
-    const Plane radii =
+    Plane radii =
         in_output_window(source.coc_radius_px, frame, settings, std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < radii.size(); ++i)  // emptiness is neither sharp nor blurred
+        if (sharp.pixels()[i] == Rgba{}) radii.pixels()[i] = std::numeric_limits<float>::quiet_NaN();
     return write_display_picture(
         focus_overlay(display.view(), radii.view(), float(settings.permissible_radius_px),
                       legend_title(settings.camera)),

@@ -93,7 +93,8 @@ Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
         shot->warnings.insert(shot->warnings.end(), said.begin(), said.end());
         note(used);
     }
-    Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
+    Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber,
+                                  place.pixel_aspect);
     if (!done) return done.error();
     note("wrote " + flags.output);
     Json report = report_of(*shot, flags, settings);

@@ -12,24 +12,29 @@ void InputFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Input")
         .argument("IN", "a picture: EXR, or PNG (decoded through the sRGB curve)", path)
         .value("--layer", "NAME", "colour layer or part", parse_text, read.layer)
-        .value("--view-name", "NAME", "view of a stereo file, as left", parse_text, read.view_name);
+        .value("--view-name", "NAME", "view of a stereo file, as left; all (defocus): every view", parse_text,
+               read.view_name);
 }
 
 void InputFlags::add_depth_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .value("--depth", "FILE", "read depth from another file", parse_text, read.depth_file)
+        .value("--depth", "FILE", "read depth from another file, EXR or PNG, of any size", parse_text,
+               read.depth_file)
         .value("--depth-channel", "NAME", "depth channel, as Z or ViewLayer.Depth.Z", parse_text,
                read.depth_channel)
-        .choice<DepthKind>(
-            "--depth-kind",
-            "what depth means: planar, along the axis (default); ray, from the pinhole; inverse, 1/planar; "
-            "normalized and device, 0…1 and z-buffer between --depth-range; coc-px, signed blur radius in "
-            "pixels",
-            depth_kind)
-        .value("--depth-range", "NEAR,FAR", "the ends of normalized or device depth, as 0.1,100", parse_range,
-               depth_range)
-        .value("--unit-scale", "METRES", "metres per unit of depth, as 0.01 for centimetres", parse_positive,
-               unit_scale_m);
+        .choice<DepthKind>("--depth-kind",
+                           "what depth means: planar, along the axis (default, but for whole numbers as of a "
+                           "PNG); ray, from the "
+                           "pinhole; inverse, 1/planar, and with --depth-range disparity from 0, far, to 1, "
+                           "near; normalized, "
+                           "device and mist, 0…1, z-buffer and Blender's mist between --depth-range; coc-px, "
+                           "signed blur radius "
+                           "in pixels",
+                           depth_kind)
+        .value("--depth-range", "NEAR,FAR",
+               "the ends of normalized, device, inverse or mist depth, as 0.1,100", parse_range, depth_range)
+        .value("--unit-scale", "METRES", "metres per unit of depth, as 0.01 or 1cm for centimetres",
+               parse_length_m, unit_scale_m);
 }
 
 void InputFlags::add_transfer_to(Verb& verb) {
@@ -73,6 +78,7 @@ ShotSource InputFlags::source(const CameraFlags& user) const {
     ShotSource source = *this;
     source.read.transfer = transfer.value_or(Transfer::Srgb);
     source.depth.kind = depth_kind.value_or(DepthKind::Planar);
+    source.depth_kind_given = depth_kind.has_value();
     source.depth.unit_scale_m = unit_scale_m.value_or(1);
     if (depth_range) source.depth.range_near = depth_range->low, source.depth.range_far = depth_range->high;
     source.camera = user.choice();

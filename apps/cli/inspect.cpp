@@ -2,6 +2,7 @@
 #include "camera.h"
 #include "changes.h"
 #include "console.h"
+#include "fields.h"
 #include "frames.h"
 #include "input.h"
 #include "light_report.h"
@@ -106,7 +107,7 @@ void describe_camera(const FoundCamera& camera, std::ostream& out) {
 
 void describe_list(const char* heading, const std::vector<std::string>& lines, std::ostream& out) {
     if (!lines.empty()) out << heading << "\n";
-    for (const std::string& line : lines) out << "  " << one_line(line) << "\n";
+    for (const std::string& line : lines) out << "  " << one_line(in_flags(line)) << "\n";
 }
 
 // Nothing where a camera number is missing.

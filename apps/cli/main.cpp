@@ -7,6 +7,7 @@
 #include "frames.h"
 #include "interrupt.h"
 #include "report.h"
+#include "revision.h"
 #include "verbs.h"
 
 #include <exception>
@@ -68,7 +69,7 @@ Status parse_and_act(int argc, const char* const* argv, Words& words) {
         "petzval develop out.exr -o out.png");
     program.set_help_flag("-h,--help", "this page; petzval VERB --help has the flags of a verb")
         ->group("Help");
-    program.set_version_flag("--version", "petzval " PETZVAL_VERSION)
+    program.set_version_flag("--version", "petzval " PETZVAL_VERSION + source_revision())
         ->description("the version")
         ->group("Help");
     program.require_subcommand(0, 1);

@@ -77,19 +77,24 @@ DevelopSettings DevelopFlags::settings(bool display_referred, std::optional<Tran
 }
 
 Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
-                       bool overwrite) {
+                       bool overwrite, double pixel_aspect) {
     return write_png(path,
                      {.width = picture.width(),
                       .height = picture.height(),
                       .channels = 3,
                       .bits = settings.bits,
-                      .samples = develop(picture, settings)},
+                      .samples = develop(picture, settings),
+                      .pixel_aspect = pixel_aspect},
                      overwrite);
 }
 
 Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite) {
-    PngPixels grey{
-        .width = plane.width(), .height = plane.height(), .channels = 1, .bits = 16, .samples = {}};
+    PngPixels grey{.width = plane.width(),
+                   .height = plane.height(),
+                   .channels = 1,
+                   .bits = 16,
+                   .samples = {},
+                   .pixel_aspect = 1};
     grey.samples.reserve(std::size_t(plane.width()) * std::size_t(plane.height()));
     for (int y = 0; y < plane.height(); ++y)
         for (int x = 0; x < plane.width(); ++x) {

@@ -43,9 +43,9 @@ struct DevelopFlags {
     DevelopSettings settings(bool display_referred, std::optional<Transfer> transfer, int threads) const;
 };
 
-// Errors: OutputFailed.
+// pixel_aspect: of the file's pixels, where they are not square. Errors: OutputFailed.
 Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
-                       bool overwrite);
+                       bool overwrite, double pixel_aspect = 1);
 // A plane as 16-bit grey: 0…1 becomes 0…65535, anything else the nearer end, NaN 0.
 Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite);
 // petzval::write_text(); "-" is standard output.

@@ -42,18 +42,36 @@ double unit_in_mm(const std::string& unit) {
         const char* name;
         double mm;
     };
-    static constexpr std::array<Unit, 4> units{{{"mm", 1}, {"cm", 10}, {"m", 1000}, {"km", 1e6}}};
+    static constexpr std::array<Unit, 8> units{{{"mm", 1},
+                                                {"cm", 10},
+                                                {"m", 1000},
+                                                {"km", 1e6},
+                                                {"in", 25.4},
+                                                {"\"", 25.4},
+                                                {"ft", 304.8},
+                                                {"'", 304.8}}};
     for (const Unit& known : units)
         if (unit == known.name) return known.mm;
     return 0;
 }
 
+// "7ft6in", as feet are said; 0 if it is no such length.
+double feet_and_inches_mm(const Split& feet) {
+    const std::size_t digit = feet.rest.find_first_of("0123456789");
+    if (digit == std::string::npos || unit_in_mm(feet.rest.substr(0, digit)) != unit_in_mm("ft")) return 0;
+    const auto inches = split(feet.rest.substr(digit));
+    const bool fine = inches && unit_in_mm(inches->rest) == unit_in_mm("in") && feet.number >= 0;
+    return fine ? feet.number * unit_in_mm("ft") + inches->number * unit_in_mm("in") : 0;
+}
+
 // Divides last, so that "2500mm" is 2.5 to the last bit.
 Result<double> parse_length(const std::string& text, const std::string& bare_unit) {
     const auto parts = split(text);
+    if (const double mm = parts ? feet_and_inches_mm(*parts) : 0; mm > 0) return mm / unit_in_mm(bare_unit);
     const double unit = parts ? unit_in_mm(parts->rest.empty() ? bare_unit : parts->rest) : 0;
     if (unit == 0)
-        return no("not a length; write 85mm, 120cm or 2.5m (a bare number is in " + bare_unit + ")");
+        return no("not a length; write 85mm, 120cm, 2.5m, 8ft or 7ft6in (a bare number is in " + bare_unit +
+                  ")");
     if (!(parts->number > 0)) return no("must be more than 0");
     return parts->number * unit / unit_in_mm(bare_unit);
 }

@@ -29,7 +29,8 @@ struct ReadOptions {
     // What is blurred beside the colour: "all", and names of layers, parts or single channels; "-NAME" after
     // "all" leaves one out. Empty: nothing. EXR only.
     std::vector<std::string> layers;
-    bool need_depth = true;                         // false: a file without depth is fine, depth stays empty
+    bool need_colour = true;  // false: alpha and depth are enough, as of a matte; colour is 0 then
+    bool need_depth = true;   // false: a file without depth is fine, depth stays empty
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
     int threads = 0;  // 0: all this process may use; the result never depends on it.
                       // OpenEXR decodes on its own pool, of as many threads; for 1 that stays empty
@@ -87,6 +88,7 @@ struct Frame {
     // Size of the data window, values as stored (see depth_to_planar_metres), +infinity where a depth of
     // another window covers nothing; may be empty.
     Plane depth;
+    bool depth_is_share = false;  // read from whole numbers: shares of full scale, 0…1
     // All samples of a deep input with depths as stored (see deep_to_planar_metres), else empty. colour and
     // depth are then what it looks like from the front: samples one over the other, and the depth at which
     // coverage first reaches half of the pixel's: thin fog does not claim the pixel of the wall behind it.
@@ -94,6 +96,11 @@ struct Frame {
     std::vector<FrameLayer> layers;            // as ReadOptions::layers asks
     std::vector<CarriedLayer> layers_carried;  // all others
     FoundCamera camera;
+    std::vector<std::string> views;  // of a stereo file, in its order; empty for others
+    std::string view;                // that of the colour
+    // What was done to the colour's part, a line each, oldest first (attribute petzval:history), and the
+    // first channel of the colour, by which it is spoken of there.
+    std::string history, colour_name;
     bool display_referred = false;  // read from PNG: 1.0 is clipped highlights
     std::size_t non_finite_colour =
         0;  // NaN or infinite colour values that were replaced by 0 or the largest half
@@ -147,6 +154,12 @@ struct WriteOptions {
 // not match, an unknown compression), InvalidFile (the input changed), OutputFailed.
 PETZVAL_API Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options = {});
 
+// The same of several views of one file, each read by itself: the colour and layers of all are replaced.
+// Those that share a part need one data window. Errors: those of write_exr(); InvalidArgument for frames of
+// nothing that was read.
+PETZVAL_API Status write_exr_views(const std::string& path, const std::vector<const Frame*>& frames,
+                                   const WriteOptions& options = {});
+
 // Planes under channel names, float, one part: circle of confusion, depth, bokeh textures.
 struct NamedPlane {
     std::string channel;
@@ -165,6 +178,7 @@ PETZVAL_API Status write_deep_exr(const std::string& path, const Place& place, c
 struct PngPixels {
     int width = 0, height = 0, channels = 3, bits = 8;
     std::vector<std::uint16_t> samples;  // 0…255 or 0…65535
+    double pixel_aspect = 1;             // width / height of a pixel; written, not read
 };
 PETZVAL_API Status write_png(const std::string& path, const PngPixels& pixels, bool overwrite = true);
 // The same file as bytes, for pages and mails that carry their pictures inside.

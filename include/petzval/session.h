@@ -81,6 +81,9 @@ public:
     // throws light at it, and a few. Errors: those of defocus().
     Result<int> region_margin_px(const DefocusJob& job);
 
+    // How far, in pixels, light of the largest radius lands from where it came. Errors: those of defocus().
+    Result<double> reach_px(const DefocusJob& job);
+
     SessionUsage usage() const;
     // Lets go of what was not used longest until at most so many bytes are kept.
     void trim(std::size_t bytes);

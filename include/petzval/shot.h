@@ -55,6 +55,7 @@ struct ShotSource {
     // What depth means in all files of the shot: kind, unit, range. The camera's numbers and the threads are
     // filled in. CocPx: radii in pixels.
     DepthSettings depth = {};
+    bool depth_kind_given = false;  // depth.kind is what a user said, not the default
     // What the picture hides: RGBA and Z or deep, of the same data window. Empty: not known.
     std::string behind = {};
     std::string holdout = {};             // a matte that stays sharp and hides what is behind it
@@ -81,6 +82,8 @@ struct Shot {
     ImageScale image_scale = ImageScale::Rendered;
     double unit_scale_m = 1;  // metres per unit of the scene
     DepthReport depth_report;
+    std::vector<std::string> views;  // as in Frame, and below
+    std::string view, history, colour_name;
     bool display_referred = false;      // read from PNG: 1.0 is clipped highlights
     std::size_t non_finite_colour = 0;  // values that were replaced
     std::vector<PartSummary> parts;
@@ -139,9 +142,18 @@ PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
 // How far the light of this look reaches beyond the picture, in pixels: the largest radius of what is not
 // empty, and what distortion moves it. Errors: those of rendered() and circle_of_confusion().
 PETZVAL_API Result<int> reach_px(const Shot& shot, const Look& look);
-// Adds so many pixels of emptiness on each side where the data window ends inside the display window;
-// elsewhere the scene goes on beyond the frame, unknown. Returns whether there is such a side. Errors:
-// InvalidArgument for more pixels than any picture may have.
+// The data window with the room that light of this look needs where it ends inside the display window: as far
+// as the discs of what is visible reach. spread: how far light lands from its point, in radii. within_frame:
+// no farther than the display window. Errors: those of reach_px().
+PETZVAL_API Result<Rect> window_of_light(const Shot& shot, const Look& look, double spread = 1,
+                                         bool within_frame = false);
+// So many pixels more on each side where the data window ends inside the display window; elsewhere the scene
+// goes on beyond the frame, unknown.
+PETZVAL_API Rect with_empty_sides(const Place& place, int by_px);
+// Adds emptiness around the picture. Requires: window holds its data window. Returns whether it is larger.
+// Errors: InvalidArgument for more pixels than any picture may have.
+PETZVAL_API Result<bool> grow_to(Shot& shot, const Rect& window);
+// grow_to(with_empty_sides()).
 PETZVAL_API Result<bool> grow_empty_sides(Shot& shot, int by_px);
 
 // What write_exr() takes: shot.colour in its place with all that the input carried, metres as its depth.

@@ -121,8 +121,10 @@ DynamicRange measure_dynamic_range(View<const Rgba> picture, bool display_referr
     const Tally t = tally(picture);
     DynamicRange range = nothing_lit(t);
     if (t.lit == 0) return range;
-    range.shadow = level_at(t, 0.05), range.middle = level_at(t, 0.5);
-    range.diffuse = level_at(t, 0.9), range.specular = level_at(t, 0.999);
+    // Levels are as wide as the histogram's steps, and none is above the brightest value.
+    const auto level = [&](double rank) { return std::min(level_at(t, rank), t.brightest); };
+    range.shadow = level(0.05), range.middle = level(0.5);
+    range.diffuse = level(0.9), range.specular = level(0.999);
     range.diffuse_over_shadow_stops = std::log2(range.diffuse / range.shadow);
     range.specular_over_diffuse_stops = std::log2(range.specular / range.diffuse);
     range.comparison = compared(range.diffuse / range.shadow);

@@ -113,7 +113,9 @@ std::string line_of(const ColourChoice& c, const Part& part, const std::string& 
 Result<ColourChoice> choose_colour(const std::string& path, const Layout& layout,
                                    const ReadOptions& options) {
     std::vector<ChannelGroup> candidates = groups_of(layout);
-    std::erase_if(candidates, [&](const ChannelGroup& g) { return !g.is_colour(layout.parts[g.part].deep); });
+    std::erase_if(candidates, [&](const ChannelGroup& g) {
+        return !g.is_colour(layout.parts[g.part].deep || !options.need_colour);
+    });
     const std::size_t with_data = candidates.size();
     if (options.layer.empty())
         std::erase_if(candidates,

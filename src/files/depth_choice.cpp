@@ -36,7 +36,12 @@ constexpr Pattern kPatterns[] = {
      }},
     {"named like depth",
      [](const Candidate& c, bool) {
-         return c.channel->layer.empty() && is_one_of(c.base, {"depth", "zdepth"});
+         return c.channel->layer.empty() && is_one_of(c.base, {"depth", "zdepth", "z-depth"});
+     }},
+    {"a layer named like depth",  // Unreal's FinalImageWorldDepth, Octane's Z-depth
+     [](const Candidate& c, bool) {
+         return is_one_of(c.layer, {"finalimageworlddepth", "worlddepth", "z-depth", "zdepth"}) &&
+                is_one_of(c.base, {"r", "y", "v", "x", "red", "z"});
      }},
     {"Z of another layer", [](const Candidate& c, bool) { return c.base == "z"; }},
 };
@@ -60,8 +65,10 @@ std::vector<Candidate> candidates_of(const Layout& layout) {
         const Part& part = layout.parts[p];
         if (!part.readable) continue;
         for (const Channel& c : part.channels) {
-            if (c.subsampled() || is_vector_component(part, c)) continue;
-            all.push_back({p, &c, last_component(c.layer.empty() ? part.label : c.layer), lower(c.base)});
+            const std::string layer = last_component(c.layer.empty() ? part.label : c.layer);
+            // Mist is no distance: 0…1, by a curve.
+            if (c.subsampled() || is_vector_component(part, c) || layer == "mist") continue;
+            all.push_back({p, &c, layer, lower(c.base)});
         }
     }
     return all;
@@ -208,6 +215,13 @@ Result<DepthChoice> choose_depth(const std::string& path, const Layout& layout, 
         if (auto found = of_depth_file(layout)) return *found;
     if (has_camera_matrix)
         if (auto found = by_position(layout, colour)) return *found;
+    for (const Part& part : layout.parts)
+        for (const Channel& c : part.channels)
+            if (last_component(c.layer.empty() ? part.label : c.layer) == "mist")
+                return invalid_file(
+                    path, "has no depth channel but mist, which is no distance; read.depth_channel " +
+                              printable(c.name) +
+                              " depth.kind mist depth.range START,END takes it all the same");
     return invalid_file(path,
                         "has no depth channel (looked for Z, depth.Z, ….Depth.Z, VRayZDepth, depth.R, P); "
                         "name one with read.depth_channel or a file with read.depth_file; its channels are " +

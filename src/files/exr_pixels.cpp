@@ -85,7 +85,9 @@ Status read_floats(const ExrFile& exr, std::size_t part, const std::vector<Float
 Status read_colour(const ExrFile& exr, const ColourChoice& choice, Picture& colour, Plane* depth,
                    const std::string& depth_channel) {
     const Rect window = exr.layout.parts[choice.part].data_window;
-    colour = Picture::uninitialised(window.width(), window.height());
+    const bool has_light = choice.is_luminance() || !choice.red.empty();
+    colour = has_light ? Picture::uninitialised(window.width(), window.height())
+                       : Picture(window.width(), window.height());
     const std::ptrdiff_t row = 4 * std::ptrdiff_t(window.width());
     std::vector<FloatTarget> targets;
     const auto take = [&](const std::string& channel, float& first) {

@@ -14,6 +14,8 @@
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
 
 namespace petzval {
 namespace {
@@ -80,16 +82,24 @@ void describe_view(const Layout& layout, const ColourChoice& colour, const ReadO
 
 std::optional<PrimariesConversion> primaries_of(const ExrFile& exr, std::size_t part, Frame& frame) {
     const Imf::Header& header = exr.parts->header(int(part));
-    if (!Imf::hasChromaticities(header)) return std::nullopt;
-    const Imf::Chromaticities c = Imf::chromaticities(header);
+    if (!Imf::hasChromaticities(header) && !Imf::hasAdoptedNeutral(header)) return std::nullopt;
+    const Imf::Chromaticities c =  // without the attribute: Rec.709
+        Imf::hasChromaticities(header) ? Imf::chromaticities(header) : Imf::Chromaticities();
+    std::optional<Chromaticity> neutral;
+    if (Imf::hasAdoptedNeutral(header))
+        neutral = {Imf::adoptedNeutral(header).x, Imf::adoptedNeutral(header).y};
     const Chromaticities xy{c.red.x, c.red.y, c.green.x, c.green.y, c.blue.x, c.blue.y, c.white.x, c.white.y};
-    auto conversion = conversion_of(xy);
+    auto conversion = conversion_of(xy, neutral);
     if (conversion) {
         std::vector<std::string> xy_text;
         for (std::size_t k = 0; k < xy.size(); k += 2)
             xy_text.push_back(number(xy[k]) + "," + number(xy[k + 1]));
         frame.detected.push_back("primaries: from those of the file (" + joined(xy_text, " ") +
                                  ") to Rec.709; written back in those of the file");
+        if (const auto& from = conversion->adapted_from)
+            frame.detected.push_back("white: colours are adapted from " + number((*from)[0]) + "," +
+                                     number((*from)[1]) + (neutral ? " (adoptedNeutral)" : "") +
+                                     " to that of Rec.709 (Bradford), and back when written");
     } else if (!is_rec709(xy)) {
         frame.warnings.emplace_back("its chromaticities describe no colour space; Rec.709 is assumed");
     }
@@ -149,6 +159,7 @@ Status check_deep(const ExrFile& exr, const Choices& choices, const ReadOptions&
         if (channel.layer != c.layer || channel.view != c.view) dropped.push_back(channel.name);
     if (!dropped.empty())
         frame.warnings.push_back("deep channels cannot be kept in a flat output: " + listed(dropped));
+    frame.detected.emplace_back("depth: of its samples alone, a flat output holds none");
     return Done{};
 }
 
@@ -167,7 +178,8 @@ Status read_deep_pixels(const ExrFile& exr, const Choices& choices, const ReadOp
 void warn_of_lossy_compression(const Part& part, const ColourChoice& colour, Frame& frame) {
     std::vector<std::string> losing;
     for (const Channel& c : part.channels) {
-        const auto names = {colour.red, colour.green, colour.blue, colour.alpha, colour.luminance};
+        const auto names = {colour.red,       colour.green,    colour.blue,    colour.alpha,
+                            colour.luminance, colour.chroma_r, colour.chroma_b};
         const bool is_colour = std::find(names.begin(), names.end(), c.name) != names.end();
         if (!is_colour && loses_again(part.compression, c)) losing.push_back(c.name);
     }
@@ -198,12 +210,25 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
         frame.depth = window == frame.place.data_window ? std::move(*depth)
                                                         : pasted(*depth, window, frame.place.data_window);
     }
-    if (!options.depth_file.empty()) {
-        Result<Plane> depth = read_depth_file(options, frame.place, frame.detected);
-        if (!depth) return depth.error();
-        frame.depth = std::move(*depth);
-    }
-    return Done{};
+    return options.depth_file.empty() ? Status(Done{}) : read_depth_file(options, frame);
+}
+
+// Whose picture it is, and what was done to it.
+void tell_past(const ExrFile& exr, const ColourChoice& colour, Frame& frame) {
+    frame.views = exr.layout.views;
+    frame.view = colour.view;
+    frame.colour_name = colour.is_luminance() ? colour.luminance : colour.red;
+    const Imf::Header& header = exr.parts->header(int(colour.part));
+    if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>("petzval:history"))
+        frame.history = text->value();
+}
+
+// What of a part no picture of a camera holds.
+void warn_of_what_is_not_said(const Imf::Header& header, Frame& frame) {
+    if (header.hasTileDescription() && header.tileDescription().mode != Imf::ONE_LEVEL)
+        frame.warnings.emplace_back("it has mip levels: the first is read, the others are not kept");
+    if (Imf::hasEnvmap(header))
+        frame.warnings.emplace_back("it is an environment map, and is read as if a camera had taken it");
 }
 
 std::size_t replace_non_finite(Picture& colour, Workers& workers) {
@@ -249,6 +274,7 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     warn_of_lost_parts(exr.layout, frame);
     describe_view(exr.layout, *colour, options, frame.detected);
     if (Status s = choose_depth_of(exr, options, pixels, choices, frame); !s) return s.error();
+    warn_of_what_is_not_said(exr.parts->header(int(colour->part)), frame);
     if (part.deep)
         if (Status s = check_deep(exr, choices, options, frame); !s) return s.error();
     Result<LayersChoice> layers = choose_layers(file->path(), exr.layout, *colour, choices.depth, options);
@@ -257,6 +283,7 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     choices.layers = std::move(layers->layers);
     frame.camera = camera_of(exr, colour->part);
     describe_camera(frame.camera, frame.detected);
+    tell_past(exr, *colour, frame);
     const auto primaries = primaries_of(exr, colour->part, frame);
     if (!pixels) return frame;
 

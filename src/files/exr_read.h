@@ -14,8 +14,8 @@ namespace petzval {
 Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                              bool pixels);
 
-// Depth from another file, EXR or PNG, in the colour's data window. Adds a line to `detected`.
-Result<Plane> read_depth_file(const ReadOptions& options, const Place& place,
-                              std::vector<std::string>& detected);
+// frame.depth from another file, EXR or PNG of any size, in the colour's data window. Adds a line to
+// frame.detected.
+Status read_depth_file(const ReadOptions& options, Frame& frame);
 
 }  // namespace petzval

@@ -61,12 +61,23 @@ Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& o
 }  // namespace
 
 Status write_exr(const std::string& path, const Frame& frame, const WriteOptions& options) {
+    if (frame.carried) return write_exr_views(path, {&frame}, options);
     if (Status s = check_size(frame); !s) return s;
     const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
+    return write_exr_file(path, options.overwrite,
+                          [&](Imf::OStream& stream) { return write_new(stream, frame, options, *workers); });
+}
+
+Status write_exr_views(const std::string& path, const std::vector<const Frame*>& frames,
+                       const WriteOptions& options) {
+    for (const Frame* frame : frames) {
+        if (Status s = check_size(*frame); !s) return s;
+        if (!frame->carried) return Error{ErrorCode::InvalidArgument, "views are of a file that was read"};
+    }
+    if (frames.empty()) return Error{ErrorCode::InvalidArgument, "no view is given"};
+    const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
     return write_exr_file(path, options.overwrite, [&](Imf::OStream& stream) {
-        const Frame* one = &frame;
-        return frame.carried ? write_carried(stream, {&one, 1}, options, *workers)
-                             : write_new(stream, frame, options, *workers);
+        return write_carried(stream, frames, options, *workers);
     });
 }
 

@@ -113,6 +113,11 @@ bool write_png_rows(PngWriting& w, const PngPixels& p, png_bytepp rows) {
                                        : PNG_COLOR_TYPE_RGB_ALPHA;
     png_set_IHDR(w.png, w.info, png_uint_32(p.width), png_uint_32(p.height), p.bits, type, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (p.pixel_aspect != 1) {  // pixels per unknown unit: narrow pixels are more to the width
+        constexpr double kPerUnit = 10000;
+        png_set_pHYs(w.png, w.info, png_uint_32(kPerUnit), png_uint_32(kPerUnit * p.pixel_aspect + 0.5),
+                     PNG_RESOLUTION_UNKNOWN);
+    }
     png_write_info(w.png, w.info);
     if (p.bits == 16) png_set_swap(w.png);
     png_write_image(w.png, rows);

@@ -146,7 +146,7 @@ TEST(Png, DepthIsAShareOfFullScaleWithoutAnyCurve) {
     EXPECT_THAT(frame->detected, testing::Contains(HasSubstr("never sRGB-decoded")));
 }
 
-TEST(Png, DepthOfAnotherSizeOrNoDepthAtAllIsAnError) {
+TEST(Png, NoDepthIsAnErrorAndDepthOfAnotherSizeIsTaken) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_png(folder / "colour.png", ramp(2, 2, 3, 8)));
     ASSERT_TRUE(write_png(folder / "depth.png", ramp(3, 2, 1, 8)));
@@ -154,9 +154,12 @@ TEST(Png, DepthOfAnotherSizeOrNoDepthAtAllIsAnError) {
     EXPECT_EQ(read_frame(folder / "colour.png", options).error().code, ErrorCode::InvalidFile);
     options.depth_file = folder / "depth.png";
     const Result<Frame> frame = read_frame(folder / "colour.png", options);
-    ASSERT_FALSE(frame);
-    EXPECT_THAT(frame.error().message, HasSubstr("depth.png"));
-    EXPECT_THAT(frame.error().message, HasSubstr("3x2"));
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_THAT(frame->detected, testing::Contains(HasSubstr("3 x 2 for 2 x 2")));
+    const auto stored = read_png(folder / "depth.png");
+    EXPECT_FLOAT_EQ(frame->depth(0, 0), float(stored->samples[0]) / 255);
+    EXPECT_FLOAT_EQ(frame->depth(1, 0), float(stored->samples[2]) / 255);
+    EXPECT_TRUE(frame->depth_is_share);
 }
 
 TEST(Png, DamagedFilesAreErrorsThatNameTheFile) {

@@ -9,7 +9,8 @@
 #include "files/png.h"
 #include "files/wording.h"
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace petzval {
 namespace {
@@ -47,26 +48,50 @@ Plane first_channel(const PngPixels& p) {
     return out;
 }
 
-std::string size_of(const Rect& r) { return std::to_string(r.width()) + "x" + std::to_string(r.height()); }
+std::string size_of(const Rect& r) { return std::to_string(r.width()) + " x " + std::to_string(r.height()); }
 
-Error wrong_size(const InputFile& file, const Rect& depth, const Rect& picture) {
-    return invalid_file(file.path(), "is " + size_of(depth) + " but the picture is " + size_of(picture) +
-                                         "; depth must have the picture's size");
+// Depth that covers the display window, whatever its size: the nearest value, as means of two depths lie
+// where nothing is.
+Plane nearest_in(const Plane& depth, const Rect& display, const Rect& data) {
+    const auto places = [](int from, int to, int origin, int size, int stored) {
+        std::vector<int> at;
+        for (int i = from; i < to; ++i)
+            at.push_back(i < origin || i >= origin + size
+                             ? -1
+                             : int((double(i - origin) + 0.5) * double(stored) / double(size)));
+        return at;
+    };
+    const auto columns = places(data.x0, data.x1, display.x0, display.width(), depth.width());
+    const auto rows = places(data.y0, data.y1, display.y0, display.height(), depth.height());
+    Plane out(data.width(), data.height(), std::numeric_limits<float>::infinity());
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            if (rows[std::size_t(y)] >= 0 && columns[std::size_t(x)] >= 0)
+                out(x, y) = depth(columns[std::size_t(x)], rows[std::size_t(y)]);
+    return out;
+}
+
+// What is said of a map of another size; nothing for one that fits.
+std::string resampled(const Rect& theirs, const Rect& display) {
+    if (theirs.width() == display.width() && theirs.height() == display.height()) return "";
+    const double shape =
+        double(theirs.width()) * display.height() / (double(theirs.height()) * display.width());
+    return "; " + size_of(theirs) + " for " + size_of(display) + ", the nearest value each" +
+           (std::abs(shape - 1) > 0.02 ? ", of another shape: stretched" : "");
 }
 
 Result<Plane> depth_of_png(const InputFile& file, std::size_t max_pixels, const Place& place,
                            std::vector<std::string>& detected) {
     const Result<PngPixels> png = read_png_file(file, max_pixels);
     if (!png) return png.error();
-    detected.push_back("depth: " + printable(file.path()) + ", " + std::to_string(png->bits) +
-                       " bit as a share of full scale, never sRGB-decoded");
-    const Rect size{0, 0, png->width, png->height};
+    const Rect size{0, 0, png->width, png->height}, &display = place.display_window;
     Plane depth = first_channel(*png);
-    if (place.fits(size.width(), size.height())) return depth;
-    const Rect& display = place.display_window;
-    if (size.width() != display.width() || size.height() != display.height())
-        return wrong_size(file, size, display);
-    return pasted(depth, display, place.data_window);
+    const bool fits_data = place.fits(size.width(), size.height());
+    detected.push_back("depth: " + printable(file.path()) + ", " + std::to_string(png->bits) +
+                       " bit as a share of full scale, never sRGB-decoded" +
+                       (fits_data ? "" : resampled(size, display)));
+    if (fits_data) return depth;
+    return nearest_in(depth, display, place.data_window);
 }
 
 Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
@@ -74,14 +99,17 @@ Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const R
     Result<ExrFile> exr = ExrFile::open(file, options.max_pixels, *options.workers);
     if (!exr) return exr.error();
     const Rect theirs = exr->layout.display_window, &display = place.display_window;
-    if (theirs.width() != display.width() || theirs.height() != display.height())
-        return wrong_size(*file, theirs, display);
     const Result<DepthChoice> choice = choose_depth(file->path(), exr->layout, nullptr, options, false);
     if (!choice) return choice.error();
-    detected.push_back(choice->line + ", in " + printable(file->path()));
+    const std::string other_size = resampled(theirs, display);
+    detected.push_back(choice->line + ", in " + printable(file->path()) + other_size);
     Result<Plane> depth = read_depth(*exr, *choice);
     if (!depth) return depth.error();
     const Rect window = exr->layout.parts[choice->part].data_window;
+    if (!other_size.empty()) {
+        if (window != theirs) *depth = pasted(*depth, window, theirs);
+        return nearest_in(*depth, display, place.data_window);
+    }
     return window == place.data_window ? std::move(*depth) : pasted(*depth, window, place.data_window);
 }
 
@@ -95,13 +123,16 @@ Result<Frame> read_frame_header(const std::string& path, const ReadOptions& opti
     return read(path, options, false);
 }
 
-Result<Plane> read_depth_file(const ReadOptions& options, const Place& place,
-                              std::vector<std::string>& detected) {
+Status read_depth_file(const ReadOptions& options, Frame& frame) {
     const auto file = InputFile::open(options.depth_file);
     if (!file) return file.error();
-    if (starts_like_exr(**file)) return depth_of_exr(*file, options, place, detected);
-    if (starts_like_png(**file)) return depth_of_png(**file, options.max_pixels, place, detected);
-    return neither(**file);
+    frame.depth_is_share = starts_like_png(**file);
+    if (!frame.depth_is_share && !starts_like_exr(**file)) return neither(**file);
+    auto depth = frame.depth_is_share ? depth_of_png(**file, options.max_pixels, frame.place, frame.detected)
+                                      : depth_of_exr(*file, options, frame.place, frame.detected);
+    if (!depth) return depth.error();
+    frame.depth = std::move(*depth);
+    return Done{};
 }
 
 Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
@@ -147,11 +178,8 @@ Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const
         const std::ptrdiff_t step = png->channels == 1 ? 0 : 1;
         frame.colour.pixels()[i] = {linear[s[0]] * a, linear[s[step]] * a, linear[s[2 * step]] * a, a};
     }
-    if (!options.depth_file.empty()) {
-        Result<Plane> depth = read_depth_file(options, frame.place, frame.detected);
-        if (!depth) return depth.error();
-        frame.depth = std::move(*depth);
-    }
+    if (!options.depth_file.empty())
+        if (Status s = read_depth_file(options, frame); !s) return s.error();
     return frame;
 }
 

@@ -39,6 +39,12 @@ struct Session::Contents {
     Result<DefocusReport> defocus(const DefocusJob& given, const std::optional<Rect>& region,
                                   Progress& progress, CancellableWorkers& workers);
 
+    // The largest radius of a frame, and how far its light lands. Errors: those of Session::defocus().
+    struct Reach {
+        double radius_px = 0, light_px = 0;
+    };
+    Result<Reach> reach(const DefocusJob& job);
+
     // Runs body(progress, workers), which gives a report, for one frame.
     template <typename Body>
     Result<DefocusReport> unless_cancelled(const Control& control, const Body& body) {

@@ -280,16 +280,28 @@ Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& con
     });
 }
 
-Result<int> Session::region_margin_px(const DefocusJob& job) {
+Result<Session::Contents::Reach> Session::Contents::reach(const DefocusJob& job) {
     DefocusJob opened = job;
     if (const Status status = check_job(opened); !status) return status.error();
     const auto radii = Radii::make(opened);
     if (!radii) return radii.error();
     if (const Status status = open_lens(opened); !status) return status.error();
-    const auto lens = contents_->lens_for(opened);
+    const auto lens = lens_for(opened);
     if (!lens) return lens.error();
     const double largest = double(largest_radius_px(opened, *radii));
-    return petzval::region_margin_px(largest, (*lens)->levels.front()->reach_px(largest));
+    return Reach{largest, (*lens)->levels.front()->reach_px(largest)};
+}
+
+Result<int> Session::region_margin_px(const DefocusJob& job) {
+    const auto reach = contents_->reach(job);
+    if (!reach) return reach.error();
+    return petzval::region_margin_px(reach->radius_px, reach->light_px);
+}
+
+Result<double> Session::reach_px(const DefocusJob& job) {
+    const auto reach = contents_->reach(job);
+    if (!reach) return reach.error();
+    return reach->light_px;
 }
 
 SessionUsage Session::usage() const { return contents_->usage(); }

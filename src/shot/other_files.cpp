@@ -9,8 +9,10 @@ namespace petzval::shot {
 namespace {
 
 // Another file of the same shot. `what` names its part in messages.
-Result<FileOfShot> read_other(Reading& r, const std::string& what, const std::string& path) {
+Result<FileOfShot> read_other(Reading& r, const std::string& what, const std::string& path,
+                              bool need_colour = true) {
     ReadOptions options;
+    options.need_colour = need_colour;
     options.workers = &r.workers;
     auto read = read_file(path, options, r.depth);
     if (!read) return read;
@@ -80,7 +82,7 @@ Status merge_files(Reading& r) {
 
 Status read_holdout(Reading& r) {
     const std::string& path = r.source.holdout;
-    auto matte = read_other(r, "holdout", path);
+    auto matte = read_other(r, "holdout", path, false);
     if (!matte) return matte.error();
     if (Status same = same_frame(r, matte->frame, "shot.holdout " + path); !same) return same;
     const Rect window = matte->frame.place.data_window;

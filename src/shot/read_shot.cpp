@@ -3,6 +3,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "files/wording.h"
 #include "shot/file_of_shot.h"
 
 #include <utility>
@@ -28,6 +29,10 @@ Shot shot_of(Frame& frame, const ShotSource& source) {
     shot.camera = merged_camera(frame.camera, source.camera, source.depth.unit_scale_m);
     shot.image_scale = source.camera.image_scale;
     shot.unit_scale_m = source.depth.unit_scale_m;
+    shot.views = std::move(frame.views);
+    shot.view = std::move(frame.view);
+    shot.history = std::move(frame.history);
+    shot.colour_name = std::move(frame.colour_name);
     shot.display_referred = frame.display_referred;
     shot.non_finite_colour = frame.non_finite_colour;
     shot.parts = std::move(frame.parts);
@@ -59,6 +64,38 @@ Status read_given_lights(Reading& r) {
     return Done{};
 }
 
+// Errors: InvalidArgument for whole numbers, which hold no metres, unless a user said what they mean.
+Status check_meaning(const ShotSource& source, const Frame& frame) {
+    if (!frame.depth_is_share || source.depth_kind_given || source.depth.kind != DepthKind::Planar)
+        return Done{};
+    return Error{
+        ErrorCode::InvalidArgument,
+        source.read.depth_file +
+            ": depth in whole numbers is no distance in metres; say what it means, as depth.kind inverse "
+            "depth.range 1,inf (white is near) or depth.kind normalized depth.range 0.5,20 (black is near)",
+        "depth.kind"};
+}
+
+// Where depth that was taken for metres looks like none.
+void advise_on_depth(const ShotSource& source, Shot& shot) {
+    constexpr float kShare = 1, kFar = 200;
+    const DepthReport& depth = shot.depth_report;
+    if (source.depth_kind_given || source.depth.kind != DepthKind::Planar || source.depth.unit_scale_m != 1 ||
+        !(depth.farthest_finite_m > 0))
+        return;
+    const std::string range = number(depth.nearest_m) + " to " + number(depth.farthest_finite_m) + " m";
+    if (depth.farthest_finite_m <= kShare)
+        shot.warnings.push_back(
+            "depth lies at " + range +
+            ": if these are shares and no metres, say depth.kind normalized and depth.range, or "
+            "depth.kind inverse; if they are metres, depth.kind planar");
+    else if (depth.nearest_m >= kFar)
+        shot.warnings.push_back(
+            "depth lies at " + range +
+            ": if the unit of the scene is less than the metre, say depth.unit_scale_m, as 0.001 "
+            "for millimetres; if it is the metre, depth.kind planar");
+}
+
 Result<Shot> read(const ShotSource& source, Progress& progress, CancellableWorkers& workers) {
     ReadOptions options = source.read;
     options.workers = &workers;
@@ -67,11 +104,13 @@ Result<Shot> read(const ShotSource& source, Progress& progress, CancellableWorke
     DepthSettings depth = source.depth;
     depth.workers = &workers;
     put_camera(depth, merged_camera(frame->camera, source.camera, depth.unit_scale_m));
+    if (Status meant = check_meaning(source, *frame); !meant) return meant.error();
     auto report = shot::make_depth(*frame, depth);
     if (!report) return report.error();
     Shot shot = shot_of(*frame, source);
     shot.depth_report = std::move(*report);
     for (const std::string& line : shot.depth_report.warnings) shot.warnings.push_back(line);
+    advise_on_depth(source, shot);
 
     Plane plane = std::move(frame->depth);
     Reading reading{source, workers, depth, shot, plane};
@@ -105,13 +144,14 @@ View<const float> Shot::depth_plane() const {
 
 Status check(const ShotSource& source) {
     const DepthKind kind = source.depth.kind;
-    const bool ranged = kind == DepthKind::Normalized || kind == DepthKind::Device;
+    const bool ranged = kind == DepthKind::Normalized || kind == DepthKind::Device || kind == DepthKind::Mist;
     const bool has_range = source.depth.range_near && source.depth.range_far;
     const std::string name = name_of(kind);
     if (ranged && !has_range)
         return invalid("depth.kind " + name + " needs depth.range NEAR,FAR, as depth.range 0.1,100");
-    if (!ranged && has_range)
-        return invalid("depth.range is for depth.kind normalized or device; depth here is " + name);
+    if (!ranged && has_range && kind != DepthKind::Inverse)
+        return invalid("depth.range is for depth.kind normalized, device, inverse or mist; depth here is " +
+                       name);
     if (!source.read.layers.empty() && !source.merge.empty())
         return Error{ErrorCode::InvalidArgument,
                      "read.layers cannot be used with shot.merge: the other pictures hold no such layers",

@@ -170,6 +170,41 @@ class Layers(CommandLineTest):
                       self.succeed("defocus", "sky.exr", "-o", "out.exr", "--layers", "all").err)
 
 
+class BothEyes(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        views = b"".join(struct.pack("<i", len(v)) + v for v in (b"right", b"left"))
+        channels = picture(20, 12, light, 4, 1)
+        for c in "RGBAZ":
+            channels["left." + c] = plane(20, 12, lambda x, y, c=c: 1 if c == "A" else 6 if c == "Z" else light(y, x))
+        channels["key.left.matte"] = plane(20, 12, lambda x, y: x / 20)
+        write_exr(self.path("in.exr"), channels, display=(0, 0, 39, 29), origin=(10, 9),
+                  attributes=CAMERA + attribute("multiView", "stringvector", views))
+
+    def test_are_blurred_in_one_run_as_each_alone(self):
+        report = self.report("defocus", "in.exr", "-o", "both.exr", "--view-name", "all", "--layers", "all")
+        self.assertEqual([v["view"] for v in report["views"]], ["left"])
+        both, attributes = read_exr(self.path("both.exr"))
+        history = attributes["petzval:history"].decode().splitlines()
+        self.assertEqual([line[:line.index(":")] for line in history], ["defocus R", "defocus left.R"])
+        x0, y0, _, _ = struct.unpack("<4i", attributes["dataWindow"])
+        for view, prefix, more in (("right", "", []), ("left", "left.", ["key.left.matte"])):
+            self.succeed("defocus", "in.exr", "-o", "one.exr", "--view-name", view, "--layers", "all")
+            one, found = read_exr(self.path("one.exr"))
+            window = struct.unpack("<4i", found["dataWindow"])
+            for channel in [prefix + c for c in "RGBA"] + more:
+                for y in range(window[1], window[3] + 1):
+                    for x in range(window[0], window[2] + 1):
+                        self.assertAlmostEqual(both[channel][y - y0][x - x0],
+                                               one[channel][y - window[1]][x - window[0]], delta=1e-5)
+
+    def test_the_other_eye_is_spoken_of_and_mattes_of_one_view_refused(self):
+        self.assertIn("--view-name all", self.succeed("defocus", "in.exr", "-o", "out.exr").err)
+        self.refuse(2, "defocus", "in.exr", "-o", "no.png", "--view-name", "all", says=["--view-name all", "EXR"])
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", "--view-name", "all", "--holdout", "in.exr",
+                    says=["--view-name all", "--holdout"])
+
+
 @unittest.skipUnless(os.path.isdir(SHARED), "needs ../shared/exr")
 class PartsOfOthers(CommandLineTest):
     CAMERA = ["--focal-length", "50", "--sensor-width", "36", "--fstop", "2", "--focus", "10"]
