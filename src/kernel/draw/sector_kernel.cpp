@@ -172,11 +172,12 @@ Sample pixel_share(const Directions& directions, double x, double y, double vert
         const int lines = radius < 24 ? 5 : 3;
         const double apart = length(sin, cos * tall) / (lines * radius);
         const Sample mean = directions.mean(inner, outer, middle);
-        const unsigned first = directions.at(angle - lines / 2 * apart),
-                       last = directions.at(angle + lines / 2 * apart);
+        const int beside = lines / 2;  // on either side
+        const unsigned first = directions.at(angle - beside * apart),
+                       last = directions.at(angle + beside * apart);
         if (directions.same(first, middle) && directions.same(middle, last)) return mean;
         Sample sum = mean;
-        for (int i = 1; i <= lines / 2; ++i)
+        for (int i = 1; i <= beside; ++i)
             sum = sum + directions.mean(inner, outer, directions.at(angle - i * apart)) +
                   directions.mean(inner, outer, directions.at(angle + i * apart));
         return float(1.0 / lines) * sum;
