@@ -51,6 +51,13 @@ ReadOptions with_depth(const std::string& name) {
     return o;
 }
 
+TEST(ChannelChoice, DepthOfUnrealAndOctaneIsFoundAndMistIsNone) {
+    EXPECT_EQ(depth_of(layout({part("", {"R", "G", "B", "FinalImageWorldDepth.R"})})),
+              "0 FinalImageWorldDepth.R");
+    EXPECT_EQ(depth_of(layout({part("", {"R", "G", "B", "Z-depth.R"})})), "0 Z-depth.R");
+    EXPECT_THAT(depth_of(layout({part("", {"R", "G", "B", "ViewLayer.Mist.Z"})})), HasSubstr("no distance"));
+}
+
 TEST(ChannelChoice, NamesThatCanBeTypedAreListed) {
     ReadOptions options;
     options.layer = "nothing";

@@ -76,6 +76,47 @@ TEST(WriteExr, HalfClampsFloatDoesNotAndTheReportCounts) {
     EXPECT_EQ(read_frame(folder / "float.exr", no_depth)->colour(0, 0), (Rgba{1e6f, -1e6f, 0, 1}));
 }
 
+TEST(WriteExr, ChromaThatIsReplacedIsNoLossOfACompression) {
+    const TemporaryFolder folder;
+    const auto value = [](int, int) { return 0.25; };
+    QuickPart part{"", "", {0, 0, 16, 16}, {{"Y", Imf::HALF, value}, {"RY", Imf::HALF, value, 2}}};
+    part.channels.push_back({"BY", Imf::HALF, value, 2});
+    part.channels.push_back({"Z", Imf::FLOAT, [](int, int) { return 2.0; }});
+    part.compression = Imf::B44_COMPRESSION;
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    const Result<Frame> frame = read_frame(folder / "in.exr");
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_TRUE(frame->warnings.empty());
+    WriteReport report;
+    WriteOptions options;
+    options.report = &report;
+    ASSERT_TRUE(write_exr(folder / "out.exr", *frame, options));
+    EXPECT_TRUE(report.became_rgb);
+    EXPECT_EQ(read_frame_header(folder / "out.exr")->parts[0].compression, "b44");
+}
+
+TEST(WriteExr, ViewsOfOnePartNeedOneWindow) {
+    const TemporaryFolder folder;
+    QuickPart part = quick_rgbaz();
+    for (const char* channel : {"left.R", "left.G", "left.B"}) part.channels.push_back({channel});
+    part.with = [](Imf::Header& h) { Imf::addMultiView(h, {"right", "left"}); };
+    write_quick_exr(folder / "in.exr", kWindow, {part});
+    ReadOptions left;
+    left.view_name = "left", left.need_depth = false;
+    const Result<Frame> right = read_frame(folder / "in.exr");
+    Result<Frame> other = read_frame(folder / "in.exr", left);
+    ASSERT_TRUE(right && other);
+    EXPECT_THAT(right->views, testing::ElementsAre("right", "left"));
+    other->colour(2, 2) = {3, 2, 1, 1};
+    ASSERT_TRUE(write_exr_views(folder / "out.exr", {&*right, &*other}));
+    EXPECT_EQ(read_frame(folder / "out.exr", left)->colour(2, 2), (Rgba{3, 2, 1, 1}));
+    EXPECT_EQ(read_frame(folder / "out.exr")->colour(2, 2), right->colour(2, 2));
+    other->place.data_window = other->place.data_window.moved(1, 0);
+    EXPECT_EQ(write_exr_views(folder / "no.exr", {&*right, &*other}).error().code,
+              ErrorCode::InvalidArgument);
+    EXPECT_EQ(write_exr_views(folder / "no.exr", {}).error().code, ErrorCode::InvalidArgument);
+}
+
 TEST(WriteExr, PlanesComeBackUnderTheirNames) {
     const TemporaryFolder folder;
     Plane coc(8, 6, -2.5f), depth(8, 6, 3.f);
@@ -275,9 +316,11 @@ TEST(WriteExr, OfMipLevelsTheFirstIsReadAndWrittenBack) {
     write_quick_exr(folder / "in.exr", kWindow, {part});
     const Result<Frame> frame = read_frame(folder / "in.exr");
     ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_THAT(frame->warnings, testing::Contains(testing::HasSubstr("mip levels")));
     ASSERT_TRUE(write_exr(folder / "out.exr", *frame));
     const Result<Frame> back = read_frame(folder / "out.exr");
     ASSERT_TRUE(back) << back.error().message;
+    EXPECT_TRUE(back->warnings.empty());
     EXPECT_EQ(back->parts[0].type, "tiledimage");
     for (std::size_t i = 0; i < frame->colour.size(); ++i) {
         ASSERT_EQ(frame->colour.pixels()[i], back->colour.pixels()[i]);
