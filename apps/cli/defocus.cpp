@@ -79,8 +79,8 @@ private:
 struct Run::OtherView {
     DefocusFlags flags;
     Run run;
-    OtherView(const DefocusFlags& of, const std::string& view, Session& session)
-        : flags(of), run(flags, session) {
+    OtherView(DefocusFlags of, const std::string& view, Session& session)
+        : flags(std::move(of)), run(flags, session) {
         flags.input.read.view_name = view;
     }
 };
@@ -121,7 +121,7 @@ Status Run::read() {
     shot_ = std::move(*shot);
     for (const auto& line : detected_in_picture(shot_)) note(line);
     if (is_beauty() && ("\n" + shot_.history).find("\n" + blurred_before()) != std::string::npos)
-        shot_.warnings.push_back(
+        shot_.warnings.emplace_back(
             "it was blurred before, by its petzval:history; this blurs it a second time");
     tell_new_warnings();
     if (flags_.input.transfer && !shot_.display_referred && *kind_of_output(flags_.output) != FileKind::Png)
