@@ -2,10 +2,14 @@
 // held to the tightest numbers until it has a row of its own.
 #pragma once
 
+#include "petzval/devices.h"
 #include "petzval/session.h"
 
 #include "shots.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -65,6 +69,30 @@ inline const std::vector<Tolerances>& tolerances() {
     return rows;
 }
 
+// The CPU, and where $PETZVAL_TEST_DEVICES is set ("gpu") every other device that can be used: a software
+// driver takes minutes for all laws, device_test.cpp seconds for those of devices.
+inline std::vector<std::string> device_names() {
+    std::vector<std::string> names{"cpu"};
+    if (!std::getenv("PETZVAL_TEST_DEVICES")) return names;
+    for (const DeviceFacts& device : devices())
+        if (device.name != "cpu" && device.lacks.empty()) names.push_back(device.name);
+    return names;
+}
+
+// Whether all that an engine draws is drawn by devices that are no CPU.
+inline bool is_drawn_by_gpus(const std::string& engine) { return engine == "scatter" || engine == "gather"; }
+
+// Keeps a device open from law to law: drivers take long to start.
+inline void keep_open(const std::string& device) {
+    static std::map<std::string, Session> kept;
+    if (device == "cpu" || kept.contains(device)) return;
+    SessionSettings settings;
+    settings.device = device;
+    const auto opened = kept.emplace(device, Session(settings))
+                            .first->second.defocus(flat(1, 1, {1, 1, 1, 1}, 1).job("scatter"));
+    EXPECT_TRUE(opened) << opened.error().message;
+}
+
 // What draws: an engine on a device.
 struct Drawer {
     std::string engine, device;
@@ -83,7 +111,10 @@ struct Drawer {
         if (like.workers) settings.workers = {std::shared_ptr<Workers>(), like.workers};
         return settings;
     }
-    Result<DefocusReport> made(const DefocusJob& job) const { return Session(session(job)).defocus(job); }
+    Result<DefocusReport> made(const DefocusJob& job) const {
+        keep_open(device);
+        return Session(session(job)).defocus(job);
+    }
     // The picture of a job; fails where it was not this engine and this device that drew it.
     Picture drawn(const DefocusJob& job) const {
         auto report = made(job);
@@ -98,12 +129,11 @@ struct Drawer {
     }
 };
 
-inline std::vector<std::string> device_names() { return {"cpu"}; }
-
 inline std::vector<Drawer> drawers() {
     std::vector<Drawer> all;
     for (const std::string& device : device_names())
-        for (const std::string& engine : engine_names()) all.push_back({engine, device});
+        for (const std::string& engine : engine_names())
+            if (device == "cpu" || is_drawn_by_gpus(engine)) all.push_back({engine, device});
     return all;
 }
 
@@ -126,7 +156,9 @@ protected:
 };
 
 inline std::string name_of_drawer(const testing::TestParamInfo<Drawer>& test) {
-    return test.param.engine + "_" + test.param.device;
+    std::string name = test.param.engine + "_" + test.param.device;
+    std::replace(name.begin(), name.end(), ':', '_');  // of "gpu:0"
+    return name;
 }
 
 }  // namespace petzval::conformance
