@@ -88,10 +88,10 @@ std::string command_line(const ViewFlags& flags, const view::Choice& choice, con
 }
 
 // What that command does, by the window's session.
-Status save(ViewFlags flags, Session& session, const view::Choice& choice, const std::string& output) {
+Status save(DefocusFlags flags, Session& session, const view::Choice& choice, const std::string& output) {
     const auto kind = kind_of_output(output);
     if (!kind) return kind.error();
-    if (choice.frame) static_cast<DefocusFlags&>(flags) = at_frame(flags, *choice.frame);
+    if (choice.frame) flags = at_frame(std::move(flags), *choice.frame);
     flags.output = output;
     flags.run.json.clear();
     flags.run.progress = ProgressMode::Off;
@@ -176,7 +176,7 @@ Status open_window(const ViewFlags& flags) {
         return command_line(flags, choice, output);
     };
     setup.save = [&, session = setup.session](const view::Choice& choice, const std::string& output) {
-        return save(flags, *session, choice, output);
+        return save(static_cast<const DefocusFlags&>(flags), *session, choice, output);
     };
     if (flags.ocio.is_on())
         setup.ocio_codes = [&](View<const Rgba> light) { return ocio_codes(flags.ocio, light); };

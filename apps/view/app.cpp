@@ -235,7 +235,7 @@ void App::take_frame(MadeFrame made) {
     if (made.error) return;
     if (made.radii) frames.radii = made.radii;
     if (made.picture) {
-        const bool is_part = frames.wish->region.has_value();
+        const bool is_part = made.is_part;
         (is_part ? frames.detail : frames.whole) = made.picture;
         (is_part ? frames.detail_area : frames.whole_area) = made.area;
         (is_part ? frames.detail_is_old : frames.whole_is_old) = false;

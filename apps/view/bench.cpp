@@ -36,8 +36,9 @@ void put(const LensCodes& disc, LensCodes& onto, int middle_x) {
         for (int x = 0; x < disc.width; ++x) {
             const int u = middle_x + x - disc.width / 2, v = onto.height / 2 + y - disc.height / 2;
             if (u < 0 || v < 0 || u >= onto.width || v >= onto.height) continue;
-            std::copy_n(disc.rgba.begin() + 4 * (y * disc.width + x), 4,
-                        onto.rgba.begin() + 4 * (v * onto.width + u));
+            const std::ptrdiff_t of = 4 * (std::ptrdiff_t(y) * disc.width + x),
+                                 at = 4 * (std::ptrdiff_t(v) * onto.width + u);
+            std::copy_n(disc.rgba.begin() + of, 4, onto.rgba.begin() + at);
         }
 }
 

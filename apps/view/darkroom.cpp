@@ -209,15 +209,14 @@ bool Darkroom::is_idle() const {
 void Darkroom::work() {
     std::unique_lock lock(mutex_);
     while (!ending_) {
-        const auto next =
-            std::find_if(waiting_.begin(), waiting_.end(), [](const auto& w) { return w.has_value(); });
-        if (next == waiting_.end()) {
+        std::size_t target = 0;
+        while (target < kTargets && !waiting_[target]) ++target;
+        if (target == kTargets) {
             something_.wait(lock);
             continue;
         }
-        const int target = int(next - waiting_.begin());
-        const Negative negative = std::move(**next);
-        next->reset();
+        const Negative negative = std::move(*waiting_[target]);
+        waiting_[target].reset();
         busy_ = true;
         lock.unlock();
         Print print;
@@ -227,7 +226,7 @@ void Darkroom::work() {
             print.of = negative;
             print.error = Error{ErrorCode::OutOfMemory, "not enough memory to show this picture"};
         }
-        print.target = target;
+        print.target = int(target);
         lock.lock();
         busy_ = false;
         done_.push_back(std::move(print));

@@ -55,7 +55,7 @@ struct Print {
 class Darkroom {
 public:
     using OcioCodes = std::function<Result<Picture>(View<const Rgba>)>;
-    static constexpr int kTargets = 5;
+    static constexpr std::size_t kTargets = 5;
 
     Darkroom(OcioCodes ocio_codes, std::function<void()> wake);
     ~Darkroom();

@@ -84,6 +84,50 @@ DefocusJob job_of(const Wish& wish) {
     return job;
 }
 
+// A first look is of no more pixels than can be drawn at once: of every n-th.
+constexpr double kFirstPixels = 4e5;
+
+int thinning_of(const Shot& shot) {
+    return std::max(1, int(std::ceil(std::sqrt(double(shot.colour.size()) / kFirstPixels))));
+}
+
+template <typename T>
+Image<T> thinned(View<const T> from, int by) {
+    Image<T> few((from.width() + by - 1) / by, (from.height() + by - 1) / by);
+    for (int y = 0; y < few.height(); ++y)
+        for (int x = 0; x < few.width(); ++x) few(x, y) = from(x * by, y * by);
+    return few;
+}
+
+Picture enlarged(const Picture& few, int by, int width, int height) {
+    Picture all = Picture::uninitialised(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) all(x, y) = few(x / by, y / by);
+    return all;
+}
+
+// What is seen alone, on a sensor of fewer pixels.
+Result<Picture> first_look(Session& session, const DefocusJob& rendered, Look look, int by,
+                           const Control& control, DefocusReport& report) {
+    DefocusJob job;
+    job.camera = rendered.camera;
+    const Picture colour = thinned(rendered.colour, by);
+    Plane depth = thinned(rendered.coc_px.empty() ? rendered.depth_m : rendered.coc_px, by);
+    for (std::size_t i = 0; i < depth.size() && !rendered.coc_px.empty(); ++i) depth.pixels()[i] /= float(by);
+    job.colour = colour;
+    (rendered.coc_px.empty() ? job.depth_m : job.coc_px) = depth;
+    const Rect &frame = rendered.place.display_window, &data = rendered.place.data_window;
+    const int x = (data.x0 - frame.x0) / by, y = (data.y0 - frame.y0) / by;
+    job.place = {{0, 0, std::max(1, frame.width() / by), std::max(1, frame.height() / by)},
+                 Rect{x, y, x + colour.width(), y + colour.height()},
+                 rendered.place.pixel_aspect};
+    look.coc.max_radius_px /= by;
+    auto done = session.take(job, look, control);
+    if (!done) return done.error();
+    report = std::move(*done);
+    return enlarged(report.image, by, rendered.colour.width(), rendered.colour.height());
+}
+
 }  // namespace
 
 double DepthHistogram::distance_at(double share) const {
@@ -228,7 +272,7 @@ void Maker::take_up_again(const Reading& reading) {
 void Maker::do_step(int side, const Order& order) {
     const auto start = Clock::now();
     const Control control{.cancelled = [this] { return interrupt_.load(std::memory_order_relaxed); },
-                          .region = order.wish.region};
+                          .region = order.step == 0 ? std::nullopt : order.wish.region};
     MadeFrame frame;
     try {
         frame = made(side, order, control);
@@ -288,7 +332,14 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     Look look = look_of_step(wish.look, wish.shown, order.step);
     if (Status done = read_lens_images(look); !done) return done.error();
     Result<DefocusReport> done = Error{ErrorCode::InvalidArgument, ""};
-    if (wish.shown == "result") {
+    const int by = order.step == 0 ? thinning_of(wish.shot->shot) : 1;
+    if (wish.shown == "result" && by > 1) {
+        DefocusReport report;
+        auto look_at_it = first_look(*session_, rendered, look, by, control, report);
+        if (!look_at_it) return look_at_it.error();
+        report.image = std::move(*look_at_it);
+        done = std::move(report);
+    } else if (wish.shown == "result") {
         done = (wish.on_cpu && cpu_session_ ? cpu_session_ : session_)->take(rendered, look, control);
     } else {
         DefocusJob job = with_look(rendered, look);
@@ -299,7 +350,8 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
         frame.last = order.step > 0 || job.engine == "gaussian";
     }
     if (!done) return done.error();
-    if (wish.region) frame.area = *wish.region;
+    frame.is_part = control.region.has_value();
+    if (frame.is_part) frame.area = *control.region;
     if (is_buffer(wish.shown)) frame.area = done->image.rect();
     frame.picture = std::make_shared<const Picture>(std::move(done->image));
     frame.panels = std::move(done->panels);

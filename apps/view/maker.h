@@ -59,7 +59,8 @@ struct MadeFrame {
     int step = 0;
     bool last = false;
     std::optional<Error> error;
-    Rect area;  // where its pixels lie
+    Rect area;             // where its pixels lie
+    bool is_part = false;  // they are those of the wish's region
     std::shared_ptr<const Picture> picture;
     std::shared_ptr<const Plane> radii;  // of the whole data window; with the first step
     std::vector<Panel> panels;
