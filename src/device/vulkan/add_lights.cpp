@@ -18,7 +18,6 @@ using engine::LightsPlan;
 using engine::PlannedLight;
 using engine::SeenCaster;
 using engine::ShadowGrid;
-using engine::Viewpoint;
 
 constexpr int kTile = 64;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
