@@ -139,8 +139,8 @@ def lint(*words):
 
 
 def check(*_):
-    """the house holds together: formatting, layers, sizes, headers alone, C door as it was, lint of what changed"""
-    make("release", "petzval_shared")
+    """the house holds together: formatting, layers, sizes, headers alone, C door as it was, benches that build, lint of what changed"""
+    make("release", "petzval_shared", "petzval_bench")
     failed = []
     for command in (["./dev", "format", "--check"], [sys.executable, "tools/check_layers.py"],
                     [sys.executable, "tools/check_sizes.py"], [sys.executable, "tools/check_headers.py"],

@@ -6,6 +6,7 @@
 #include "fields.h"
 #include "frames.h"
 #include "interrupt.h"
+#include "last_words.h"
 #include "report.h"
 #include "revision.h"
 #include "verbs.h"
@@ -124,12 +125,14 @@ int run(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
     using namespace petzval::cli;
     watch_for_interrupts();
+    end_orderly_on_terminate();
     try {
         return run(argc, argv);
     } catch (const FramesFailed& failed) {
         return fail(4, failed.message);
     } catch (const std::bad_alloc&) {
-        return fail(1, "not enough memory; --max-memory or a smaller picture needs less");
+        say_out_of_memory();
+        return 1;
     } catch (const std::exception& error) {
         return fail(1, std::string("stopped by an unexpected error: ") + error.what());
     }

@@ -1,5 +1,5 @@
-// Broken promises between our own functions stop the program with both values shown; bad input never comes
-// here.
+// Broken promises between our own functions stop the program and show what does not hold; bad input never
+// comes here.
 #pragma once
 
 #include <cstdio>

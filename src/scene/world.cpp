@@ -5,6 +5,7 @@
 #include "scene/sampling.h"
 
 #include <limits>
+#include <new>
 
 namespace petzval::scene {
 namespace {
@@ -59,9 +60,13 @@ Viewpoint Viewpoint::looking(Vec3 from, Vec3 at) {
     return v;
 }
 
-World::World(bool one_thread)
-    : device_(rtcNewDevice(one_thread ? "threads=1" : nullptr)), rays_(rtcNewScene(device_)) {
-    PETZVAL_CHECK(device_ != nullptr && rays_ != nullptr);
+World::World(bool one_thread) : device_(rtcNewDevice(one_thread ? "threads=1" : nullptr)) {
+    // Embree needs nothing but memory and threads for either.
+    if (device_ != nullptr) rays_ = rtcNewScene(device_);
+    if (rays_ == nullptr) {
+        if (device_ != nullptr) rtcReleaseDevice(device_);
+        throw std::bad_alloc();
+    }
     rtcSetSceneFlags(rays_, RTC_SCENE_FLAG_ROBUST);  // no ray may slip through between two triangles
 }
 
@@ -85,8 +90,22 @@ void World::open_holes(const RTCFilterFunctionNArguments* hits) {
     }
 }
 
+RTCGeometry World::new_geometry(RTCGeometryType type) const {
+    RTCGeometry geometry = rtcNewGeometry(device_, type);
+    if (geometry == nullptr) throw std::bad_alloc();
+    return geometry;
+}
+
+unsigned World::attach(RTCGeometry geometry) const {
+    rtcCommitGeometry(geometry);
+    const unsigned id = rtcAttachGeometry(rays_, geometry);
+    if (id == RTC_INVALID_GEOMETRY_ID) throw std::bad_alloc();
+    rtcReleaseGeometry(geometry);
+    return id;
+}
+
 void World::add(Mesh mesh, Paint paint, Sides sides, Cutout cutout) {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<Vec3*>(
         buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size()));
     std::copy(mesh.positions.begin(), mesh.positions.end(), vertices);
@@ -100,23 +119,19 @@ void World::add(Mesh mesh, Paint paint, Sides sides, Cutout cutout) {
         rtcSetGeometryIntersectFilterFunction(geometry, open_holes);
         rtcSetGeometryOccludedFilterFunction(geometry, open_holes);
     }
-    rtcCommitGeometry(geometry);
-    PETZVAL_CHECK(rtcAttachGeometry(rays_, geometry) == objects_.size());
-    rtcReleaseGeometry(geometry);
+    PETZVAL_CHECK(attach(geometry) == objects_.size());
     objects_.push_back(std::move(object));
 }
 
 void World::add(Tubes tubes, Paint paint) {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
     auto* vertices = static_cast<Tubes::Point*>(buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
                                                        sizeof(Tubes::Point), tubes.points.size()));
     std::copy(tubes.points.begin(), tubes.points.end(), vertices);
     auto* segments = static_cast<std::uint32_t*>(
         buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, 4, tubes.segments.size()));
     std::copy(tubes.segments.begin(), tubes.segments.end(), segments);
-    rtcCommitGeometry(geometry);
-    PETZVAL_CHECK(rtcAttachGeometry(rays_, geometry) == objects_.size());
-    rtcReleaseGeometry(geometry);
+    PETZVAL_CHECK(attach(geometry) == objects_.size());
     objects_.push_back(std::make_unique<Object>(Object{{}, {}, std::move(paint), Sides::Solid, {}}));
 }
 
@@ -126,7 +141,7 @@ void World::add_lamp(Vec3 centre, float radius_m, Vec3 radiance) {
 
 void World::attach_lamps() {
     if (lamps_.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
     auto* discs = static_cast<Tubes::Point*>(
         buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sizeof(Tubes::Point), lamps_.size()));
     auto* normals = static_cast<Vec3*>(
@@ -135,9 +150,7 @@ void World::attach_lamps() {
         discs[i] = {lamps_[i].centre, lamps_[i].radius_m};
         normals[i] = -view.forward;
     }
-    rtcCommitGeometry(geometry);
-    lamp_object_ = rtcAttachGeometry(rays_, geometry);
-    rtcReleaseGeometry(geometry);
+    lamp_object_ = attach(geometry);
 }
 
 Status World::commit(Workers& workers) {

@@ -107,6 +107,10 @@ private:
     struct Object;
     static void open_holes(const RTCFilterFunctionNArguments* hits);
     void attach_lamps();
+    // Throw std::bad_alloc: Embree fails at nothing else here.
+    RTCGeometry new_geometry(RTCGeometryType type) const;
+    unsigned attach(
+        RTCGeometry geometry) const;  // its number in the scene; the geometry is the scene's from here on
     void bake(Workers& workers);
     template <typename Irradiance>
     void for_each_vertex(Workers& workers, const Irradiance& irradiance);
@@ -115,8 +119,8 @@ private:
     Vec3 tube_irradiance(Vec3 position, Vec3 normal) const;
     Matter matter(const Hit& hit) const;
 
-    RTCDevice device_;
-    RTCScene rays_;
+    RTCDevice device_ = nullptr;
+    RTCScene rays_ = nullptr;
     std::vector<std::unique_ptr<Object>> objects_;  // by Embree geometry id
     std::vector<Lamp> lamps_;
     std::uint32_t lamp_object_ = kSky;

@@ -1,0 +1,49 @@
+"""Short memory: wherever it ends, one line and exit code 1; never an abort, never half a file."""
+import os
+import resource
+import unittest
+
+from pictures import camera_attributes, picture, write_exr
+from program import CommandLineTest
+
+MIB = 1 << 20
+
+
+def limited_to(mebibytes):
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (mebibytes * MIB,) * 2)
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    return limit
+
+
+class ShortMemory(CommandLineTest):
+    def least(self):
+        """The least in which the program starts at all: below, the loader of libraries says why not."""
+        low, high = 16, 512
+        while high - low > 2:
+            middle = (low + high) // 2
+            started = self.run_program("--version", limits=limited_to(middle)).code == 0
+            low, high = (low, middle) if started else (middle, high)
+        return high
+
+    def test_every_verb_ends_with_a_line_or_with_its_result(self):
+        write_exr(self.path("in.exr"), picture(64, 48, depth=lambda x, y: 1 + x / 40),
+                  attributes=camera_attributes(50, 36, 1.4, 2))
+        least = self.least()
+        ended = {0: 0, 1: 0}
+        for command in (["scene", "make", "night", "--width", "48", "--height", "27"], ["defocus", "in.exr"]):
+            for more in (0, 4, 12, 30, 60, 100, 120, 140, 160, 240):
+                outcome = self.run_program(*command, "-o", "out.exr", "-q", limits=limited_to(least + more))
+                where = "%s in %d MiB\n%s" % (" ".join(command), least + more, outcome)
+                self.assertIn(outcome.code, ended, where)
+                ended[outcome.code] += 1
+                self.assertEqual(len(outcome.lines), outcome.code, where)
+                self.assertNotIn("broken promise", outcome.err)
+                left = [n for n in os.listdir(self.folder) if n.endswith(".unfinished")]
+                self.assertEqual(left, [], where)
+        self.assertGreater(ended[0], 2)
+        self.assertGreater(ended[1], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
