@@ -50,7 +50,7 @@ ScatterView scatter_view(ViewKind view) {
 void DefocusFlags::add_engines_to(Verb& verb) {
     look.add_to(verb, {"Engine"});
     FlagGroup(verb, "Engine")
-        .value("--max-memory", "BYTES", "use at most this much for the work, as 2G", parse_bytes,
+        .value("--max-memory", "BYTES", "use at most this much to read and to blur, as 2G", parse_bytes,
                max_memory_bytes);
     look.add_to(verb, {"Engine gather", "Engine gaussian", "Engine sprites"});
     FlagGroup(verb, "Engine sprites")
@@ -145,6 +145,7 @@ void DefocusFlags::check_choices(const Verb& verb) {
     require_argument(verb, input.path, "an input picture");
     run.apply();
     input.read.threads = run.threads;
+    input.read.max_memory_bytes = max_memory_bytes;
     input.check();
     look.settle();
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");

@@ -42,6 +42,7 @@ const Rows& other_flags() {
         {"read.depth_file", "--depth"},
         {"read.layer", "--layer"},
         {"read.layers", "--layers"},
+        {"read.max_memory_bytes", "--max-memory"},
         {"read.view_name", "--view-name"},
         {"scene.camera_at", "--camera-at"},
         {"scene.depth_bits", "--depth-bits"},

@@ -31,10 +31,26 @@ public:
     DeepPicture(int width, int height, std::vector<std::size_t> first, std::vector<DeepSample> samples)
         : width_(width), height_(height), first_(std::move(first)), samples_(std::move(samples)) {}
 
+    // Pixel by pixel: samples_at(x, y, samples) appends what the pixel holds, nearest first.
+    template <typename SamplesAt>
+    static DeepPicture made_of(int width, int height, const SamplesAt& samples_at) {
+        std::vector<std::size_t> first{0};
+        std::vector<DeepSample> samples;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                samples_at(x, y, samples);
+                first.push_back(samples.size());
+            }
+        return {width, height, std::move(first), std::move(samples)};
+    }
+
     int width() const { return width_; }
     int height() const { return height_; }
     bool empty() const { return samples_.empty(); }
     std::size_t sample_count() const { return samples_.size(); }
+    std::size_t bytes() const {
+        return samples_.size() * sizeof(DeepSample) + first_.size() * sizeof(std::size_t);
+    }
     std::span<const DeepSample> at(int x, int y) const {
         const std::size_t i = std::size_t(y) * std::size_t(width_) + std::size_t(x);
         return {samples_.data() + first_[i], first_[i + 1] - first_[i]};

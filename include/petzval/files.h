@@ -32,6 +32,9 @@ struct ReadOptions {
     bool need_colour = true;  // false: alpha and depth are enough, as of a matte; colour is 0 then
     bool need_depth = true;   // false: a file without depth is fine, depth stays empty
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
+    // What the pixels of a frame may take: more is refused before it is taken, deep samples as soon as they
+    // are counted. 0: no limit.
+    std::size_t max_memory_bytes = 0;
     int threads = 0;  // 0: all this process may use; the result never depends on it.
                       // OpenEXR decodes on its own pool, of as many threads; for 1 that stays empty
     Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "files/exr_pixels.h"
+#include "files/memory_limit.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -84,15 +85,20 @@ public:
         add(depth.back, [](DeepSample& s) { return &s.depth_back_m; });
     }
 
-    Result<DeepPicture> read(std::size_t most_samples) {
+    Result<DeepPicture> read(const ReadOptions& options) {
         const std::string& path = exr_.file->path();
         counts_.assign(width_ * std::size_t(window_.height()), 0);
         part_.set(counts_only(counts_.data(), window_.y0));
         part_.read_counts(0, window_.height());
         first_.resize(counts_.size() + 1);
         for (std::size_t i = 0; i < counts_.size(); ++i) first_[i + 1] = first_[i] + counts_[i];
-        if (const std::string reason = absurd(first_.back(), most_samples); !reason.empty())
+        if (const std::string reason = absurd(first_.back(), 2 * options.max_pixels); !reason.empty())
             return invalid_file(path, reason);
+        const std::size_t of_pixel = sizeof(Rgba) + sizeof(float) + sizeof(unsigned) + sizeof(std::size_t);
+        if (Status s =
+                fits_memory(*exr_.file, window_, of_pixel, options, first_.back() * sizeof(DeepSample));
+            !s)
+            return s.error();
         samples_.assign(first_.back(), {{0, 0, 0, 1}, 0, 0});
         for (int y = 0; y < window_.height(); y += part_.band_rows())
             if (!read_band(y, std::min(y + part_.band_rows(), window_.height())))
@@ -191,11 +197,11 @@ std::size_t tidy(std::span<DeepSample> pixel, bool has_back, bool grey) {
 }  // namespace
 
 Result<DeepPicture> read_deep(const ExrFile& exr, const ColourChoice& colour, const DepthChoice& depth,
-                              std::size_t most_samples, std::size_t& non_finite) {
+                              const ReadOptions& options, std::size_t& non_finite) {
     DeepPicture deep;
     if (Status s = exr.check_complete(colour.part); !s) return s.error();
     const Status read = guarded(exr.file->path(), [&]() -> Status {
-        Result<DeepPicture> all = DeepReader(exr, colour, depth).read(most_samples);
+        Result<DeepPicture> all = DeepReader(exr, colour, depth).read(options);
         if (!all) return all.error();
         deep = std::move(*all);
         return Done{};

@@ -7,6 +7,7 @@
 #include "files/exr_layers.h"
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
+#include "files/memory_limit.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -165,9 +166,8 @@ Status check_deep(const ExrFile& exr, const Choices& choices, const ReadOptions&
 
 Status read_deep_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions& options,
                         Frame& frame) {
-    const std::size_t most_samples = 2 * options.max_pixels;
     Result<DeepPicture> deep =
-        read_deep(exr, choices.colour, *choices.depth, most_samples, frame.non_finite_colour);
+        read_deep(exr, choices.colour, *choices.depth, options, frame.non_finite_colour);
     if (!deep) return deep.error();
     frame.deep = std::move(*deep);
     frame.detected.push_back("deep: " + std::to_string(frame.deep.sample_count()) + " samples");
@@ -287,6 +287,9 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     const auto primaries = primaries_of(exr, colour->part, frame);
     if (!pixels) return frame;
 
+    // Colour and depth, also those that deep samples are flattened to.
+    if (Status s = fits_memory(*file, frame.place.data_window, sizeof(Rgba) + sizeof(float), options); !s)
+        return s.error();
     if (part.deep) {
         if (Status s = read_deep_pixels(exr, choices, options, frame); !s) return s.error();
         if (primaries)

@@ -6,6 +6,7 @@
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
 #include "files/exr_read.h"
+#include "files/memory_limit.h"
 #include "files/png.h"
 #include "files/wording.h"
 
@@ -137,6 +138,13 @@ Status read_depth_file(const ReadOptions& options, Frame& frame) {
 
 Result<Frame> read_png_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                              bool pixels) {
+    if (pixels && options.max_memory_bytes > 0) {
+        const Result<PngPixels> size = read_png_size(*file, options.max_pixels);
+        if (!size) return size.error();
+        const std::size_t of_pixel = sizeof(Rgba) + 4 * sizeof(std::uint16_t);  // as decoded, too
+        if (Status s = fits_memory(*file, {0, 0, size->width, size->height}, of_pixel, options); !s)
+            return s.error();
+    }
     const Result<PngPixels> png =
         pixels ? read_png_file(*file, options.max_pixels) : read_png_size(*file, options.max_pixels);
     if (!png) return png.error();

@@ -141,5 +141,40 @@ TEST(ReadFrame, HeaderAloneNamesPartsChannelsAndCamera) {
     EXPECT_EQ(frame->parts[0].compression, "zip");
 }
 
+// What is said of a file that may take so much, and of one that may take a byte more.
+std::string refused_for_memory(const std::string& path, std::size_t most) {
+    ReadOptions options;
+    options.need_depth = false;
+    options.max_memory_bytes = most + 1;
+    EXPECT_TRUE(read_frame(path, options));
+    options.max_memory_bytes = most;
+    EXPECT_TRUE(read_frame_header(path, options));
+    const auto refused = read_frame(path, options);
+    if (refused) return "";
+    EXPECT_EQ(refused.error().code, ErrorCode::OutOfMemory);
+    return refused.error().message;
+}
+
+TEST(ReadFrame, WhatTakesMoreMemoryThanAllowedIsRefusedBeforeItIsTaken) {
+    const TemporaryFolder folder;
+    const Rect window{0, 0, 40, 30};
+    constexpr std::size_t kPixels = 40 * 30;
+    write_quick_exr(folder / "flat.exr", window, {quick_rgbaz(window)});
+    EXPECT_THAT(refused_for_memory(folder / "flat.exr", kPixels * 20 - 1),
+                testing::HasSubstr("read.max_memory_bytes is too little: " + (folder / "flat.exr")));
+    const DeepPicture deep = DeepPicture::made_of(40, 30, [](int x, int, std::vector<DeepSample>& samples) {
+        for (int i = 0; i <= x; ++i) samples.push_back({{1, 1, 1, 0.5f}, 2.0f + float(i), 2.0f + float(i)});
+    });
+    ASSERT_TRUE(write_deep_exr(folder / "deep.exr", Place::whole(window), deep));
+    const std::size_t samples = deep.sample_count() * sizeof(DeepSample);
+    EXPECT_THAT(refused_for_memory(folder / "deep.exr", kPixels * 32 + samples - 1),
+                testing::HasSubstr("when it is read"));
+    PngPixels grey;
+    grey.width = 40, grey.height = 30, grey.channels = 3, grey.bits = 8;
+    grey.samples.assign(kPixels * 3, 99);
+    ASSERT_TRUE(write_png(folder / "a.png", grey));
+    EXPECT_THAT(refused_for_memory(folder / "a.png", kPixels * 24 - 1), testing::HasSubstr("takes 1M"));
+}
+
 }  // namespace
 }  // namespace petzval

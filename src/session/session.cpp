@@ -121,6 +121,13 @@ Rect seen_pixels(const Asked& asked, const DefocusJob& job, const engine::Input&
     return pixels_for(from, margin, std::max(kTiles, grid_for(largest, input.lens(0))), all);
 }
 
+// Deep samples that the caller holds; engines count the flat pictures, and what they make of samples.
+std::size_t lent_deep_bytes(const DefocusJob& job) {
+    std::size_t bytes = 0;
+    for (const DeepPicture* deep : {job.deep, job.behind, job.holdout}) bytes += deep ? deep->bytes() : 0;
+    return bytes;
+}
+
 // A job as a session makes it: with the settings of the session.
 DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, Workers& workers) {
     job.threads = s.threads;
@@ -238,7 +245,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     // What is kept is there while the frame is made. Frames beside this one may keep more than they will when
     // they end; 0 would be no limit.
     if (job.max_memory_bytes > 0)
-        job.max_memory_bytes -= std::min(usage().kept_bytes, job.max_memory_bytes - 1);
+        job.max_memory_bytes -= std::min(usage().kept_bytes + lent_deep_bytes(job), job.max_memory_bytes - 1);
     if (const Status status = check_job(job); !status) return status.error();
     if (region)
         if (const Status status = check_region(*region, job); !status) return status.error();

@@ -8,12 +8,21 @@
 namespace petzval::shot {
 namespace {
 
+// What has been read already.
+std::size_t held_bytes(const Reading& r) {
+    std::size_t bytes = r.shot.colour.size() * sizeof(Rgba) + r.plane.size() * sizeof(float);
+    for (const DeepPicture* deep : {&r.shot.deep, &r.shot.behind, &r.shot.holdout}) bytes += deep->bytes();
+    return bytes;
+}
+
 // Another file of the same shot. `what` names its part in messages.
 Result<FileOfShot> read_other(Reading& r, const std::string& what, const std::string& path,
                               bool need_colour = true) {
     ReadOptions options;
     options.need_colour = need_colour;
     options.workers = &r.workers;
+    if (const std::size_t most = r.source.read.max_memory_bytes; most > 0)
+        options.max_memory_bytes = most - std::min(most - 1, held_bytes(r));
     auto read = read_file(path, options, r.depth);
     if (!read) return read;
     const std::string from = what + ": ";
