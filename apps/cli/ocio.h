@@ -25,8 +25,8 @@ struct OcioFlags {
     // Whether the config has what was asked for; errors as of show().
     Status try_out() const;
     // From scene-linear light to what the display wants; `settings` are then what is left to do to it: dither
-    // and rounding. `used`: a line that says what was taken. Errors: those of ocio_codes(); Unsupported where
-    // this program was built without OpenColorIO.
+    // and rounding. `used`: a line that says what was taken. Errors: those of ocio_codes(); InvalidArgument
+    // where this program was built without OpenColorIO.
     Status show(Picture& light, DevelopSettings& settings, std::string& used,
                 std::vector<std::string>& warnings) const;
 

@@ -197,6 +197,8 @@ void warn_of_lost_parts(const Layout& layout, Frame& frame) {
 }
 
 Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions& options, Frame& frame) {
+    if (Status s = fits_memory(*exr.file, frame.place.data_window, sizeof(Rgba) + sizeof(float), options); !s)
+        return s;
     const bool together =
         choices.depth && choices.depth->part == choices.colour.part && !choices.depth->is_position();
     const std::string channel = together ? choices.depth->channel : "";
@@ -287,9 +289,6 @@ Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const
     const auto primaries = primaries_of(exr, colour->part, frame);
     if (!pixels) return frame;
 
-    // Colour and depth, also those that deep samples are flattened to.
-    if (Status s = fits_memory(*file, frame.place.data_window, sizeof(Rgba) + sizeof(float), options); !s)
-        return s.error();
     if (part.deep) {
         if (Status s = read_deep_pixels(exr, choices, options, frame); !s) return s.error();
         if (primaries)

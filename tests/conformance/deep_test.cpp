@@ -12,14 +12,9 @@ struct DeepShot {
 
     template <typename SamplesAt>
     static DeepPicture picture(int width, int height, const SamplesAt& samples_at) {
-        std::vector<std::size_t> first{0};
-        std::vector<DeepSample> samples;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                for (const DeepSample& s : samples_at(x, y)) samples.push_back(s);
-                first.push_back(samples.size());
-            }
-        return {width, height, std::move(first), std::move(samples)};
+        return DeepPicture::made_of(width, height, [&](int x, int y, std::vector<DeepSample>& samples) {
+            for (const DeepSample& s : samples_at(x, y)) samples.push_back(s);
+        });
     }
     template <typename SamplesAt>
     static DeepShot make(int width, int height, const SamplesAt& samples_at) {
@@ -249,10 +244,23 @@ TEST(Deep, EnginesWithoutHoldoutsSaySo) {
 }
 
 TEST(Deep, StripsThreadsAndHoldoutsTogetherGiveTheSameBits) {
-    DeepShot shot = held_shot(3);
-    DefocusJob one = shot.job("scatter"), two = shot.job("scatter");
-    one.threads = 1, two.workers = &three_threads();
-    EXPECT_EQ(largest_difference(rendered(one), rendered(two)), 0);
+    DeepShot shot = DeepShot::make(64, 700, [](int x, int y) {
+        return Samples{{{0.1f, 0.2f, 0.1f, 0.3f}, -4, -1},
+                       surface({0.4f, 0.01f * float(x), 0.5f, 1}, y % 90 < 40 ? 3.0f : 7.0f)};
+    });
+    shot.holdout = DeepShot::picture(64, 700, [](int x, int) {
+        return x < 40 ? Samples{surface({0, 0, 0, 0.75f}, 3)} : Samples{};
+    });
+    DefocusJob one = shot.job("scatter"), strips = shot.job("scatter");
+    one.threads = 1, strips.workers = &three_threads();
+    const Picture whole = rendered(one);
+    strips.max_memory_bytes = 1;  // says what it takes at least: strips as narrow as they come
+    const auto refused = defocus(strips);
+    ASSERT_FALSE(refused);
+    const std::string& said = refused.error().message;
+    const std::size_t lent = shot.deep.bytes() + shot.holdout.bytes();
+    strips.max_memory_bytes = (std::stoul(said.substr(said.find("at least ") + 9)) << 20) + lent;
+    EXPECT_EQ(largest_difference(whole, rendered(strips)), 0);
 }
 
 TEST(Deep, ManySamplesAndWildOnesStayFiniteAndBounded) {

@@ -125,16 +125,11 @@ TEST(Device, DrawsPicturesOfAnySize) {
 TEST(Device, HoldsOutWhatTheCpuHoldsOut) {
     if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
     Shot shot = small_shot();
-    std::vector<std::size_t> first;
-    std::vector<DeepSample> samples;
-    for (int y = 0; y < 37; ++y)
-        for (int x = 0; x < 51; ++x) {
-            first.push_back(samples.size());
+    const DeepPicture holdout =
+        DeepPicture::made_of(51, 37, [](int x, int, std::vector<DeepSample>& samples) {
             if (x > 33) samples.push_back({{0, 0, 0, 0.4f}, -3, -3});
             if (x > 12) samples.push_back({{0, 0, 0, 0.5f}, 2, 2});
-        }
-    first.push_back(samples.size());
-    const DeepPicture holdout(51, 37, std::move(first), std::move(samples));
+        });
     DefocusJob job = shot.job("scatter");
     const Picture free = rendered(job);
     job.holdout = &holdout;

@@ -60,19 +60,13 @@ TEST(AgainstTheReference, ACornerOfThreeSurfacesWhereWhatIsHiddenIsKnown) {
     Shot shot = flat(180, 140, {}, 9);
     paint_rectangles(shot.colour, 6);
     const Picture texture = shot.colour.clone();
-    std::vector<std::size_t> first;
-    std::vector<DeepSample> samples;
-    for (int y = 0; y < 140; ++y)
-        for (int x = 0; x < 180; ++x) {
-            first.push_back(samples.size());
-            const bool front = x + y<130, middle = x> 60 && y < 80;
-            if (front) shot.colour(x, y) = {0.1f, 0.12f, 0.1f, 1}, shot.coc_px(x, y) = -14;
-            if (middle && front) samples.push_back({{0.6f, 0.5f, 0.4f, 1}, -5, -5});
-            if (middle && !front) shot.colour(x, y) = {0.6f, 0.5f, 0.4f, 1}, shot.coc_px(x, y) = -5;
-            if (front || middle) samples.push_back({texture(x, y), 9, 9});
-        }
-    first.push_back(samples.size());
-    shot.behind = DeepPicture(180, 140, first, samples);
+    shot.behind = DeepPicture::made_of(180, 140, [&](int x, int y, std::vector<DeepSample>& samples) {
+        const bool front = x + y<130, middle = x> 60 && y < 80;
+        if (front) shot.colour(x, y) = {0.1f, 0.12f, 0.1f, 1}, shot.coc_px(x, y) = -14;
+        if (middle && front) samples.push_back({{0.6f, 0.5f, 0.4f, 1}, -5, -5});
+        if (middle && !front) shot.colour(x, y) = {0.6f, 0.5f, 0.4f, 1}, shot.coc_px(x, y) = -5;
+        if (front || middle) samples.push_back({texture(x, y), 9, 9});
+    });
     expect_close_to_the_reference(shot, 24, &Tolerances::corner_db);
 }
 

@@ -15,22 +15,17 @@ struct Strands {
         paint_rectangles(shot.colour, 12);
         plate = {shot.colour.clone(), Plane(kWidth, kHeight, kFarPx), {}};
         known = {Picture(kWidth, kHeight), Plane(kWidth, kHeight, kFarPx), {}};
-        std::vector<std::size_t> first;
-        std::vector<DeepSample> samples;
         const Rgba hair{0.2f, 0.1f, 0.05f, 1};
-        for (int y = 0; y < kHeight; ++y)
-            for (int x = 0; x < kWidth; ++x) {
-                first.push_back(samples.size());
-                const Rgba behind = plate.colour(x, y);
-                const float share = covered(float(x), float(y));
-                shot.colour(x, y) = share * hair + (1 - share) * behind;
-                if (in_strand(float(x) + 0.5f, float(y) + 0.5f)) shot.coc_px(x, y) = near_px;
-                known.colour(x, y) = shot.colour(x, y), known.coc_px(x, y) = shot.coc_px(x, y);
-                if (share > 0) samples.push_back({share * hair, near_px, near_px});
-                if (share > 0) samples.push_back({behind, kFarPx, kFarPx});
-            }
-        first.push_back(samples.size());
-        known.behind = DeepPicture(kWidth, kHeight, first, samples);
+        const auto draw = [&](int x, int y, std::vector<DeepSample>& samples) {
+            const Rgba behind = plate.colour(x, y);
+            const float share = covered(float(x), float(y));
+            shot.colour(x, y) = share * hair + (1 - share) * behind;
+            if (in_strand(float(x) + 0.5f, float(y) + 0.5f)) shot.coc_px(x, y) = near_px;
+            known.colour(x, y) = shot.colour(x, y), known.coc_px(x, y) = shot.coc_px(x, y);
+            if (share > 0) samples.push_back({share * hair, near_px, near_px});
+            if (share > 0) samples.push_back({behind, kFarPx, kFarPx});
+        };
+        known.behind = DeepPicture::made_of(kWidth, kHeight, draw);
     }
     double with_plate() {
         put_behind(

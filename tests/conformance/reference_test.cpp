@@ -25,16 +25,14 @@ TEST(Reference, ABrightPointBecomesTheKernelOfTheLens) {
 TEST(Reference, ASlantedSurfaceDoesNotLeak) {
     // The surface passes through focus; everything behind it would be seen as red.
     Shot shot = flat(80, 60, {0.5f, 0.5f, 0.5f, 1}, 0);
-    std::vector<std::size_t> first;
-    std::vector<DeepSample> samples;
     for (int y = 0; y < 60; ++y)
-        for (int x = 0; x < 80; ++x) {
-            shot.coc_px(x, y) = 0.25f * float(x - 40);
-            first.push_back(samples.size());
-            samples.push_back({{1, 0, 0, 1}, 30, 30});
-        }
-    first.push_back(samples.size());
-    shot.behind = DeepPicture(80, 60, first, samples);
+        for (int x = 0; x < 80; ++x) shot.coc_px(x, y) = 0.25f * float(x - 40);
+    put_behind(
+        shot,
+        [](int, int) {
+            return Rgba{1, 0, 0, 1};
+        },
+        [](int, int) { return 30.0f; });
     const Picture image = rendered(shot.job("reference"));
     for (int y = 0; y < 60; ++y)
         for (int x = 12; x < 68; ++x) EXPECT_NEAR(image(x, y).r, 0.5, 0.004) << x << ", " << y;
@@ -57,13 +55,9 @@ TEST(Reference, ALampBehindATwigShowsTheTwigsShadowInsideItsDisc) {
 TEST(Reference, ALampRightBehindAWallStaysHidden) {
     // 122.4 m and 125 m: radii a hundredth of a pixel apart.
     Shot shot = flat(61, 61, {0, 0, 0, 1}, 122.4f);
-    std::vector<std::size_t> first;
-    std::vector<DeepSample> samples;
-    for (int i = 0; i <= 61 * 61; ++i) {
-        first.push_back(samples.size());
-        if (i == 30 * 61 + 30) samples.push_back({{1000, 1000, 1000, 1}, 125, 125});
-    }
-    shot.behind = DeepPicture(61, 61, std::move(first), std::move(samples));
+    shot.behind = DeepPicture::made_of(61, 61, [](int x, int y, std::vector<DeepSample>& samples) {
+        if (x == 30 && y == 30) samples.push_back({{1000, 1000, 1000, 1}, 125, 125});
+    });
     for (const char* engine : {"reference", "scatter"}) {
         DefocusJob job = shot.job(engine);
         std::swap(job.depth_m, job.coc_px);  // metres
@@ -78,17 +72,11 @@ TEST(Reference, ALampRightBehindAWallStaysHidden) {
 TEST(Reference, TwoSurfacesBesideEachOtherInAPixelHideALampTogether) {
     // A seam of halves down the middle of a dark wall, in focus, before a lamp: no light comes through.
     Shot shot = flat(101, 101, {0, 0, 0, 1}, 0);
-    std::vector<std::size_t> first;
-    std::vector<DeepSample> samples;
-    for (int y = 0; y < 101; ++y)
-        for (int x = 0; x < 101; ++x) {
-            first.push_back(samples.size());
-            if (x == 50) samples.push_back({{0, 0, 0, 0.5f}, 0, 0});
-            if (x == 50) samples.push_back({{0, 0, 0, 0.5f}, 0.1f, 0.1f});
-            if (x == 50 && y == 50) samples.push_back({{1000, 1000, 1000, 1}, 30, 30});
-        }
-    first.push_back(samples.size());
-    shot.behind = DeepPicture(101, 101, std::move(first), std::move(samples));
+    shot.behind = DeepPicture::made_of(101, 101, [](int x, int y, std::vector<DeepSample>& samples) {
+        if (x == 50) samples.push_back({{0, 0, 0, 0.5f}, 0, 0});
+        if (x == 50) samples.push_back({{0, 0, 0, 0.5f}, 0.1f, 0.1f});
+        if (x == 50 && y == 50) samples.push_back({{1000, 1000, 1000, 1}, 30, 30});
+    });
     const Picture image = rendered(shot.job("reference"));
     const double open = 1000 / (M_PI * 30 * 30);
     for (int y = 0; y < 101; ++y)

@@ -77,14 +77,9 @@ TEST_P(Region, IsTheCropOfTheWhole) {
 
 TEST_P(Region, SoItIsWithHiddenLayersAndAWholeLook) {
     Shot shot = cards(420, 300);
-    std::vector<std::size_t> first{0};
-    std::vector<DeepSample> samples;
-    for (int y = 0; y < 300; ++y)
-        for (int x = 0; x < 420; ++x) {
-            if (shot.coc_px(x, y) < 0) samples.push_back({{0.3f, 0.5f, float(x % 7) / 7, 1}, 6, 6});
-            first.push_back(samples.size());
-        }
-    shot.behind = DeepPicture(420, 300, std::move(first), std::move(samples));
+    shot.behind = DeepPicture::made_of(420, 300, [&](int x, int y, std::vector<DeepSample>& samples) {
+        if (shot.coc_px(x, y) < 0) samples.push_back({{0.3f, 0.5f, float(x % 7) / 7, 1}, 6, 6});
+    });
     DefocusJob job = drawer().job(shot);
     job.pupil_points = 32;
     Look look;

@@ -67,13 +67,9 @@ TEST(Layers, OfAPictureThatKnowsWhatIsHiddenAreThose) {
 
 TEST(Layers, BeyondTheFourthAreSaidNotToBeShown) {
     Shot shot = flat(16, 16, kBlue, 0);
-    std::vector<std::size_t> first{0};
-    std::vector<DeepSample> samples;
-    for (int i = 0; i < 16 * 16; ++i) {
+    shot.behind = DeepPicture::made_of(16, 16, [](int, int, std::vector<DeepSample>& samples) {
         for (int k = 1; k <= 5; ++k) samples.push_back({kRed, float(3 * k), float(3 * k)});
-        first.push_back(samples.size());
-    }
-    shot.behind = DeepPicture(16, 16, std::move(first), std::move(samples));
+    });
     const DefocusReport report = view_of(shot, ScatterView::Layers);
     EXPECT_EQ(report.panels.size(), 8U);
     ASSERT_EQ(report.warnings.size(), 1U);

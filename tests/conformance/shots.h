@@ -92,16 +92,10 @@ inline Shot tall_with_screens() {
 // One sample behind every pixel: colour(x, y) at coc(x, y).
 template <typename Colour, typename Coc>
 void put_behind(Shot& shot, const Colour& colour, const Coc& coc) {
-    std::vector<std::size_t> first;
-    std::vector<DeepSample> samples;
-    for (int y = 0; y < shot.colour.height(); ++y)
-        for (int x = 0; x < shot.colour.width(); ++x) {
-            first.push_back(samples.size());
-            samples.push_back({colour(x, y), coc(x, y), coc(x, y)});
-        }
-    first.push_back(samples.size());
-    shot.behind =
-        DeepPicture(shot.colour.width(), shot.colour.height(), std::move(first), std::move(samples));
+    shot.behind = DeepPicture::made_of(shot.colour.width(), shot.colour.height(),
+                                       [&](int x, int y, std::vector<DeepSample>& samples) {
+                                           samples.push_back({colour(x, y), coc(x, y), coc(x, y)});
+                                       });
 }
 
 // Three threads also where there are fewer processors; `threads` is never more than those.

@@ -38,11 +38,13 @@ void expect_steady(const Steadiness& found, const Limits& limits) {
 
 void expect_steady_pull(const Shot& shot, const Limits& limits) {
     const Frames truth = defocused(shot, "reference");
-    expect_steady(measure(defocused(shot, "scatter"), truth), limits);
-    // A test that cannot fail says nothing: the same shot with blurs that jump is outside the limits.
+    const Steadiness found = measure(defocused(shot, "scatter"), truth);
+    expect_steady(found, limits);
+    // A test that cannot fail says nothing: the same engine with blurs that jump is found much worse, however
+    // good it is without.
     const Steadiness jumping = measure(with_jumping_blurs(shot), truth);
-    EXPECT_LT(jumping.change_db, limits.least_change_db);
-    EXPECT_GT(jumping.shake, limits.most_shake);
+    EXPECT_LT(jumping.change_db, found.change_db - 1);
+    EXPECT_GT(jumping.shake, 1.3 * found.shake);
 }
 
 TEST(Flicker, AFocusPullThroughLampsIsSteady) {

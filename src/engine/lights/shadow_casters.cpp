@@ -60,8 +60,6 @@ private:
     std::size_t rank_ = 0;
 };
 
-}  // namespace
-
 // Coarser views leave out what is not nearer than this. No square holds radii from both sides of a power of
 // two, so that a view may end at any of them.
 constexpr float kFarthestCoarse = -2;
@@ -103,6 +101,8 @@ void coarsen(std::span<const Caster> fine, int size, std::vector<Caster>& out) {
     out.resize(end);
     std::stable_sort(own(), out.end(), [](const Caster& a, const Caster& b) { return a.coc_px < b.coc_px; });
 }
+
+}  // namespace
 
 ShadowCasters::ShadowCasters(const CocSamples& samples, Workers& workers)
     : nearest_of_blocks_((samples.width + kBlock - 1) / kBlock, (samples.height() + kBlock - 1) / kBlock,
