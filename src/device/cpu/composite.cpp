@@ -19,13 +19,12 @@ namespace {
 // What one sector of the pupil, or all of it, has given to each pixel of a tile so far.
 struct Budget {
     Picture sum;
-    Image<LensLeft> left;
-    Plane empty;          // lens area that emptiness took
+    Plane free, empty;    // lens area that nothing took yet, and that emptiness took
     Picture let_through;  // what a holdout leaves of `sum`
 
     void start(const Rect& tile, bool held) {
         sum = Picture(tile.width(), tile.height());
-        left = Image<LensLeft>(tile.width(), tile.height());
+        free = Plane(tile.width(), tile.height(), 1.0f);
         empty = Plane(tile.width(), tile.height(), 0.0f);
         if (held) let_through = Picture(tile.width(), tile.height());
     }
@@ -57,14 +56,15 @@ void stamp_off_middle(std::span<const StampKernel> kernels, const Source& s, Rgb
 }
 
 // A layer that is partly empty takes its lens area as one: light and emptiness in proportion.
-void take_budget_with_emptiness(const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum,
-                                LensLeft* left, float* empty, int n) {
+void take_budget_with_emptiness(const Rgba* light, const Rgba* emptiness, Rgba* sum, float* free,
+                                float* empty, int n) {
     for (int i = 0; i < n; ++i) {
         const float arrives = light[i].a + emptiness[i].a;
         if (arrives <= 0) continue;
-        const float taken = left[i].take(arrives, layer);
+        const float taken = std::min(arrives, free[i]);
         sum[i] += light[i] * (taken / arrives);
         empty[i] += emptiness[i].a * (taken / arrives);
+        free[i] -= taken;
     }
 }
 
@@ -123,14 +123,14 @@ private:
         if (partly_empty) accumulate(emptiness, layer.sectors, w_.emptiness);
         for (int c = 0; c < sectors_; ++c)
             take(w_.budgets[std::size_t(c)], std::size_t(std::min(c, layer.sectors - 1)), partly_empty,
-                 layer.layer, radii);
+                 radii);
     }
     // Whether no pixel has any lens area left for what is yet to come.
     bool is_spent() const {
         constexpr float kSpent = 0.002f;  // what an opaque surface's discrete sources leave
         return std::all_of(w_.budgets.begin(), w_.budgets.begin() + sectors_, [](const Budget& b) {
-            return std::all_of(b.left.pixels(), b.left.pixels() + b.left.size(),
-                               [](const LensLeft& left) { return left.free < kSpent; });
+            return std::all_of(b.free.pixels(), b.free.pixels() + b.free.size(),
+                               [](float free) { return free < kSpent; });
         });
     }
     // Signed radii in pixels.
@@ -173,7 +173,7 @@ private:
         }
     }
     // From what arrived through one sector of the pupil.
-    void take(Budget& budget, std::size_t sector, bool partly_empty, int layer, const Interval& radii) {
+    void take(Budget& budget, std::size_t sector, bool partly_empty, const Interval& radii) {
         const Accumulator &light = w_.light[sector], &emptiness = w_.emptiness[sector];
         Rows rows = light.touched();
         if (partly_empty) rows = rows.with(emptiness.touched());
@@ -181,10 +181,10 @@ private:
             Rgba* const sum = held() ? w_.added.data() : budget.sum.row(y);
             if (held()) std::fill(w_.added.begin(), w_.added.end(), Rgba{});
             if (partly_empty)
-                take_budget_with_emptiness(light.row(tile_.y0 + y), emptiness.row(tile_.y0 + y), layer, sum,
-                                           budget.left.row(y), budget.empty.row(y), tile_.width());
+                take_budget_with_emptiness(light.row(tile_.y0 + y), emptiness.row(tile_.y0 + y), sum,
+                                           budget.free.row(y), budget.empty.row(y), tile_.width());
             else
-                take_budget(light.row(tile_.y0 + y), layer, sum, budget.left.row(y), tile_.width());
+                take_budget(light.row(tile_.y0 + y), sum, budget.free.row(y), tile_.width());
             if (held()) add_held(plan_.holdout, radii, tile_, y, w_.added, budget);
         }
     }

@@ -5,7 +5,6 @@
 
 #include "petzval/image.h"
 
-#include "engine/scatter/plan.h"
 #include "kernel/model/lens_model.h"
 
 #include <algorithm>
@@ -90,36 +89,9 @@ void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float
 // Requires: coarse covers the cells of fine's area and two more on every side. `scratch` may hold anything.
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch);
 
-// What is left of a pixel's lens. Parts of one surface lie side by side in the lens: together they take what
-// they arrive with, of what others before them left. Of two surfaces nothing says that one lies just where
-// the other does not: the second takes its share of all that is left. What comes in the next interval of
-// radius goes on from what came before it, what comes five intervals later is another surface, and what lies
-// between is both in part.
-struct LensLeft {
-    float free = 1;    // that nothing took yet
-    float before = 1;  // that was left before the surface met last
-    float own = 0;     // of that, the share which this surface takes so far
-    int layer = 0;     // where it was met
-
-    // A layer arrives with so much lens area, layers from the front; returns what it takes of that.
-    float take(float arrives, int at_layer) {
-        constexpr float kGoesOn = kNextLayer, kAnother = 5 * kNextLayer;
-        // (Emptiness behind everything wraps where what is before it lies in front of focus.)
-        const float gap = float(unsigned(at_layer) - unsigned(layer));
-        const float goes_on = std::clamp((kAnother - gap) / (kAnother - kGoesOn), 0.0f, 1.0f);
-        before = goes_on * before + (1 - goes_on) * free;
-        own = before > 0 ? 1 - free / before : 1;
-        layer = at_layer;
-        const float more = std::min(arrives, 1 - own);
-        own += more;
-        free = before * (1 - own);
-        return more * before;
-    }
-};
-
-// The lens-area budget, pixel by pixel: the light of a layer (its a: the lens area it arrives with) comes in
-// proportion to what it may take. n pixels.
-void take_budget(const Rgba* light, int layer, Rgba* sum, LensLeft* left, int n);
+// The lens-area budget, pixel by pixel: a layer takes the lens area it arrives with (its a), or what is left
+// in `free` if that is less; its light comes in proportion. n pixels.
+void take_budget(const Rgba* layer, Rgba* sum, float* free, int n);
 
 // "AVX3", "AVX2", "SSE4", "SCALAR", …: what the loops above run on here.
 const char* instruction_set();

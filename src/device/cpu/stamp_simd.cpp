@@ -224,18 +224,18 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine, std::v
     }
 }
 
-void TakeBudget(const Rgba* HWY_RESTRICT light, int layer, Rgba* HWY_RESTRICT sum,
-                LensLeft* HWY_RESTRICT left, int n) {
+void TakeBudget(const Rgba* HWY_RESTRICT layer, Rgba* HWY_RESTRICT sum, float* HWY_RESTRICT free, int n) {
     const OnePixel one;
     for (int i = 0; i < n; ++i) {
-        const float arrives = light[i].a;
+        const float arrives = layer[i].a;
         if (arrives <= 0) continue;
-        const float taken = left[i].take(arrives, layer);
+        const float taken = std::min(arrives, free[i]);
         const auto share = hn::Set(one, taken / arrives);
-        const float* in = &light[i].r;
+        const float* in = &layer[i].r;
         float* out = &sum[i].r;
         for (std::size_t k = 0; k < 4; k += hn::Lanes(one))
             hn::StoreU(hn::MulAdd(share, hn::LoadU(one, in + k), hn::LoadU(one, out + k)), one, out + k);
+        free[i] -= taken;
     }
 }
 
@@ -268,8 +268,8 @@ void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch) {
     HWY_DYNAMIC_DISPATCH(AddEnlarged)(coarse, level, fine, scratch);
 }
-void take_budget(const Rgba* light, int layer, Rgba* sum, LensLeft* left, int n) {
-    HWY_DYNAMIC_DISPATCH(TakeBudget)(light, layer, sum, left, n);
+void take_budget(const Rgba* layer, Rgba* sum, float* free, int n) {
+    HWY_DYNAMIC_DISPATCH(TakeBudget)(layer, sum, free, n);
 }
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(Name)(); }
 

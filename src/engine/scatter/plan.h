@@ -103,7 +103,6 @@ struct LevelRun {
 struct TileLayer {
     std::uint32_t first_run, first_empty_run;
     int sectors;  // 1: all of the pupil at once
-    int layer;    // its place in the order of compositing
 };
 // Pixels of the result that are drawn together. Its layers come nearest first; each takes the lens area it
 // arrives with, or what is left.

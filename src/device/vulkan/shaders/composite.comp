@@ -18,7 +18,7 @@ layout(push_constant) uniform Push {
     uint held_rows, held_width, held_samples;    // row 0 of the holdout, its width; where samples begin
 } at;
 
-const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 6, kRunWords = 3;
+const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
 const int kTilePixels = 64 * 64;
 const float kSpent = 0.002;
 
@@ -218,8 +218,7 @@ void main() {
     const bool inside = all(lessThan(pixel, box.high));
 
     vec4 sum = vec4(0);
-    float free = 1, before = 1, taken_so_far = 0, empty = 0;  // LensLeft of device/cpu/stamp.h
-    int met = 0;
+    float free = 1, empty = 0;
     const uint last_layer = plan[tile + kTileWords + 4u];
     for (uint layer = plan[tile + 4u]; layer < last_layer; ++layer) {
         if (own == 0u) any_free = 0u;
@@ -234,21 +233,13 @@ void main() {
         const float emptiness = middle < close ? arrived(middle, close, of, box, pixel, inside).a : 0.0;
         const float arrives = light.a + emptiness;
         if (inside && arrives > 0) {
-            const float kGoesOn = 2, kAnother = 10;  // of layers; two are an interval
-            const int number = int(plan[word + 5u]);
-            const float gap = float(uint(number) - uint(met));
-            const float goes_on = clamp((kAnother - gap) / (kAnother - kGoesOn), 0.0, 1.0);
-            before = goes_on * before + (1 - goes_on) * free;
-            taken_so_far = before > 0 ? 1 - free / before : 1;
-            met = number;
-            const float more = min(arrives, 1 - taken_so_far), share = more * before / arrives;
-            taken_so_far += more;
-            free = before * (1 - taken_so_far);
+            const float taken = min(arrives, free), share = taken / arrives;
             float through = 1;
             if (kHeld != 0u)
                 through = let_through(pixel, uintBitsToFloat(plan[word + 3u]), uintBitsToFloat(plan[word + 4u]));
             sum += light * (share * through);
             empty += light.a * share * (1 - through) + emptiness * share;
+            free -= taken;
         }
     }
     if (!inside) return;
