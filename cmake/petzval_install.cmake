@@ -37,7 +37,7 @@ petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES ${tbb
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
                   ${headers}/look_file.h ${headers}/output.h ${headers}/shot.h ${headers}/frames.h ${headers}/track.h
                   ${headers}/focus_track.h
-                  REQUIRES petzval OpenEXR libpng libdeflate DESCRIPTION "EXR and PNG for petzval")
+                  REQUIRES petzval OpenEXR libpng libdeflate zlib DESCRIPTION "EXR and PNG for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h
