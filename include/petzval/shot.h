@@ -150,9 +150,9 @@ PETZVAL_API Result<Rect> window_of_light(const Shot& shot, const Look& look, dou
 // So many pixels more on each side where the data window ends inside the display window; elsewhere the scene
 // goes on beyond the frame, unknown.
 PETZVAL_API Rect with_empty_sides(const Place& place, int by_px);
-// Adds emptiness around the picture. Requires: window holds its data window. Returns whether it is larger.
+// Adds emptiness around the picture. Requires: `wider` holds its data window. Returns whether it is larger.
 // Errors: InvalidArgument for more pixels than any picture may have.
-PETZVAL_API Result<bool> grow_to(Shot& shot, const Rect& window);
+PETZVAL_API Result<bool> grow_to(Shot& shot, const Rect& wider);
 // grow_to(with_empty_sides()).
 PETZVAL_API Result<bool> grow_empty_sides(Shot& shot, int by_px);
 
