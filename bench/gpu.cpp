@@ -6,7 +6,6 @@
 #include "petzval/names.h"
 #include "petzval/session.h"
 
-#include "device/cpu/cpu_device.h"
 #include "device/vulkan/vulkan_device.h"
 
 #include <algorithm>
@@ -107,8 +106,7 @@ int main(int count, char** words) {
     job.camera.f_number = largest(*at_f1) / options.radius_px;  // radii go with 1/f-number
 
     if (!options.device.starts_with("gpu:")) fail("--device is gpu:0, gpu:1, …");
-    const auto device =
-        device::open_vulkan(std::strtoul(options.device.c_str() + 4, nullptr, 10), device::cpu_device());
+    const auto device = device::open_vulkan(std::strtoul(options.device.c_str() + 4, nullptr, 10));
     if (!device) fail(device.error().message);
     SessionSettings settings;
     settings.device = options.device;

@@ -8,10 +8,11 @@ if(NOT PETZVAL_VULKAN_HEADERS OR NOT PETZVAL_GLSLC)
   return()
 endif()
 file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.comp)
+file(GLOB shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.glsl)
 foreach(shader ${shaders})
   get_filename_component(name ${shader} NAME)
   set(words ${PROJECT_BINARY_DIR}/shaders/${name}.inc)
-  add_custom_command(OUTPUT ${words} DEPENDS ${shader} COMMENT "SPIR-V of ${name}" VERBATIM
+  add_custom_command(OUTPUT ${words} DEPENDS ${shader} ${shared} COMMENT "SPIR-V of ${name}" VERBATIM
                      COMMAND ${PETZVAL_GLSLC} --target-env=vulkan1.2 -O -Werror -mfmt=c ${shader} -o ${words})
   list(APPEND petzval_vulkan_words ${words})
 endforeach()

@@ -99,7 +99,7 @@ void DefocusFlags::add_session_to(Verb& verb) {
     FlagGroup(verb, "Run")
         .value("--device", "DEVICE",
                "what draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a GPU that is no software "
-               "driver, else the CPU. What it has no program for, the CPU draws",
+               "driver, else the CPU. Engine reference is the CPU's alone",
                parse_text, device)
         .value("--kernel-cache", "FOLDER",
                "where kernels that take long to make are kept between runs, 1 GiB at most; off keeps none. "

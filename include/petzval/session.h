@@ -27,8 +27,8 @@ struct SessionSettings {
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
     std::shared_ptr<Workers> workers = nullptr;  // those of a host, in place of `threads`; null: our own
     // What draws: "cpu", "gpu" (the first of devices() that is no CPU), "gpu:1", or "auto": the first that is
-    // neither a CPU nor a software driver, else the CPU. What it has no program for, the CPU draws; the
-    // report says who drew.
+    // neither a CPU nor a software driver, else the CPU. What engines make without a device (reference) the
+    // CPU makes; the report says who drew.
     std::string device = "cpu";
 };
 

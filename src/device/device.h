@@ -49,9 +49,6 @@ struct Work {
     static Work of_taps(std::size_t taps) { return {48 * taps, 4 * taps}; }
 };
 
-// Lights are added with their viewpoints, or stamped through masks.
-enum class Verb { Composite, Gather, Mix, AddLights, StampLights };
-
 // Any of its verbs may throw Failed (device/failure.h); nothing is then added to the result.
 class Device {
 public:
@@ -61,8 +58,6 @@ public:
     Device& operator=(const Device&) = delete;
 
     virtual const char* name() const = 0;
-    // Whether it does that itself; if not, the CPU does.
-    virtual bool has(Verb) const { return true; }
 
     // Makes what is missing of a set, in parallel, before anything is drawn with it. Kernels are kept in
     // `memory`, under the name of their source. Incomplete once cancelled.

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "device/device.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -13,6 +14,16 @@
 #include <vector>
 
 namespace petzval::device {
+
+// The smallest part of a kernel's weights that holds all its light.
+inline Rect lit_part(View<const Rgba> weights) {
+    Rect lit{weights.width(), weights.height(), 0, 0};
+    for (int y = 0; y < weights.height(); ++y)
+        for (int x = 0; x < weights.width(); ++x)
+            if (!(weights(x, y) == Rgba{}))
+                lit = {std::min(lit.x0, x), std::min(lit.y0, y), std::max(lit.x1, x + 1), y + 1};
+    return lit.empty() ? Rect{} : lit;
+}
 
 // All that was made of one source and not dropped yet. Of a Kernel are asked laid_out() and bytes.
 template <typename Kernel>

@@ -4,7 +4,6 @@
 
 #include "device/cpu/cpu_device.h"
 #include "device/cpu/stamp.h"
-#include "engine/lights/plan.h"
 
 #ifdef PETZVAL_VULKAN
 #include "device/vulkan/vulkan_device.h"
@@ -28,9 +27,7 @@ Result<std::vector<VulkanChoice>> vulkan_choices() {
     return Error{ErrorCode::Unsupported,
                  "this build has none: the headers of Vulkan and glslc were not found when it was made"};
 }
-Result<std::shared_ptr<const device::Device>> open_vulkan(std::size_t, const device::Device&) {
-    return vulkan_choices().error();
-}
+Result<std::shared_ptr<const device::Device>> open_vulkan(std::size_t) { return vulkan_choices().error(); }
 #else
 using device::open_vulkan;
 using device::vulkan_choices;
@@ -67,7 +64,7 @@ Error refused(ErrorCode code, const std::string& message) {
 }
 
 Result<std::shared_ptr<const device::Device>> opened(std::size_t number) {
-    auto device = open_vulkan(number, device::cpu_device());
+    auto device = open_vulkan(number);
     if (!device) return refused(device.error().code, gpu_name(number) + ": " + device.error().message);
     return device;
 }
@@ -96,15 +93,7 @@ Result<std::shared_ptr<const device::Device>> open_device(const std::string& cho
     return opened(*number);
 }
 
-device::Verb NotingDevice::verb_of(const engine::LightsPlan& plan) {
-    return plan.masks.empty() ? device::Verb::AddLights : device::Verb::StampLights;
-}
-
-std::string NotingDevice::drawn_by() const {
-    const std::string cpu = device::cpu_device().name();
-    if (!itself_) return cpu;
-    return other_ ? std::string(name()) + " and " + cpu : name();
-}
+std::string NotingDevice::drawn_by() const { return drew_ ? name() : device::cpu_device().name(); }
 
 std::vector<DeviceFacts> devices() {
     std::vector<DeviceFacts> facts{{"cpu", engine::instruction_set(), false, {}}};

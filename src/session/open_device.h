@@ -22,7 +22,6 @@ public:
     explicit NotingDevice(const device::Device& drawing) : device_(drawing) {}
 
     const char* name() const override { return device_.name(); }
-    bool has(device::Verb verb) const override { return device_.has(verb); }
     std::shared_ptr<const device::Atlas> atlas(const device::KernelSource& source,
                                                const device::KernelSet& set, device::Memory& memory,
                                                const device::Control& control) const override {
@@ -30,35 +29,32 @@ public:
     }
     device::Work composite(const engine::ScatterPlan& plan, const device::Atlas& atlas, View<Rgba> out,
                            const device::Control& control) const override {
-        note(device::Verb::Composite);
+        note();
         return device_.composite(plan, atlas, out, control);
     }
     void gather(const engine::GatherPlan& plan, const device::Atlas& atlas, View<Rgba> out,
                 const device::Control& control) const override {
-        note(device::Verb::Gather);
+        note();
         device_.gather(plan, atlas, out, control);
     }
     void mix(const engine::GaussianPlan& plan, View<Rgba> out,
              const device::Control& control) const override {
-        note(device::Verb::Mix);
+        note();
         device_.mix(plan, out, control);
     }
     device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, View<Rgba> out,
                             const device::Control& control) const override {
-        note(verb_of(plan));
+        note();
         return device_.add_lights(plan, atlas, out, control);
     }
 
-    // Who drew: "cpu", "gpu:0 its name", or "gpu:0 its name and cpu".
+    // Who drew: "gpu:0 its name", or "cpu": what engines draw without a device.
     std::string drawn_by() const;
 
 private:
-    static device::Verb verb_of(const engine::LightsPlan& plan);
-    void note(device::Verb verb) const {
-        (device_.has(verb) ? itself_ : other_).store(true, std::memory_order_relaxed);
-    }
+    void note() const { drew_.store(true, std::memory_order_relaxed); }
     const device::Device& device_;
-    mutable std::atomic<bool> itself_ = false, other_ = false;
+    mutable std::atomic<bool> drew_ = false;
 };
 
 }  // namespace petzval

@@ -275,8 +275,8 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     // Whoever asks for a GPU is told where he did not get it.
     if (report && settings.device.starts_with("gpu") && report->device != drawing.name())
         report->warnings.push_back("session.device " + settings.device +
-                                   " has no program for all that job.engine " + job.engine +
-                                   " draws; the CPU drew the rest");
+                                   " had nothing to draw of job.engine " + job.engine +
+                                   "'s; the CPU made the frame");
     trim(most_kept_bytes());
     return report;
 }

@@ -196,9 +196,60 @@ TEST(Device, EveryEngineDrawsWithItAndSaysWhoDrew) {
             const auto report = session.defocus(job);
             ASSERT_TRUE(report) << report.error().message;
             EXPECT_GE(psnr(expected, report->image), 80) << engine;
-            EXPECT_EQ(report->warnings.empty(), report->device.find("cpu") == std::string::npos)
-                << engine << " by " << report->device;
+            EXPECT_EQ(report->device == "cpu", engine == "reference") << engine << " by " << report->device;
+            EXPECT_EQ(report->warnings.empty(), report->device != "cpu");
         }
+}
+
+// Every law and view of a draft, wide blurs and narrow, pixels that are not square.
+TEST(Device, MixesBlursAsTheCpuDoes) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    Shot shot = small_shot();
+    shot.behind = {};
+    for (const std::string& gpu : gpus()) {
+        Session cpu = session_on("cpu"), session = session_on(gpu);
+        for (const auto style : {GaussianStyle::Layered, GaussianStyle::Plain, GaussianStyle::Wgld})
+            for (const auto view : {GaussianView::Result, GaussianView::BlurSmall, GaussianView::BlurLarge,
+                                    GaussianView::FocusIndex})
+                for (const float widest_px : {5.0f, 70.0f}) {
+                    shot.coc_px(3, 3) = widest_px;
+                    DefocusJob job = shot.job("gaussian");
+                    job.behind = nullptr, job.gaussian.style = style, job.gaussian.view = view;
+                    job.place.pixel_aspect = 1.3;
+                    const Picture expected = drawn(cpu, job, "cpu"), made = drawn(session, job, gpu);
+                    EXPECT_GE(psnr(expected, made), 100) << gpu << " " << int(style) << " " << int(view);
+                    EXPECT_EQ(largest_difference(drawn(session, job, gpu), made), 0) << "not the same bits";
+                }
+    }
+}
+
+// Lights of every size, some behind a bar, some in one spot, over more than one tile.
+TEST(Device, StampsLightsThroughMasksAsTheCpuDoes) {
+    if (gpus().empty()) GTEST_SKIP() << why_no_gpu();
+    Shot shot = flat(270, 30, {0.1f, 0.2f, 0.3f, 1}, 0);
+    for (int y = 0; y < 30; ++y)
+        for (int x = 240; x < 244; ++x) shot.coc_px(x, y) = y < 18 ? -9.0f : 2.0f;
+    std::vector<LightPoint> points;
+    for (int i = 0; i < 20; ++i)
+        points.push_back({.x = 200 + 3 * float(i),
+                          .y = float(i * 13 % 30),
+                          .r = 50,
+                          .g = 30,
+                          .b = 20,
+                          .coc_px = float(i) - 3});
+    for (int i = 0; i < 3; ++i) points.push_back({.x = 250, .y = 20, .r = 9, .g = 9, .b = 9, .coc_px = 60});
+    const DefocusJob open = shot.job("sprites");
+    DefocusJob job = open;
+    job.points = &points;
+    Session cpu = session_on("cpu");
+    const Picture expected = drawn(cpu, job, "cpu");
+    EXPECT_GT(largest_difference(expected, drawn(cpu, open, "cpu")), 1);
+    for (const std::string& gpu : gpus()) {
+        Session session = session_on(gpu);
+        const Picture made = drawn(session, job, gpu);
+        EXPECT_GE(psnr(expected, made), 90) << gpu;
+        EXPECT_EQ(largest_difference(drawn(session, job, gpu), made), 0) << "not twice the same bits";
+    }
 }
 
 // A source in focus lands where it is, and a wide one around it.

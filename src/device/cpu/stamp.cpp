@@ -1,27 +1,14 @@
 #include "device/cpu/stamp.h"
 
 #include "base/cancel.h"
+#include "device/laid_out.h"
 
 #include <algorithm>
 
 namespace petzval::engine {
 
-namespace {
-
-// The smallest rectangle of a kernel's weights that holds all its light.
-Rect lit_part(View<const Rgba> weights) {
-    Rect lit{weights.width(), weights.height(), 0, 0};
-    for (int y = 0; y < weights.height(); ++y)
-        for (int x = 0; x < weights.width(); ++x)
-            if (!(weights(x, y) == Rgba{}))
-                lit = {std::min(lit.x0, x), std::min(lit.y0, y), std::max(lit.x1, x + 1), y + 1};
-    return lit.empty() ? Rect{} : lit;
-}
-
-}  // namespace
-
 StampKernel::StampKernel(const kernel::PointSpread& spread) {
-    const Rect lit = lit_part(spread.weights);
+    const Rect lit = device::lit_part(spread.weights);
     const Rect& whole = spread.extent;
     extent_ = {whole.x0 + lit.x0, whole.y0 + lit.y0, whole.x0 + lit.x1, whole.y0 + lit.y1};
     groups_ = (extent_.width() + kGroup - 1) / kGroup;

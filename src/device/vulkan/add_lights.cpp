@@ -26,12 +26,6 @@ constexpr int kBlock = 16;  // cells of a pupil that a group covers
 
 std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
-struct Push {
-    std::uint32_t tiles = 0, order = 0, lights = 0, views = 0, records = 0;
-    std::uint32_t held_row = 0, held_width = 0, held_samples = 0;
-};
-static_assert(sizeof(Push) == 32);
-
 // Lights begin…end - 1 of a plan, with the viewpoints that they have.
 struct Batch {
     std::size_t begin = 0, end = 0;
@@ -210,7 +204,7 @@ private:
         constexpr std::uint32_t kTileWords = 5;
         const std::size_t bytes = count * kTilePixels * sizeof(Rgba);
         const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
-        Push push = push_;
+        LightsPush push = push_;
         push.tiles = std::uint32_t(first) * kTileWords;
         recording.pass("add lights", context_.program(Shader::AddLights, plan_.holdout.empty() ? 0 : 1),
                        {&words_on_device_, &kernels.words, &kernels.weights, &visible, &holdout, &result},
@@ -233,7 +227,7 @@ private:
     // Of the batch.
     std::vector<std::uint32_t> words_;
     std::vector<Rect> tiles_;
-    Push push_;
+    LightsPush push_;
     Piece words_on_device_, casters_on_device_, covered_;
     std::uint64_t taps_ = 0;
 };

@@ -18,4 +18,12 @@ struct LightsRule {
 Work add_planned_lights(Context& context, const engine::LightsPlan& plan, const PackedAtlas& atlas,
                         View<Rgba> out, const Control& control, const LightsRule& rule = {});
 
+// What shaders/add_lights.comp is told; it says what each means.
+struct LightsPush {
+    std::uint32_t tiles = 0, order = 0, lights = 0, views = 0, records = 0;
+    std::uint32_t held_row = 0, held_width = 0, held_samples = 0;
+    float stretch = 1;
+};
+static_assert(sizeof(LightsPush) == 36);
+
 }  // namespace petzval::device::vulkan

@@ -1,19 +1,7 @@
 #include "device/vulkan/atlas.h"
 
-#include <algorithm>
-
 namespace petzval::device::vulkan {
 namespace {
-
-// The smallest part of a kernel that holds all its light, in its own pixels.
-Rect lit_part(View<const Rgba> weights) {
-    Rect lit{weights.width(), weights.height(), 0, 0};
-    for (int y = 0; y < weights.height(); ++y)
-        for (int x = 0; x < weights.width(); ++x)
-            if (!(weights(x, y) == Rgba{}))
-                lit = {std::min(lit.x0, x), std::min(lit.y0, y), std::max(lit.x1, x + 1), y + 1};
-    return lit.empty() ? Rect{} : lit;
-}
 
 std::uint32_t halves(int x, int y) { return (std::uint32_t(x) & 0xffffu) | (std::uint32_t(y) << 16); }
 

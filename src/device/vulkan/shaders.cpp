@@ -9,7 +9,6 @@ constexpr std::uint32_t kComposite[] =
 constexpr std::uint32_t kAddSectors[] =
 #include "add_sectors.comp.inc"
     ;
-
 constexpr std::uint32_t kCoverPupil[] =
 #include "cover_pupil.comp.inc"
     ;
@@ -19,9 +18,20 @@ constexpr std::uint32_t kOpenPupil[] =
 constexpr std::uint32_t kAddLights[] =
 #include "add_lights.comp.inc"
     ;
-
+constexpr std::uint32_t kAddCells[] =
+#include "add_cells.comp.inc"
+    ;
 constexpr std::uint32_t kGather[] =
 #include "gather.comp.inc"
+    ;
+constexpr std::uint32_t kSpreadCells[] =
+#include "spread_cells.comp.inc"
+    ;
+constexpr std::uint32_t kBlurCells[] =
+#include "blur_cells.comp.inc"
+    ;
+constexpr std::uint32_t kMixBlurs[] =
+#include "mix_blurs.comp.inc"
     ;
 
 }  // namespace
@@ -37,11 +47,19 @@ ShaderWords words_of(Shader shader) {
         case Shader::OpenPupil:
             return {kOpenPupil, 3, 4};
         case Shader::AddLights:
-            return {kAddLights, 6, 32};
+            return {kAddLights, 6, 36};
+        case Shader::AddCells:
+            return {kAddCells, 3, 8};
         case Shader::Gather:
+            return {kGather, 4, 32};
+        case Shader::SpreadCells:
+            return {kSpreadCells, 5, 84};
+        case Shader::BlurCells:
+            return {kBlurCells, 5, 84};
+        case Shader::MixBlurs:
             break;
     }
-    return {kGather, 4, 32};
+    return {kMixBlurs, 6, 84};
 }
 
 }  // namespace petzval::device::vulkan

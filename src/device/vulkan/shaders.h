@@ -6,7 +6,18 @@
 
 namespace petzval::device::vulkan {
 
-enum class Shader { Composite, AddSectors, CoverPupil, OpenPupil, AddLights, Gather };
+enum class Shader {
+    Composite,
+    AddSectors,
+    CoverPupil,
+    OpenPupil,
+    AddLights,
+    AddCells,
+    Gather,
+    SpreadCells,
+    BlurCells,
+    MixBlurs
+};
 
 struct ShaderWords {
     std::span<const std::uint32_t> spirv;

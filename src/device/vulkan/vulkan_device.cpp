@@ -4,7 +4,9 @@
 #include "device/vulkan/add_lights.h"
 #include "device/vulkan/composite.h"
 #include "device/vulkan/gather.h"
+#include "device/vulkan/mix.h"
 #include "device/vulkan/recording.h"
+#include "device/vulkan/stamp_lights.h"
 #include "engine/lights/plan.h"
 
 #include <chrono>
@@ -18,19 +20,13 @@ namespace {
 
 class VulkanDevice final : public Device {
 public:
-    VulkanDevice(std::shared_ptr<Context> context, const Device& otherwise)
-        : context_(std::move(context)),
-          otherwise_(otherwise),
-          name_(context_->name() + " " + context_->candidate().name) {}
+    explicit VulkanDevice(std::shared_ptr<Context> context)
+        : context_(std::move(context)), name_(context_->name() + " " + context_->candidate().name) {}
 
     const char* name() const override { return name_.c_str(); }
-    bool has(Verb verb) const override {
-        return verb == Verb::Composite || verb == Verb::Gather || verb == Verb::AddLights;
-    }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
                                        const Control& control) const override {
         if (source.use() == KernelUse::ByPixel) return kept_by_source(source, set, control);
-        if (source.use() == KernelUse::Masked) return otherwise_.atlas(source, set, memory, control);
         return std::make_shared<const PackedAtlas>(
             laid_out<PackedSet>(source, set, "programs of a device", memory, control));
     }
@@ -43,12 +39,13 @@ public:
         gather_tiles(*context_, plan, dynamic_cast<const PackedAtlas&>(atlas), out, control);
     }
     void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
-        otherwise_.mix(plan, out, control);
+        mix_blurs(*context_, plan, out, control);
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {
-        if (!plan.masks.empty()) return otherwise_.add_lights(plan, atlas, out, control);
-        return add_planned_lights(*context_, plan, dynamic_cast<const PackedAtlas&>(atlas), out, control);
+        const auto& packed = dynamic_cast<const PackedAtlas&>(atlas);
+        return plan.masks.empty() ? add_planned_lights(*context_, plan, packed, out, control)
+                                  : stamp_planned_lights(*context_, plan, packed, out, control);
     }
 
     Context& context() const { return *context_; }
@@ -67,7 +64,6 @@ private:
     }
 
     std::shared_ptr<Context> context_;
-    const Device& otherwise_;
     const std::string name_;
 };
 
@@ -83,7 +79,7 @@ Result<std::vector<VulkanChoice>> vulkan_choices() {
     return choices;
 }
 
-Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number, const Device& otherwise) {
+Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number) {
     static std::mutex mutex;
     static std::map<std::size_t, std::weak_ptr<const Device>> opened;
     const std::lock_guard lock(mutex);
@@ -92,8 +88,7 @@ Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number, const Devi
     if (!instance) return instance.error();
     auto context = vulkan::Context::open(std::move(*instance), number);
     if (!context) return context.error();
-    std::shared_ptr<const Device> device =
-        std::make_shared<const vulkan::VulkanDevice>(std::move(*context), otherwise);
+    std::shared_ptr<const Device> device = std::make_shared<const vulkan::VulkanDevice>(std::move(*context));
     opened[number] = device;
     return device;
 }

@@ -21,9 +21,9 @@ struct VulkanChoice {
 // The devices there are, hardware first: "gpu:0" and on. Errors: Unsupported: no loader, no driver.
 Result<std::vector<VulkanChoice>> vulkan_choices();
 
-// Requires: number is in vulkan_choices(). otherwise: draws what this device has no program for. Opened once
-// in a process while anybody holds it. Errors: Unsupported.
-Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number, const Device& otherwise);
+// Requires: number is in vulkan_choices(). Opened once in a process while anybody holds it. Errors:
+// Unsupported.
+Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number);
 
 // For benchmarks. Passes are timed by the device's own clock from here on, and what was noted is forgotten.
 // All three require a device of open_vulkan().

@@ -3,6 +3,8 @@
 
 #include "engine/waist/engine.h"
 
+#include <array>
+
 namespace petzval::engine {
 
 // A disc of this radius lies within its pixel: light that is out of focus by less stays where it is.
@@ -23,6 +25,10 @@ public:
     float small_px() const { return small_px_; }
     float large_px() const { return large_px_; }
     MixWeights operator()(float radius_px) const;
+    // What it is made of, for devices: shaders/mix.glsl evaluates it.
+    std::array<float, 6> numbers() const {
+        return {band_px_, stretch_, small_px_, per_small_, large_px_, per_large_};
+    }
 
 private:
     float band_px_ = 0, stretch_ = 1, small_px_ = 0, large_px_ = 0;

@@ -1,8 +1,9 @@
-// The light of lights that are spread by themselves, on 16 x 16 pixels of a tile: each with its complete kernel,
-// dimmed tap by tap by what its viewpoint sees.
+// The light of lights that are spread by themselves, on 16 x 16 pixels (or cells) of a tile: each with its complete
+// kernel, dimmed tap by tap by what its viewpoint sees, or by its mask of the pupil.
 #version 450
+#extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;
-layout(constant_id = 0) const uint kHeld = 0;  // 1: a holdout dims what lands in a pixel
+layout(constant_id = 0) const uint kDims = 0;  // 1: a holdout dims what lands in a pixel; 2: lights have masks
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
 layout(std430, binding = 1) readonly buffer KernelWords { uint kernels[]; };
@@ -14,10 +15,12 @@ layout(push_constant) uniform Push {
     uint tiles, order, lights, views;  // where these begin in `words`
     uint records;                      // where records of kernels begin in `kernels`
     uint held_row, held_width, held_samples;
+    float stretch;  // of the pupil, vertically
 } at;
 
 // A tile: its rectangle, and where its lights begin in the order; the next one says where they end.
-// A light: x, y, its light, radius, kernel, 1 + viewpoint (0: nothing is in the way), first tap.
+// A light: x, y, its light, radius, kernel, 1 + viewpoint (0: nothing is in the way), first tap; in place of these
+// two: a mask, 8 x 8 points of the pupil's square, row by row from the lowest bit.
 const uint kTileWords = 5, kLightWords = 10, kViewWords = 7;
 const int kChunk = 256;
 
@@ -27,16 +30,7 @@ shared uint hit_corner[kChunk], hit_size[kChunk], hit_weights[kChunk], hit_view[
 shared float hit_coc[kChunk];
 shared uint hit_words[kChunk / 32];
 
-ivec2 halves(uint word) { return ivec2(int(word << 16) >> 16, int(word) >> 16); }
-
-// As in composite.comp.
-vec4 weight(ivec2 d, ivec2 wide, uint where) {
-    const int tap = d.y * wide.x + d.x;
-    const uint first = 4u * (where & 0x7fffffffu);
-    if ((where >> 31) != 0u) return vec4(weights[first + uint(tap)]);
-    const uint i = first + 4u * uint(tap);
-    return vec4(weights[i], weights[i + 1u], weights[i + 2u], weights[i + 3u]);
-}
+#include "kernels.glsl"
 
 // The nearest tap of the disc's square stands for those outside.
 float seen(uint k, ivec2 pixel) {
@@ -45,6 +39,22 @@ float seen(uint k, ivec2 pixel) {
     const int taps = int(words[view + 2u]);
     const ivec2 tap = clamp(pixel - ivec2(hit_x[k], hit_y[k]) - hit_tap[k], ivec2(0), ivec2(taps - 1));
     return visible[words[view + 6u] + uint(tap.y * taps + tap.x)];
+}
+
+// device/cpu/dimmer.cpp: the share of the mask at a place of the pupil's square, between its points.
+float through_mask(uint k, ivec2 offset) {
+    const uint low = hit_view[k], high = uint(hit_tap[k]);
+    if ((low & high) == 0xffffffffu) return 1;
+    const float radius = hit_coc[k];
+    vec2 place = vec2(offset) / (radius < 0 ? min(radius, -0.5) : max(radius, 0.5));
+    place.y /= at.stretch;
+    const vec2 p = clamp((place + 1) / 2 * 8 - 0.5, vec2(0), vec2(7));
+    const uvec2 c = min(uvec2(p), uvec2(6));
+    const vec2 share = p - vec2(c);
+    const uint first = (c.y < 4u ? low : high) >> (8u * (c.y & 3u) + c.x),
+               second = (c.y < 3u ? low : high) >> (8u * ((c.y + 1u) & 3u) + c.x);
+    return mix(mix(float(first & 1u), float(first >> 1 & 1u), share.x),
+               mix(float(second & 1u), float(second >> 1 & 1u), share.x), share.y);
 }
 
 // engine/waist/holdout.h, for light of one radius.
@@ -101,8 +111,9 @@ void main() {
         for (uint k = 0u; k < all_hits; ++k) {
             const ivec2 d = pixel - ivec2(hit_x[k], hit_y[k]) - halves(hit_corner[k]), wide = halves(hit_size[k]);
             if (any(lessThan(d, ivec2(0))) || any(greaterThanEqual(d, wide))) continue;
-            const float held = kHeld != 0u && all(lessThan(pixel, high)) ? let_through(pixel, hit_coc[k]) : 1.0;
-            sum += weight(d, wide, hit_weights[k]) * hit_light[k] * (seen(k, pixel) * held);
+            const float held = kDims == 1u && all(lessThan(pixel, high)) ? let_through(pixel, hit_coc[k]) : 1.0;
+            const float open = kDims == 2u ? through_mask(k, d + halves(hit_corner[k])) : seen(k, pixel);
+            sum += weight(d, wide, hit_weights[k]) * hit_light[k] * (open * held);
         }
         barrier();
     }

@@ -1,6 +1,7 @@
 // Draws 16 x 16 pixels of a tile, through one sector of the pupil (docs/design/vulkan.md, "Composite").
 // The words of the plan are those that composite.cpp writes; formulas are device/cpu's.
 #version 450
+#extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;
 layout(constant_id = 0) const uint kHeld = 0;  // 1: a holdout dims what lands in a pixel
 
@@ -32,18 +33,13 @@ shared uint any_free;
 
 struct Box { ivec2 low, high; };
 
-ivec2 halves(uint word) { return ivec2(int(word << 16) >> 16, int(word) >> 16); }
+#include "kernels.glsl"
 
-// The weights at an offset from a source. A kernel: its corner and size as pairs of 16 bits, where its weights
-// begin, in fours; bit 31: one weight stands for all channels.
-vec4 weight(ivec2 offset, uint corner, uint size, uint where) {
+// The weights of a kernel at an offset from a source.
+vec4 weight_at(ivec2 offset, uint corner, uint size, uint where) {
     const ivec2 d = offset - halves(corner), wide = halves(size);
     if (any(lessThan(d, ivec2(0))) || any(greaterThanEqual(d, wide))) return vec4(0);
-    const int tap = d.y * wide.x + d.x;
-    const uint first = 4u * (where & 0x7fffffffu);
-    if ((where >> 31) != 0u) return vec4(weights[first + uint(tap)]);
-    const uint i = first + 4u * uint(tap);
-    return vec4(weights[i], weights[i + 1u], weights[i + 2u], weights[i + 3u]);
+    return weight(d, wide, where);
 }
 
 // What hit number k sends to a cell.
@@ -52,7 +48,7 @@ vec4 sent(uint k, ivec2 cell) {
     const ivec2 d = cell - ivec2(hit_x[k], hit_y[k]);
     const uint corner = hit_corner[k], size = hit_size[k], where = hit_weights[k];
     if (shape.zw == vec2(0)) {
-        const vec4 w = weight(d, corner, size, where);
+        const vec4 w = weight_at(d, corner, size, where);
         return w == vec4(0) ? w : w * (hit_light[k] * max(0.0, 1 + dot(shape.xy, vec2(d))));
     }
     // Off the middle of its cell it is shared with its neighbours.
@@ -64,7 +60,7 @@ vec4 sent(uint k, ivec2 cell) {
             const float part = (i == 0 ? 1 - share.x : share.x) * (j == 0 ? 1 - share.y : share.y);
             const ivec2 e = d - ivec2(i, j) * to;
             if (part > 0)
-                sum += weight(e, corner, size, where) * (part * max(0.0, 1 + dot(shape.xy, vec2(e))));
+                sum += weight_at(e, corner, size, where) * (part * max(0.0, 1 + dot(shape.xy, vec2(e))));
         }
     return sum * hit_light[k];
 }

@@ -1,6 +1,7 @@
 // Gathers 16 x 16 pixels of a tile: rings from the nearest to the farthest, each from the light around that
 // belongs to it. Formulas are device/cpu/gather.cpp's; the words are those that gather.cpp beside this writes.
 #version 450
+#extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
@@ -33,17 +34,9 @@ struct Sums {
     vec2 area;
 };
 
-ivec2 halves(uint word) { return ivec2(int(word << 16) >> 16, int(word) >> 16); }
 float number(uint word) { return uintBitsToFloat(words[word]); }
 
-// As in composite.comp.
-vec4 weight(ivec2 d, ivec2 wide, uint where) {
-    const int tap = d.y * wide.x + d.x;
-    const uint first = 4u * (where & 0x7fffffffu);
-    if ((where >> 31) != 0u) return vec4(weights[first + uint(tap)]);
-    const uint i = first + 4u * uint(tap);
-    return vec4(weights[i], weights[i + 1u], weights[i + 2u], weights[i + 3u]);
-}
+#include "kernels.glsl"
 
 // Which lights of a ring, of those of cell number `index` of the window, touch the box; returns how many.
 uint find_hits(uint ring, uint level, Box window, Box box, int index) {

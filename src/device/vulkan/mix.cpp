@@ -1,0 +1,217 @@
+#include "device/vulkan/mix.h"
+
+#include "device/device.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+namespace petzval::device::vulkan {
+namespace {
+
+using engine::Blur;
+using engine::GaussianPlan;
+
+constexpr std::uint32_t kMostGroups = 65535;
+constexpr int kWideLevel = 3;  // cells from which on a group averages each
+
+std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+struct Push {
+    std::uint32_t blur = 0, axis = 0;
+    std::uint32_t width = 0, height = 0, first_row = 0;
+    std::uint32_t out_row = 0, out_rows = 0;
+    std::uint32_t law = 0, view = 0;
+    std::array<float, 6> near = {}, far = {};
+};
+static_assert(sizeof(Push) == 84, "as shaders/mix.glsl has it");
+
+struct Span {
+    int begin = 0, end = 0;
+    int size() const { return end - begin; }
+};
+
+// One invocation or group each, in rows of the most groups that any device takes.
+Groups groups_of(std::size_t groups) {
+    return {std::uint32_t(std::min<std::size_t>(groups, kMostGroups)),
+            std::uint32_t((groups + kMostGroups - 1) / kMostGroups)};
+}
+Groups invocations(std::size_t count) { return groups_of((count + 255) / 256); }
+
+class Mixer {
+public:
+    Mixer(Context& context, const GaussianPlan& plan) : context_(context), plan_(plan) {}
+
+    int height() const { return plan_.colour.height(); }
+    int width() const { return plan_.colour.width(); }
+
+    // Rows of the result that are drawn together.
+    int band(std::size_t most_bytes) const {
+        int rows = height();
+        while (rows > 1 && bytes_of({0, rows}) > most_bytes) rows = (rows + 1) / 2;
+        return rows;
+    }
+
+    void draw(Span rows, View<Rgba> out) {
+        const Span pixels = pixels_for(rows);
+        Recording recording(context_);
+        Push push;
+        push.width = std::uint32_t(width()), push.height = std::uint32_t(height());
+        push.first_row = std::uint32_t(pixels.begin);
+        push.out_row = std::uint32_t(rows.begin), push.out_rows = std::uint32_t(rows.size());
+        push.law = std::uint32_t(plan_.law), push.view = view();
+        push.near = plan_.near.numbers(), push.far = plan_.far.numbers();
+        words_ = recording.uploaded(std::span<const std::uint32_t>(words_of(rows)));
+        upload_pixels(pixels, recording);
+        make_cells(rows, push, recording);
+        const std::size_t count = std::size_t(rows.size()) * std::size_t(width());
+        const Piece result = context_.heap().allocate(Kind::OnDevice, count * sizeof(Rgba));
+        recording.pass("mix blurs", context_.program(Shader::MixBlurs),
+                       {&words_, &colours_, &values_, &light_, &covered_, &result}, push, invocations(count));
+        const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(result, count * sizeof(Rgba)));
+        recording.run();
+        for (int y = rows.begin; y < rows.end; ++y, from += width()) std::copy_n(from, width(), out.row(y));
+    }
+
+private:
+    std::uint32_t view() const {
+        switch (plan_.view) {
+            case GaussianView::BlurSmall:
+                return 1;
+            case GaussianView::BlurLarge:
+                return 2;
+            case GaussianView::FocusIndex:
+                return 3;
+            default:
+                return 0;
+        }
+    }
+
+    // Rows of a blur's cells that these rows of the result depend on.
+    static Span cells_for(const Blur& blur, Span rows) {
+        const int first = ((2 * rows.begin + 1 - (1 << blur.level)) >> (blur.level + 1)) - blur.y.radius();
+        const int last = ((2 * rows.end - 1 - (1 << blur.level)) >> (blur.level + 1)) + 1 + blur.y.radius();
+        return {std::clamp(first, 0, blur.cells_down() - 1), std::clamp(last + 1, 1, blur.cells_down())};
+    }
+
+    Span pixels_for(Span rows) const {
+        Span pixels = rows;
+        for (const Blur& blur : plan_.blurs) {
+            if (!blur.is_used()) continue;
+            const Span cells = cells_for(blur, rows);
+            pixels.begin = std::min(pixels.begin, cells.begin << blur.level);
+            pixels.end = std::max(pixels.end, std::min(height(), cells.end << blur.level));
+        }
+        return pixels;
+    }
+
+    std::size_t cells_of(const Blur& blur, Span rows) const {
+        return blur.is_used() ? std::size_t(blur.cells_across()) * std::size_t(cells_for(blur, rows).size())
+                              : 0;
+    }
+
+    // Pixels and what they become; cells twice.
+    std::size_t bytes_of(Span rows) const {
+        constexpr std::size_t kOne = sizeof(Rgba) + sizeof(float);
+        std::size_t cells = 0;
+        for (const Blur& blur : plan_.blurs) cells += cells_of(blur, rows);
+        return std::size_t(width()) *
+                   (std::size_t(pixels_for(rows).size()) * kOne + std::size_t(rows.size()) * sizeof(Rgba)) +
+               2 * cells * kOne;
+    }
+
+    // As mix.glsl reads them.
+    std::vector<std::uint32_t> words_of(Span rows) const {
+        constexpr std::size_t kBlurWords = 12;
+        std::vector<std::uint32_t> words(plan_.blurs.size() * kBlurWords);
+        const auto add = [&words](const std::vector<float>& values) {
+            const auto first = std::uint32_t(words.size());
+            for (const float v : values) words.push_back(bits_of(v));
+            return first;
+        };
+        std::size_t first_cell = 0;
+        for (std::size_t k = 0; k < plan_.blurs.size(); ++k) {
+            const Blur& blur = plan_.blurs[k];
+            if (!blur.is_used()) continue;
+            const Span cells = cells_for(blur, rows);
+            const std::uint32_t x = add(blur.x.weights), x_inside = add(blur.x.inside);
+            const std::uint32_t y = add(blur.y.weights), y_inside = add(blur.y.inside);
+            const std::array<std::uint32_t, kBlurWords> said{std::uint32_t(blur.level),
+                                                             std::uint32_t(blur.cells_across()),
+                                                             std::uint32_t(blur.cells_down()),
+                                                             std::uint32_t(cells.begin),
+                                                             std::uint32_t(cells.size()),
+                                                             std::uint32_t(first_cell),
+                                                             x,
+                                                             std::uint32_t(blur.x.radius()),
+                                                             x_inside,
+                                                             y,
+                                                             std::uint32_t(blur.y.radius()),
+                                                             y_inside};
+            std::copy(said.begin(), said.end(), words.begin() + std::ptrdiff_t(k * kBlurWords));
+            first_cell += cells_of(blur, rows);
+        }
+        return words;
+    }
+
+    void upload_pixels(Span rows, Recording& recording) {
+        const std::size_t count = std::size_t(rows.size()) * std::size_t(width());
+        std::vector<Rgba> colours;
+        std::vector<float> values;
+        colours.reserve(count), values.reserve(count);
+        for (int y = rows.begin; y < rows.end; ++y) {
+            colours.insert(colours.end(), plan_.colour.row(y), plan_.colour.row(y) + width());
+            for (int x = 0; x < width(); ++x)
+                values.push_back(plan_.law == GaussianPlan::Law::ByDepth ? plan_.weights(x, y).sharp
+                                                                         : plan_.coc_px(x, y));
+        }
+        colours_ = recording.uploaded(std::span<const Rgba>(colours));
+        values_ = recording.uploaded(std::span<const float>(values));
+    }
+
+    // Averages and blurs them, along x and along y.
+    void make_cells(Span rows, Push push, Recording& recording) {
+        std::size_t all = 0;
+        for (const Blur& blur : plan_.blurs) all += cells_of(blur, rows);
+        const auto room = [&](std::size_t one) {
+            return context_.heap().allocate(Kind::OnDevice, all * one);
+        };
+        light_ = room(sizeof(Rgba)), covered_ = room(sizeof(float));
+        light_between_ = room(sizeof(Rgba)), covered_between_ = room(sizeof(float));
+        for (std::size_t k = 0; k < plan_.blurs.size(); ++k) {
+            const std::size_t cells = cells_of(plan_.blurs[k], rows);
+            if (cells == 0) continue;
+            push.blur = std::uint32_t(k);
+            const bool wide = plan_.blurs[k].level >= kWideLevel;
+            recording.pass("spread cells", context_.program(Shader::SpreadCells, wide ? 1 : 0),
+                           {&words_, &colours_, &values_, &light_, &covered_}, push,
+                           wide ? groups_of(cells) : invocations(cells));
+            push.axis = 0;
+            recording.pass("blur cells", context_.program(Shader::BlurCells),
+                           {&words_, &light_, &covered_, &light_between_, &covered_between_}, push,
+                           invocations(cells));
+            push.axis = 1;
+            recording.pass("blur cells", context_.program(Shader::BlurCells),
+                           {&words_, &light_between_, &covered_between_, &light_, &covered_}, push,
+                           invocations(cells));
+        }
+    }
+
+    Context& context_;
+    const GaussianPlan& plan_;
+    Piece words_, colours_, values_, light_, covered_, light_between_, covered_between_;
+};
+
+}  // namespace
+
+void mix_blurs(Context& context, const GaussianPlan& plan, View<Rgba> out, const Control& control,
+               std::size_t most_bytes) {
+    Mixer mixer(context, plan);
+    const int band = mixer.band(most_bytes);
+    for (int y = 0; y < mixer.height() && !control.progress.cancelled(); y += band)
+        mixer.draw({y, std::min(mixer.height(), y + band)}, out);
+}
+
+}  // namespace petzval::device::vulkan

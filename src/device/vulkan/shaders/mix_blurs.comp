@@ -1,0 +1,87 @@
+// A pixel from the sharp picture and the blurs, by the plan's law. Formulas are device/cpu/mix.cpp's.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 0) readonly buffer Words { uint words[]; };
+layout(std430, binding = 1) readonly buffer Colours { vec4 colours[]; };
+layout(std430, binding = 2) readonly buffer Values { float values[]; };
+layout(std430, binding = 3) readonly buffer Light { vec4 light_of[]; };
+layout(std430, binding = 4) readonly buffer Covered { float covered_of[]; };
+layout(std430, binding = 5) writeonly buffer Result { vec4 result[]; };
+#include "mix.glsl"
+
+const float kLeastArea = 1e-5;
+const uint kViewSmall = 1u, kViewLarge = 2u, kViewIndex = 3u;
+
+// A blur at a pixel, between its cells.
+void read(uint blur, uvec2 pixel, out vec4 light, out float covered) {
+    const float per_cell = 1 / float(1u << fact(blur, 0u));
+    const ivec2 last = ivec2(fact(blur, 1u), fact(blur, 2u)) - 1;
+    const vec2 place = clamp((vec2(pixel) + 0.5) * per_cell - 0.5, vec2(0), vec2(last));
+    const ivec2 low = ivec2(place), high = min(low + 1, last);
+    const vec2 share = place - vec2(low);
+    const int across = last.x + 1, row = int(fact(blur, 3u)), first = int(fact(blur, 5u));
+    const int a = first + (low.y - row) * across, b = first + (high.y - row) * across;
+    light = mix(mix(light_of[a + low.x], light_of[b + low.x], share.y),
+                mix(light_of[a + high.x], light_of[b + high.x], share.y), share.x);
+    covered = mix(mix(covered_of[a + low.x], covered_of[b + low.x], share.y),
+                  mix(covered_of[a + high.x], covered_of[b + high.x], share.y), share.x);
+}
+
+// Each layer takes of the pixel's lens what it arrives with, or what is left.
+void take(vec4 light, float covered, inout vec4 sum, inout float free) {
+    if (covered <= kLeastArea) return;
+    const float taken = min(covered, free);
+    sum += taken / covered * light;
+    free -= taken;
+}
+void take_blur(uint blur, uvec2 pixel, inout vec4 sum, inout float free) {
+    if (!is_used(blur)) return;
+    vec4 light;
+    float covered;
+    read(blur, pixel, light, covered);
+    take(light, covered, sum, free);
+}
+
+vec4 layered(uvec2 pixel, vec4 colour, float value) {
+    vec4 sum = vec4(0);
+    float free = 1;
+    take_blur(kNearLarge, pixel, sum, free);
+    take_blur(kNearSmall, pixel, sum, free);
+    const float sharp = shares(value).x;
+    take(sharp * colour, sharp, sum, free);
+    take_blur(kFarSmall, pixel, sum, free);
+    take_blur(kFarLarge, pixel, sum, free);
+    if (free > kLeastArea && value < 0 && is_used(kBackdrop)) {
+        vec4 light;
+        float covered;
+        read(kBackdrop, pixel, light, covered);
+        if (covered > kLeastArea) {
+            sum += free / covered * light;
+            free = 0;
+        }
+    }
+    return free < 1 - kLeastArea ? sum / (1 - free) : colour;
+}
+
+vec4 mixed(uvec2 pixel, vec4 colour, float value) {
+    const vec3 w = shares(value);
+    if (at.view == kViewIndex) return vec4(w.xxx, 1);
+    if (w.x == 1 && at.view == 0u) return colour;
+    vec4 small, large;
+    float unused;
+    read(kSmall, pixel, small, unused);
+    read(kLarge, pixel, large, unused);
+    if (at.view == kViewSmall) return small;
+    if (at.view == kViewLarge) return large;
+    return w.x * colour + w.y * small + w.z * large;
+}
+
+void main() {
+    const uint i = (gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x) * 256u + gl_LocalInvocationIndex;
+    if (i >= at.width * at.out_rows) return;
+    const uvec2 pixel = uvec2(i % at.width, at.out_row + i / at.width);
+    const uint k = (pixel.y - at.first_row) * at.width + pixel.x;
+    result[i] = at.law == kLayered ? layered(pixel, colours[k], values[k]) : mixed(pixel, colours[k], values[k]);
+}
