@@ -100,6 +100,7 @@ PUBLIC = {
     "focus_track": "sequence",
     "frames": "sequence",
     "track": "sequence",
+    "views": "views",
     "version": "base",
     "workers": "base",
 }

@@ -1,10 +1,9 @@
 #include "defocus_views.h"
 
+#include "petzval/views.h"
+
 #include "console.h"
-#include "focus_view.h"
 #include "output.h"
-#include "panels.h"
-#include "text.h"
 #include "values.h"
 
 #include <algorithm>

@@ -2,14 +2,13 @@
 #include "petzval/develop.h"
 #include "petzval/output.h"
 #include "petzval/place.h"
+#include "petzval/views.h"
 
 #include "console.h"
 #include "frames.h"
 #include "input.h"
 #include "output.h"
-#include "panels.h"
 #include "run_flags.h"
-#include "text.h"
 #include "verbs.h"
 #include "video.h"
 

@@ -1,5 +1,7 @@
 #include "darkroom.h"
 
+#include "petzval/views.h"
+
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -7,10 +9,6 @@
 
 namespace petzval::view {
 namespace {
-
-// The blue and orange of `defocus --view focus`, display-linear.
-constexpr Rgba kNear{0.024f, 0.275f, 0.745f, 1};
-constexpr Rgba kFar{0.896f, 0.332f, 0.006f, 1};
 
 // The wanted part, `reduce` by `reduce` pixels averaged.
 template <typename T>
@@ -75,7 +73,7 @@ void put_radius(std::uint8_t* to, float radius, const Extremes& all, const Negat
     const float deepest =
         std::max({radius < 0 ? -all.least : all.most, float(of.permissible_radius_px), 1e-6f});
     const float share = std::isnan(radius) ? 0 : std::min(1.0f, std::abs(radius) / deepest);
-    const Rgba& tint = radius < 0 ? kNear : kFar;
+    const Rgba& tint = radius < 0 ? kNearColour : kFarColour;
     if (of.numbers == Numbers::Radii) return put(to, share * tint);
     const bool sharp = std::abs(radius) < float(of.permissible_radius_px);
     put(to, sharp ? Rgba{1, 1, 1, 1} : tint, sharp ? 0.35 : 0.25 + 0.4 * std::sqrt(double(share)));
@@ -103,14 +101,6 @@ void print_numbers(const Negative& of, const Rect& part, Print& print) {
     }
 }
 
-// Numbers of depth layers, as `defocus --view layers` paints them.
-void put_number(std::uint8_t* to, float number) {
-    constexpr float kTones[] = {1, 0.4f, 0.16f, 0.06f};
-    if (std::isnan(number)) return put(to, {});
-    if (number == 0) return put(to, {1, 1, 1, 1});
-    put(to, kTones[int(std::abs(number) - 1) % 4] * (number < 0 ? kNear : kFar));
-}
-
 void paint_numbers(const Negative& of, Print& print) {
     for (const Panel& panel : *of.panels) {
         if (!panel.is_numbers) continue;
@@ -118,9 +108,8 @@ void paint_numbers(const Negative& of, Print& print) {
             for (int x = 0; x < print.width; ++x) {
                 const int u = of.part.x0 + x * of.reduce, v = of.part.y0 + y * of.reduce;
                 if (panel.area.contains(u, v))
-                    put_number(
-                        print.rgba.data() + 4 * (std::size_t(y) * std::size_t(print.width) + std::size_t(x)),
-                        (*of.picture)(u, v).r);
+                    put(print.rgba.data() + 4 * (std::size_t(y) * std::size_t(print.width) + std::size_t(x)),
+                        colour_of_number((*of.picture)(u, v).r));
             }
     }
 }

@@ -1,19 +1,21 @@
-#include "focus_view.h"
-
-#include "text.h"
-#include "values.h"
+#include "petzval/views.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
-namespace petzval::cli {
+namespace petzval {
 namespace {
 
-// Display-linear; sRGB #2b8fe0, #f39c12 and white.
-constexpr Rgba kNear{0.024f, 0.275f, 0.745f, 1};
-constexpr Rgba kFar{0.896f, 0.332f, 0.006f, 1};
 constexpr Rgba kInFocus{1, 1, 1, 1};
+
+std::string digits(float value, int most) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.*g", most, double(value));
+    return text.data();
+}
 
 struct Largest {
     float near_px = 0, far_px = 0;  // both positive
@@ -37,11 +39,11 @@ struct Entry {
 
 std::vector<Entry> legend_of(const Largest& largest, const std::string& in_focus) {
     const auto up_to = [](const char* name, float radius) {
-        return std::string(name) + (radius > 0 ? "RADIUS UP TO " + plain(radius, 3) + " PX" : "NONE");
+        return std::string(name) + (radius > 0 ? "RADIUS UP TO " + digits(radius, 3) + " PX" : "NONE");
     };
-    return {{kNear, up_to("NEAR      ", largest.near_px)},
+    return {{kNearColour, up_to("NEAR      ", largest.near_px)},
             {kInFocus, in_focus},
-            {kFar, up_to("FAR       ", largest.far_px)}};
+            {kFarColour, up_to("FAR       ", largest.far_px)}};
 }
 
 // A dark box at the bottom left: title, then a swatch and a text for each entry.
@@ -81,7 +83,7 @@ Picture focus_overlay(View<const Rgba> display, View<const float> coc, float per
                 continue;
             }
             const bool sharp = std::abs(radius) < permissible_radius_px;
-            const Rgba tint = sharp ? kInFocus : radius < 0 ? kNear : kFar;
+            const Rgba tint = sharp ? kInFocus : radius < 0 ? kNearColour : kFarColour;
             // Deeper blur is tinted more strongly, each side by its own measure; all of it stays readable.
             const float deepest =
                 std::max(radius < 0 ? largest.near_px : largest.far_px, permissible_radius_px);
@@ -91,7 +93,7 @@ Picture focus_overlay(View<const Rgba> display, View<const float> coc, float per
             view(x, y).a = 1;
         }
     draw_legend(view.view(), title,
-                legend_of(largest, "IN FOCUS  RADIUS UNDER " + plain(permissible_radius_px) + " PX"));
+                legend_of(largest, "IN FOCUS  RADIUS UNDER " + digits(permissible_radius_px, 6) + " PX"));
     return view;
 }
 
@@ -101,7 +103,7 @@ Picture coc_map(View<const float> coc, const std::string& title) {
     for (int y = 0; y < coc.height(); ++y)
         for (int x = 0; x < coc.width(); ++x) {
             const float radius = coc(x, y);
-            view(x, y) = std::abs(radius) / largest.either() * (radius < 0 ? kNear : kFar);
+            view(x, y) = std::abs(radius) / largest.either() * (radius < 0 ? kNearColour : kFarColour);
             view(x, y).a = 1;
         }
     std::vector<Entry> legend = legend_of(largest, "SHARP     BLACK");
@@ -110,4 +112,4 @@ Picture coc_map(View<const float> coc, const std::string& title) {
     return view;
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval

@@ -1,11 +1,9 @@
-#include "panels.h"
-
-#include "text.h"
+#include "petzval/views.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace petzval::cli {
+namespace petzval {
 namespace {
 
 // The panel's name at its top left, behind a swatch of its colour; the largest letters that fit.
@@ -28,20 +26,18 @@ void label(View<Rgba> picture, const Panel& panel) {
     draw_text(picture, left + (swatch ? 2 * high : 0), top, text, scale, {0.8f, 0.8f, 0.8f, 1});
 }
 
-// Display-linear: the blue and orange of focus_view.cpp, white for 0.
+}  // namespace
+
 Rgba colour_of_number(float number) {
     constexpr float kTones[] = {1, 0.4f, 0.16f, 0.06f};
     if (std::isnan(number)) return {0, 0, 0, 1};
     if (number == 0) return {1, 1, 1, 1};
-    const Rgba colour = number < 0 ? Rgba{0.024f, 0.275f, 0.745f, 1} : Rgba{0.896f, 0.332f, 0.006f, 1};
+    const Rgba colour = number < 0 ? kNearColour : kFarColour;
     Rgba toned = kTones[int(std::abs(number) - 1) % 4] * colour;
     toned.a = 1;
     return toned;
 }
 
-}  // namespace
-
-// A picture as it is shown, display-linear: what may be drawn on before it is written.
 Picture shown(const Picture& light, const DevelopSettings& settings) {
     const auto codes = develop(light.view(), settings);
     const double largest = (1 << settings.bits) - 1;
@@ -94,4 +90,4 @@ std::vector<PanelPlane> planes_of(const Picture& atlas, const std::vector<Panel>
     return planes;
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval

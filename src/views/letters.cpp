@@ -1,11 +1,11 @@
 // The letters of legends: 5 x 7 pixels, drawn by hand for petzval.
-#include "text.h"
+#include "petzval/views.h"
 
 #include <array>
 #include <cctype>
 #include <string_view>
 
-namespace petzval::cli {
+namespace petzval {
 namespace {
 
 constexpr int kColumns = 5, kRows = 7, kAdvance = 6;
@@ -74,4 +74,4 @@ void draw_text(View<Rgba> picture, int x0, int y0, const std::string& text, int 
             }
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval
