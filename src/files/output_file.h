@@ -29,7 +29,6 @@ public:
     Error error() const;
 
 private:
-    struct Unfinished;
     OutputFile() = default;
     Status rename_to_target();
 

@@ -106,7 +106,8 @@ TEST(Lenses, EveryFlagChangesThePictureInBothEnginesAndOffChangesNothing) {
                                      plain),
                   0)
             << engine;
-        EXPECT_LT(largest_difference(with([&](LensChoice& c) { c.texture.image = white; }), plain), 0.5)
+        // Rays through the pixels of an image instead of rings: 2 % of a disc, which is 1.6 bright.
+        EXPECT_LT(largest_difference(with([&](LensChoice& c) { c.texture.image = white; }), plain), 0.035)
             << engine;
     }
 }

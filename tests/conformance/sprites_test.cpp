@@ -198,9 +198,12 @@ TEST(Sprites, AScreenNearTheLensDimsALightByItsShareOfTheLens) {
     const Picture image = rendered(lights.job());
     // q = x + 40 u covers u in [3.5, 15.5] / 40, landing at 70.5 + 20 u: 72.25 to 78.25.
     const double inside = 1000 / (M_PI * 400);
-    EXPECT_LT(image(75, 70).g, 0.4 * inside);
-    EXPECT_GT(image(64, 70).g, 0.9 * inside);
-    EXPECT_GT(image(84, 70).g, 0.8 * inside);
+    const auto share = [&](int x) { return double(image(x, 70).g) / inside; };
+    for (const int x : {74, 75, 76}) EXPECT_NEAR(share(x), 0, 0.01) << x;
+    // Its edges are as soft as the eighths of the pupil are wide, 5 px.
+    for (const int x : {56, 60, 64, 67, 83, 86, 88}) EXPECT_NEAR(share(x), 1, 0.01) << x;
+    EXPECT_NEAR(share(70), 0.5, 0.1);
+    EXPECT_NEAR(share(80), 0.5, 0.1);
 }
 
 TEST(Sprites, AWallHidesUpToEveryEdgeOfThePicture) {
