@@ -62,8 +62,9 @@ struct FrameWork {
     std::function<Status()> finish = {};
 };
 
-// Makes all of them and tells of them in their order; one that fails does not keep the others from being made. Errors:
-// those of the list and of files that lack, before any frame is made; Cancelled. Throws FramesFailed.
+// Makes all of them and tells of them in their order; one that fails does not keep the others from being
+// made. Errors: those of the list and of files that lack, before any frame is made; Cancelled. Throws
+// FramesFailed.
 Status make_frames(const FrameFlags& frames, const RunFlags& run, const FrameWork& work);
 
 }  // namespace petzval::cli

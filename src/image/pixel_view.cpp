@@ -1,6 +1,5 @@
 #include "petzval/pixel_view.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -62,7 +61,8 @@ std::uint16_t to_half(float value) {
     if (size < kLeastNormal) return std::uint16_t(sign | std::uint16_t(std::nearbyint(size * (1 << 24))));
     // The 13 bits that a half lacks are rounded away, ties to even; a carry goes into the exponent. The bias
     // of a float is 127, that of a half 15.
-    auto bits = std::bit_cast<std::uint32_t>(size);
+    std::uint32_t bits = 0;  // no bit_cast in the libc++ of Debian 12, which builds for browsers
+    std::memcpy(&bits, &size, sizeof bits);
     bits += 0xfffu + ((bits >> 13) & 1u);
     return std::uint16_t(sign | ((bits >> 13) - ((127u - 15u) << 10)));
 }
