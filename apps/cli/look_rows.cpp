@@ -192,6 +192,10 @@ std::vector<LookRow> rows_of_engines() {
         row("Engine", "--engine", "engine", engine(), "what computes the blur (default scatter)"),
         row("Engine", "--quality", "quality", name<Quality>(),
             "accuracy only, never the size of the blur (default standard)"),
+        row("Engine", "--fill", "fill", name<Fill>(),
+            "behind edges, where nothing is known: what is around goes on (full, default); of lamps only "
+            "what "
+            "shows (dim); nothing is added (off)"),
         row("Engine", "--pupil-points", "pupil_points", value("N", parse_count),
             "rays per pixel of --engine reference (default 4096)"),
         row("Engine", "--seed", "seed", value("N", parse_seed),

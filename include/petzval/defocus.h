@@ -60,6 +60,7 @@ struct DefocusJob {
     std::string engine = "scatter";  // one of engine_names()
     Quality quality = Quality::Standard;
     int pupil_points = 4096;  // reference only
+    Fill fill = Fill::Full;
     ScatterOptions scatter;
     GatherOptions gather;      // gather, and sprites over it
     GaussianOptions gaussian;  // gaussian, and sprites over it

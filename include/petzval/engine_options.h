@@ -10,6 +10,13 @@ namespace petzval {
 // Accuracy only: radius and energy are the same at every level.
 enum class Quality { Draft, Standard, Final };
 
+// What an engine adds of its own where a lens looks past an edge and the picture does not say what is there.
+enum class Fill {
+    Full,  // what is around goes on behind the edge, lamps that it cuts as well
+    Dim,   // what is around goes on; of lamps only what shows
+    Off,   // nothing: what is known takes all of the lens, and edges of near things stay harder
+};
+
 // What the scatter engine made on its way, in place of its result: several pictures in one, DefocusReport
 // says where each lies.
 enum class ScatterView {

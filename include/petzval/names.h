@@ -33,6 +33,8 @@ std::span<const Named<E>> names();
 template <>
 PETZVAL_API std::span<const Named<Quality>> names();
 template <>
+PETZVAL_API std::span<const Named<Fill>> names();
+template <>
 PETZVAL_API std::span<const Named<ScatterView>> names();
 template <>
 PETZVAL_API std::span<const Named<GatherStage>> names();

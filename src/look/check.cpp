@@ -112,6 +112,18 @@ Rules rules_of_gather() {
              return unless(uses_gather(l) && !is_published_stage(l),
                            "without engine gather itself, or sprites over it");
          }},
+        {{"gather.fill"}, [](const Look& l) { return unless(l.fill != Fill::Off, "with fill off"); }},
+        {{"fill"},
+         [](const Look& l) {
+             return unless(l.engine == "scatter" || (uses_gather(l) && !is_published_stage(l)),
+                           is_published_stage(l) ? "without engine gather itself"
+                           : is_over_gaussian(l) ? "with engine sprites over gaussian, which adds nothing"
+                                                 : with_engine(l) + ", which adds nothing");
+         }},
+        {{"fill"},
+         [](const Look& l) {
+             return unless(!uses_gather(l) || l.gather.fill_hidden, "with gather.fill off");
+         }},
     };
 }
 

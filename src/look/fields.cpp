@@ -129,6 +129,7 @@ std::vector<Field> all_fields() {
                            field("quality", MEMBER(quality)),
                            field("seed", MEMBER(seed)),
                            field("pupil_points", MEMBER(pupil_points)),
+                           field("fill", MEMBER(fill)),
                            field("depth.edges", MEMBER(depth_edges)),
                            range("focus.range_m", MEMBER(coc.focus_near_m), MEMBER(coc.focus_far_m)),
                            field("focus.falloff", MEMBER(coc.focus_falloff)),

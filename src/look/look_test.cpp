@@ -23,6 +23,7 @@ Changes changes_of_focus_and_lens() {
             [](Look& l) { l.quality = Quality::Draft; },
             [](Look& l) { l.seed = std::numeric_limits<std::uint64_t>::max(); },
             [](Look& l) { l.pupil_points = 7; },
+            [](Look& l) { l.fill = Fill::Dim; },
             [](Look& l) {
                 l.coc.focus_near_m = 1.7, l.coc.focus_far_m = std::numeric_limits<double>::infinity();
             },

@@ -8,6 +8,9 @@ namespace {
 constexpr Named<Quality> kQualities[]{{Quality::Draft, "draft", "quick"},
                                       {Quality::Standard, "standard", "for work"},
                                       {Quality::Final, "final", "as exact as the engine can be"}};
+constexpr Named<Fill> kFills[]{{Fill::Full, "full", "what is around goes on, lamps as well"},
+                               {Fill::Dim, "dim", "what is around goes on, of lamps what shows"},
+                               {Fill::Off, "off", "nothing is added to what is known"}};
 constexpr Named<ScatterView> kScatterViews[]{
     {ScatterView::Result, "result", "the picture"},
     {ScatterView::Layers, "layers", "the surfaces seen and found behind them"},
@@ -78,6 +81,7 @@ constexpr Named<ErrorCode> kErrorCodes[]{
 
 // clang-format off
 template <> std::span<const Named<Quality>> names() { return kQualities; }
+template <> std::span<const Named<Fill>> names() { return kFills; }
 template <> std::span<const Named<ScatterView>> names() { return kScatterViews; }
 template <> std::span<const Named<GatherStage>> names() { return kStages; }
 template <> std::span<const Named<GaussianStyle>> names() { return kStyles; }

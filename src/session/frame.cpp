@@ -125,6 +125,7 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
     input.open_edges = open_edges(job);
     input.quality = job.quality;
     input.pupil_points = job.pupil_points;
+    input.fill = job.fill;
     input.gather = job.gather;
     input.gaussian = job.gaussian;
     input.sprites = job.sprites;
@@ -151,6 +152,8 @@ void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, doub
     if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, *job.workers);
     if (!samples_.first.empty()) input.deep = samples_;
     input.deep_dims_itself = job.deep && !job.deep->empty();
+    if (job.fill != Fill::Full && !input.deep.empty() && (input.plate.empty() || job.engine != "scatter"))
+        warnings.emplace_back("fill has no effect where all samples of a pixel are given");
     if (job.holdout && !job.holdout->empty())
         input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, has_radii(job), *job.workers);
 }

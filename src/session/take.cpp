@@ -84,6 +84,7 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
     job.quality = look.quality;
     job.seed = look.seed;
     job.pupil_points = look.pupil_points;
+    job.fill = look.fill;
     job.depth_edges = look.depth_edges;
     job.coc = look.coc;
     job.lens = look.lens;

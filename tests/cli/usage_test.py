@@ -16,7 +16,7 @@ DEFOCUS_VALUES = {
     "--bloom": "0.1", "--star": "0", "--ghosts": "0.1", "--veil": "0.1", "--bloom-radius": "0.1", "--transfer": "srgb",
     "--star-radius": "0.3", "--star-quality": "draft", "--coating": "none", "--glare-threshold": "2", "--highlight-peak": "8",
     "--focus-mode": "best", "--max-memory": "2G", "-o": "out.exr", "--view": "coc", "--json": "r.json", "--threads": "1", "--progress": "off",
-    "--gather-stage": "cure", "--gather-taps": "16", "--gather-coc": "mean", "--gather-fill": "off", "--points": "p.csv",
+    "--gather-stage": "cure", "--gather-taps": "16", "--gather-coc": "mean", "--gather-fill": "off", "--fill": "dim", "--points": "p.csv",
     "--gaussian-style": "wgld", "--focus-band": "0.3", "--depth-offset": "-0.1", "--depth-band-range": "0.1m,30m",
     "--background": "gather", "--find-points": "off", "--bright-factor": "2",
     "--spherical": "0.5", "--axial-colour": "-1", "--lateral-colour": "0.5", "--coma": "0.3", "--astigmatism": "0.2", "--distortion": "0.01",
@@ -66,7 +66,7 @@ WRONG_VALUES = {
     "--max-memory": ["0", "2Q", "G", "-1G"], "--threads": ["-1", "1e3", "1000000"], "--depth-kind": ["z"],
     "--unit-scale": ["0"], "--depth-range": ["1"], "--progress": ["loud"], "--pupil-points": ["0"],
     "--view": ["lairs", ""], "--focus-shift": ["x", ""], "--gather-stage": ["glow", ""], "--gather-taps": ["17", "x"],
-    "--gather-coc": ["max"], "--gather-fill": ["1"], "--gaussian-style": ["box"], "--focus-band": ["-1", "x"],
+    "--gather-coc": ["max"], "--gather-fill": ["1"], "--fill": ["half", ""], "--gaussian-style": ["box"], "--focus-band": ["-1", "x"],
     "--depth-offset": ["nan"], "--depth-band-range": ["2", "3m,1m"], "--background": ["scatter"],
     "--find-points": ["maybe"], "--bright-factor": ["0"], "--overscan": ["0", "-3", "wide"],
 }

@@ -35,6 +35,7 @@ std::vector<Choice> changes_of_all_else() {
     return {{"quality", "draft"},
             {"seed", "7"},
             {"pupil_points", "23"},
+            {"fill", "off"},
             {"depth.edges", "keep"},
             {"focus.range_m", "[1.5, 3]"},
             {"focus.falloff", "0.3"},

@@ -18,6 +18,28 @@ bool one_surface(float coc_a, float coc_b) {
     return std::abs(coc_a - coc_b) < 1.5f + 0.1f * std::max(std::abs(coc_a), std::abs(coc_b));
 }
 
+// What lamps count in a mean of what is dim: next to nothing where they are brighter than kLampContrast times
+// the usual light, the square of the mean root.
+class WithoutLamps {
+public:
+    explicit WithoutLamps(Fill fill) : dim_(fill == Fill::Dim) {}
+    void see(Rgba colour, float weight) {
+        if (dim_) roots_ += weight * std::sqrt(std::max(0.0f, luminance(colour))), weight_ += weight;
+    }
+    // Of one that was seen.
+    float share(Rgba colour) const {
+        if (!dim_) return 1;
+        constexpr float kLampContrast = 4;
+        const float usual = kLampContrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
+        const float excess = std::max(0.0f, luminance(colour)) / usual;
+        return 1 / (1 + excess * excess * excess * excess);
+    }
+
+private:
+    bool dim_;
+    float roots_ = 0, weight_ = 0;
+};
+
 // The nearest radius in a block, and the mean of its farthest surface.
 struct Block {
     float nearest_px = 1e30f, farthest_px = -1e30f;
@@ -26,17 +48,25 @@ struct Block {
 
 Block block_of(const Input& input, const Rect& area) {
     Block block;
+    WithoutLamps lamps(input.fill);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             block.nearest_px = std::min(block.nearest_px, input.coc_px(x, y));
             block.farthest_px = std::max(block.farthest_px, input.coc_px(x, y));
         }
-    float count = 0, coc = 0;
-    for (int y = area.y0; y < area.y1; ++y)
-        for (int x = area.x0; x < area.x1; ++x)
-            if (one_surface(input.coc_px(x, y), block.farthest_px))
-                block.colour += input.colour(x, y), coc += input.coc_px(x, y), count += 1;
-    block.colour *= 1 / count;
+    const auto visit_surface = [&](const auto& visit) {
+        for (int y = area.y0; y < area.y1; ++y)
+            for (int x = area.x0; x < area.x1; ++x)
+                if (one_surface(input.coc_px(x, y), block.farthest_px))
+                    visit(input.colour(x, y), input.coc_px(x, y));
+    };
+    visit_surface([&](Rgba colour, float) { lamps.see(colour, 1); });
+    float count = 0, coc = 0, shares = 0;
+    visit_surface([&](Rgba colour, float coc_px) {
+        const float share = lamps.share(colour);
+        block.colour += share * colour, shares += share, coc += coc_px, count += 1;
+    });
+    block.colour *= 1 / shares;
     block.farthest_px = coc / count;
     return block;
 }
@@ -44,6 +74,7 @@ Block block_of(const Input& input, const Rect& area) {
 // What was met: the surface that most of it belongs to wins, its pieces are averaged.
 class Votes {
 public:
+    explicit Votes(Fill fill) : fill_(fill) {}
     void add(const Block& block, float distance) {
         votes_[std::size_t(count_++)] = {&block, 1 / (distance * distance)};
     }
@@ -60,20 +91,31 @@ public:
 private:
     CocSample mean_like(float coc_px, float& sum) const {
         CocSample mean;
-        for (int i = 0; i < count_; ++i) {
-            const auto& [block, weight] = votes_[std::size_t(i)];
-            if (!one_surface(block->farthest_px, coc_px)) continue;
-            mean.colour += weight * block->colour, mean.coc_px += weight * block->farthest_px, sum += weight;
-        }
-        mean.colour *= 1 / sum;
+        WithoutLamps lamps(fill_);
+        visit_like(coc_px, [&](const Block& block, float weight) { lamps.see(block.colour, weight); });
+        float shares = 0;
+        visit_like(coc_px, [&](const Block& block, float weight) {
+            const float share = weight * lamps.share(block.colour);
+            mean.colour += share * block.colour, shares += share;
+            mean.coc_px += weight * block.farthest_px, sum += weight;
+        });
+        mean.colour *= 1 / shares;
         mean.coc_px /= sum, mean.coc_back_px = mean.coc_px;
         return mean;
+    }
+    template <typename Visit>
+    void visit_like(float coc_px, const Visit& visit) const {
+        for (int i = 0; i < count_; ++i) {
+            const auto& [block, weight] = votes_[std::size_t(i)];
+            if (one_surface(block->farthest_px, coc_px)) visit(*block, weight);
+        }
     }
 
     struct Vote {
         const Block* block;
         float weight;
     };
+    Fill fill_;
     std::array<Vote, kDirections + 1> votes_;
     int count_ = 0;
 };
@@ -125,7 +167,7 @@ BlockFill BlockFill::make(const Input& input) {
         for (int x = 0; x < blocks.width(); ++x) {
             const float own = blocks(x, y).nearest_px;
             if (own > -kBlurredPx) continue;
-            Votes votes;
+            Votes votes(input.fill);
             const float step_up = 1 + kSteepest * float(b);
             if (blocks(x, y).farthest_px > own + step_up) votes.add(blocks(x, y), 0.5f);
             const int steps = std::min(kLongestSearch, 2 + int(std::ceil(-own / float(b))));

@@ -92,7 +92,8 @@ GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, cons
     std::vector<float> largest(tiles.size());
     parallel_for(int(tiles.size()), *strip.workers,
                  [&](int i) { largest[std::size_t(i)] = largest_px(strip, tiles[std::size_t(i)]); });
-    if (strip.gather.fill_hidden && strip.deep.empty()) plan.fill = BlockFill::make(strip);
+    if (strip.fill != Fill::Off && strip.gather.fill_hidden && strip.deep.empty())
+        plan.fill = BlockFill::make(strip);
     for (int level = 0; level < sizes.levels(); ++level) {
         plan.reach.push_back(kernels.reach(level));
         if (level > 0) plan.levels.emplace_back(strip, plan.fill, sizes, level);

@@ -86,11 +86,13 @@ public:
         const LitPicture picture{input.colour, dim};
         mixtures_ = unmix_silhouettes(picture, input.coc_px, connected, *input.workers);
         const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
-        hidden_ = fill_hidden(picture, input.coc_px, connected, mixtures_, input.nearest_coc_px,
-                              input.farthest_coc_px, shared_from_px, *input.workers);
+        if (input.fill != Fill::Off)
+            hidden_ = fill_hidden(picture, input.coc_px, connected, mixtures_, input.nearest_coc_px,
+                                  input.farthest_coc_px, shared_from_px, *input.workers);
         unmix_nearer(mixtures_, picture, hidden_, *input.workers);
         if (back) unmix_before_plate(mixtures_, picture, input.coc_px, input.plate, *input.workers);
-        if (dim && !back) lamps_ = lamps_behind(picture, input.coc_px, mixtures_, *input.workers);
+        if (dim && !back && input.fill == Fill::Full)
+            lamps_ = lamps_behind(picture, input.coc_px, mixtures_, *input.workers);
     }
 
     // Counted first, then written, so that rows can be done in parallel.

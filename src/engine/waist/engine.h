@@ -145,6 +145,7 @@ struct Input : LensOnPicture {
     PlanReader* plan_reader = nullptr;
     Quality quality = Quality::Standard;
     int pupil_points = 4096;
+    Fill fill = Fill::Full;
     GatherOptions gather;
     GaussianOptions gaussian;
     SpriteOptions sprites;

@@ -1,0 +1,106 @@
+// What is added behind edges, and how to be without it.
+#include "petzval/look_check.h"
+
+#include "shots.h"
+
+namespace petzval::conformance {
+namespace {
+
+constexpr int kSize = 72, kEdge = 36;  // columns from kEdge on lie behind
+constexpr float kRadiusPx = 8;
+
+// Something red in front of focus, and behind its edge something blue.
+Shot red_before_blue(float blue_px = 0) {
+    Shot shot = flat(kSize, kSize, {0, 0, 0.8f, 1}, blue_px);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kEdge; ++x) shot.colour(x, y) = {0.5f, 0, 0, 1}, shot.coc_px(x, y) = -kRadiusPx;
+    return shot;
+}
+
+// The same with a lamp on the blue, half of it behind the edge.
+Shot red_before_a_lamp(float blue_px) {
+    Shot shot = red_before_blue(blue_px);
+    for (int y = 35; y < 38; ++y)
+        for (int x = kEdge; x < kEdge + 2; ++x) shot.colour(x, y) = {0, 0, 40, 1};
+    return shot;
+}
+
+Picture filled(const Shot& shot, const std::string& engine, Fill fill) {
+    DefocusJob job = shot.job(engine);
+    job.fill = fill;
+    return rendered(job);
+}
+
+// Of what the picture does not show: left of the edge.
+double blue_behind_the_edge(const Picture& picture) {
+    double sum = 0;
+    for (int y = 20; y < kSize - 20; ++y)
+        for (int x = 0; x < kEdge - 2; ++x) sum += double(picture(x, y).b);
+    return sum;
+}
+
+class Filling : public testing::TestWithParam<const char*> {};
+
+TEST_P(Filling, OffAddsNothingAndLosesNoCoverage) {
+    const Picture off = filled(red_before_blue(), GetParam(), Fill::Off),
+                  full = filled(red_before_blue(), GetParam(), Fill::Full);
+    EXPECT_GT(blue_behind_the_edge(full), 10);
+    // What a pixel of the edge shows of both is taken apart, not made up.
+    EXPECT_LT(blue_behind_the_edge(off), 0.02 * blue_behind_the_edge(full));
+    for (int x = 0; x < kSize; ++x) EXPECT_NEAR(off(x, kSize / 2).a, 1, 1e-4) << x;
+    for (int x = 1; x < kEdge - 1; ++x)  // what is known there takes all of the lens
+        EXPECT_NEAR(off(x, kSize / 2).r, 0.5f, 1e-3f) << x;
+    for (int x = kEdge + 2; x < kSize; ++x)  // what is known in front of focus spreads as ever
+        EXPECT_NEAR(off(x, kSize / 2).r, full(x, kSize / 2).r, 5e-3f) << x;
+}
+
+TEST_P(Filling, DimGoesOnWithoutTheLampThatAnEdgeCuts) {
+    constexpr float kBehindPx = 4;
+    const auto light = [](const Shot& shot, Fill fill) {
+        double sum = 0;
+        const Picture picture = filled(shot, GetParam(), fill);
+        for (std::size_t i = 0; i < picture.size(); ++i) sum += double(picture.pixels()[i].b);
+        return sum;
+    };
+    const Shot plain = red_before_blue(kBehindPx), lamp = red_before_a_lamp(kBehindPx);
+    const double of_lamp = light(lamp, Fill::Full) - light(plain, Fill::Full);
+    // Half of its light is made up: the part behind the edge, seen past it.
+    EXPECT_LT(light(lamp, Fill::Dim) - light(plain, Fill::Dim), 0.9 * of_lamp);
+    EXPECT_GT(light(lamp, Fill::Dim) - light(plain, Fill::Dim), 0.4 * of_lamp);
+    EXPECT_NEAR(blue_behind_the_edge(filled(plain, GetParam(), Fill::Dim)),
+                blue_behind_the_edge(filled(plain, GetParam(), Fill::Full)), 1);
+}
+
+// The bright points of sprites, found first, never go on behind edges.
+INSTANTIATE_TEST_SUITE_P(Engines, Filling, testing::Values("scatter", "gather"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST(FillingSprites, IsThatOfWhatLiesBehindThem) {
+    const Shot shot = red_before_blue();
+    EXPECT_LT(blue_behind_the_edge(filled(shot, "sprites", Fill::Off)), 1e-3);
+    EXPECT_GT(blue_behind_the_edge(filled(shot, "sprites", Fill::Full)), 10);
+}
+
+TEST(FillingNothing, IsSaidOfWhatNeedsNone) {
+    for (const char* engine : {"gaussian", "reference"}) {
+        Look look;
+        look.engine = engine, look.fill = Fill::Dim;
+        const auto idle = check(look).idle;
+        ASSERT_EQ(idle.size(), 1u) << engine;
+        EXPECT_EQ(idle.front().field, "fill");
+    }
+    const Shot shot = red_before_blue();
+    const DeepPicture deep =
+        DeepPicture::made_of(kSize, kSize, [&](int x, int y, std::vector<DeepSample>& samples) {
+            samples.push_back({shot.colour(x, y), shot.coc_px(x, y), shot.coc_px(x, y)});
+        });
+    DefocusJob job = shot.job("scatter");
+    job.deep = &deep, job.fill = Fill::Off;
+    const auto report = defocus(job);
+    ASSERT_TRUE(report);
+    ASSERT_EQ(report->warnings.size(), 1u);
+    EXPECT_TRUE(report->warnings.front().starts_with("fill has no effect")) << report->warnings.front();
+}
+
+}  // namespace
+}  // namespace petzval::conformance
