@@ -176,7 +176,7 @@ void finish(DefocusReport& report, const DefocusJob& job, const Asked& asked, co
 
 Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, const engine::Engine& chosen,
                                  const Radii& radii, MountedLens& lens, const NotingDevice& drawing,
-                                 const Clock& clock, Progress& progress) {
+                                 const Clock& clock, Progress& progress, std::size_t beside_bytes) {
     const double lens_ready = clock.seconds();
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
     engine::Input& input = frame.input;
@@ -184,6 +184,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     input.device = &drawing;
     input.memory = &lens.kernels;
     input.progress = &progress;
+    input.beside_bytes = beside_bytes;
     const std::unique_ptr<views::PlanView> view = views::plan_view(job.scatter.view);
     if (view) {
         const std::string name = std::string("job.view ") + views::name_of(job.scatter.view);
@@ -243,9 +244,8 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     const Clock clock;
     DefocusJob job = job_of_session(given, settings, workers);
     // What is kept is there while the frame is made. Frames beside this one may keep more than they will when
-    // they end; 0 would be no limit.
-    if (job.max_memory_bytes > 0)
-        job.max_memory_bytes -= std::min(usage().kept_bytes + lent_deep_bytes(job), job.max_memory_bytes - 1);
+    // they end.
+    const std::size_t beside = usage().kept_bytes + lent_deep_bytes(job);
     if (const Status status = check_job(job); !status) return status.error();
     if (region)
         if (const Status status = check_region(*region, job); !status) return status.error();
@@ -270,7 +270,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     const Rect asked = region ? region->intersected(job.place.data_window) : job.place.data_window;
     auto report =
         made_frame(wider ? wider->job() : job, {asked.moved(-window.x0, -window.y0), region.has_value()},
-                   **engine, *radii, **lens, drawing, clock, progress);
+                   **engine, *radii, **lens, drawing, clock, progress, beside);
     if (report && !edges.what_was_done().empty()) report->warnings.push_back(edges.what_was_done());
     // Whoever asks for a GPU is told where he did not get it.
     if (report && settings.device.starts_with("gpu") && report->device != drawing.name())

@@ -257,9 +257,7 @@ TEST(Deep, StripsThreadsAndHoldoutsTogetherGiveTheSameBits) {
     strips.max_memory_bytes = 1;  // says what it takes at least: strips as narrow as they come
     const auto refused = defocus(strips);
     ASSERT_FALSE(refused);
-    const std::string& said = refused.error().message;
-    const std::size_t lent = shot.deep.bytes() + shot.holdout.bytes();
-    strips.max_memory_bytes = (std::stoul(said.substr(said.find("at least ") + 9)) << 20) + lent;
+    strips.max_memory_bytes = named_bytes(refused.error());
     EXPECT_EQ(largest_difference(whole, rendered(strips)), 0);
 }
 

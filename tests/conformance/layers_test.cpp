@@ -89,7 +89,7 @@ TEST(ColourLayers, ThatAreThePictureAreItsBlurBitForBit) {
     const Shot shot = tall_with_screens();
     DefocusJob job = shot.job("scatter");
     job.layers = {{shot.colour}};
-    job.max_memory_bytes = std::size_t(150) << 20;
+    job.max_memory_bytes = std::size_t(106) << 20;
     const auto made = defocus(job);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_TRUE(same(made->image, made->layers[0]));

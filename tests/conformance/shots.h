@@ -104,6 +104,15 @@ inline Workers& three_threads() {
     return *three;
 }
 
+// The amount that a refusal for too little memory names.
+inline std::size_t named_bytes(const Error& error) {
+    std::size_t amount = 0;
+    for (const char* before : {"at least ", "about "})
+        if (const std::size_t at = error.message.find(before); at != std::string::npos)
+            amount = std::stoul(error.message.substr(at + std::string(before).size())) << 20;
+    return amount;
+}
+
 inline Picture rendered(const DefocusJob& job) {
     auto report = defocus(job);
     EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);

@@ -18,9 +18,10 @@ namespace {
 // to it; they begin on whole tiles, cells and blocks, so that they change no bit.
 struct Strips {
     int rows = 0, halo = 0;
+    std::size_t least_bytes = 0;  // of job.max_memory_bytes
 };
 
-Result<Strips> plan_strips(const Input& input, const RingSizes& sizes) {
+Strips plan_strips(const Input& input, const RingSizes& sizes) {
     constexpr std::size_t kBytesPerPixel = 90;  // of cells, light and blocks, where many depths meet
     const int cell = 1 << (sizes.levels() - 1);
     const int unit = std::max({GatherPlan::kTile, cell, BlockFill::block_px(input.nearest_coc_px)});
@@ -31,32 +32,32 @@ Result<Strips> plan_strips(const Input& input, const RingSizes& sizes) {
     Strips strips{whole_units(input.height()),
                   whole_units(1.05 * input.lens(0).reach_px(largest) +
                               double(BlockFill::reach_px(input.nearest_coc_px)) + 4.0 * cell + 8)};
-    if (input.max_memory_bytes == 0) return strips;
     const std::size_t row_bytes = kBytesPerPixel * std::size_t(input.width());
     const std::size_t held =
         held_bytes(input) + sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
+    strips.least_bytes = held + std::size_t(std::min(unit + 2 * strips.halo, input.height())) * row_bytes;
     const std::size_t rows = (std::max(input.max_memory_bytes, held) - held) / row_bytes;
-    if (rows >= std::size_t(input.height())) return strips;
-    const int least = std::min(unit + 2 * strips.halo, input.height());
-    if (rows < std::size_t(least)) return too_little_memory("gather", held + std::size_t(least) * row_bytes);
+    if (input.max_memory_bytes == 0 || rows >= std::size_t(input.height())) return strips;
     strips.rows = std::max(unit, (int(rows) - 2 * strips.halo) / unit * unit);
     return strips;
 }
 
+RingSizes ring_sizes(const Input& input) {
+    return RingSizes(input.nearest_coc_px, input.farthest_coc_px, ring_rule(input.quality));
+}
+
 class Gather {
 public:
-    explicit Gather(const Input& input)
-        : frame_(input),
-          sizes_(input.nearest_coc_px, input.farthest_coc_px, ring_rule(input.quality)),
-          kernels_(input, sizes_) {}
+    explicit Gather(const Input& input) : frame_(input), sizes_(ring_sizes(input)), kernels_(input, sizes_) {}
 
     Result<Output> run() {
-        const Result<Strips> strips = plan_strips(frame_, sizes_);
-        if (!strips) return strips.error();
+        const Strips strips = plan_strips(frame_, sizes_);
+        if (frame_.max_memory_bytes > 0 && frame_.max_memory_bytes < strips.least_bytes)
+            return too_little_memory("gather", strips.least_bytes);
         Output output;
         output.image = Picture::uninitialised(frame_.width(), frame_.height());
-        for (int y = 0; y < frame_.height() && !frame_.progress->cancelled(); y += strips->rows)
-            draw(Rect{0, y, frame_.width(), y + strips->rows}.intersected(output.image.rect()), strips->halo,
+        for (int y = 0; y < frame_.height() && !frame_.progress->cancelled(); y += strips.rows)
+            draw(Rect{0, y, frame_.width(), y + strips.rows}.intersected(output.image.rect()), strips.halo,
                  output.image);
         if (frame_.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
         output.stages = {{"prefilter", prefilter_s_}, {"atlas", atlas_s_}, {"gather", gather_s_}};
@@ -89,6 +90,10 @@ private:
 };
 
 }  // namespace
+
+std::size_t least_gather_bytes(const Input& input) {
+    return plan_strips(input, ring_sizes(input)).least_bytes;
+}
 
 Result<Output> run_gather(const Input& input) {
     if (input.gather.stage != GatherStage::Final) return run_gather_stage(input);

@@ -14,8 +14,8 @@ namespace petzval::engine {
 namespace {
 
 // The result, and the layers with the copies that blurring makes of one, on the finest grid that any needs.
-std::size_t bytes_per_pixel(const Input& input, float largest_px) {
-    float smallest_px = largest_px;
+std::size_t bytes_per_pixel(const Input& input) {
+    float smallest_px = std::max(-input.nearest_coc_px, input.farthest_coc_px);
     for (const float side : {-input.nearest_coc_px, input.farthest_coc_px})
         if (side > kWithinPixelPx) smallest_px = std::min(smallest_px, side);
     const int level = blur_level(double(std::max(smallest_px / 2, kWithinPixelPx)), input.pixel_aspect);
@@ -24,11 +24,15 @@ std::size_t bytes_per_pixel(const Input& input, float largest_px) {
 
 }  // namespace
 
+std::size_t least_gaussian_bytes(const Input& input) {
+    return whole_picture_bytes(input, bytes_per_pixel(input));
+}
+
 Result<Output> run_gaussian(const Input& input) {
     const auto start = std::chrono::steady_clock::now();
     const GaussianView view = input.gaussian.view;
     const float largest_px = std::max(-input.nearest_coc_px, input.farthest_coc_px);
-    if (const Status fits = fits_memory(input, bytes_per_pixel(input, largest_px), "gaussian"); !fits)
+    if (const Status fits = fits_memory(input, bytes_per_pixel(input), "gaussian"); !fits)
         return fits.error();
     Output output;
     output.image = Picture::uninitialised(input.width(), input.height());

@@ -60,11 +60,12 @@ struct StripPlan {
     int rows = 0, halo = 0;
 };
 
-// Of working memory: 80 to 93 a pixel were measured on the built-in scenes, given as flat pictures.
-constexpr std::size_t kBytesPerPixel = 20, kBytesPerSample = 90;
+// Of working memory: 80 to 120 a pixel were measured on the built-in scenes, given as flat pictures.
+constexpr std::size_t kBytesPerPixel = 20, kBytesPerSample = 110;
+// Kernels, tables, code: of aberrated lenses 20M more than of the ideal one.
+constexpr std::size_t kFixedWorkingBytes = std::size_t(56) << 20;
 // Strips of wide frames that are narrower are mostly halo.
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
-constexpr std::size_t kFixedWorkingBytes = std::size_t(100) << 20;  // kernels, tables, code
 
 Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const ScatterKernels& kernels) {
     const double largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
@@ -83,7 +84,8 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     // The caller's colour and depth, the radii and the result exist besides.
     // Of each layer too, but for the radii.
     const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) +
-                             input.layers.size() * pixels * 2 * sizeof(Rgba) + kFixedWorkingBytes;
+                             input.layers.size() * pixels * 2 * sizeof(Rgba) + kFixedWorkingBytes +
+                             input.beside_bytes;
     std::size_t working = kDefaultWorkingBytes;
     if (input.max_memory_bytes > 0)
         working = input.max_memory_bytes > held ? input.max_memory_bytes - held : 0;

@@ -129,17 +129,19 @@ Result<Output> run_sprites(const Input& input) {
     // in lists.
     constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba) + 8, kBytesPerPoint = 200;
     const std::size_t bytes_of_points = kBytesPerPoint * sprites_of(input.points);
-    if (const Status fits = fits_memory(input, kBytesPerPixel, "sprites", bytes_of_points); !fits)
-        return fits.error();
-    Parted parted = finds ? part(input) : Parted{};
+    const bool over_gather = input.sprites.background == SpriteBackground::Gather;
     Input rest = input;
+    rest.beside_bytes += bytes_of_points;
+    if (finds) rest.beside_bytes += sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
+    const std::size_t least = std::max(whole_picture_bytes(input, kBytesPerPixel) + bytes_of_points,
+                                       over_gather ? least_gather_bytes(rest) : least_gaussian_bytes(rest));
+    if (input.max_memory_bytes > 0 && input.max_memory_bytes < least)
+        return too_little_memory("sprites", least);
+    Parted parted = finds ? part(input) : Parted{};
     if (finds) rest.colour = parted.background;
-    if (input.max_memory_bytes > 0)  // what the background leaves to the points
-        rest.max_memory_bytes -= bytes_of_points + parted.background.bytes();
     rest.gather.stage = GatherStage::Final;
     rest.gaussian.view = GaussianView::Result;
-    Result<Output> output =
-        input.sprites.background == SpriteBackground::Gather ? run_gather(rest) : run_gaussian(rest);
+    Result<Output> output = over_gather ? run_gather(rest) : run_gaussian(rest);
     if (!output) return output.error();
     const double drawn_background = seconds();
 

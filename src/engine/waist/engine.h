@@ -155,6 +155,7 @@ struct Input : LensOnPicture {
     float radius_at_infinity_px = 0;     // 0: unknown
     Workers* workers = &one_thread();    // never null
     std::size_t max_memory_bytes = 0;
+    std::size_t beside_bytes = 0;  // of the same limit, what others hold while the engine runs
     std::uint64_t seed = 1;
     Progress* progress = nullptr;
 
