@@ -34,10 +34,16 @@ if(PETZVAL_TBB)
 endif()
 petzval_component(petzval PACKAGE petzval HEADERS ${core_headers} REQUIRES ${tbb_module} libhwy
                   DESCRIPTION "The depth of field of a real lens, for rendered pictures")
+foreach(raster ${rasters})
+  string(REGEX REPLACE "JPEG::JPEG" "libjpeg" raster ${raster})
+  string(REGEX REPLACE "TIFF::TIFF" "libtiff-4" raster ${raster})
+  list(APPEND raster_modules ${raster})
+endforeach()
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
                   ${headers}/look_file.h ${headers}/output.h ${headers}/shot.h ${headers}/frames.h ${headers}/track.h
                   ${headers}/focus_track.h
-                  REQUIRES petzval OpenEXR libpng libdeflate zlib DESCRIPTION "EXR and PNG for petzval")
+                  REQUIRES petzval OpenEXR libpng libdeflate zlib ${raster_modules}
+                  DESCRIPTION "EXR, PNG, JPEG and TIFF for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h

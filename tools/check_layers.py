@@ -109,7 +109,7 @@ THIRD_PARTY = {
     r"(oneapi/)?tbb/": r"src/base/workers\.cpp",
     r"hwy/": r"src/[\w/]+/\w+_simd(_test)?\.(cpp|h)",
     r"(OpenEXR|Imath)/": r"src/files/",
-    r"png\.h": r"src/files/",
+    r"(png|jpeglib|jerror|tiffio)\.h": r"src/files/",
     r"OpenColorIO/": r"src/ocio/",
     r"embree": r"src/scene/",
     r"vulkan/": r"src/device/vulkan/",

@@ -125,8 +125,9 @@ Status Run::read() {
             "it was blurred before, by its petzval:history; this blurs it a second time");
     tell_new_warnings();
     if (flags_.input.transfer && !shot_.display_referred && *kind_of_output(flags_.output) != FileKind::Png)
-        return Error{ErrorCode::InvalidArgument, "--transfer is for PNG; neither " + flags_.input.path +
-                                                     " nor " + flags_.output + " is one"};
+        return Error{ErrorCode::InvalidArgument,
+                     "--transfer is for whole numbers, as those of PNG; neither " + flags_.input.path +
+                         " nor " + flags_.output + " holds them"};
     if (expands_plate()) note("highlights: " + in_words(look().expansion));
     report_["seconds"]["read"] = watch.seconds();
     report_["detected"] = shot_.detected;

@@ -10,7 +10,9 @@ namespace petzval::cli {
 
 void InputFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .argument("IN", "a picture: EXR, or PNG (decoded through the sRGB curve)", path)
+        .argument("IN",
+                  "a picture: EXR, PNG, JPEG or TIFF (whole numbers are decoded through the sRGB curve)",
+                  path)
         .value("--layer", "NAME", "colour layer or part", parse_text, read.layer)
         .value("--view-name", "NAME", "view of a stereo file, as left; all (defocus): every view", parse_text,
                read.view_name);
@@ -18,7 +20,7 @@ void InputFlags::add_to(Verb& verb) {
 
 void InputFlags::add_depth_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .value("--depth", "FILE", "read depth from another file, EXR or PNG, of any size", parse_text,
+        .value("--depth", "FILE", "read depth from another file, EXR, PNG or TIFF, of any size", parse_text,
                read.depth_file)
         .value("--depth-channel", "NAME", "depth channel, as Z or ViewLayer.Depth.Z", parse_text,
                read.depth_channel)
@@ -39,7 +41,8 @@ void InputFlags::add_depth_to(Verb& verb) {
 
 void InputFlags::add_transfer_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .choice<Transfer>("--transfer", "how PNG codes stand for light, read and written (default srgb)",
+        .choice<Transfer>("--transfer",
+                          "how codes of PNG, JPEG and TIFF stand for light, read and written (default srgb)",
                           transfer);
 }
 

@@ -1,10 +1,9 @@
 // libpng reports errors by longjmp, which skips C++ destructors: functions that call setjmp own nothing that
 // needs one, everything lives with their callers.
-#include "files/png.h"
-
 #include "petzval/files.h"
 
 #include "files/output_file.h"
+#include "files/raster.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -194,19 +193,23 @@ bool write_pixels(PngWriting& w, const PngPixels& p) {
 
 }  // namespace
 
-Result<PngPixels> read_png_file(const InputFile& file, std::size_t max_pixels) {
-    return read(file, max_pixels, true);
-}
-
-Result<PngPixels> read_png_size(const InputFile& file, std::size_t max_pixels) {
-    return read(file, max_pixels, false);
+Result<Raster> read_png_raster(const InputFile& file, const ReadOptions& options, bool pixels) {
+    Result<PngPixels> png = read(file, options.max_pixels, pixels);
+    if (!png) return png.error();
+    Raster raster;
+    raster.width = png->width, raster.height = png->height;
+    raster.channels = png->channels, raster.bits = png->bits;
+    raster.compression = "zip";
+    raster.more_bytes_per_pixel = std::size_t(png->channels * png->bits / 8);  // its rows
+    raster.codes = std::move(png->samples);
+    return raster;
 }
 
 Result<PngPixels> read_png(const std::string& path, std::size_t max_pixels) {
     const auto file = InputFile::open(path);
     if (!file) return file.error();
     try {
-        return read_png_file(**file, max_pixels);
+        return read(**file, max_pixels, true);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::OutOfMemory, printable(path, 4096) + ": does not fit into memory"};
     }

@@ -7,24 +7,26 @@
 namespace petzval {
 namespace {
 
-bool is_exr(const std::string& path) {
-    const auto dot = path.rfind('.');
-    return dot != std::string::npos && (path.substr(dot) == ".exr" || path.substr(dot) == ".EXR");
+bool is_png(const std::string& path) {
+    for (const char* ending : {".exr", ".EXR", ".jpg", ".JPG", ".jpeg", ".tif", ".TIF", ".tiff"})
+        if (path.ends_with(ending)) return false;
+    return true;
 }
 
-Result<Picture> read_picture(const std::string& path, int threads) {
+Result<Picture> read_picture(const std::string& path, int threads, Transfer transfer = Transfer::Srgb) {
     ReadOptions options;
     options.threads = threads;
+    options.transfer = transfer;
     options.need_depth = false;
     auto frame = read_frame(path, options);
     if (!frame) return frame.error();
     return std::move(frame->colour);
 }
 
-// Transmission: a PNG as stored, 0 to white; an EXR's luminance.
+// Transmission: a PNG as stored, 0 to white; of other files their luminance, whole numbers as stored.
 Result<Plane> read_transmission(const std::string& path, int threads) {
-    if (is_exr(path)) {
-        const auto picture = read_picture(path, threads);
+    if (!is_png(path)) {
+        const auto picture = read_picture(path, threads, Transfer::Linear);
         if (!picture) return picture.error();
         Plane plane(picture->width(), picture->height());
         for (std::size_t i = 0; i < plane.size(); ++i) plane.pixels()[i] = luminance(picture->pixels()[i]);

@@ -1,0 +1,60 @@
+// Pictures that are rows of pixels and nothing else, no layers, no windows: PNG, JPEG, TIFF.
+#pragma once
+
+#include "petzval/files.h"
+
+#include "files/input_file.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// As stored, interleaved, row by row.
+struct Raster {
+    int width = 0, height = 0;
+    int channels = 0;  // 1, 3 or 4: grey, RGB, RGBA
+    int bits = 8;      // 8 or 16: whole numbers; 32: floats
+    bool premultiplied = false;
+    std::string compression, note;         // note: what of the file is not read; may be empty
+    std::size_t more_bytes_per_pixel = 0;  // while it is read
+    std::vector<std::uint16_t> codes;      // one of the two; both empty where the header alone was read
+    std::vector<float> floats;
+
+    bool is_float() const { return bits == 32; }
+    Rect rect() const { return {0, 0, width, height}; }
+    std::size_t count() const { return std::size_t(width) * std::size_t(height) * std::size_t(channels); }
+};
+
+struct RasterFormat {
+    const char *name, *type;  // "PNG", in sentences; "png", as inspect lists it
+    bool (*starts_like)(const InputFile&);
+    // Header alone where `pixels` is false. Of the options: what may be read at most, and who may cancel.
+    // Errors: InvalidFile for what is damaged, too large or of a kind that is not read. Throws Cancelled.
+    Result<Raster> (*read)(const InputFile&, const ReadOptions&, bool pixels);
+};
+
+// By content; null for what is none of them.
+const RasterFormat* raster_format_of(const InputFile& file);
+// "PNG, JPEG, TIFF": those that were built in.
+std::string raster_formats();
+
+// With pixels, against options.max_memory_bytes first. `of_pixel`: bytes that a caller makes of each.
+// Requires: options.workers.
+Result<Raster> read_raster(const InputFile& file, const RasterFormat& format, const ReadOptions& options,
+                           std::size_t of_pixel);
+
+// Whole numbers are display-referred and decoded through options.transfer; floats are light. Premultiplied.
+// `pixels` false: size only. Requires: options.workers.
+Result<Frame> read_raster_frame(const std::shared_ptr<const InputFile>& file, const RasterFormat& format,
+                                const ReadOptions& options, bool pixels);
+
+Result<Raster> read_png_raster(const InputFile& file, const ReadOptions& options, bool pixels);
+bool starts_like_jpeg(const InputFile& file);
+Result<Raster> read_jpeg(const InputFile& file, const ReadOptions& options, bool pixels);
+bool starts_like_tiff(const InputFile& file);
+Result<Raster> read_tiff(const InputFile& file, const ReadOptions& options, bool pixels);
+
+}  // namespace petzval
