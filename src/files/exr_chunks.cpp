@@ -126,6 +126,16 @@ private:
     std::mutex mutex_;
 };
 
+Error damaged(const ExrFile& exr, std::size_t part, const Rect& pixels, std::uint64_t bytes,
+              const std::string& of_what, std::uint64_t promised) {
+    const std::string& title = exr.layout.parts[part].title;
+    return invalid_file(exr.file->path(), "is damaged: " + (title.empty() ? "" : title + ", ") + "rows " +
+                                              std::to_string(pixels.y0) + " to " +
+                                              std::to_string(pixels.y1 - 1) + " hold " +
+                                              std::to_string(bytes) + " bytes of " + of_what + ", not " +
+                                              std::to_string(promised));
+}
+
 }  // namespace
 
 Status check_chunks(const ExrFile& exr, std::size_t part) {
@@ -142,15 +152,27 @@ Status check_chunks(const ExrFile& exr, std::size_t part) {
             const Rect pixels = chunks.pixels(i);
             const std::uint64_t promised = chunks.promised_bytes(pixels), bytes = found[std::size_t(i)];
             if (bytes == promised) continue;
-            const std::string& title = exr.layout.parts[part].title;
-            return invalid_file(exr.file->path(), "is damaged: " + (title.empty() ? "" : title + ", ") +
-                                                      "rows " + std::to_string(pixels.y0) + " to " +
-                                                      std::to_string(pixels.y1 - 1) + " hold " +
-                                                      std::to_string(bytes) + " bytes of pixels, not " +
-                                                      std::to_string(promised));
+            return damaged(exr, part, pixels, bytes, "pixels", promised);
         }
         return Done{};
     });
+}
+
+Status check_deep_chunk(const ExrFile& exr, std::size_t part, DeepChunk chunk, std::uint64_t samples) {
+    const Imf::Header& header = exr.parts->header(int(part));
+    const Imf::ChannelList& channels = header.channels();
+    std::uint64_t sample_bytes = 0;
+    for (auto c = channels.begin(); c != channels.end(); ++c)
+        sample_bytes += c.channel().type == Imf::HALF ? 2 : 4;
+    const std::uint64_t pixels = std::uint64_t(chunk.pixels.width()) * std::uint64_t(chunk.pixels.height());
+    const auto check = [&](std::vector<unsigned char>& packed, std::uint64_t promised, std::uint64_t from,
+                           const char* what) -> Status {
+        const std::uint64_t bytes = unpacked_bytes(packed, from, header.compression());
+        return bytes == promised ? Status(Done{}) : damaged(exr, part, chunk.pixels, bytes, what, promised);
+    };
+    if (Status sound = check(chunk.counts, 4 * pixels, 4 * chunk.whole_pixels, "counts of samples"); !sound)
+        return sound;
+    return check(chunk.samples, sample_bytes * samples, sample_bytes * samples, "samples");
 }
 
 }  // namespace petzval

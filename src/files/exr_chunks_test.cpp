@@ -29,9 +29,8 @@ std::string packed(Imf::Compression compression, std::size_t bytes) {
     return out;
 }
 
-// A file with something else in its last chunk, whose own header is of `header` bytes before the size.
-std::string with_last_chunk(std::string bytes, std::uint64_t chunks, std::size_t header,
-                            const std::string& data) {
+// Where the last of so many chunks begins.
+std::uint64_t last_chunk(const std::string& bytes, std::uint64_t chunks) {
     std::uint64_t first = 0, last = 0;
     for (std::size_t at = 300; at + 8 * chunks < bytes.size(); ++at) {
         std::memcpy(&first, bytes.data() + at, 8);
@@ -39,6 +38,13 @@ std::string with_last_chunk(std::string bytes, std::uint64_t chunks, std::size_t
         std::memcpy(&last, bytes.data() + at + 8 * (chunks - 1), 8);
         break;
     }
+    return last;
+}
+
+// A file with something else in its last chunk, whose own header is of `header` bytes before the size.
+std::string with_last_chunk(std::string bytes, std::uint64_t chunks, std::size_t header,
+                            const std::string& data) {
+    const std::uint64_t last = last_chunk(bytes, chunks);
     const auto size = std::int32_t(data.size());
     std::memcpy(bytes.data() + last + header, &size, 4);
     return bytes.substr(0, last + header + 4) + data + std::string(5000, '\0');  // not merely cut off
@@ -85,6 +91,61 @@ TEST_P(ShortChunk, OfATileIsRefused) {
         EXPECT_THAT(said, HasSubstr("rows -2 to 13 hold 100 bytes of pixels, not 3072"));
     }
 }
+
+// Two samples in each of 64 pixels of a row: counts of 256 bytes, samples of 128 times R, G, B, A as halfs
+// and Z as a float.
+class ShortDeepChunk : public testing::TestWithParam<const char*> {
+protected:
+    std::string said_of(std::size_t counts, std::size_t samples) {
+        const DeepPicture deep = DeepPicture::made_of(64, 3, [](int x, int, std::vector<DeepSample>& all) {
+            for (int i = 1; i < 3; ++i) all.push_back({{0.25f, float(x), 0, 0.5f}, float(i), float(i)});
+        });
+        WriteOptions options;
+        options.compression = GetParam();
+        EXPECT_TRUE(write_deep_exr(folder_ / "a.exr", Place::whole({0, 0, 64, 3}), deep, options));
+        std::string bytes = test::bytes_of(folder_ / "a.exr");
+        const std::uint64_t last = last_chunk(bytes, 3);
+        std::string whole_counts;
+        std::uint64_t sizes[3];
+        std::memcpy(sizes, bytes.data() + last + 4, sizeof sizes);
+        whole_counts = bytes.substr(last + 28, sizes[0]);
+        std::string chunk = counts == 256 ? whole_counts : packed_as(counts);
+        sizes[0] = chunk.size();
+        if (samples == 128 * 12) {
+            chunk += bytes.substr(last + 28 + whole_counts.size(), sizes[1]);
+        } else {
+            const std::string short_samples = packed_as(samples);
+            sizes[1] = short_samples.size();
+            chunk += short_samples;
+        }
+        std::string head(sizeof sizes, '\0');
+        std::memcpy(head.data(), sizes, sizeof sizes);
+        test::write_bytes(folder_ / "a.exr",
+                          bytes.substr(0, last + 4) + head + chunk + std::string(5000, '\0'));
+        const Result<Frame> frame = read_frame(folder_ / "a.exr");
+        if (frame) return "";
+        EXPECT_EQ(frame.error().code, ErrorCode::InvalidFile);
+        return frame.error().message;
+    }
+    TemporaryFolder folder_;
+
+private:
+    static std::string packed_as(std::size_t bytes) {
+        const std::string compression = GetParam();
+        return packed(compression == "none"  ? Imf::NO_COMPRESSION
+                      : compression == "rle" ? Imf::RLE_COMPRESSION
+                                             : Imf::ZIPS_COMPRESSION,
+                      bytes);
+    }
+};
+
+TEST_P(ShortDeepChunk, IsRefusedByItsRows) {
+    EXPECT_EQ(said_of(256, 128 * 12), "");
+    EXPECT_THAT(said_of(256, 100), HasSubstr("rows 2 to 2 hold 100 bytes of samples, not 1536"));
+    EXPECT_THAT(said_of(100, 128 * 12), HasSubstr("a.exr"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Compressions, ShortDeepChunk, testing::Values("none", "rle", "zips"));
 
 INSTANTIATE_TEST_SUITE_P(Compressions, ShortChunk,
                          testing::Values(Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION,

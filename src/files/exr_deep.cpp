@@ -1,14 +1,18 @@
 #include "files/exr_deep.h"
 
+#include "base/cancel.h"
 #include "base/parallel.h"
+#include "files/exr_chunks.h"
 #include "files/exr_pixels.h"
 #include "files/memory_limit.h"
 #include "files/wording.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include <OpenEXR/IexBaseExc.h>
 #include <OpenEXR/ImfDeepFrameBuffer.h>
 #include <OpenEXR/ImfDeepScanLineInputPart.h>
 #include <OpenEXR/ImfDeepTiledInputPart.h>
@@ -39,6 +43,34 @@ public:
     void set(const Imf::DeepFrameBuffer& buffer) {
         tiles_ ? tiles_->setFrameBuffer(buffer) : lines_->setFrameBuffer(buffer);
     }
+    // Chunks of the first level, one after the other: rows, or tiles.
+    int chunks() const { return tiles_ ? tiles_->numXTiles() * tiles_->numYTiles() : window_.height(); }
+    // As it stands in the file, of so many bytes. Throws what OpenEXR throws.
+    DeepChunk chunk(int i, std::uint64_t file_bytes) {
+        DeepChunk chunk;
+        chunk.pixels = Rect{window_.x0, window_.y0 + i, window_.x1, window_.y0 + i + 1};
+        chunk.whole_pixels = std::uint64_t(window_.width());
+        if (tiles_) {
+            const int x = window_.x0 + i % tiles_->numXTiles() * int(tiles_->tileXSize()),
+                      y = window_.y0 + i / tiles_->numXTiles() * int(tiles_->tileYSize());
+            chunk.whole_pixels = std::uint64_t(tiles_->tileXSize()) * tiles_->tileYSize();
+            chunk.pixels =
+                Rect{x, y, x + int(tiles_->tileXSize()), y + int(tiles_->tileYSize())}.intersected(window_);
+        }
+        std::uint64_t size = 0;
+        raw(i, nullptr, size);
+        if (size > file_bytes) throw Iex::InputExc("a chunk is larger than the file");
+        std::vector<unsigned char> bytes(size);
+        raw(i, reinterpret_cast<char*>(bytes.data()), size);
+        // Its place, as one number or four of a tile; then how large counts and samples are, and were.
+        const std::size_t sizes = tiles_ ? 16 : 4, data = sizes + 24;
+        std::uint64_t counts = 0;
+        std::memcpy(&counts, bytes.data() + sizes, sizeof counts);
+        const auto split = bytes.begin() + std::ptrdiff_t(data + std::min(counts, size - data));
+        chunk.counts.assign(bytes.begin() + std::ptrdiff_t(data), split);
+        chunk.samples.assign(split, bytes.end());
+        return chunk;
+    }
     void read_counts(int y0, int y1) {
         if (tiles_)
             tiles_->readPixelSampleCounts(0, tiles_->numXTiles() - 1, tile_row(y0), tile_row(y1 - 1));
@@ -53,6 +85,11 @@ public:
     }
 
 private:
+    void raw(int i, char* to, std::uint64_t& size) {
+        if (!tiles_) return lines_->rawPixelData(window_.y0 + i, to, size);
+        int x = i % tiles_->numXTiles(), y = i / tiles_->numXTiles(), level_x = 0, level_y = 0;
+        tiles_->rawTileData(x, y, level_x, level_y, to, size);
+    }
     int tile_row(int y) const { return int(unsigned(y) / tiles_->tileYSize()); }
 
     Rect window_;
@@ -72,6 +109,7 @@ class DeepReader {
 public:
     DeepReader(const ExrFile& exr, const ColourChoice& colour, const DepthChoice& depth)
         : exr_(exr),
+          part_number_(colour.part),
           part_(exr, colour.part),
           description_(exr.layout.parts[colour.part]),
           window_(description_.data_window),
@@ -92,6 +130,7 @@ public:
         part_.read_counts(0, window_.height());
         first_.resize(counts_.size() + 1);
         for (std::size_t i = 0; i < counts_.size(); ++i) first_[i + 1] = first_[i] + counts_[i];
+        if (Status sound = check_chunks(); !sound) return sound.error();
         if (const std::string reason = absurd(first_.back(), 2 * options.max_pixels); !reason.empty())
             return invalid_file(path, reason);
         const std::size_t of_pixel = sizeof(Rgba) + sizeof(float) + sizeof(unsigned) + sizeof(std::size_t);
@@ -111,6 +150,22 @@ private:
         std::string channel;
         float* (*of)(DeepSample&);
     };
+
+    // Of each chunk before its samples are looked at: OpenEXR takes what is missing from its buffers.
+    Status check_chunks() {
+        for (int i = 0; i < part_.chunks(); ++i) {
+            check_cancelled(*exr_.workers);
+            DeepChunk chunk = part_.chunk(i, exr_.file->bytes());
+            std::uint64_t samples = 0;
+            const Rect r = chunk.pixels.moved(-window_.x0, -window_.y0);
+            for (int y = r.y0; y < r.y1; ++y)
+                for (int x = r.x0; x < r.x1; ++x)
+                    samples += counts_[std::size_t(y) * width_ + std::size_t(x)];
+            if (Status sound = check_deep_chunk(exr_, part_number_, std::move(chunk), samples); !sound)
+                return sound;
+        }
+        return Done{};
+    }
 
     void add(const std::string& channel, float* (*of)(DeepSample&)) {
         if (!channel.empty()) targets_.push_back({channel, of});
@@ -166,6 +221,7 @@ private:
     }
 
     const ExrFile& exr_;
+    std::size_t part_number_;
     DeepPart part_;
     const Part& description_;
     Rect window_;
