@@ -20,6 +20,7 @@ namespace {
 
 struct MakeFlags {
     std::string name, output, truth, layers;
+    std::optional<int> width, height;
     std::optional<WorldPoint> camera_at, look_at;
     SceneSettings scene;
     CameraFlags camera;
@@ -49,8 +50,9 @@ const SceneSummary* find_scene(const std::string& name) {
 void MakeFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Scene")
         .argument("NAME", "one of petzval scene list", name)
-        .value("--width", "PX", "width of the picture (default 960)", parse_size_px, scene.width)
-        .value("--height", "PX", "height of the picture (default 540)", parse_size_px, scene.height)
+        .value("--width", "PX", "width of the picture (default 960); one alone keeps 16:9", parse_size_px,
+               width)
+        .value("--height", "PX", "height of the picture (default 540)", parse_size_px, height)
         .value("--overscan", "PX",
                "render so many pixels more on every side, for light that the blur brings in (default 0); the "
                "truth keeps to the frame",
@@ -92,6 +94,16 @@ std::vector<std::string> MakeFlags::outputs() const {
     return files;
 }
 
+// Of width and height the one that was not given follows from the other.
+void put_size(std::optional<int> width, std::optional<int> height, SceneSettings& scene) {
+    const auto other = [](int side, int of, int to) {
+        return std::max(1, int((std::int64_t(side) * to + of / 2) / of));
+    };
+    const int wide = scene.width, high = scene.height;
+    scene.width = width.value_or(height ? other(*height, high, wide) : wide);
+    scene.height = height.value_or(width ? other(*width, wide, high) : high);
+}
+
 void MakeFlags::check(const Verb& verb) {
     require_argument(verb, name, "the NAME of a scene");
     require_argument(verb, output, "-o FILE.exr");
@@ -110,6 +122,7 @@ void MakeFlags::check(const Verb& verb) {
     std::sort(files.begin(), files.end());
     if (std::adjacent_find(files.begin(), files.end()) != files.end())
         throw UsageError("-o, --truth and --layers must be different files");
+    put_size(width, height, scene);
     if (camera_at) scene.camera_at = ScenePoint{camera_at->x, camera_at->y, camera_at->z};
     if (look_at) scene.look_at = ScenePoint{look_at->x, look_at->y, look_at->z};
     scene.want_truth = !truth.empty();

@@ -122,6 +122,13 @@ class Scene(CommandLineTest):
             self.assertIn(scene["name"], text)
             self.succeed("scene", "make", scene["name"], "-o", scene["name"] + ".exr", *self.SMALL)
 
+    def test_one_side_alone_keeps_the_shape(self):
+        for given, size in ((["--width", "48"], (48, 27)), (["--height", "27"], (48, 27)), (["--width", "50"], (50, 28)),
+                            (["--width", "20", "--height", "20"], (20, 20))):
+            self.succeed("scene", "make", "slant", "-o", "s.exr", "--pinhole-samples", "1", *given)
+            window = self.report("inspect", "s.exr")["display_window"]
+            self.assertEqual((window["width"], window["height"]), size)
+
     def test_from_a_scene_to_a_picture_without_one_camera_flag(self):
         self.succeed("scene", "make", "night", "-o", "night.exr", *self.SMALL)
         report = self.report("defocus", "night.exr", "-o", "out.exr")
