@@ -314,32 +314,20 @@ void KernelStore::write_pending() {
 namespace {
 
 // A lens whose kernels are looked up first.
-class KeptLens final : public LensModel {
+class KeptLens final : public LensOver {
 public:
     KeptLens(std::unique_ptr<const LensModel> lens, std::shared_ptr<KernelStore> store, int level)
-        : lens_(std::move(lens)), store_(std::move(store)), level_(level) {}
+        : LensOver(std::move(lens)), store_(std::move(store)), level_(level) {}
 
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override {
         const KernelStore::Key key{level_, coc_radius_px, field.x, field.y};
         if (auto before = store_->find(key)) return std::move(*before);
-        PointSpread made = lens_->point_spread(coc_radius_px, field);
+        PointSpread made = under().point_spread(coc_radius_px, field);
         store_->add(key, made);
         return made;
     }
-    PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override {
-        return lens_->raw_point_spread(coc_radius_px, field);
-    }
-    std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override {
-        return lens_->rays(count, field, seed);
-    }
-    double reach_px(double coc_radius_px) const override { return lens_->reach_px(coc_radius_px); }
-    bool varies_over_field() const override { return lens_->varies_over_field(); }
-    Mirrors mirrors() const override { return lens_->mirrors(); }
-    std::string description() const override { return lens_->description(); }
-    bool is_quick() const override { return false; }
 
 private:
-    std::unique_ptr<const LensModel> lens_;
     std::shared_ptr<KernelStore> store_;
     int level_;
 };

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace petzval::kernel {
@@ -88,6 +89,29 @@ public:
         (void)mount;
         return nullptr;
     }
+};
+
+// A lens that knows another's kernels: it is that lens in all but how they are come by.
+class LensOver : public LensModel {
+public:
+    PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override {
+        return lens_->raw_point_spread(coc_radius_px, field);
+    }
+    std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override {
+        return lens_->rays(count, field, seed);
+    }
+    double reach_px(double coc_radius_px) const override { return lens_->reach_px(coc_radius_px); }
+    bool varies_over_field() const override { return lens_->varies_over_field(); }
+    Mirrors mirrors() const override { return lens_->mirrors(); }
+    std::string description() const override { return lens_->description(); }
+    bool is_quick() const override { return false; }
+
+protected:
+    explicit LensOver(std::unique_ptr<const LensModel> lens) : lens_(std::move(lens)) {}
+    const LensModel& under() const { return *lens_; }
+
+private:
+    std::unique_ptr<const LensModel> lens_;
 };
 
 }  // namespace petzval::kernel
