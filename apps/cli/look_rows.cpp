@@ -122,6 +122,22 @@ std::vector<LookRow> rows_of_lenses() {
             "times its axial colour"),
         row("Lens character", "--lateral-colour", "lens.lateral_colour", value("FACTOR", parse_number),
             "times a prescription's lateral colour, that colours land apart off the axis; 0 none"),
+        row("Lens character", "--add-spherical", "lens.added_spherical_waves", value("WAVES", parse_number),
+            "defocus control of any lens: spherical aberration of so many waves (588 nm) at the rim; "
+            "positive, "
+            "bright rings in front of focus and soft discs behind; negative, the reverse"),
+        row("Lens character", "--add-at-fstop", "lens.added_at_f_number", value("N", parse_f_number),
+            "the f-number that --add-spherical is stated for (default: the camera's); stopped down, it falls "
+            "with the fourth power"),
+        row("Lens character", "--add-axial-colour", "lens.added_axial_colour_mm", value("MM", parse_number),
+            "blue (486 nm) focuses so far behind red (656 nm); negative as in simple lenses, nearer the "
+            "lens"),
+        row("Lens character", "--add-field-curvature", "lens.added_field_curvature_mm",
+            value("MM", parse_number),
+            "the frame's corners focus so far behind the sensor; negative as in simple lenses, before it"),
+        row("Lens character", "--add-lateral-colour", "lens.added_lateral_colour_percent",
+            value("PERCENT", parse_number),
+            "the blue image (486 nm) is so much larger than the red one (656 nm)"),
         row("Lens character", "--coma", "lens.coma", value("AMOUNT", parse_number),
             "added off the axis, 1 is strong; positive tails point outward"),
         row("Lens character", "--astigmatism", "lens.astigmatism", value("AMOUNT", parse_number),

@@ -67,6 +67,22 @@ enum class FocusMode {
     Shift,     // focus_shift_mm from there
 };
 
+// Aberrations of third order added to any lens, as the defocus-control ring of a portrait lens does. 0: none.
+// Lengths along the axis: + away from the lens.
+struct AddedAberrations {
+    // Spherical aberration: the wavefront of the pupil's rim against its middle's, W040, in waves of 587.56
+    // nm; + undercorrected: the rim focuses nearer to the lens, discs in front get a bright ring and those
+    // behind a soft one. Stated for at_f_number (0: the camera's own); it falls with the fourth power of the
+    // aperture.
+    double spherical_waves = 0, at_f_number = 0;
+    double axial_colour_mm = 0;     // where blue (486 nm) focuses, from red (656 nm); over 1/wavelength^2
+    double field_curvature_mm = 0;  // where the corners focus, from the middle; grows with the field's square
+    // How much larger the blue image is than the red one (486, 656 nm); 588 nm stays.
+    double lateral_colour_percent = 0;
+
+    bool operator==(const AddedAberrations&) const = default;
+};
+
 // A lens as an engine is asked to use it. Defaults: a perfect lens with a round aperture, a flat disc.
 struct LensChoice {
     std::string name = "ideal";  // a built-in lens (lens list) or the path of a lens file
@@ -79,11 +95,12 @@ struct LensChoice {
 
     FocusMode focus_mode = FocusMode::Best;
     double focus_shift_mm = 0;  // FocusMode::Shift: + away from the lens
-    // The defocus-control ring: factors on the lens's own residuals, 1 as built, 0 none, -1 reversed.
-    double spherical = 1, axial_colour = 1;
-    double lateral_colour = 1;  // the same, of a prescription: how far apart colours land off the axis
-    // Third-order aberrations off the axis, added to a curve lens (0: none). At full field, with the pupil's
-    // rim at height h = 1/(2 f-number) focal lengths:
+    // Factors on what a lens has itself, 1 as built, 0 none, -1 reversed.
+    double spherical = 1, axial_colour = 1;  // of a curve lens
+    double lateral_colour = 1;               // of a prescription: how far apart colours land off the axis
+    AddedAberrations added;
+    // More of third order, off the axis (0: none). At full field, with the pupil's rim at height
+    // h = 1/(2 f-number) focal lengths:
     double coma = 0;  // tail 3 * 0.02 * coma * h^2 focal lengths long, + outward
     double astigmatism =
         0;  // tangential focus 2 * 0.01 * astigmatism focal lengths beyond the sagittal: + swirls

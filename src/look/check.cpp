@@ -127,7 +127,31 @@ Rules rules_of_gather() {
     };
 }
 
+bool blurs_the_axis(const AddedAberrations& added) {
+    return added.spherical_waves != 0 || added.axial_colour_mm != 0;
+}
+bool adds_colour(const AddedAberrations& added) {
+    return added.axial_colour_mm != 0 || added.lateral_colour_percent != 0;
+}
+
 constexpr const char* kStandIn = "with lens.kernel_image, which stands in for the lens";
+
+// What discs alone show: never glare.
+const std::vector<std::string> kTexture{"lens.aperture_image", "lens.dust", "lens.scratches",
+                                        "lens.onion_rings", "lens.texture_seed"};
+const std::vector<std::string> kCharacter{"lens.focus_mode",
+                                          "lens.focus_shift_mm",
+                                          "lens.spherical",
+                                          "lens.axial_colour",
+                                          "lens.lateral_colour",
+                                          "lens.added_spherical_waves",
+                                          "lens.added_at_f_number",
+                                          "lens.added_axial_colour_mm",
+                                          "lens.added_field_curvature_mm",
+                                          "lens.added_lateral_colour_percent",
+                                          "lens.coma",
+                                          "lens.astigmatism",
+                                          "lens.wavelengths"};
 
 Rules rules_of_lenses() {
     const auto blind_but_for = [](std::function<bool(const Look&)> shows) {
@@ -137,25 +161,23 @@ Rules rules_of_lenses() {
     const auto is_cut = [](const Look& l) {
         return l.vignetting && (l.lens.cats_eye > 0 || !l.lens.barrel.empty());
     };
+    const auto by_discs_alone = blind_but_for([](const Look&) { return false; });
+    const auto without_images = [](const Look& l) { return unless(!has_images(l), kStandIn); };
     return {
         {{"lens.name"}, blind_but_for([](const Look& l) { return l.glare.ghosts > 0 || l.vignetting; })},
         {{"lens.blades", "lens.blade_rotation_deg", "lens.blade_curvature", "lens.squeeze"},
          blind_but_for([=](const Look& l) { return l.glare.star > 0 || l.glare.ghosts > 0 || is_cut(l); })},
         {{"lens.iris_open", "lens.barn_doors"}, blind_but_for(is_cut)},
         {{"lens.cats_eye", "lens.barrel"}, blind_but_for([](const Look& l) { return l.vignetting; })},
-        {{"lens.aperture_image", "lens.kernel_image", "lens.dust", "lens.scratches", "lens.onion_rings",
-          "lens.texture_seed", "lens.focus_mode", "lens.focus_shift_mm", "lens.spherical",
-          "lens.axial_colour", "lens.lateral_colour", "lens.coma", "lens.astigmatism", "lens.wavelengths",
-          "lens.wave"},
-         blind_but_for([](const Look&) { return false; })},
+        {{"lens.kernel_image", "lens.wave"}, by_discs_alone},
+        {kTexture, by_discs_alone},
+        {kCharacter, by_discs_alone},
         {{"lens.name"},
          [](const Look& l) {
              return unless(!has_images(l) || l.glare.ghosts > 0 || l.vignetting, kStandIn);
          }},
-        {{"lens.aperture_image", "lens.dust", "lens.scratches", "lens.onion_rings", "lens.texture_seed",
-          "lens.focus_mode", "lens.focus_shift_mm", "lens.spherical", "lens.axial_colour",
-          "lens.lateral_colour", "lens.coma", "lens.astigmatism", "lens.wavelengths"},
-         [](const Look& l) { return unless(!has_images(l), kStandIn); }},
+        {kTexture, without_images},
+        {kCharacter, without_images},
         {{"lens.blade_rotation_deg", "lens.blade_curvature", "lens.iris_open"},
          [](const Look& l) {
              return unless(l.lens.aperture.blades > 0, "without lens.blades, as lens.blades 5");
@@ -164,15 +186,31 @@ Rules rules_of_lenses() {
          [](const Look& l) {
              return unless(has_texture(l), "without lens.dust, lens.scratches or lens.onion_rings");
          }},
-        {{"lens.focus_mode", "lens.focus_shift_mm", "lens.spherical", "lens.axial_colour",
-          "lens.lateral_colour"},
+    };
+}
+
+Rules rules_of_character() {
+    return {
+        {{"lens.spherical", "lens.axial_colour", "lens.lateral_colour"},
          [](const Look& l) {
-             return unless(l.lens.name != "ideal", "on the ideal lens; give another with lens.name");
+             return unless(l.lens.name != "ideal",
+                           "on the ideal lens; give another with lens.name, or add some with "
+                           "lens.added_spherical_waves, lens.added_axial_colour_mm or "
+                           "lens.added_lateral_colour_percent");
+         }},
+        {{"lens.focus_mode", "lens.focus_shift_mm"},
+         [](const Look& l) {
+             return unless(l.lens.name != "ideal" || blurs_the_axis(l.lens.added),
+                           "on the ideal lens; give another with lens.name");
          }},
         {{"lens.wavelengths"},
          [](const Look& l) {
-             return unless(l.lens.name != "ideal" || l.lens.wave,
+             return unless(l.lens.name != "ideal" || l.lens.wave || adds_colour(l.lens.added),
                            "on the ideal lens without lens.wave; give another with lens.name");
+         }},
+        {{"lens.added_at_f_number"},
+         [](const Look& l) {
+             return unless(l.lens.added.spherical_waves != 0, "without lens.added_spherical_waves");
          }},
         {{"lens.focus_shift_mm"},
          [](const Look& l) {
@@ -208,7 +246,8 @@ Rules rules_of_light() {
 const Rules& all_rules() {
     static const Rules all = [] {
         Rules rules = rules_of_engines();
-        for (const Rules& more : {rules_of_gather(), rules_of_lenses(), rules_of_light()})
+        for (const Rules& more :
+             {rules_of_gather(), rules_of_lenses(), rules_of_character(), rules_of_light()})
             rules.insert(rules.end(), more.begin(), more.end());
         return rules;
     }();

@@ -42,7 +42,9 @@ class LensPsf(CommandLineTest):
     def test_every_flag_changes_the_kernel(self):
         plain = self.psf("doublet", "--field", "0.6,0.3")
         for flags in (["--defocus", "21"], ["--raw"], ["--size", "15"],
-                      ["--spherical", "0"], ["--axial-colour", "-1"], ["--coma", "0.4"], ["--astigmatism", "0.4"],
+                      ["--spherical", "0"], ["--axial-colour", "-1"], ["--add-spherical", "20"],
+                      ["--add-axial-colour", "-0.5"], ["--add-field-curvature", "-1"],
+                      ["--add-lateral-colour", "0.5"], ["--add-spherical", "20", "--add-at-fstop", "4"], ["--coma", "0.4"], ["--astigmatism", "0.4"],
                       ["--distortion", "0.05"], ["--wavelengths", "3"], ["--wave"], ["--focus-mode", "paraxial"],
                       ["--focus-shift", "0.2"], ["--blades", "6"], ["--cats-eye", "0.5"], ["--squeeze", "1.5"],
                       ["--barrel", "11,15"], ["--barn-doors", "0.4,0,0,0"], ["--dust", "1"], ["--scratches", "1"],
@@ -94,7 +96,7 @@ class LensPsf(CommandLineTest):
         self.refuse(2, "lens", "psf", "ideal", "-o", "psf.exr", "--field", "2,0", says=["--field"])
         self.refuse(2, "lens", "psf", "ideal", "-o", "psf.exr", "--defocus", "1e9", says=["--defocus"])
         self.refuse(2, "lens", "psf", "tessar", "-o", "psf.exr", "--fstop", "1", says=["--fstop"])
-        self.refuse(2, "lens", "psf", "tessar", "-o", "psf.exr", "--coma", "1", says=["--coma"])
+        self.refuse(2, "lens", "psf", "tessar", "-o", "psf.exr", "--distortion", "0.1", says=["--distortion"])
         self.refuse(3, "lens", "psf", "ideal", "-o", "psf.exr", "--aperture-image", "no.png", says=["--aperture-image"])
 
 

@@ -39,6 +39,13 @@ TEST(Lenses, APointThroughScatterIsThatOfTheReference) {
     lenses.back().cats_eye = 0.7;
     lenses.push_back(named("uncorrected"));
     lenses.back().coma = 0.5, lenses.back().texture.dust = 0.7;
+    for (const char* name : {"ideal", "double-gauss"}) {  // the defocus-control ring
+        lenses.push_back(named(name));
+        lenses.back().added = {.spherical_waves = 200,
+                               .axial_colour_mm = -0.5,
+                               .field_curvature_mm = -2,
+                               .lateral_colour_percent = 2};
+    }
     for (const LensChoice& lens : lenses)
         for (const float coc : {-11.0f, 13.0f}) {
             const Shot shot = lamps(coc);
@@ -82,6 +89,10 @@ TEST(Lenses, EveryFlagChangesThePictureInBothEnginesAndOffChangesNothing) {
         {"onion rings", [](LensChoice& c) { c.texture.onion_rings = 1; }},
         {"spherical", [](LensChoice& c) { c.spherical = 0; }},
         {"axial colour", [](LensChoice& c) { c.axial_colour = 0; }},
+        {"added spherical", [](LensChoice& c) { c.added.spherical_waves = 100; }},
+        {"added axial colour", [](LensChoice& c) { c.added.axial_colour_mm = -1; }},
+        {"added field curvature", [](LensChoice& c) { c.added.field_curvature_mm = -2; }},
+        {"added lateral colour", [](LensChoice& c) { c.added.lateral_colour_percent = 2; }},
         {"coma", [](LensChoice& c) { c.coma = 1; }},
         {"astigmatism", [](LensChoice& c) { c.astigmatism = 1; }},
         {"distortion", [](LensChoice& c) { c.distortion = 0.1; }},

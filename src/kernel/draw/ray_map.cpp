@@ -68,6 +68,12 @@ PupilPowers::PupilPowers(Point pupil) {
             (j % 2 == 0 ? even[e++] : odd[o++]) = along[i] * across[j];
 }
 
+std::size_t place_of_power(std::size_t i, std::size_t j) {
+    std::size_t place = i;
+    for (std::size_t k = j % 2; k < j; k += 2) place += kRayMapDegree + 1 - k;  // all powers of along
+    return place;
+}
+
 Point Displacement::at(const PupilPowers& powers) const {
     Point sum;
     for (std::size_t i = 0; i < along.size(); ++i) sum.x += along[i] * powers.even[i];

@@ -25,6 +25,9 @@ struct PupilPowers {
     explicit PupilPowers(Point pupil);
 };
 
+// Where along^i across^j stands, in `even` if j is and else in `odd`. Requires: i + j <= kRayMapDegree.
+std::size_t place_of_power(std::size_t i, std::size_t j);
+
 // A displacement in the picture, (along, across) the field's direction.
 struct Displacement {
     std::array<double, kEvenTerms> along{};

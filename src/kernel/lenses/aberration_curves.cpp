@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "colour/spectrum.h"
 #include "kernel/draw/spline.h"
+#include "kernel/lenses/third_order.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +39,11 @@ ZoneShift CurveSampler::at(double wavelength_nm) const {
     const double axial_colour = shift[0] - over_wavelength_[0](-dispersion_axis(kPrimary_nm));
     const CubicSpline over_area(area_, shift);
     std::vector<double> samples;
+    const double added_colour = use_.added_axial_colour * colour_place(wavelength_nm);
     for (int i = 0; i < kAreaSamples; ++i) {
         const double spherical = over_area(rim_area_ * i / (kAreaSamples - 1)) - shift[0];
-        samples.push_back(use_.axial_colour * axial_colour + use_.spherical * spherical);
+        const double added = added_colour + use_.added_spherical * i / (kAreaSamples - 1);
+        samples.push_back(use_.axial_colour * axial_colour + use_.spherical * spherical + added);
     }
     return ZoneShift(std::move(samples));
 }

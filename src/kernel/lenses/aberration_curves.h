@@ -39,6 +39,8 @@ struct CurveUse {
     double f_number = 2;      // > 0
     double spherical = 1;     // factor on what varies with height
     double axial_colour = 1;  // factor on what varies with wavelength at height 0
+    // Added, focal lengths: of the rim, growing with the height squared; and per colour_place().
+    double added_spherical = 0, added_axial_colour = 0;
 };
 
 // Smooth in height squared and in 1/wavelength^2 (cubic splines), continued straight beyond the ends.

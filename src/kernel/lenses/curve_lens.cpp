@@ -1,6 +1,5 @@
 #include "kernel/lenses/curve_lens.h"
 
-#include "kernel/draw/band_groups.h"
 #include "kernel/draw/mesh_kernel.h"
 #include "kernel/draw/ray_set.h"
 #include "kernel/draw/ring_kernel.h"
@@ -27,9 +26,6 @@ constexpr double kRayWidth = 1.0 / 256;
 constexpr int kLeastRingBands = 31, kLeastMeshBands = 7, kLeastRayBands = 62;
 constexpr double kSeenFrom_nm = 430, kSeenTo_nm = 670;
 
-// Units of LensChoice::coma and ::astigmatism, focal lengths (petzval/lens_choice.h).
-constexpr double kComaUnit = 0.02, kAstigmatismUnit = 0.01;
-
 double focus_of(const CurveSampler& sampler, const LensChoice& choice, double focal_length_mm) {
     switch (choice.focus_mode) {
         case FocusMode::Best:
@@ -49,13 +45,16 @@ std::string describe(const AberrationCurves& curves, const Camera& camera) {
     return text;
 }
 
-ZoneShift mean_shift(const CurveSampler& sampler, const BandGroup& group) {
-    std::vector<double> mean(sampler.at(group.sum.wavelength_nm).samples().size(), 0.0);
-    for (std::size_t b = 0; b < group.bands.size(); ++b) {
-        const ZoneShift shift = sampler.at(group.bands[b].wavelength_nm);
-        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += group.say[b] * shift.samples()[i];
-    }
-    return ZoneShift(std::move(mean));
+double focal_length_px(const Mount& mount) {
+    return mount.camera.focal_length_mm / mount.camera.sensor_width_mm * mount.display_width_px;
+}
+
+// Shifts are focal lengths; what throws the rim outward shortens its own.
+CurveUse use_of(const LensChoice& choice, const Mount& mount) {
+    const double rim = 0.5 / mount.camera.f_number;
+    const ThirdOrder added(choice, mount, 1);
+    return {mount.camera.f_number, choice.spherical, choice.axial_colour, -added.spherical / rim,
+            -added.axial_colour / rim};
 }
 
 Light weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band.b}; }
@@ -64,28 +63,34 @@ Light weight_of(const colour::SpectralBand& band) { return {band.r, band.g, band
 
 CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, const Mount& mount)
     : description_(describe(curves, mount.camera)),
-      sampler_(curves, {mount.camera.f_number, choice.spherical, choice.axial_colour}),
+      sampler_(curves, use_of(choice, mount)),
       pupil_(choice, mount),
       choice_(choice),
-      pixel_aspect_(mount.pixel_aspect) {
-    const Camera& camera = mount.camera;
-    const double focal_length_px = camera.focal_length_mm / camera.sensor_width_mm * mount.display_width_px;
-    const double rim = 0.5 / camera.f_number;
-    aberration_px_ = rim * focal_length_px;
-    coma_px_ = choice.coma * kComaUnit * rim * rim * focal_length_px;
-    astigmatism_px_ = choice.astigmatism * kAstigmatismUnit * aberration_px_;
-
-    focus_ = focus_of(sampler_, choice, camera.focal_length_mm);
+      pixel_aspect_(mount.pixel_aspect),
+      aberration_px_(0.5 / mount.camera.f_number * focal_length_px(mount)),
+      focus_(focus_of(sampler_, choice, mount.camera.focal_length_mm)),
+      added_(choice, mount, focal_length_px(mount)) {
     const auto add_rung = [&](int count) {
         ladder_.emplace_back();
         for (const BandGroup& group : band_groups(count, choice.wavelengths > 0 ? count : kLeastWavelengths))
-            ladder_.back().push_back({group.sum, mean_shift(sampler_, group)});
+            ladder_.back().push_back(band_of(group));
     };
     if (choice.wavelengths > 0)
         add_rung(choice.wavelengths);
     else
         for (const int count : kLadder) add_rung(count);
     measure_curves();
+}
+
+CurveLens::Band CurveLens::band_of(const BandGroup& group) const {
+    std::vector<double> mean(sampler_.at(group.sum.wavelength_nm).samples().size(), 0.0);
+    double colour = 0;
+    for (std::size_t b = 0; b < group.bands.size(); ++b) {
+        const ZoneShift shift = sampler_.at(group.bands[b].wavelength_nm);
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += group.say[b] * shift.samples()[i];
+        colour += group.say[b] * colour_place(group.bands[b].wavelength_nm);
+    }
+    return {group.sum, ZoneShift(std::move(mean)), colour};
 }
 
 void CurveLens::measure_curves() {
@@ -109,45 +114,42 @@ void CurveLens::measure_curves() {
 }
 
 const std::vector<CurveLens::Band>& CurveLens::bands_for(int at_least) const {
-    const double path_px = colour_path_ * aberration_px_;
+    const double sidewards_px =
+        std::abs(added_.lateral_colour) * (colour_place(kSeenFrom_nm) - colour_place(kSeenTo_nm));
+    const double path_px = colour_path_ * aberration_px_ + sidewards_px;
     const double needed = path_px < kNoColourPx ? 1 : std::max(double(at_least), path_px / kBandStepPx);
     for (const std::vector<Band>& rung : ladder_)
         if (double(rung.size()) >= needed) return rung;
     return ladder_.back();
 }
 
-Point CurveLens::landing_px(const ZoneShift& shift, double coc_radius_px, const FieldAxis& axis,
+Point CurveLens::landing_px(const Band& band, double coc_radius_px, const FieldAxis& axis,
                             Point pupil) const {
     const double area = pupil.x * pupil.x + pupil.y * pupil.y;
-    const double scale = coc_radius_px - aberration_px_ * (shift(area) - focus_);
+    const double scale = here_px(coc_radius_px, axis.size) - aberration_px_ * (band.shift(area) - focus_);
     if (axis.size == 0) return {scale * pupil.x, scale * pupil.y * pixel_aspect_};
-    const Point p = axis.to_axis(pupil);
-    // Coma: rho^2 (2 + cos 2 theta, sin 2 theta). Astigmatism: the tangential focus farther,
-    // the sagittal one nearer by field^2.
-    const double coma = coma_px_ * axis.size, bend = astigmatism_px_ * axis.size * axis.size;
     const double stretch = choice_.distortion * axis.size * axis.size;
-    const Point landed{(scale - bend) * p.x + coma * (3 * p.x * p.x + p.y * p.y),
-                       (scale + bend) * p.y + coma * 2 * p.x * p.y};
+    const Point landed = added_.landed(scale, axis.to_axis(pupil), axis.size, band.colour);
     const Point image = axis.from_axis({landed.x * (1 + 3 * stretch), landed.y * (1 + stretch)});
     return {image.x, image.y * pixel_aspect_};
 }
 
 std::function<Point(Point)> CurveLens::landing(double wavelength_nm, double coc_radius_px,
                                                FieldPosition field) const {
-    return [this, shift = sampler_.at(wavelength_nm), coc_radius_px, axis = FieldAxis(field)](Point pupil) {
-        return landing_px(shift, coc_radius_px, axis, pupil);
-    };
+    return [this, band = Band{{}, sampler_.at(wavelength_nm), colour_place(wavelength_nm)}, coc_radius_px,
+            axis = FieldAxis(field)](Point pupil) { return landing_px(band, coc_radius_px, axis, pupil); };
 }
 
 bool CurveLens::varies_over_field() const {
-    return pupil_.varies_over_field() || choice_.coma != 0 || choice_.astigmatism != 0 ||
-           choice_.distortion != 0;
+    return pupil_.varies_over_field() || added_.curvature != 0 || choice_.distortion != 0 ||
+           added_.is_lopsided();
 }
 
 Mirrors CurveLens::mirrors() const { return pupil_.mirrors(); }
 
 double CurveLens::reach_px(double coc_radius_px) const {
-    const double off_axis = 3 * std::abs(coma_px_) + std::abs(astigmatism_px_);
+    const double off_axis = 3 * std::abs(added_.coma) + std::abs(added_.astigmatism) +
+                            std::abs(added_.curvature) + kFarthestColour * std::abs(added_.lateral_colour);
     const double stretch = std::max(1.0, 1 + 3 * std::abs(choice_.distortion));
     return (std::abs(coc_radius_px) + aberration_px_ * largest_shift_ + off_axis) * stretch *
            std::max(1.0, pixel_aspect_);
@@ -155,8 +157,7 @@ double CurveLens::reach_px(double coc_radius_px) const {
 
 bool CurveLens::is_same_around_the_axis(FieldPosition field) const {
     const bool on_axis = field.x == 0 && field.y == 0;
-    return (on_axis || (choice_.coma == 0 && choice_.astigmatism == 0 && choice_.distortion == 0)) &&
-           !pupil_.has_texture();
+    return (on_axis || (!added_.is_lopsided() && choice_.distortion == 0)) && !pupil_.has_texture();
 }
 
 bool CurveLens::has_rings(FieldPosition field) const {
@@ -170,8 +171,9 @@ PointSpread CurveLens::ring_spread(double coc_radius_px, RingColours colours) co
 
 PointSpread CurveLens::raw_point_spread(double coc_radius_px, FieldPosition field) const {
     if (!is_same_around_the_axis(field)) return mesh_spread(coc_radius_px, field);
-    if (has_rings(field)) return ring_spread(coc_radius_px, RingColours::Raw);
-    const std::shared_ptr<const RingSweep> sweep = sweep_of(coc_radius_px);
+    const double here = here_px(coc_radius_px, FieldAxis(field).size);
+    if (has_rings(field)) return ring_spread(here, RingColours::Raw);
+    const std::shared_ptr<const RingSweep> sweep = sweep_of(here);
     const std::vector<Point> outline = pupil_.outline(field, kChordPx / std::max(sweep->reach_px(), 4.0));
     if (!is_star_about_axis(outline)) return mesh_spread(coc_radius_px, field);
     return sector_kernel(outline, *sweep, pixel_aspect_);
@@ -192,7 +194,8 @@ std::shared_ptr<const RingSweep> CurveLens::sweep_of(double coc_radius_px) const
 }
 
 PointSpread CurveLens::point_spread(double coc_radius_px, FieldPosition field) const {
-    if (has_rings(field)) return ring_spread(coc_radius_px, RingColours::InGamut);
+    if (has_rings(field))
+        return ring_spread(here_px(coc_radius_px, FieldAxis(field).size), RingColours::InGamut);
     PointSpread spread = raw_point_spread(coc_radius_px, field);
     map_into_gamut(spread);
     return spread;
@@ -215,15 +218,15 @@ CurveLens::Rings CurveLens::rings_of(double coc_radius_px, int least_bands) cons
 PointSpread CurveLens::mesh_spread(double coc_radius_px, FieldPosition field) const {
     const FieldAxis axis(field);
     // Aberrations bend faster across the pupil than they reach.
-    const double aberration = aberration_px_ * largest_seen_, coma = 3 * std::abs(coma_px_) * axis.size;
-    const double size = std::abs(coc_radius_px) + aberration + coma;
-    const double bend = std::abs(coc_radius_px) + 3 * aberration + 4 * coma;
+    const double aberration = aberration_px_ * largest_seen_, coma = 3 * std::abs(added_.coma) * axis.size;
+    const double here = std::abs(here_px(coc_radius_px, axis.size));
+    const double size = here + aberration + coma, bend = here + 3 * aberration + 4 * coma;
     const MeshPupil pupil = mesh_pupil(pupil_, pupil_.outline(field, mesh_tolerance(bend)), size, bend);
     std::vector<MeshBand> bands;
     for (const Band& band : bands_for(kLeastMeshBands))
         bands.push_back(
             {weight_of(band.spectrum), [&, coc_radius_px](std::span<const Point> points, Point* landed) {
-                 for (const Point& p : points) *landed++ = landing_px(band.shift, coc_radius_px, axis, p);
+                 for (const Point& p : points) *landed++ = landing_px(band, coc_radius_px, axis, p);
              }});
     return mesh_kernel(pupil, bands);
 }
@@ -235,10 +238,9 @@ std::vector<PupilRay> CurveLens::rays(int count, FieldPosition field, std::uint6
     for (const Band& band : bands) spectrum.push_back(band.spectrum);
     return spread_rays(pupil_.outline(field, 1e-5), spectrum, count, seed,
                        [&](std::size_t band, Point pupil) {
-                           const ZoneShift& shift = bands[band].shift;
-                           const Point offset = landing_px(shift, 0, axis, pupil);
+                           const Point offset = landing_px(bands[band], 0, axis, pupil);
                            // What the radius alone does: the landing place is linear in it.
-                           return RayLanding{landing_px(shift, 1, axis, pupil) - offset, offset,
+                           return RayLanding{landing_px(bands[band], 1, axis, pupil) - offset, offset,
                                              pupil_.transmission(pupil, kRayWidth)};
                        });
 }

@@ -9,12 +9,14 @@
 #pragma once
 
 #include "colour/spectrum.h"
+#include "kernel/draw/band_groups.h"
 #include "kernel/draw/pupil.h"
 #include "kernel/draw/ring_kernel.h"
 #include "kernel/draw/sector_kernel.h"
 #include "kernel/lenses/aberration_curves.h"
 #include "kernel/lenses/field_axis.h"
 #include "kernel/lenses/geometric_lens.h"
+#include "kernel/lenses/third_order.h"
 
 #include <array>
 #include <memory>
@@ -50,10 +52,16 @@ private:
     struct Band {
         colour::SpectralBand spectrum;
         ZoneShift shift;
+        double colour = 0;  // colour_place(), of all its wavelengths
     };
+    Band band_of(const BandGroup& group) const;
+    // The radius that a source has here: the field is curved.
+    double here_px(double coc_radius_px, double field) const {
+        return coc_radius_px + added_.curvature * field * field;
+    }
     void measure_curves();
     const std::vector<Band>& bands_for(int at_least) const;
-    Point landing_px(const ZoneShift& shift, double coc_radius_px, const FieldAxis& axis, Point pupil) const;
+    Point landing_px(const Band& band, double coc_radius_px, const FieldAxis& axis, Point pupil) const;
     struct Rings {
         std::vector<RingBand> bands;
         double reach_px = 0;
@@ -72,8 +80,7 @@ private:
     double pixel_aspect_;
     double aberration_px_;                   // K
     double focus_;                           // s, focal lengths
-    double coma_px_;                         // sagittal coma of the rim at full field
-    double astigmatism_px_;                  // half the distance between both foci at full field, times K
+    ThirdOrder added_;                       // px; what is on the axis is in the curves
     double largest_shift_ = 0;               // of rho |shift - s| over pupil and wavelengths
     double largest_seen_ = 0;                // the same of wavelengths that count
     double colour_path_ = 0;                 // that rho shift travels over wavelengths that count

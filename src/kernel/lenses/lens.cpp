@@ -8,6 +8,7 @@
 #include "kernel/lenses/aberration_curves.h"
 #include "kernel/lenses/image_lens.h"
 #include "kernel/lenses/opened_lens.h"
+#include "kernel/lenses/third_order.h"
 #include "lens_files/shelf.h"
 
 #include <cmath>
@@ -34,6 +35,22 @@ Status check_residuals(const LensChoice& choice) {
     if (!in(choice.coma, 10)) return refuse_field("lens.coma", "lens.coma must lie between -10 and 10");
     if (!in(choice.astigmatism, 10))
         return refuse_field("lens.astigmatism", "lens.astigmatism must lie between -10 and 10");
+    const AddedAberrations& added = choice.added;
+    if (!in(added.spherical_waves, 10000))
+        return refuse_field("lens.added_spherical_waves",
+                            "lens.added_spherical_waves must lie between -10000 and 10000 waves");
+    if (added.at_f_number != 0 && !(added.at_f_number >= 0.5 && added.at_f_number <= 64))
+        return refuse_field("lens.added_at_f_number",
+                            "lens.added_at_f_number must be 0 (the camera's) or 0.5 to 64");
+    if (!in(added.axial_colour_mm, 100))
+        return refuse_field("lens.added_axial_colour_mm",
+                            "lens.added_axial_colour_mm must lie between -100 and 100 mm");
+    if (!in(added.field_curvature_mm, 100))
+        return refuse_field("lens.added_field_curvature_mm",
+                            "lens.added_field_curvature_mm must lie between -100 and 100 mm");
+    if (!in(added.lateral_colour_percent, 10))
+        return refuse_field("lens.added_lateral_colour_percent",
+                            "lens.added_lateral_colour_percent must lie between -10 and 10");
     if (!in(choice.distortion, 0.3))
         return refuse_field("lens.distortion", "lens.distortion must lie between -0.3 and 0.3");
     if (!in(choice.focus_shift_mm, 1000))
@@ -46,15 +63,18 @@ Status check_residuals(const LensChoice& choice) {
 // What lenses of this kind cannot have.
 Status check_kind(const LensChoice& c, LensModelKind kind) {
     if (kind != LensModelKind::Prescription && c.lateral_colour != 1)
-        return refuse("lens.lateral_colour shapes lenses that are traced from their surfaces; \"" + c.name +
-                      "\" is drawn as curves, without any");
-    if (kind == LensModelKind::Prescription &&
-        (c.spherical != 1 || c.axial_colour != 1 || c.coma != 0 || c.astigmatism != 0 || c.distortion != 0))
+        return refuse("lens.lateral_colour is a factor on what a lens traced from its surfaces has; \"" +
+                      c.name + "\" has none: lens.added_lateral_colour_percent adds some");
+    if (kind == LensModelKind::Prescription && (c.spherical != 1 || c.axial_colour != 1))
         return refuse(
-            "lens.spherical, lens.axial_colour, lens.coma, lens.astigmatism and lens.distortion shape lenses "
-            "drawn as "
-            "curves (lens list); \"" +
-            c.name + "\" is traced from its surfaces");
+            "lens.spherical and lens.axial_colour are factors on what lenses drawn as curves have; \"" +
+            c.name +
+            "\" is traced from its surfaces: lens.added_spherical_waves and lens.added_axial_colour_mm add "
+            "to "
+            "what it has");
+    if (kind == LensModelKind::Prescription && c.distortion != 0)
+        return refuse("lens.distortion shapes lenses drawn as curves (lens list); \"" + c.name +
+                      "\" is traced from its surfaces");
     return Done{};
 }
 
@@ -138,6 +158,9 @@ std::string key_of(const LensChoice& c, const lens_files::LensFile& file) {
     add_picture(hash, c.kernel_images.far);
     add_picture(hash, c.kernel_images.near);
     hash.add(c.focus_mode).add(c.focus_shift_mm).add(c.spherical).add(c.axial_colour).add(c.lateral_colour);
+    const AddedAberrations& added = c.added;
+    hash.add(added.spherical_waves).add(added.at_f_number).add(added.axial_colour_mm);
+    hash.add(added.field_curvature_mm).add(added.lateral_colour_percent);
     hash.add(c.coma).add(c.astigmatism).add(c.distortion).add(c.wavelengths).add(c.wave);
     return hash.text();
 }
@@ -181,8 +204,7 @@ bool depends_on_camera(const Lens& lens) {
     const LensChoice& c = lens.choice();
     if (!c.barrel.empty() || c.aperture.round_at_f_number > 0) return true;
     if (has_images(c)) return false;
-    return lens.kind() != LensModelKind::Ideal || c.wave || c.coma != 0 || c.astigmatism != 0 ||
-           c.distortion != 0;
+    return lens.kind() != LensModelKind::Ideal || c.wave || adds_aberrations(c) || c.distortion != 0;
 }
 
 }  // namespace

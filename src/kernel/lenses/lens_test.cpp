@@ -136,6 +136,11 @@ constexpr Change kChanges[] = {
     [](LensChoice& c, Mount&) { c.spherical = 0; },
     [](LensChoice& c, Mount&) { c.axial_colour = 0; },
     [](LensChoice& c, Mount&) { c.name = "tessar", c.lateral_colour = 0; },
+    [](LensChoice& c, Mount&) { c.added.spherical_waves = 1; },
+    [](LensChoice& c, Mount&) { c.added.spherical_waves = 1, c.added.at_f_number = 3; },
+    [](LensChoice& c, Mount&) { c.added.axial_colour_mm = 0.1; },
+    [](LensChoice& c, Mount&) { c.added.field_curvature_mm = 0.1; },
+    [](LensChoice& c, Mount&) { c.added.lateral_colour_percent = 0.1; },
     [](LensChoice& c, Mount&) { c.coma = 0.1; },
     [](LensChoice& c, Mount&) { c.astigmatism = 0.1; },
     [](LensChoice& c, Mount&) { c.distortion = 0.1; },
@@ -158,6 +163,10 @@ constexpr Change kChanges[] = {
         c.name = "ideal", c.barrel = {{10, 5}}, m.camera.f_number = 2.1;
     },
     [](LensChoice& c, Mount&) { c.name = "ideal", c.coma = 1; },
+    [](LensChoice& c, Mount&) { c.name = "ideal", c.added.spherical_waves = 1; },
+    [](LensChoice& c, Mount& m) {
+        c.name = "ideal", c.added.spherical_waves = 1, m.camera.focal_length_mm = 51;
+    },
     [](LensChoice& c, Mount& m) { c.name = "ideal", c.coma = 1, m.camera.focal_length_mm = 51; },
 };
 

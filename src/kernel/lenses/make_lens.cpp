@@ -4,6 +4,7 @@
 #include "kernel/lenses/ideal_lens.h"
 #include "kernel/lenses/image_lens.h"
 #include "kernel/lenses/opened_lens.h"
+#include "kernel/lenses/third_order.h"
 #include "kernel/lenses/traced_model.h"
 #include "kernel/lenses/wave_lens.h"
 
@@ -36,10 +37,11 @@ Status check_camera(const Mount& mount) {
 
 Result<RayModel> ray_model(const Lens& lens, const Mount& mount) {
     const LensChoice& choice = lens.choice();
-    const bool perfect = choice.coma == 0 && choice.astigmatism == 0 && choice.distortion == 0;
+    const bool perfect = !adds_aberrations(choice) && choice.distortion == 0;
     if (lens.kind() == LensModelKind::Ideal && perfect)
         return RayModel(std::make_unique<IdealLens>(choice, mount));
     if (const Status status = check_camera(mount); !status) return status.error();
+    if (const Status status = check_third_order(choice, mount); !status) return status.error();
     if (const AberrationCurves* curves = curves_of(lens))
         return RayModel(std::make_unique<CurveLens>(*curves, choice, mount));
     return TracedModel::make(*prescription_of(lens), choice, mount);

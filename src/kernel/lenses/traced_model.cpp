@@ -102,7 +102,10 @@ double luminance_at(double wavelength_nm) {
 }  // namespace
 
 TracedModel::TracedModel(const LensChoice& choice, const Mount& mount)
-    : pupil_(choice, mount), choice_(choice), mount_(mount) {}
+    : pupil_(choice, mount),
+      choice_(choice),
+      mount_(mount),
+      added_(choice, mount, mount.camera.focal_length_mm) {}
 
 Result<std::unique_ptr<const GeometricLens>> TracedModel::make(const optics::Prescription& prescription,
                                                                const LensChoice& choice, const Mount& mount) {
@@ -137,7 +140,7 @@ std::unique_ptr<const LensModel> TracedModel::on_pixels(const Mount& mount) cons
 Status TracedModel::trace(const optics::Prescription& lens) {
     const Camera& camera = mount_.camera;
     px_per_mm_ = mount_.display_width_px / camera.sensor_width_mm;
-    if (lens.dispersion_known)
+    if (lens.dispersion_known || added_.has_colour())
         wavelength_nm_.assign(std::begin(kTraced_nm), std::end(kTraced_nm));
     else
         wavelength_nm_ = {lens.primary_um * 1000};
@@ -295,6 +298,7 @@ void TracedModel::measure() {
                 reach_per_coc_ = std::max({reach_per_coc_, std::hypot(slope.x, slope.y) / image_slope_,
                                            std::hypot(per_coc.x, per_coc.y)});
             }
+    reach_offset_px_ += px_per_mm_ * added_.reach();
 }
 
 double TracedModel::reach_px(double coc_radius_px) const {
@@ -310,6 +314,8 @@ TracedModel::Node TracedModel::at(double field_size) const {
     for (std::size_t w = 0; w < node.maps.size(); ++w) {
         node.maps[w].add(-t, nodes_[i].maps[w]);
         node.maps[w].add(t, nodes_[k].maps[w]);
+        if (added_.any())
+            node.maps[w].offset_mm.add(1, added_.polynomial(field_size, colour_place(wavelength_nm_[w])));
     }
     for (std::size_t c = 0; c < node.open.size(); ++c)
         node.open[c] = node.open[c] + t * (nodes_[k].open[c] - node.open[c]);

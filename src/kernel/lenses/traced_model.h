@@ -15,6 +15,7 @@
 #include "kernel/draw/ray_map.h"
 #include "kernel/lenses/field_axis.h"
 #include "kernel/lenses/geometric_lens.h"
+#include "kernel/lenses/third_order.h"
 #include "optics/traced_lens.h"
 
 #include <optional>
@@ -75,6 +76,7 @@ private:
     LensChoice choice_;
     Mount mount_;
     double px_per_mm_ = 0, image_slope_ = 1;
+    ThirdOrder added_;  // mm
     double near_distance_mm_ = 0,
            near_coc_mm_ = 0;  // of the nearer object, its radius on the sensor; 0: none
     double coc_at_infinity_px_ = 0;

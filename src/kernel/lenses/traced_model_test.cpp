@@ -348,12 +348,12 @@ TEST(TracedModel, AnApertureThatTheLensDoesNotHaveIsRefused) {
     EXPECT_NE(lens.error().message.find("camera.f_number"), std::string::npos);
 }
 
-TEST(TracedModel, OptionsOfCurveLensesAreRefused) {
+TEST(TracedModel, FactorsOnCurvesAreRefused) {
     LensChoice choice;
-    choice.name = "tessar", choice.coma = 1;
+    choice.name = "tessar", choice.spherical = 0;
     const auto lens = make_lens(choice, mount_of("tessar"));
     ASSERT_FALSE(lens);
-    EXPECT_NE(lens.error().message.find("lens.coma"), std::string::npos);
+    EXPECT_NE(lens.error().message.find("lens.added_spherical_waves"), std::string::npos);
     LensChoice drawn;
     drawn.name = "doublet", drawn.lateral_colour = 0;
     const auto without = make_lens(drawn, full_frame(2));
