@@ -22,6 +22,34 @@ TEST(Scatter, ASlopeThroughFocusHidesWhatIsKnownToBeBehindIt) {
     }
 }
 
+// A near curtain of upright threads, a farther one of threads across it, a white wall behind both: the shares
+// of the lens that each leaves open multiply, for neither knows of the other's threads.
+TEST(Scatter, WhatOneSurfaceLeavesOpenIsSharedByThoseBehindIt) {
+    constexpr int kEvery = 3;  // a pixel of thread in so many
+    const Rgba near{0.3f, 0, 0, 1}, middle{0, 0.3f, 0, 1}, wall{0, 0, 1, 1};
+    const auto add = [](Rgba colour, float coc_px, std::vector<DeepSample>& samples) {
+        samples.push_back({colour, coc_px, coc_px});
+    };
+    Shot shot = flat(96, 96, wall, 26);
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 96; ++x)
+            if (x % kEvery == 0)
+                shot.colour(x, y) = near, shot.coc_px(x, y) = -15;
+            else if (y % kEvery == 0)
+                shot.colour(x, y) = middle, shot.coc_px(x, y) = 7;
+    shot.behind = DeepPicture::made_of(96, 96, [&](int x, int y, std::vector<DeepSample>& samples) {
+        if (x % kEvery == 0) add(near, -15, samples);
+        if (y % kEvery == 0) add(middle, 7, samples);
+        add(wall, 26, samples);
+    });
+    const Picture image = rendered(shot.job("scatter"));
+    for (int i = 42; i < 54; ++i) {
+        EXPECT_NEAR(image(i, i).r, 0.3 / 3, 0.01);
+        EXPECT_NEAR(image(i, i).g, 0.3 * 2 / 9, 0.01);
+        EXPECT_NEAR(image(i, i).b, 4.0 / 9, 0.03);
+    }
+}
+
 // A wall that leans across the border between two layers, and a floor that touches it from behind.
 TEST(Scatter, WhatTouchesASurfaceFromBehindDoesNotShowThroughIt) {
     for (const float tilt : {0.01f, 0.04f}) {

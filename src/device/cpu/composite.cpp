@@ -16,17 +16,15 @@ using namespace engine;
 
 namespace {
 
-// What one sector of the pupil, or all of it, has given to each pixel of a tile so far.
+// What one sector of the pupil, or all of it, has given to each pixel of a tile so far: what a holdout lets
+// through of that.
 struct Budget {
-    Picture sum;
-    Plane free, empty;    // lens area that nothing took yet, and that emptiness took
-    Picture let_through;  // what a holdout leaves of `sum`
+    Picture sum, more;  // as LensLeft::Taken
+    Image<LensLeft> left;
 
-    void start(const Rect& tile, bool held) {
-        sum = Picture(tile.width(), tile.height());
-        free = Plane(tile.width(), tile.height(), 1.0f);
-        empty = Plane(tile.width(), tile.height(), 0.0f);
-        if (held) let_through = Picture(tile.width(), tile.height());
+    void start(const Rect& tile) {
+        sum = Picture(tile.width(), tile.height()), more = Picture(tile.width(), tile.height());
+        left = Image<LensLeft>(tile.width(), tile.height());
     }
 };
 
@@ -36,7 +34,7 @@ struct Workspace {
     Accumulators light, emptiness;
     std::vector<Accumulators> coarse;  // per level
     std::array<Budget, LevelRule::kMostSectors> budgets;
-    std::vector<Rgba> added;
+    std::vector<Rgba> added, added_more;  // of one row
     std::vector<float> enlarging;
 };
 
@@ -55,33 +53,16 @@ void stamp_off_middle(std::span<const StampKernel> kernels, const Source& s, Rgb
     add(to_x, to_y, share_x * share_y);
 }
 
-// A layer that is partly empty takes its lens area as one: light and emptiness in proportion.
-void take_budget_with_emptiness(const Rgba* light, const Rgba* emptiness, Rgba* sum, float* free,
-                                float* empty, int n) {
-    for (int i = 0; i < n; ++i) {
-        const float arrives = light[i].a + emptiness[i].a;
-        if (arrives <= 0) continue;
-        const float taken = std::min(arrives, free[i]);
-        sum[i] += light[i] * (taken / arrives);
-        empty[i] += emptiness[i].a * (taken / arrives);
-        free[i] -= taken;
-    }
-}
-
 struct Interval {
     float low = 1e30f, high = -1e30f;
 };
 
-// Adds what a layer gave to row y of the tile, and what the holdout lets through of it.
+// Adds what the holdout lets through of what a layer gave to row y of the tile.
 void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, int y,
-              std::span<const Rgba> row, Budget& budget) {
-    for (int x = 0; x < tile.width(); ++x) {
-        const Rgba added = row[std::size_t(x)];
-        if (added == Rgba{}) continue;
-        budget.sum(x, y) += added;
-        budget.let_through(x, y) +=
-            added * let_through(holdout.at(tile.x0 + x, tile.y0 + y), radii.low, radii.high);
-    }
+              std::span<const Rgba> row, Picture& sum) {
+    for (int x = 0; x < tile.width(); ++x)
+        if (const Rgba added = row[std::size_t(x)]; added != Rgba{})
+            sum(x, y) += added * let_through(holdout.at(tile.x0 + x, tile.y0 + y), radii.low, radii.high);
 }
 
 // Runs of a plan, one after the other.
@@ -100,8 +81,7 @@ public:
           first_layer_(plan.tiles[tile].first_layer),
           last_layer_(plan.tiles[tile + 1].first_layer),
           w_(w) {
-        for (int c = 0; c < sectors_; ++c) w.budgets[std::size_t(c)].start(tile_, held());
-        w.added.resize(std::size_t(tile_.width()));
+        for (int c = 0; c < sectors_; ++c) w.budgets[std::size_t(c)].start(tile_);
         w.coarse.resize(plan.levels.size());
     }
     // Returns the taps of what was stamped.
@@ -123,14 +103,14 @@ private:
         if (partly_empty) accumulate(emptiness, layer.sectors, w_.emptiness);
         for (int c = 0; c < sectors_; ++c)
             take(w_.budgets[std::size_t(c)], std::size_t(std::min(c, layer.sectors - 1)), partly_empty,
-                 radii);
+                 layer.layer, radii);
     }
     // Whether no pixel has any lens area left for what is yet to come.
     bool is_spent() const {
         constexpr float kSpent = 0.002f;  // what an opaque surface's discrete sources leave
         return std::all_of(w_.budgets.begin(), w_.budgets.begin() + sectors_, [](const Budget& b) {
-            return std::all_of(b.free.pixels(), b.free.pixels() + b.free.size(),
-                               [](float free) { return free < kSpent; });
+            return std::all_of(b.left.pixels(), b.left.pixels() + b.left.size(),
+                               [](const LensLeft& left) { return left.free() < kSpent; });
         });
     }
     // Signed radii in pixels.
@@ -173,19 +153,21 @@ private:
         }
     }
     // From what arrived through one sector of the pupil.
-    void take(Budget& budget, std::size_t sector, bool partly_empty, const Interval& radii) {
+    void take(Budget& budget, std::size_t sector, bool partly_empty, int layer, const Interval& radii) {
         const Accumulator &light = w_.light[sector], &emptiness = w_.emptiness[sector];
         Rows rows = light.touched();
         if (partly_empty) rows = rows.with(emptiness.touched());
         for (int y = rows.begin - tile_.y0; y < rows.end - tile_.y0; ++y) {
-            Rgba* const sum = held() ? w_.added.data() : budget.sum.row(y);
-            if (held()) std::fill(w_.added.begin(), w_.added.end(), Rgba{});
-            if (partly_empty)
-                take_budget_with_emptiness(light.row(tile_.y0 + y), emptiness.row(tile_.y0 + y), sum,
-                                           budget.free.row(y), budget.empty.row(y), tile_.width());
-            else
-                take_budget(light.row(tile_.y0 + y), sum, budget.free.row(y), tile_.width());
-            if (held()) add_held(plan_.holdout, radii, tile_, y, w_.added, budget);
+            if (held())
+                for (std::vector<Rgba>* added : {&w_.added, &w_.added_more})
+                    added->assign(std::size_t(tile_.width()), Rgba{});
+            take_budget(light.row(tile_.y0 + y), partly_empty ? emptiness.row(tile_.y0 + y) : nullptr, layer,
+                        held() ? w_.added.data() : budget.sum.row(y),
+                        held() ? w_.added_more.data() : budget.more.row(y), budget.left.row(y),
+                        tile_.width());
+            if (!held()) continue;
+            add_held(plan_.holdout, radii, tile_, y, w_.added, budget.sum);
+            add_held(plan_.holdout, radii, tile_, y, w_.added_more, budget.more);
         }
     }
     // Discrete sources leave a little of the lens free; it goes to those that did arrive.
@@ -196,8 +178,9 @@ private:
                 float taken = 0;
                 for (int c = 0; c < sectors_; ++c) {
                     const Budget& budget = w_.budgets[std::size_t(c)];
-                    taken += budget.sum(x, y).a + budget.empty(x, y);
-                    light += held() ? budget.let_through(x, y) : budget.sum(x, y);
+                    const LensLeft& left = budget.left(x, y);
+                    light += budget.sum(x, y) + budget.more(x, y) * left.share_of_more();
+                    taken += left.taken();
                 }
                 out(tile_.x0 + x, plan_.first_row + tile_.y0 + y) = taken > 0 ? light * (1 / taken) : Rgba{};
             }

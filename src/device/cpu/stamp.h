@@ -5,6 +5,7 @@
 
 #include "petzval/image.h"
 
+#include "engine/scatter/plan.h"
 #include "kernel/model/lens_model.h"
 
 #include <algorithm>
@@ -89,9 +90,11 @@ void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float
 // Requires: coarse covers the cells of fine's area and two more on every side. `scratch` may hold anything.
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch);
 
-// The lens-area budget, pixel by pixel: a layer takes the lens area it arrives with (its a), or what is left
-// in `free` if that is less; its light comes in proportion. n pixels.
-void take_budget(const Rgba* layer, Rgba* sum, float* free, int n);
+// The lens-area budget, pixel by pixel: the light of a layer comes in proportion to what it may take of the
+// lens area it arrives with (its a, and that of the emptiness at its depth; null: none), into `sum`, and to
+// what it might take more, into `more`. n pixels.
+void take_budget(const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more, LensLeft* left,
+                 int n);
 
 // "AVX3", "AVX2", "SSE4", "SCALAR", …: what the loops above run on here.
 const char* instruction_set();

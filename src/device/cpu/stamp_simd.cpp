@@ -224,18 +224,21 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine, std::v
     }
 }
 
-void TakeBudget(const Rgba* HWY_RESTRICT layer, Rgba* HWY_RESTRICT sum, float* HWY_RESTRICT free, int n) {
+void AddShare(const float* in, float share, float* out) {
     const OnePixel one;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(one))
+        hn::StoreU(hn::MulAdd(hn::Set(one, share), hn::LoadU(one, in + k), hn::LoadU(one, out + k)), one,
+                   out + k);
+}
+
+void TakeBudget(const Rgba* HWY_RESTRICT light, const Rgba* emptiness, int layer, Rgba* HWY_RESTRICT sum,
+                Rgba* HWY_RESTRICT more, LensLeft* HWY_RESTRICT left, int n) {
     for (int i = 0; i < n; ++i) {
-        const float arrives = layer[i].a;
+        const float arrives = light[i].a + (emptiness ? emptiness[i].a : 0);
         if (arrives <= 0) continue;
-        const float taken = std::min(arrives, free[i]);
-        const auto share = hn::Set(one, taken / arrives);
-        const float* in = &layer[i].r;
-        float* out = &sum[i].r;
-        for (std::size_t k = 0; k < 4; k += hn::Lanes(one))
-            hn::StoreU(hn::MulAdd(share, hn::LoadU(one, in + k), hn::LoadU(one, out + k)), one, out + k);
-        free[i] -= taken;
+        const LensLeft::Taken taken = left[i].take(arrives, layer);
+        AddShare(&light[i].r, taken.area / arrives, &sum[i].r);
+        if (taken.more > 0) AddShare(&light[i].r, taken.more / arrives, &more[i].r);
     }
 }
 
@@ -268,8 +271,9 @@ void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch) {
     HWY_DYNAMIC_DISPATCH(AddEnlarged)(coarse, level, fine, scratch);
 }
-void take_budget(const Rgba* layer, Rgba* sum, float* free, int n) {
-    HWY_DYNAMIC_DISPATCH(TakeBudget)(layer, sum, free, n);
+void take_budget(const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more, LensLeft* left,
+                 int n) {
+    HWY_DYNAMIC_DISPATCH(TakeBudget)(light, emptiness, layer, sum, more, left, n);
 }
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(Name)(); }
 

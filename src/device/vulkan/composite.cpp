@@ -163,7 +163,7 @@ private:
                 }
             }
         words.insert(words.end(), {layer.first_run, layer.first_empty_run, std::uint32_t(layer.sectors),
-                                   bits_of(low), bits_of(high)});
+                                   bits_of(low), bits_of(high), std::uint32_t(layer.layer)});
     }
     // Of each level those from the first to the last that arrives. Returns by level what is to be taken off
     // the number of a source to find it in here.

@@ -25,9 +25,11 @@ constexpr int kEmptyLayer = std::numeric_limits<int>::max();  // emptiness behin
 constexpr int kBehindOpaque = 6 * kNextLayer;
 class LayersOfPixel {
 public:
+    // That of a sample at this radius, were it the next.
+    int at(float coc_px) const { return std::max(least_, layer_of(coc_px)); }
     int next(const CocSample& s) {
         constexpr float kOpaque = 0.97f;
-        const int layer = std::max(least_, layer_of(s.coc_px));
+        const int layer = at(s.coc_px);
         if (s.colour.a + s.empty > kOpaque) least_ = layer + kBehindOpaque;
         return layer;
     }

@@ -128,7 +128,7 @@ private:
         add_runs(begin, middle, sectors > 1, draft);
         const auto first_empty_run = std::uint32_t(draft.runs.size());
         add_runs(middle, end, sectors > 1, draft);
-        draft.layers.push_back({first_run, first_empty_run, sectors});
+        draft.layers.push_back({first_run, first_empty_run, sectors, layer});
         return end;
     }
     void add_runs(std::size_t begin, std::size_t end, bool by_sector, TileDraft& draft) {
@@ -170,7 +170,8 @@ void write_tile(const TileDraft& draft, const TilePlace& at, const std::vector<s
                 ScatterPlan& plan) {
     for (std::size_t i = 0; i < draft.layers.size(); ++i) {
         const TileLayer& layer = draft.layers[i];
-        plan.layers[at.layer + i] = {at.run + layer.first_run, at.run + layer.first_empty_run, layer.sectors};
+        plan.layers[at.layer + i] = {at.run + layer.first_run, at.run + layer.first_empty_run, layer.sectors,
+                                     layer.layer};
     }
     for (std::size_t i = 0; i < draft.runs.size(); ++i)
         plan.runs[at.run + i] = {at.arrival + draft.runs[i].first_arrival, draft.runs[i].level};
@@ -210,7 +211,7 @@ void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& work
     }
     const TilePlace end = at.back();
     plan.tiles.push_back({{}, end.layer, 1});
-    plan.layers.resize(end.layer + 1), plan.layers.back() = {end.run, end.run, 1};
+    plan.layers.resize(end.layer + 1), plan.layers.back() = {end.run, end.run, 1, 0};
     plan.runs.resize(end.run + 1), plan.runs.back() = {end.arrival, 0};
     plan.arrivals.resize(end.arrival);
     if (kernels.has_zones()) plan.shares.resize(end.arrival);

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "device/kernels.h"
-#include "engine/samples/layers.h"
+#include "engine/samples/lens_left.h"
 #include "engine/samples/sample_set.h"
 #include "engine/waist/cells.h"
 #include "engine/waist/engine.h"
@@ -103,6 +103,7 @@ struct LevelRun {
 struct TileLayer {
     std::uint32_t first_run, first_empty_run;
     int sectors;  // 1: all of the pupil at once
+    int layer;    // its place in the order of compositing
 };
 // Pixels of the result that are drawn together. Its layers come nearest first; each takes the lens area it
 // arrives with, or what is left.

@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
     uint held_rows, held_width, held_samples;    // row 0 of the holdout, its width; where samples begin
 } at;
 
-const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
+const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 6, kRunWords = 3;
 const int kTilePixels = 64 * 64;
 const float kSpent = 0.002;
 
@@ -199,6 +199,30 @@ float let_through(ivec2 pixel, float nearest_px, float farthest_px) {
     return (sum + open * (farthest - from)) / (farthest - nearest);
 }
 
+// LensLeft of device/cpu/stamp.h
+struct LensLeft {
+    float before, own, beside, more;
+    int layer;
+};
+float free(LensLeft left) { return left.before * (1 - left.own); }
+// The lens area taken, and what side by side would be taken more.
+vec2 take(inout LensLeft left, float arrives, int layer) {
+    const float kGoesOn = 2, kAnother = 10;  // of layers; two are an interval
+    const int kEmptyLayer = 0x7fffffff;
+    const float gap = float(uint(layer) - uint(left.layer)), is_free = free(left);
+    const float goes_on = clamp((kAnother - gap) / (kAnother - kGoesOn), 0.0, 1.0);
+    left.before = goes_on * left.before + (1 - goes_on) * is_free;
+    left.own = left.before > 0 ? 1 - is_free / left.before : 1;
+    left.layer = layer;
+    const float own_more = left.before > 0 && layer == kEmptyLayer ? arrives / left.before : arrives;
+    const float share = min(own_more, 1 - left.own), side_by_side = min(arrives, left.beside);
+    left.own += share;
+    left.beside -= side_by_side;
+    const vec2 taken = vec2(share * left.before, max(0.0, side_by_side - share * left.before));
+    left.more += taken.y;
+    return taken;
+}
+
 void main() {
     const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / 16u), own = gl_LocalInvocationIndex;
     const uint sector = gl_WorkGroupID.y;
@@ -213,13 +237,13 @@ void main() {
     const ivec2 pixel = box.low + ivec2(own % 16u, own / 16u);
     const bool inside = all(lessThan(pixel, box.high));
 
-    vec4 sum = vec4(0);
-    float free = 1, empty = 0;
+    vec4 sum = vec4(0), sum_of_more = vec4(0);
+    LensLeft left = LensLeft(1, 0, 1, 0, 0);
     const uint last_layer = plan[tile + kTileWords + 4u];
     for (uint layer = plan[tile + 4u]; layer < last_layer; ++layer) {
         if (own == 0u) any_free = 0u;
         barrier();
-        if (inside && free >= kSpent) atomicOr(any_free, 1u);
+        if (inside && free(left) >= kSpent) atomicOr(any_free, 1u);
         barrier();
         if (any_free == 0u) break;
         const uint word = at.layers + kLayerWords * (layer - at.first_layer);
@@ -229,18 +253,18 @@ void main() {
         const float emptiness = middle < close ? arrived(middle, close, of, box, pixel, inside).a : 0.0;
         const float arrives = light.a + emptiness;
         if (inside && arrives > 0) {
-            const float taken = min(arrives, free), share = taken / arrives;
+            const vec2 taken = take(left, arrives, int(plan[word + 5u]));
             float through = 1;
             if (kHeld != 0u)
                 through = let_through(pixel, uintBitsToFloat(plan[word + 3u]), uintBitsToFloat(plan[word + 4u]));
-            sum += light * (share * through);
-            empty += light.a * share * (1 - through) + emptiness * share;
-            free -= taken;
+            sum += light * (taken.x / arrives * through);
+            sum_of_more += light * (taken.y / arrives * through);
         }
     }
     if (!inside) return;
     const uint pixel_of_tile = uint(pixel.y - corner.y) * 64u + uint(pixel.x - corner.x);
     const uint place = plan[tile + 6u] + sector * kTilePixels + pixel_of_tile;
-    light_of[place] = sum;
-    taken_of[place] = sum.a + empty;
+    const float share = left.more > 0 ? clamp((free(left) - left.beside) / left.more, 0.0, 1.0) : 0.0;
+    light_of[place] = sum + sum_of_more * share;
+    taken_of[place] = 1 - free(left) + left.more * share;
 }
