@@ -56,8 +56,8 @@ struct GatherOptions {
 
 enum class GaussianStyle {
     Layered,  // light spreads from where it is, near and far apart: nothing in focus bleeds or is bled on
-    Plain,    // every pixel mixes the sharp picture and two blurred ones by its own radius
-    Wgld,     // the same by depth, with the weights that were published (docs/published.md)
+    Plain,    // every pixel mixes two of a stack of blurred pictures, by its own radius
+    Wgld,     // sharp and two blurred ones by depth, with the weights that were published (docs/published.md)
 };
 
 // A buffer of the Gaussian engine in place of its result.
@@ -66,7 +66,8 @@ enum class GaussianView {
     Sharp,       // the input
     BlurSmall,   // all of it blurred by the smaller Gaussian
     BlurLarge,   // and by the larger
-    FocusIndex,  // 1 in focus … 0 wholly blurred, in every channel
+    FocusIndex,  // 1 in focus … 0 wholly blurred, in every channel: Wgld's weight of the sharp picture; else
+                 // it falls evenly from the pixel's own radius to the largest
 };
 
 struct GaussianOptions {

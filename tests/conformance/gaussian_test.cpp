@@ -74,6 +74,21 @@ TEST(Gaussian, APointHasTheSecondMomentOfItsDiscAtEveryConstantRadius) {
         }
 }
 
+// Stripes finer than the blur vanish, also where something else is blurred far more.
+TEST(Gaussian, AMediumRadiusIsOneBlurAndNotASharpPictureUnderAFog) {
+    for (const GaussianStyle style : {GaussianStyle::Layered, GaussianStyle::Plain}) {
+        Shot shot = flat(160, 64, {}, 7);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 160; ++x) {
+                const float c = x / 2 % 2 ? 0.8f : 0.2f;
+                shot.colour(x, y) = {c, c, c, 1};
+                if (x >= 120) shot.coc_px(x, y) = 40;
+            }
+        const Picture image = rendered(job_of(shot, style));
+        for (int x = 24; x < 80; ++x) EXPECT_NEAR(image(x, 32).g, 0.5, 0.02) << x << " style " << int(style);
+    }
+}
+
 TEST(Gaussian, WhatIsNearSpreadsOverWhatIsInFocus) {
     Shot shot = flat(128, 64, {0.8f, 0.8f, 0.8f, 1}, 0);
     for (int y = 0; y < 64; ++y)

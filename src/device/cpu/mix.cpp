@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "device/cpu/blur.h"
+#include "engine/waist/cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,14 @@ namespace {
 
 constexpr float kLeastArea = 1e-5f;
 
+// What a band of rows puts into the cells of a layer above and below its own.
+struct Rim {
+    int row = -1;
+    std::vector<Rgba> light;
+    std::vector<float> covered;
+    LitCells lit;
+};
+
 class Mixer {
 public:
     Mixer(const GaussianPlan& plan, const Control& control)
@@ -27,60 +36,116 @@ public:
         make_layers();
         constexpr int kBand = 16;
         parallel_for((height_ + kBand - 1) / kBand, workers_, [&](int band) {
-            Readers readers(layers_.size());
+            Readers readers;
             for (std::size_t k = 0; k < layers_.size(); ++k)
-                if (is_used(k)) readers[k] = BlurReader(layers_[k], plan_.blurs[k].level, width_);
+                readers.all.emplace_back(layers_[k], plan_.blurs[k].level, places_[k]);
             for (int y = band * kBand; y < std::min(height_, (band + 1) * kBand); ++y) {
-                for (std::size_t k = 0; k < layers_.size(); ++k)
-                    if (is_used(k)) readers[k].go_to_row(y);
+                readers.go_to_row(y, plan_);
                 for (int x = 0; x < width_; ++x)
-                    out(x, y) = is_layered() ? composite(readers, x, y) : mixed(readers, x, y);
+                    out(x, y) = is_layered() ? composite(readers, x, y) : mixed(readers.all, x, y);
             }
         });
     }
 
 private:
-    using Readers = std::vector<BlurReader>;
+    struct Readers {
+        std::vector<BlurReader> all;
+        std::vector<const BlurReader*> near, far;  // of the layers that are seen in this row, nearest first
+        void go_to_row(int y, const GaussianPlan& plan) {
+            near.clear(), far.clear();
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                const bool is_near = k < std::size_t(plan.near.count());
+                if (all[k].go_to_row(y) && (is_near || k < plan.backdrop()))
+                    (is_near ? near : far).push_back(&all[k]);
+            }
+        }
+    };
     bool is_layered() const { return plan_.law == GaussianPlan::Law::Layered; }
-    bool is_used(std::size_t blur) const { return plan_.blurs[blur].is_used(); }
 
-    // Rows are shared out by cells of the coarsest.
     void make_layers() {
-        int coarsest = 0;
+        int coarsest = 4;
         for (const Blur& blur : plan_.blurs) {
             layers_.emplace_back(blur);
-            per_cell_.push_back(std::ldexp(1.0f, -2 * blur.level));
+            places_.push_back(places_in_cells(blur, width_));
             coarsest = std::max(coarsest, blur.level);
         }
-        const int size = 1 << coarsest;
-        parallel_for((height_ + size - 1) / size, workers_, [&](int row) {
-            for (int y = row * size; y < std::min(height_, (row + 1) * size); ++y)
-                for (int x = 0; x < width_; ++x) deposit(x, y);
+        // Bands are whole cells of the coarsest. What one puts into the cells beside it is added later, in
+        // the order of bands, so that no two write to one cell and sums do not depend on threads.
+        const int size = 1 << coarsest, bands = (height_ + size - 1) / size;
+        std::vector<std::vector<Rim>> rims(static_cast<std::size_t>(bands));
+        parallel_for(bands, workers_, [&](int band) {
+            rims[std::size_t(band)] = deposit(band * size, std::min(height_, (band + 1) * size));
         });
-        for (std::size_t k = 0; k < layers_.size(); ++k)
-            if (is_used(k)) blur_layer(layers_[k], plan_.blurs[k], workers_);
+        for (const auto& of_band : rims)
+            for (std::size_t i = 0; i < of_band.size(); ++i) add_rim(layers_[i / 2], of_band[i]);
+        for (std::size_t k = 0; k < layers_.size(); ++k) blur_layer(layers_[k], plan_.blurs[k], workers_);
     }
 
-    void deposit(int x, int y) {
-        const Rgba colour = plan_.colour(x, y);
-        const auto add = [&](std::size_t blur, float share) {
-            if (share <= 0 || !is_used(blur)) return;
-            const int level = plan_.blurs[blur].level;
-            const float part = share * per_cell_[blur];
-            layers_[blur].light(x >> level, y >> level) += part * colour;
-            layers_[blur].covered(x >> level, y >> level) += part;
-        };
-        if (!is_layered()) {
-            add(GaussianPlan::kSmall, 1);
-            add(GaussianPlan::kLarge, 1);
-            return;
+    // Pixel rows begin…end-1, which are whole cells; returns two rims for each layer.
+    std::vector<Rim> deposit(int begin, int end) {
+        std::vector<RowOfLight> rows;
+        for (std::size_t k = 0; k < layers_.size(); ++k)
+            rows.emplace_back(places_[k], plan_.blurs[k].cells_across());
+        std::vector<Rim> rims(2 * layers_.size());
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < width_; ++x) is_layered() ? spread(rows, x, y) : spread_to_all(rows, x, y);
+            for (std::size_t k = 0; k < layers_.size(); ++k) {
+                if (rows[k].empty()) continue;
+                const Blur& blur = plan_.blurs[k];
+                const CellAxis down(blur.level, blur.cells_down());
+                const float per_row = std::ldexp(1.0f, -blur.level);
+                const int top = int(down.place(y)), first = begin >> blur.level,
+                          last = (end - 1) >> blur.level;
+                for (int row = top; row <= top + 1; ++row) {
+                    const float share = per_row * down.share(y, row);
+                    if (share <= 0) continue;
+                    if (row >= first && row <= last)
+                        rows[k].add_to(layers_[k].light.row(row), layers_[k].covered.row(row),
+                                       layers_[k].lit[std::size_t(row)], share);
+                    else
+                        add_to_rim(rows[k], rims[2 * k + (row > last)], row, share);
+                }
+                rows[k].clear();
+            }
         }
-        const bool near = plan_.coc_px(x, y) < 0;
-        const MixWeights w = plan_.weights(x, y);
-        add(near ? GaussianPlan::kNearSmall : GaussianPlan::kFarSmall, w.small);
-        add(near ? GaussianPlan::kNearLarge : GaussianPlan::kFarLarge, w.large);
-        add(GaussianPlan::kBackdrop, near ? w.sharp : 1);
+        return rims;
     }
+
+    void add_to_rim(const RowOfLight& from, Rim& rim, int row, float share) const {
+        if (rim.row < 0) rim.row = row, rim.light.resize(from.cells()), rim.covered.resize(from.cells());
+        from.add_to(rim.light.data(), rim.covered.data(), rim.lit, share);
+    }
+
+    static void add_rim(BlurLayer& layer, const Rim& rim) {
+        if (rim.row < 0) return;
+        for (int x = rim.lit.begin; x < rim.lit.end; ++x) {
+            layer.light(x, rim.row) += rim.light[std::size_t(x)];
+            layer.covered(x, rim.row) += rim.covered[std::size_t(x)];
+        }
+        layer.lit[std::size_t(rim.row)].add(rim.lit);
+    }
+
+    void spread_to_all(std::vector<RowOfLight>& rows, int x, int y) const {
+        for (RowOfLight& row : rows) row.add(x, plan_.colour(x, y), 1);
+    }
+
+    void spread(std::vector<RowOfLight>& rows, int x, int y) const {
+        const Rgba colour = plan_.colour(x, y);
+        const float coc = plan_.coc_px(x, y);
+        const bool near = coc < 0;
+        const BlurStack::Mix mix = near ? plan_.near(-coc) : plan_.far(coc);
+        const auto add = [&](std::size_t blur, float share) {
+            if (share > 0) rows[blur].add(x, share * colour, share);
+        };
+        const auto add_to_stack = [&](int k, float share) {
+            if (k > 0) add(near ? plan_.near_blur(k) : plan_.far_blur(k), share);
+        };
+        add_to_stack(mix.lower, 1 - mix.upper_share);
+        add_to_stack(mix.lower + 1, mix.upper_share);
+        if (plan_.has_backdrop()) add(plan_.backdrop(), near ? 1 - plan_.near.nearness(-coc) : 1);
+    }
+
+    static float sharp_share(const BlurStack::Mix& mix) { return mix.lower == 0 ? 1 - mix.upper_share : 0; }
 
     // Each layer takes of the pixel's lens what it arrives with, or what is left.
     Rgba composite(const Readers& readers, int x, int y) const {
@@ -92,19 +157,19 @@ private:
             sum += (taken / covered) * light;
             free -= taken;
         };
-        const auto take_layer = [&](std::size_t blur) {
-            if (is_used(blur)) take(readers[blur].light(x), readers[blur].covered(x));
+        const auto take_layers = [&](const std::vector<const BlurReader*>& layers) {
+            for (const BlurReader* layer : layers)
+                if (layer->is_lit(x) && free > 0) take(layer->light(x), layer->covered(x));
         };
-        take_layer(GaussianPlan::kNearLarge);
-        take_layer(GaussianPlan::kNearSmall);
-        const float sharp = plan_.weights(x, y).sharp;
+        take_layers(readers.near);
+        const float coc = plan_.coc_px(x, y);
+        const float sharp = sharp_share(coc < 0 ? plan_.near(-coc) : plan_.far(coc));
         take(sharp * plan_.colour(x, y), sharp);
-        take_layer(GaussianPlan::kFarSmall);
-        take_layer(GaussianPlan::kFarLarge);
+        take_layers(readers.far);
         // Under the soft edge of something near: what lies around it. Else: more of what was seen.
-        if (free > kLeastArea && plan_.coc_px(x, y) < 0 && is_used(GaussianPlan::kBackdrop)) {
-            const BlurReader& backdrop = readers[GaussianPlan::kBackdrop];
-            if (backdrop.covered(x) > kLeastArea) {
+        if (free > kLeastArea && coc < 0 && plan_.has_backdrop()) {
+            const BlurReader& backdrop = readers.all[plan_.backdrop()];
+            if (backdrop.is_lit(x) && backdrop.covered(x) > kLeastArea) {
                 sum += (free / backdrop.covered(x)) * backdrop.light(x);
                 free = 0;
             }
@@ -112,29 +177,38 @@ private:
         return free < 1 - kLeastArea ? sum * (1 / (1 - free)) : plan_.colour(x, y);
     }
 
-    // The three pictures by the pixel's weights; or one of them.
-    Rgba mixed(const Readers& readers, int x, int y) const {
-        const BlurReader &small = readers[GaussianPlan::kSmall], &large = readers[GaussianPlan::kLarge];
-        const MixWeights w = plan_.weights(x, y);
+    // Between the pictures by the pixel's weights; or one of them.
+    Rgba mixed(const std::vector<BlurReader>& blurs, int x, int y) const {
+        const Rgba sharp = plan_.colour(x, y);
         switch (plan_.view) {
             case GaussianView::BlurSmall:
-                return small.light(x);
+                return blurs[GaussianPlan::kSmall].light(x);
             case GaussianView::BlurLarge:
-                return large.light(x);
-            case GaussianView::FocusIndex:
-                return {w.sharp, w.sharp, w.sharp, 1};
+                return blurs[GaussianPlan::kLarge].light(x);
+            case GaussianView::FocusIndex: {
+                const float index = plan_.focus_index(x, y);
+                return {index, index, index, 1};
+            }
             default:
                 break;
         }
-        const Rgba sharp = plan_.colour(x, y);
-        return w.sharp == 1 ? sharp : w.sharp * sharp + w.small * small.light(x) + w.large * large.light(x);
+        if (plan_.law == GaussianPlan::Law::ByDepth) {
+            const MixWeights w = plan_.depth(x, y);
+            return w.sharp == 1 ? sharp
+                                : w.sharp * sharp + w.small * blurs[GaussianPlan::kSmall].light(x) +
+                                      w.large * blurs[GaussianPlan::kLarge].light(x);
+        }
+        const BlurStack::Mix mix = plan_.far(std::abs(plan_.coc_px(x, y)));
+        const auto picture = [&](int k) { return k == 0 ? sharp : blurs[plan_.far_blur(k)].light(x); };
+        const Rgba lower = picture(mix.lower);
+        return mix.upper_share > 0 ? lower + mix.upper_share * (picture(mix.lower + 1) - lower) : lower;
     }
 
     const GaussianPlan& plan_;
     Workers& workers_;
     int width_, height_;
-    std::vector<BlurLayer> layers_;  // as the plan's blurs
-    std::vector<float> per_cell_;    // of a pixel
+    std::vector<BlurLayer> layers_;               // as the plan's blurs
+    std::vector<std::vector<CellPlace>> places_;  // of pixels in these
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "device/vulkan/mix.h"
 
 #include "device/device.h"
+#include "engine/waist/cells.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,7 @@ using engine::Blur;
 using engine::GaussianPlan;
 
 constexpr std::uint32_t kMostGroups = 65535;
-constexpr int kWideLevel = 3;  // cells from which on a group averages each
+constexpr int kWideLevel = 3;  // cells from which on a group fills each
 
 std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
@@ -24,9 +25,9 @@ struct Push {
     std::uint32_t width = 0, height = 0, first_row = 0;
     std::uint32_t out_row = 0, out_rows = 0;
     std::uint32_t law = 0, view = 0;
-    std::array<float, 6> near = {}, far = {};
+    std::array<float, 4> near = {}, far = {};
 };
-static_assert(sizeof(Push) == 84, "as shaders/mix.glsl has it");
+static_assert(sizeof(Push) == 68, "as shaders/mix.glsl has it");
 
 struct Span {
     int begin = 0, end = 0;
@@ -99,17 +100,16 @@ private:
     Span pixels_for(Span rows) const {
         Span pixels = rows;
         for (const Blur& blur : plan_.blurs) {
-            if (!blur.is_used()) continue;
             const Span cells = cells_for(blur, rows);
-            pixels.begin = std::min(pixels.begin, cells.begin << blur.level);
-            pixels.end = std::max(pixels.end, std::min(height(), cells.end << blur.level));
+            const engine::CellAxis down(blur.level, blur.cells_down());
+            pixels.begin = std::min(pixels.begin, down.begin(cells.begin));
+            pixels.end = std::max(pixels.end, std::min(height(), down.end(cells.end - 1)));
         }
         return pixels;
     }
 
     std::size_t cells_of(const Blur& blur, Span rows) const {
-        return blur.is_used() ? std::size_t(blur.cells_across()) * std::size_t(cells_for(blur, rows).size())
-                              : 0;
+        return std::size_t(blur.cells_across()) * std::size_t(cells_for(blur, rows).size());
     }
 
     // Pixels and what they become; cells twice.
@@ -134,7 +134,6 @@ private:
         std::size_t first_cell = 0;
         for (std::size_t k = 0; k < plan_.blurs.size(); ++k) {
             const Blur& blur = plan_.blurs[k];
-            if (!blur.is_used()) continue;
             const Span cells = cells_for(blur, rows);
             const std::uint32_t x = add(blur.x.weights), x_inside = add(blur.x.inside);
             const std::uint32_t y = add(blur.y.weights), y_inside = add(blur.y.inside);
@@ -164,14 +163,14 @@ private:
         for (int y = rows.begin; y < rows.end; ++y) {
             colours.insert(colours.end(), plan_.colour.row(y), plan_.colour.row(y) + width());
             for (int x = 0; x < width(); ++x)
-                values.push_back(plan_.law == GaussianPlan::Law::ByDepth ? plan_.weights(x, y).sharp
+                values.push_back(plan_.law == GaussianPlan::Law::ByDepth ? plan_.depth.index(x, y)
                                                                          : plan_.coc_px(x, y));
         }
         colours_ = recording.uploaded(std::span<const Rgba>(colours));
         values_ = recording.uploaded(std::span<const float>(values));
     }
 
-    // Averages and blurs them, along x and along y.
+    // Shares light between them and blurs them, along x and along y.
     void make_cells(Span rows, Push push, Recording& recording) {
         std::size_t all = 0;
         for (const Blur& blur : plan_.blurs) all += cells_of(blur, rows);
@@ -182,7 +181,6 @@ private:
         light_between_ = room(sizeof(Rgba)), covered_between_ = room(sizeof(float));
         for (std::size_t k = 0; k < plan_.blurs.size(); ++k) {
             const std::size_t cells = cells_of(plan_.blurs[k], rows);
-            if (cells == 0) continue;
             push.blur = std::uint32_t(k);
             const bool wide = plan_.blurs[k].level >= kWideLevel;
             recording.pass("spread cells", context_.program(Shader::SpreadCells, wide ? 1 : 0),

@@ -6,27 +6,32 @@
 
 namespace petzval::engine {
 
-RadiusMix::RadiusMix(float largest_px, float band_px)
-    : band_px_(std::max(0.0f, band_px)),
-      small_px_(std::max(largest_px / 2, kWithinPixelPx)),
-      large_px_(largest_px > band_px_ ? largest_px : 0) {
-    if (large_px_ > 0) stretch_ = large_px_ / (large_px_ - band_px_);
-    const auto per_square = [](float low, float high) {
-        return high > low ? 1 / (high * high - low * low) : 0.0f;
-    };
-    per_small_ = per_square(kWithinPixelPx, small_px_), per_large_ = per_square(small_px_, large_px_);
+BlurStack::BlurStack(float largest_px, float band_px) : band_px_(std::max(0.0f, band_px)) {
+    constexpr float kLeastPx = 0.8f;  // narrower ones would hardly differ from the sharp picture
+    if (largest_px <= std::max(band_px_, kWithinPixelPx)) return;
+    stretch_ = largest_px / (largest_px - band_px_);
+    for (float r = largest_px; r > kLeastPx || count() == 0; r /= 2)
+        radii_px_.insert(radii_px_.begin() + 1, r);
 }
 
-MixWeights RadiusMix::operator()(float radius_px) const {
-    const float r = std::max(0.0f, radius_px - band_px_) * stretch_;
-    if (!blurs() || r <= kWithinPixelPx) return {};
-    if (r < small_px_) {
-        const float small = std::min(1.0f, (r * r - kWithinPixelPx * kWithinPixelPx) * per_small_);
-        return {1 - small, small, 0};
-    }
-    const float large =
-        large_px_ > small_px_ ? std::min(1.0f, (r * r - small_px_ * small_px_) * per_large_) : 1;
-    return {0, 1 - large, large};
+BlurStack::Mix BlurStack::operator()(float radius_px) const {
+    const float r = blurred_px(radius_px);
+    if (count() == 0 || r <= kWithinPixelPx) return {};
+    std::size_t upper = 1;
+    while (upper + 1 < radii_px_.size() && radii_px_[upper] < r) ++upper;
+    const float low = radii_px_[upper - 1], high = radii_px_[upper];
+    return {int(upper) - 1, std::min(1.0f, (r * r - low * low) / (high * high - low * low))};
+}
+
+float BlurStack::sharpness(float radius_px) const {
+    const float r = blurred_px(radius_px), largest = radii_px_.back();
+    if (count() == 0 || r <= kWithinPixelPx) return 1;
+    return std::clamp((largest - r) / (largest - kWithinPixelPx), 0.0f, 1.0f);
+}
+
+float BlurStack::nearness(float radius_px) const {
+    const float near = radii_px_.back() / 2;
+    return std::min(1.0f, radius_px * radius_px / (near * near));
 }
 
 DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_m), coc_px_(input.coc_px) {

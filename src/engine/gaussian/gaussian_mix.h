@@ -3,7 +3,9 @@
 
 #include "engine/waist/engine.h"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 namespace petzval::engine {
 
@@ -11,28 +13,35 @@ namespace petzval::engine {
 constexpr float kWithinPixelPx = 0.5f;
 
 struct MixWeights {
-    float sharp = 1, small = 0, large = 0;  // sum to 1, but for Wgld
+    float sharp = 1, small = 0, large = 0;
 };
 
-// By radius: between sharp (0.5 px), half the largest radius and the largest, in proportion to the squares,
-// so that the second moment of the mixture is that of the pixel's own disc.
-class RadiusMix {
+// By radius: a stack of blurs, each half as wide as the next, up to the largest radius. Light is shared
+// between the two around its own radius in proportion to the squares, so that the second moment of the
+// mixture is that of the pixel's own disc, and hardly its shape differs from one Gaussian's.
+class BlurStack {
 public:
-    RadiusMix() = default;  // all is sharp
+    BlurStack() = default;  // all is sharp
     // What is within the band is held sharp; the largest radius stays what it is.
-    RadiusMix(float largest_px, float band_px);
-    bool blurs() const { return large_px_ > kWithinPixelPx; }
-    float small_px() const { return small_px_; }
-    float large_px() const { return large_px_; }
-    MixWeights operator()(float radius_px) const;
-    // What it is made of, for devices: shaders/mix.glsl evaluates it.
-    std::array<float, 6> numbers() const {
-        return {band_px_, stretch_, small_px_, per_small_, large_px_, per_large_};
-    }
+    BlurStack(float largest_px, float band_px);
+    int count() const { return int(radii_px_.size()) - 1; }  // of blurs; numbered from the narrowest, 1
+    float radius_px(int blur) const { return radii_px_[std::size_t(blur)]; }  // 0: sharp, within its pixel
+    struct Mix {
+        int lower = 0;  // a blur, or 0
+        float upper_share = 0;
+    };
+    Mix operator()(float radius_px) const;
+    // What it is made of, for devices: shaders/mix.glsl evaluates it. Band, stretch, largest radius, count.
+    std::array<float, 4> numbers() const { return {band_px_, stretch_, radii_px_.back(), float(count())}; }
+    // 1 within the band and the pixel, 0 at the largest radius.
+    float sharpness(float radius_px) const;
+    // 0 in focus … 1 from so near on that nothing may be hidden by what is nearer still.
+    float nearness(float radius_px) const;
 
 private:
-    float band_px_ = 0, stretch_ = 1, small_px_ = 0, large_px_ = 0;
-    float per_small_ = 0, per_large_ = 0;  // 1 / what squared radii grow by, up to each
+    float blurred_px(float radius_px) const { return std::max(0.0f, radius_px - band_px_) * stretch_; }
+    float band_px_ = 0, stretch_ = 1;
+    std::vector<float> radii_px_{kWithinPixelPx};
 };
 
 // By depth, as published (wgld.org): x = clamp(depth + offset, 0, 1); the index d is 1 in the band around

@@ -1,5 +1,7 @@
 #include "engine/gaussian/plan.h"
 
+#include "engine/waist/cells.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,7 +16,7 @@ double sigma_of(double radius_px) { return std::sqrt(radius_px * radius_px / 4 +
 
 double sigma_in_cells(double sigma_px, int level) {
     const double s = std::ldexp(1.0, level);
-    return std::sqrt(std::max(0.0, sigma_px * sigma_px - (level > 0 ? s * s / 4 : 0))) / s;
+    return std::sqrt(std::max(0.0, sigma_px * sigma_px - (level > 0 ? (s * s + 0.5) / 3 : 0))) / s;
 }
 
 // Weights at -radius…radius that sum to 1 and whose variance is that asked for: a cut Gaussian is narrower
@@ -36,40 +38,35 @@ std::vector<float> gaussian_weights(double sigma) {
     return {weights.begin(), weights.end()};
 }
 
-// How much of a kernel at each of n cells lies inside; the last cell may lie inside in part.
-std::vector<float> share_inside(const std::vector<float>& weights, int cells, int level, int pixels) {
-    const int radius = int(weights.size() / 2), size = 1 << level;
-    std::vector<float> shares(std::size_t(cells), 0.0f);
+// How much of a kernel at each cell lies inside the picture; cells at its ends may lie inside in part.
+std::vector<float> share_inside(const std::vector<float>& weights, const CellAxis& axis, int pixels) {
+    const int radius = int(weights.size() / 2), cells = axis.cells();
+    std::vector<float> inside(std::size_t(cells), 0.0f), shares = inside;
+    for (int k = 0; k < cells; ++k)
+        for (int x = axis.begin(k); x < std::min(pixels, axis.end(k)); ++x)
+            inside[std::size_t(k)] += axis.share(x, k);
     for (int i = 0; i < cells; ++i)
         for (int k = std::max(0, i - radius); k <= std::min(cells - 1, i + radius); ++k)
-            shares[std::size_t(i)] +=
-                weights[std::size_t(k - i + radius)] * float(std::min(size, pixels - k * size)) / float(size);
+            shares[std::size_t(i)] += weights[std::size_t(k - i + radius)] * inside[std::size_t(k)];
     return shares;
 }
 
 BlurAxis axis(double sigma_px, int level, int pixels) {
     std::vector<float> weights = gaussian_weights(sigma_in_cells(sigma_px, level));
     const int cells = (pixels + (1 << level) - 1) >> level;
-    std::vector<float> inside = share_inside(weights, cells, level, pixels);
+    std::vector<float> inside = share_inside(weights, CellAxis(level, cells), pixels);
     return {std::move(weights), std::move(inside)};
 }
 
 void plan_layers(const Input& input, float band_px, GaussianPlan& plan) {
-    plan.near = RadiusMix(-input.nearest_coc_px, band_px);
-    plan.far = RadiusMix(input.farthest_coc_px, band_px);
-    plan.blurs.resize(GaussianPlan::kBackdrop + 1);
-    const auto add = [&](GaussianPlan::LayeredBlur blur, float radius_px) {
-        plan.blurs[blur] = blur_of(double(radius_px), input.pixel_aspect, input.width(), input.height());
+    plan.near = BlurStack(-input.nearest_coc_px, band_px);
+    plan.far = BlurStack(input.farthest_coc_px, band_px);
+    const auto add = [&](float radius_px) {
+        plan.blurs.push_back(blur_of(double(radius_px), input.pixel_aspect, input.width(), input.height()));
     };
-    if (plan.near.blurs()) {
-        add(GaussianPlan::kNearLarge, plan.near.large_px());
-        add(GaussianPlan::kNearSmall, plan.near.small_px());
-        add(GaussianPlan::kBackdrop, std::max(plan.near.small_px(), 1.0f));
-    }
-    if (plan.far.blurs()) {
-        add(GaussianPlan::kFarSmall, plan.far.small_px());
-        add(GaussianPlan::kFarLarge, plan.far.large_px());
-    }
+    for (int k = plan.near.count(); k > 0; --k) add(plan.near.radius_px(k));
+    for (int k = 1; k <= plan.far.count(); ++k) add(plan.far.radius_px(k));
+    if (plan.has_backdrop()) add(std::max(plan.near.radius_px(plan.near.count()) / 2, 1.0f));
 }
 
 }  // namespace
@@ -97,12 +94,20 @@ GaussianPlan plan_gaussian(const Input& input) {
         plan_layers(input, band_px, plan);
         return plan;
     }
-    for (const float radius_px : {largest_px / 2, largest_px})
+    const auto add = [&](float radius_px) {
         plan.blurs.push_back(blur_of(double(radius_px), input.pixel_aspect, input.width(), input.height()));
-    if (options.style == GaussianStyle::Wgld)
+    };
+    plan.far = BlurStack(largest_px, band_px);
+    if (options.style == GaussianStyle::Wgld) {
         plan.law = GaussianPlan::Law::ByDepth, plan.depth = DepthMix(input, largest_px);
-    else
-        plan.law = GaussianPlan::Law::ByRadius, plan.far = RadiusMix(largest_px, band_px);
+    } else {
+        plan.law = GaussianPlan::Law::ByRadius;
+        if (options.view == GaussianView::Result) {
+            for (int k = 1; k <= plan.far.count(); ++k) add(plan.far.radius_px(k));
+            return plan;
+        }
+    }
+    add(largest_px / 2), add(largest_px);
     return plan;
 }
 

@@ -16,43 +16,47 @@ struct BlurAxis {
     int radius() const { return int(weights.size() / 2); }
 };
 
-// A Gaussian blur that costs the same however wide it is: light is averaged into cells 2^level pixels wide,
-// pixels outside the picture counting as nothing, blurred there by a separable kernel with a sigma of about
+// A Gaussian blur that costs the same however wide it is: light is shared between cells 2^level pixels wide
+// (waist/cells.h: so that it stays where it is), blurred there by a separable kernel with a sigma of about
 // one to two cells, and read back between the cells. Beyond the picture nothing is known: kernels are
 // renormalised to what lies inside.
 //
-// Per axis, averaging into cells s wide and bilinear reading blur by s^2/4 px^2; the kernel adds the rest of
-// sigma^2, so the second moment is exact. (Box pyramids: L. Williams, "Pyramidal parametrics", 1983.)
+// Per axis, sharing between cells s wide and bilinear reading are tents, each of (s^2 + 1/2) / 6 px^2; the
+// kernel adds the rest of sigma^2, so the second moment is exact. (Pyramids of cells: L. Williams, "Pyramidal
+// parametrics", 1983.)
 struct Blur {
     int level = 0;
     BlurAxis x, y;
-    bool is_used() const { return !x.weights.empty(); }
     int cells_across() const { return int(x.inside.size()); }
     int cells_down() const { return int(y.inside.size()); }
 };
 
 struct GaussianPlan {
     // Layered: light spreads from where it is, in layers composited from the nearest; the sharp one lies
-    // between the second blur and the third, and what lies behind near things is shown by the backdrop.
-    // Otherwise all of the picture is in either blur, and a pixel mixes by its own radius or depth.
+    // between near and far, and what lies behind near things is shown by the backdrop.
+    // Otherwise all of the picture is in every blur, and a pixel mixes by its own radius or depth.
     enum class Law { Layered, ByRadius, ByDepth };
-    enum LayeredBlur { kNearLarge, kNearSmall, kFarSmall, kFarLarge, kBackdrop };
-    enum MixedBlur { kSmall, kLarge };
+    enum MixedBlur { kSmall, kLarge };  // ByDepth; and where one of them is shown
 
     Law law = Law::Layered;
     GaussianView view = GaussianView::Result;
     View<const Rgba> colour;
     View<const float> coc_px;
-    std::vector<Blur> blurs;  // as the law names them
-    RadiusMix near, far;      // ByRadius: far for either side
+    // Layered: near ones from the widest, far ones from the narrowest, the backdrop. ByRadius: from the
+    // narrowest.
+    std::vector<Blur> blurs;
+    BlurStack near, far;  // ByRadius: far for either side
     DepthMix depth;
 
-    MixWeights weights(int x, int y) const {
-        if (law == Law::ByDepth) return depth(x, y);
-        const float coc = coc_px(x, y);
-        if (law == Law::ByRadius) return far(std::abs(coc));
-        return coc < 0 ? near(-coc) : far(coc);
+    // 1 in focus … 0 wholly blurred. By radius: falls evenly to the largest radius.
+    float focus_index(int x, int y) const {
+        return law == Law::ByDepth ? depth.index(x, y) : far.sharpness(std::abs(coc_px(x, y)));
     }
+    // Places in `blurs`; k: of the stack, from 1.
+    std::size_t near_blur(int k) const { return std::size_t(near.count() - k); }
+    std::size_t far_blur(int k) const { return std::size_t(near.count() + k - 1); }
+    std::size_t backdrop() const { return std::size_t(near.count() + far.count()); }
+    bool has_backdrop() const { return law == Law::Layered && near.count() > 0; }
 };
 
 // The blur of a disc of this radius, in pictures of this size. Its second moment is that of the disc.

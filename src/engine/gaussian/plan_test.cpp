@@ -17,13 +17,13 @@ double sum_of(const std::vector<float>& weights) {
     return sum;
 }
 
-// Of the whole blur in pixels^2: averaging into cells, the kernel, reading between cells.
+// Of the whole blur in pixels^2: sharing between cells, the kernel, reading between cells.
 double variance_px(const BlurAxis& axis, int level) {
     double moment = 0;
     for (int k = -axis.radius(); k <= axis.radius(); ++k)
         moment += double(axis.weights[std::size_t(k + axis.radius())]) * k * k;
     const double s = std::ldexp(1.0, level);
-    return moment * s * s + (level > 0 ? s * s / 4 : 0);
+    return moment * s * s + (level > 0 ? (s * s + 0.5) / 3 : 0);
 }
 
 TEST(GaussianPlan, ABlurHasTheSecondMomentOfTheDisc) {
@@ -56,14 +56,32 @@ TEST(GaussianPlan, ShareInsideIsAllAwayFromTheBordersAndHalfOfTheKernelAtThem) {
 }
 
 TEST(GaussianPlan, MixturesHaveTheSecondMomentOfTheirRadius) {
-    const RadiusMix mix(20, 0);
+    const BlurStack stack(20, 0);
+    const auto squared = [&](int blur) {
+        return double(stack.radius_px(blur)) * double(stack.radius_px(blur));
+    };
     for (float r = 0.5f; r <= 20; r += 0.7f) {
-        const MixWeights w = mix(r);
-        EXPECT_NEAR(w.sharp + w.small + w.large, 1, 1e-6) << r;
-        const float moment = w.sharp * kWithinPixelPx * kWithinPixelPx +
-                             w.small * mix.small_px() * mix.small_px() +
-                             w.large * mix.large_px() * mix.large_px();
+        const BlurStack::Mix mix = stack(r);
+        const double upper = double(mix.upper_share);
+        const double moment =
+            (1 - upper) * squared(mix.lower) + (upper > 0 ? upper * squared(mix.lower + 1) : 0);
         EXPECT_NEAR(moment, r * r, 1e-3f * r * r) << r;
+    }
+}
+
+// A sharp picture under a fog has the second moment of a blur, too.
+TEST(GaussianPlan, LightIsSharedBetweenBlursOfAboutItsOwnWidth) {
+    for (const float largest : {1.3f, 20.0f, 333.0f}) {
+        const BlurStack stack(largest, 0);
+        ASSERT_GT(stack.count(), 0);
+        EXPECT_FLOAT_EQ(stack.radius_px(stack.count()), largest);
+        for (float r = 2; r <= largest; r *= 1.3f) {
+            const BlurStack::Mix mix = stack(r);
+            EXPECT_GE(stack.radius_px(mix.lower), 0.49f * r) << largest;
+            if (mix.upper_share > 0) {
+                EXPECT_LE(stack.radius_px(mix.lower + 1), 2.01f * r) << largest;
+            }
+        }
     }
 }
 
@@ -86,21 +104,31 @@ private:
 
 TEST(GaussianPlan, WhereNothingIsNearNothingIsBlurredForIt) {
     const GaussianPlan plan = Drafts(0, 9).plan(GaussianStyle::Layered);
-    ASSERT_EQ(plan.blurs.size(), 5U);
-    for (const int blur : {GaussianPlan::kNearLarge, GaussianPlan::kNearSmall, GaussianPlan::kBackdrop})
-        EXPECT_FALSE(plan.blurs[std::size_t(blur)].is_used()) << blur;
-    EXPECT_TRUE(plan.blurs[GaussianPlan::kFarSmall].is_used());
-    EXPECT_TRUE(plan.blurs[GaussianPlan::kFarLarge].is_used());
+    EXPECT_EQ(plan.near.count(), 0);
+    EXPECT_FALSE(plan.has_backdrop());
+    EXPECT_EQ(plan.blurs.size(), std::size_t(plan.far.count()));
 }
 
-TEST(GaussianPlan, OfOneLawForAllPixelsThereAreTwoBlurs) {
+TEST(GaussianPlan, BlursStandInTheOrderTheyAreCompositedIn) {
+    const GaussianPlan plan = Drafts(-9, 30).plan(GaussianStyle::Layered);
+    ASSERT_TRUE(plan.has_backdrop());
+    ASSERT_EQ(plan.blurs.size(), plan.backdrop() + 1);
+    EXPECT_EQ(plan.near_blur(plan.near.count()), 0U);
+    for (std::size_t k = 1; k < plan.backdrop(); ++k) {
+        const bool near = k < std::size_t(plan.near.count()), first_far = k == std::size_t(plan.near.count());
+        if (first_far) continue;
+        const int before = plan.blurs[k - 1].level, own = plan.blurs[k].level;
+        EXPECT_TRUE(near ? own <= before : own >= before) << k;
+    }
+}
+
+TEST(GaussianPlan, AsPublishedThereAreTwoBlursAndByRadiusAStack) {
     Drafts drafts(-4, 12);
-    EXPECT_EQ(drafts.plan(GaussianStyle::Layered).blurs.size(), 5U);
-    EXPECT_EQ(drafts.plan(GaussianStyle::Plain).blurs.size(), 2U);
     EXPECT_EQ(drafts.plan(GaussianStyle::Wgld).blurs.size(), 2U);
     EXPECT_EQ(drafts.plan(GaussianStyle::Layered, GaussianView::BlurSmall).blurs.size(), 2U);
     const GaussianPlan plan = drafts.plan(GaussianStyle::Plain);
-    EXPECT_LT(plan.blurs[GaussianPlan::kSmall].level, plan.blurs[GaussianPlan::kLarge].level);
+    EXPECT_EQ(plan.blurs.size(), std::size_t(plan.far.count()));
+    EXPECT_LT(plan.blurs.front().level, plan.blurs.back().level);
 }
 
 }  // namespace

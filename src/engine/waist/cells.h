@@ -3,6 +3,9 @@
 
 #include "petzval/image.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace petzval::engine {
 
 // The cells of a level that hold these pixels, with as many around them as enlarging to pixels reads. On
@@ -13,5 +16,31 @@ inline Rect cells_of(const Rect& pixels, int level, int border) {
                 ((pixels.y1 - 1) >> level) + 1}
         .grown(border);
 }
+
+// Along one axis of a level's grid: how the light of pixels is shared between cells. Each takes a part of it
+// in the two cells whose middles lie around its own (a tent), so that a cell's place never shows: what is
+// enlarged from cells again has its mean where the pixel is. At the ends all goes to the last cell.
+class CellAxis {
+public:
+    CellAxis(int level, int cells) : level_(level), cells_(cells) {}
+    int level() const { return level_; }
+    int cells() const { return cells_; }
+    // Pixels begin…end-1 have a share in a cell; those beyond a picture that ends within the last cell too.
+    int begin(int cell) const { return cell == 0 ? 0 : (cell << level_) - half(); }
+    int end(int cell) const { return ((cell + 1) << level_) + (cell + 1 == cells_ ? 0 : half()); }
+    // In units of a cell's pixels: the shares of a cell sum to 1.
+    float share(int pixel, int cell) const {
+        const float apart = place(pixel) - float(cell);
+        return std::max(0.0f, 1 - std::abs(apart)) / float(1 << level_);
+    }
+    // A pixel's middle among the cells': whole numbers are middles of cells.
+    float place(int pixel) const {
+        return std::clamp((float(pixel) + 0.5f) / float(1 << level_) - 0.5f, 0.0f, float(cells_ - 1));
+    }
+
+private:
+    int half() const { return (1 << level_) / 2; }
+    int level_, cells_;
+};
 
 }  // namespace petzval::engine

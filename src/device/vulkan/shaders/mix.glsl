@@ -1,38 +1,46 @@
 // What the three passes of a draft share: mix.cpp beside this folder writes these words.
 
 // For each blur: level, cells across and down, the first row of cells that is here and how many, its first cell;
-// then weights, radius and shares inside along x, and along y. A blur without cells is not used.
+// then weights, radius and shares inside along x, and along y.
 const uint kBlurWords = 12u;
-const uint kNearLarge = 0u, kNearSmall = 1u, kFarSmall = 2u, kFarLarge = 3u, kBackdrop = 4u;  // where layered
-const uint kSmall = 0u, kLarge = 1u;                                                        // else
-const uint kLayered = 0u, kByRadius = 1u, kByDepth = 2u;                                    // laws
+const uint kSmall = 0u, kLarge = 1u;                      // by depth, and where one of them is shown
+const uint kLayered = 0u, kByRadius = 1u, kByDepth = 2u;  // laws
 
 layout(push_constant) uniform Push {
     uint blur, axis;                 // that a pass is about
     uint width, height, first_row;   // of the picture; the first row of pixels that is here
     uint out_row, out_rows;          // rows of the result
     uint law, view;
-    float near[6], far[6];           // RadiusMix
+    float near[4], far[4];           // BlurStack: band, stretch, largest radius, count
 } at;
 
 uint fact(uint blur, uint which) { return words[kBlurWords * blur + which]; }
-bool is_used(uint blur) { return fact(blur, 1u) > 0u; }
 float number(uint word) { return uintBitsToFloat(words[word]); }
 
-// engine/gaussian/gaussian_mix.cpp: shares of the sharp picture, of the smaller and of the larger blur. Of a law by
-// depth the value is the share of the sharp one.
-vec3 by_radius(float radius_px, float m[6]) {
-    const float within = 0.5, r = max(0.0, radius_px - m[0]) * m[1], small_px = m[2], large_px = m[4];
-    if (large_px <= within || r <= within) return vec3(1, 0, 0);
-    if (r < small_px) {
-        const float small = min(1.0, (r * r - within * within) * m[3]);
-        return vec3(1 - small, small, 0);
-    }
-    const float large = large_px > small_px ? min(1.0, (r * r - small_px * small_px) * m[5]) : 1.0;
-    return vec3(0, 1 - large, large);
+// engine/gaussian/gaussian_mix.cpp: blurs numbered from the narrowest, 1; 0 is the sharp picture.
+struct Mix {
+    int lower;
+    float upper_share;
+};
+const float kWithin = 0.5;
+float blurred_px(float radius_px, float s[4]) { return max(0.0, radius_px - s[0]) * s[1]; }
+float radius_of(int blur, float s[4]) { return blur == 0 ? kWithin : ldexp(s[2], blur - int(s[3])); }
+Mix in_stack(float radius_px, float s[4]) {
+    const float r = blurred_px(radius_px, s);
+    const int count = int(s[3]);
+    if (count == 0 || r <= kWithin) return Mix(0, 0);
+    int upper = 1;
+    while (upper < count && radius_of(upper, s) < r) ++upper;
+    const float low = radius_of(upper - 1, s), high = radius_of(upper, s);
+    return Mix(upper - 1, min(1.0, (r * r - low * low) / (high * high - low * low)));
 }
-vec3 shares(float value) {
-    if (at.law == kByDepth) return vec3(value, value * (1 - value), (1 - value) * (1 - value));
-    if (at.law == kByRadius) return by_radius(abs(value), at.far);
-    return value < 0 ? by_radius(-value, at.near) : by_radius(value, at.far);
+float nearness(float radius_px) {
+    const float near = at.near[2] / 2;
+    return min(1.0, radius_px * radius_px / (near * near));
 }
+Mix own_mix(float coc_px) { return coc_px < 0 ? in_stack(-coc_px, at.near) : in_stack(coc_px, at.far); }
+float sharp_share(Mix mixed) { return mixed.lower == 0 ? 1 - mixed.upper_share : 0; }
+
+// Places of the layers.
+uint near_count() { return uint(at.near[3]); }
+uint backdrop() { return near_count() + uint(at.far[3]); }

@@ -37,26 +37,23 @@ void take(vec4 light, float covered, inout vec4 sum, inout float free) {
     free -= taken;
 }
 void take_blur(uint blur, uvec2 pixel, inout vec4 sum, inout float free) {
-    if (!is_used(blur)) return;
     vec4 light;
     float covered;
     read(blur, pixel, light, covered);
     take(light, covered, sum, free);
 }
 
-vec4 layered(uvec2 pixel, vec4 colour, float value) {
+vec4 layered(uvec2 pixel, vec4 colour, float coc_px) {
     vec4 sum = vec4(0);
     float free = 1;
-    take_blur(kNearLarge, pixel, sum, free);
-    take_blur(kNearSmall, pixel, sum, free);
-    const float sharp = shares(value).x;
+    for (uint blur = 0u; blur < near_count(); ++blur) take_blur(blur, pixel, sum, free);
+    const float sharp = sharp_share(own_mix(coc_px));
     take(sharp * colour, sharp, sum, free);
-    take_blur(kFarSmall, pixel, sum, free);
-    take_blur(kFarLarge, pixel, sum, free);
-    if (free > kLeastArea && value < 0 && is_used(kBackdrop)) {
+    for (uint blur = near_count(); blur < backdrop(); ++blur) take_blur(blur, pixel, sum, free);
+    if (free > kLeastArea && coc_px < 0 && near_count() > 0u) {
         vec4 light;
         float covered;
-        read(kBackdrop, pixel, light, covered);
+        read(backdrop(), pixel, light, covered);
         if (covered > kLeastArea) {
             sum += free / covered * light;
             free = 0;
@@ -65,17 +62,36 @@ vec4 layered(uvec2 pixel, vec4 colour, float value) {
     return free < 1 - kLeastArea ? sum / (1 - free) : colour;
 }
 
-vec4 mixed(uvec2 pixel, vec4 colour, float value) {
-    const vec3 w = shares(value);
-    if (at.view == kViewIndex) return vec4(w.xxx, 1);
-    if (w.x == 1 && at.view == 0u) return colour;
-    vec4 small, large;
+vec4 blurred(uint blur, uvec2 pixel) {
+    vec4 light;
     float unused;
-    read(kSmall, pixel, small, unused);
-    read(kLarge, pixel, large, unused);
-    if (at.view == kViewSmall) return small;
-    if (at.view == kViewLarge) return large;
-    return w.x * colour + w.y * small + w.z * large;
+    read(blur, pixel, light, unused);
+    return light;
+}
+
+// Of the whole picture, as far as the law goes by radius; 0: the sharp one.
+vec4 of_stack(int blur, uvec2 pixel, vec4 colour) { return blur == 0 ? colour : blurred(uint(blur - 1), pixel); }
+
+float focus_index(float value) {
+    if (at.law == kByDepth) return value;
+    const float r = blurred_px(abs(value), at.far), largest = at.far[2];
+    return at.far[3] == 0 || r <= kWithin ? 1 : clamp((largest - r) / (largest - kWithin), 0.0, 1.0);
+}
+
+// By depth the value is the share of the sharp picture.
+vec4 mixed(uvec2 pixel, vec4 colour, float value) {
+    if (at.view == kViewIndex) return vec4(vec3(focus_index(value)), 1);
+    if (at.view == kViewSmall) return blurred(kSmall, pixel);
+    if (at.view == kViewLarge) return blurred(kLarge, pixel);
+    if (at.law == kByDepth) {
+        const float rest = 1 - value;
+        if (rest == 0) return colour;
+        return value * colour + value * rest * blurred(kSmall, pixel) + rest * rest * blurred(kLarge, pixel);
+    }
+    const Mix own = in_stack(abs(value), at.far);
+    const vec4 lower = of_stack(own.lower, pixel, colour);
+    if (own.upper_share == 0) return lower;
+    return mix(lower, of_stack(own.lower + 1, pixel, colour), own.upper_share);
 }
 
 void main() {

@@ -1,4 +1,5 @@
-// The light of pixels, averaged into the cells of one blur: a cell an invocation, or a group where cells are wide.
+// The light of pixels, shared between the cells of one blur (engine/waist/cells.h): a cell an invocation, or a group
+// where cells are wide.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;
@@ -17,33 +18,41 @@ shared float part_covered[256];
 // Of a pixel's light, in this blur.
 float share(float value) {
     if (at.law != kLayered) return 1;
-    const vec3 w = shares(value);
     const bool near = value < 0;
-    switch (at.blur) {
-        case kNearLarge: return near ? w.z : 0;
-        case kNearSmall: return near ? w.y : 0;
-        case kFarSmall: return near ? 0 : w.y;
-        case kFarLarge: return near ? 0 : w.z;
-    }
-    return near ? w.x : 1;
+    if (at.blur == backdrop()) return near ? 1 - nearness(-value) : 1;
+    const int k = near ? int(near_count()) - int(at.blur) : int(at.blur) - int(near_count()) + 1;
+    const Mix own = own_mix(value);
+    return k < 1 ? 0 : k == own.lower ? 1 - own.upper_share : k == own.lower + 1 ? own.upper_share : 0;
+}
+
+// Of the light of pixels begin…end-1, in a cell.
+int begin_of(int cell, int size) { return cell == 0 ? 0 : cell * size - size / 2; }
+int end_of(int cell, int size, int cells) { return (cell + 1) * size + (cell + 1 == cells ? 0 : size / 2); }
+vec2 tent(ivec2 pixel, ivec2 cell, float per_cell, ivec2 cells) {
+    const vec2 place = clamp((vec2(pixel) + 0.5) * per_cell - 0.5, vec2(0), vec2(cells - 1));
+    return max(vec2(0), 1 - abs(place - vec2(cell))) * per_cell;
 }
 
 void main() {
     const uint own = gl_LocalInvocationIndex, across = fact(at.blur, 1u), rows = fact(at.blur, 4u);
-    const uint level = fact(at.blur, 0u), size = 1u << level;
-    const uint cell = kWide != 0u ? gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x
-                                  : (gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x) * 256u + own;
-    if (cell >= across * rows) return;  // for all of a group where it is wide
-    const uvec2 corner = uvec2(cell % across, fact(at.blur, 3u) + cell / across) << level;
-    const float per_cell = 1 / float(size * size);
+    const int size = 1 << fact(at.blur, 0u);
+    const uint number_of_cell = kWide != 0u ? gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x
+                                            : (gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x) * 256u + own;
+    if (number_of_cell >= across * rows) return;  // for all of a group where it is wide
+    const ivec2 cells = ivec2(across, fact(at.blur, 2u));
+    const ivec2 cell = ivec2(number_of_cell % across, fact(at.blur, 3u) + number_of_cell / across);
+    const ivec2 begin = ivec2(begin_of(cell.x, size), begin_of(cell.y, size));
+    const ivec2 end = min(ivec2(end_of(cell.x, size, cells.x), end_of(cell.y, size, cells.y)),
+                          ivec2(at.width, at.height));
+    const float per_cell = 1 / float(size);
     vec4 light = vec4(0);
     float covered = 0;
-    const uint step = kWide != 0u ? 256u : 1u, first = kWide != 0u ? own : 0u;
-    for (uint i = first; i < size * size; i += step) {
-        const uvec2 pixel = corner + uvec2(i & (size - 1u), i >> level);
-        if (pixel.x >= at.width || pixel.y >= at.height) continue;
-        const uint k = (pixel.y - at.first_row) * at.width + pixel.x;
-        const float part = share(values[k]) * per_cell;
+    const int step = kWide != 0u ? 256 : 1, first = kWide != 0u ? int(own) : 0, wide = end.x - begin.x;
+    for (int i = first; i < wide * (end.y - begin.y); i += step) {
+        const ivec2 pixel = begin + ivec2(i % wide, i / wide);
+        const uint k = (uint(pixel.y) - at.first_row) * at.width + uint(pixel.x);
+        const vec2 in_cell = tent(pixel, cell, per_cell, cells);
+        const float part = share(values[k]) * in_cell.x * in_cell.y;
         light += part * colours[k];
         covered += part;
     }
@@ -59,6 +68,6 @@ void main() {
         if (own > 0u) return;
         light = part_light[0], covered = part_covered[0];
     }
-    light_of[fact(at.blur, 5u) + cell] = light;
-    covered_of[fact(at.blur, 5u) + cell] = covered;
+    light_of[fact(at.blur, 5u) + number_of_cell] = light;
+    covered_of[fact(at.blur, 5u) + number_of_cell] = covered;
 }
