@@ -24,6 +24,7 @@ struct Tolerances {
     double constant = 2e-5;   // a picture of one colour, at any radius
     double light = 1e-3;      // of an isolated pixel: share of its light
     double radius = 0.01;     // of its disc: share of the radius, beside 0.05 px
+    double place = 0.02;      // of the disc's middle, px
     double tails = 1e-6;      // farther away than its radius
     double bled = 1e-5;       // over an edge in focus, from what is behind it
     double mirrored = 2e-6;   // between a picture and its mirror image: sums in another order
@@ -44,7 +45,7 @@ inline const std::vector<Tolerances>& tolerances() {
         {.engine = "gather",  // half resolution, rings of taps, and no lights apart from surfaces
          .points_db = 21,
          .slant_db = 45,
-         .radii_db = 50,
+         .radii_db = 49,
          .corner_db = 42.5},
         {.engine = "gaussian",
          .light = 2e-3,       // its tails are cut at the picture
@@ -58,11 +59,12 @@ inline const std::vector<Tolerances>& tolerances() {
         {.engine = "sprites",  // gather, but for the lights
          .points_db = 40.5,
          .slant_db = 45,
-         .radii_db = 50,
+         .radii_db = 49,
          .corner_db = 42.5},
         {.engine = "reference",
          .traces = true,
          .in_focus = 2e-6,  // each pixel is a mean of rays
+         .place = 0.1,      // drawn by chance
          .mirrored = 5e-3,  // rays are drawn by chance, pixel by pixel
          .emptiness = 0.01},
     };

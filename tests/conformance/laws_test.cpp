@@ -66,6 +66,36 @@ TEST_P(Law, APixelKeepsItsLightOverADiscOfItsRadius) {
         }
 }
 
+// Where light lands on the mean, from (at, at): of all green.
+struct Centre {
+    double x = 0, y = 0;
+};
+Centre centre(const Picture& image, int at) {
+    Centre sum;
+    double light = 0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const double g = double(image(x, y).g);
+            light += g, sum.x += g * (x - at), sum.y += g * (y - at);
+        }
+    return {sum.x / light, sum.y / light};
+}
+
+// Pixels that lie differently in the cells of coarser grids; among larger radii, which levels may go by.
+TEST_P(Law, ADiscLiesWhereItsLightIs) {
+    const std::vector<float> few{-6.5f}, many{-33.6f, -11, -2.5f, 4.3f, 10.5f, 21, 70};
+    for (const float coc : traces() ? few : many)
+        for (int i = 0; i < (traces() ? 1 : 4); ++i) {
+            const int at = 3 * int(std::abs(coc)) + 20 + i, size = 2 * at;
+            Shot shot = flat(size, size, {0, 0, 0, 1}, coc);
+            shot.colour(at, at) = {100, 100, 100, 1};
+            if (i > 0) shot.coc_px(0, 0) = (1 + 0.3f * float(i)) * coc;
+            const Centre off = centre(picture(shot), at);
+            EXPECT_NEAR(off.x, 0, allows().place) << coc << " at " << at;
+            EXPECT_NEAR(off.y, 0, allows().place) << coc << " at " << at;
+        }
+}
+
 template <typename T>
 Image<T> mirrored(const Image<T>& image, bool upright) {
     Image<T> out(image.width(), image.height());

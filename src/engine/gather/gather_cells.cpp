@@ -1,6 +1,7 @@
 #include "engine/gather/gather_cells.h"
 
 #include "base/parallel.h"
+#include "engine/waist/cells.h"
 
 #include <algorithm>
 
@@ -15,42 +16,84 @@ CellLight& of_ring(std::vector<CellLight>& lights, std::size_t begin, int ring) 
     return lights.back();
 }
 
+// A row of cells: first every column of pixels by itself, then the columns of each cell.
+class RowOfCells {
+public:
+    RowOfCells(const Input& input, const BlockFill& fill, const RingSizes& sizes, const CellAxis& across,
+               const CellAxis& down)
+        : input_(input),
+          fill_(fill),
+          sizes_(sizes),
+          across_(across),
+          down_(down),
+          may_hold_(sizes.light_of(across.level())) {}
+
+    void make(int cy, std::vector<std::size_t>& first, std::vector<CellLight>& lights) {
+        find_columns(cy);
+        first.reserve(std::size_t(across_.cells()) + 1);
+        for (int cx = 0; cx < across_.cells(); ++cx) {
+            const std::size_t begin = lights.size();
+            first.push_back(begin);
+            for (int x = across_.begin(cx); x < across_.end(cx); ++x) {
+                const float share = across_.share(x, cx);
+                for (std::size_t i = first_[std::size_t(x)]; i < first_[std::size_t(x) + 1]; ++i) {
+                    CellLight& light = of_ring(lights, begin, lights_[i].ring);
+                    light.colour += share * lights_[i].colour;
+                    light.covered += share * lights_[i].covered, light.beyond += share * lights_[i].beyond;
+                }
+            }
+        }
+        first.push_back(lights.size());
+    }
+
+private:
+    void find_columns(int cy) {
+        for (int x = 0; x < across_.end(across_.cells() - 1); ++x) {
+            const std::size_t begin = lights_.size();
+            first_.push_back(begin);
+            for (int y = down_.begin(cy); y < down_.end(cy); ++y) add_pixel(x, y, down_.share(y, cy), begin);
+        }
+        first_.push_back(lights_.size());
+    }
+
+    // Beyond the picture its border goes on, in a colour that is not known; or there is nothing.
+    void add_pixel(int x, int y, float weight, std::size_t begin) {
+        const int u = std::min(x, input_.width() - 1), v = std::min(y, input_.height() - 1);
+        const bool outside_x = u != x, outside_y = v != y, outside = outside_x || outside_y;
+        const bool open = (!outside_x || input_.open_edges.right) && (!outside_y || input_.open_edges.bottom);
+        for_each_sample(input_, fill_, u, v, [&](Rgba colour, float coc_px, float covered) {
+            if (!may_hold_.contains(coc_px)) return;
+            const RingSizes::Mix mix = sizes_.mix(coc_px);
+            const auto add = [&](int ring, float share) {
+                if (share <= 0 || sizes_.level(ring) != across_.level()) return;
+                CellLight& light = of_ring(lights_, begin, ring);
+                if (!outside) light.colour += share * weight * colour;
+                (outside && open ? light.beyond : light.covered) += share * weight * covered;
+            };
+            add(mix.inner, 1 - mix.outer_share);
+            add(mix.outer, mix.outer_share);
+        });
+    }
+
+    const Input& input_;
+    const BlockFill& fill_;
+    const RingSizes& sizes_;
+    const CellAxis &across_, &down_;
+    RingSizes::Sizes may_hold_;
+    std::vector<std::size_t> first_;  // of each column of pixels
+    std::vector<CellLight> lights_;
+};
+
 }  // namespace
 
 CellLevel::CellLevel(const Input& input, const BlockFill& fill, const RingSizes& sizes, int level)
     : width_((input.width() + (1 << level) - 1) >> level),
       height_((input.height() + (1 << level) - 1) >> level),
       rows_(std::size_t(height_)) {
-    const int size = 1 << level;
-    const float per_pixel = 1 / float(size * size);
+    const CellAxis across(level, width_), down(level, height_);
     parallel_for(height_, *input.workers, [&](int cy) {
         Row& row = rows_[std::size_t(cy)];
-        row.first.reserve(std::size_t(width_) + 1);
-        for (int cx = 0; cx < width_; ++cx) {
-            const std::size_t begin = row.lights.size();
-            row.first.push_back(begin);
-            for (int y = cy * size; y < (cy + 1) * size; ++y)
-                for (int x = cx * size; x < (cx + 1) * size; ++x) {
-                    const int u = std::min(x, input.width() - 1), v = std::min(y, input.height() - 1);
-                    const bool outside_x = u != x, outside_y = v != y;
-                    const bool open =
-                        (!outside_x || input.open_edges.right) && (!outside_y || input.open_edges.bottom);
-                    const auto add = [&](int ring, float share, Rgba colour, float covered) {
-                        if (share <= 0 || sizes.level(ring) != level) return;
-                        CellLight& light = of_ring(row.lights, begin, ring);
-                        const float weight = share * per_pixel;
-                        if (!outside_x && !outside_y) light.colour += weight * colour;
-                        (outside_x || outside_y)&& open ? light.beyond += weight* covered
-                                                        : light.covered += weight * covered;
-                    };
-                    for_each_sample(input, fill, u, v, [&](Rgba colour, float coc_px, float covered) {
-                        const RingSizes::Mix mix = sizes.mix(coc_px);
-                        add(mix.inner, 1 - mix.outer_share, colour, covered);
-                        add(mix.outer, mix.outer_share, colour, covered);
-                    });
-                }
-        }
-        row.first.push_back(row.lights.size());
+        RowOfCells(input, fill, sizes, across, down).make(cy, row.first, row.lights);
     });
 }
 

@@ -1,7 +1,8 @@
 // The prefilter: the picture's light on grids of cells 2, 4, … pixels wide, kept apart by ring.
 //
 // A cell holds one entry for each ring that light in its pixels belongs to, so a cell on a silhouette keeps
-// both radii, and neither surface's darkness bleeds into the other.
+// both radii, and neither surface's darkness bleeds into the other. Pixels are shared between the cells
+// around their middle, so that discs lie where their light does.
 #pragma once
 
 #include "engine/gather/gather_fill.h"
@@ -13,7 +14,7 @@
 
 namespace petzval::engine {
 
-// Light of one ring in one cell: sums over its pixels, divided by the cell's size.
+// Light of one ring in one cell: sums over its pixels' shares, divided by the cell's size.
 struct CellLight {
     Rgba colour;
     float covered = 0;  // share of the cell's lens area it takes up

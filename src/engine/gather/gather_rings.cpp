@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace petzval::engine {
@@ -18,13 +19,13 @@ std::vector<float> steps_down_from(float largest_px, float ratio) {
     return radii;
 }
 
-// Radius on a level's grid. Averaging into cells and enlarging again blur too: by s^2/4 px^2 per axis for
-// cells s wide, and the grid's own squares by (s^2 - 1)/12 more than pixels. A disc's second moment is
-// r^2/4, so the kernel's is taken smaller by that much.
+// Radius on a level's grid. Sharing light between cells s pixels wide and enlarging again are tents: each
+// blurs by (s^2 + 1/2) / 6 px^2 per axis, and the grid's own squares by (s^2 - 1)/12 more than pixels. A
+// disc's second moment is r^2/4, so the kernel's is taken smaller by that much.
 double radius_in_cells(double radius_px, int level) {
     if (level == 0) return radius_px;
     const double s = std::ldexp(1.0, level);
-    const double squared = radius_px * radius_px - (4 * s * s - 1) / 3;
+    const double squared = radius_px * radius_px - (5 * s * s + 1) / 3;
     return std::copysign(std::sqrt(std::max(0.0, squared)) / s, radius_px);
 }
 
@@ -77,6 +78,20 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
 }
 
 int RingSizes::levels() const { return 1 + *std::max_element(levels_.begin(), levels_.end()); }
+
+RingSizes::Sizes RingSizes::light_of(int level) const {
+    Sizes sizes{std::numeric_limits<float>::infinity(), 0};
+    for (int ring = 0; ring < count(); ++ring) {
+        if (this->level(ring) != level) continue;
+        // As far as the rings beside it, or without end.
+        for (const int beside : {ring - 1, ring + 1}) {
+            const float r = beside < 0 || beside == count() ? std::numeric_limits<float>::infinity()
+                                                            : std::abs(radius_px(beside));
+            sizes.above_px = std::min(sizes.above_px, r), sizes.below_px = std::max(sizes.below_px, r);
+        }
+    }
+    return sizes;
+}
 
 RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
     : KernelSource("gather", device::KernelUse::Gathered),

@@ -9,6 +9,7 @@
 #include "engine/waist/engine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,6 +34,15 @@ public:
     float radius_px(int ring) const { return radii_px_[std::size_t(ring)]; }
     int level(int ring) const { return levels_[std::size_t(ring)]; }  // cells are 2^level pixels wide
     int levels() const;
+
+    // Light of other sizes, in front of focus or behind it, is no part of a level.
+    struct Sizes {
+        float above_px = 0, below_px = 0;
+        bool contains(float coc_px) const {
+            return std::abs(coc_px) > above_px && std::abs(coc_px) < below_px;
+        }
+    };
+    Sizes light_of(int level) const;
 
     struct Mix {
         int inner = 0, outer = 0;

@@ -123,7 +123,8 @@ SpriteGrid::Place SpriteGrid::place(float x, float y, float coc_px) const {
     p.level = level_of(radius_of(step));
     const float per_cell = 1 / float(1 << p.level);
     const auto phase = [&](float at, int& cell) {
-        const int parts = int(std::floor((at * per_cell - 0.5f) * float(phases_) + 0.5f));
+        const int parts =
+            int(std::floor((at * per_cell - 0.5f) * float(phases_) + 0.5f - first_phase(p.level)));
         cell = int(std::floor(float(parts) / float(phases_)));
         return parts - cell * phases_;
     };
@@ -177,8 +178,9 @@ std::vector<device::KernelSource::Made> SpriteKernels::make(std::span<const devi
         const double x = (column + 0.5) * lens_.frame.width() / grid_.columns() - 0.5;
         const double y = (row + 0.5) * lens_.frame.height() / grid_.rows() - 0.5;
         const int phase_x = ask.piece % grid_.phases(), phase_y = ask.piece / grid_.phases();
-        const float right = float(phase_x) / float(grid_.phases());
-        const float down = float(phase_y) / float(grid_.phases());
+        const float first = grid_.first_phase(ask.level);
+        const float right = (float(phase_x) + first) / float(grid_.phases());
+        const float down = (float(phase_y) + first) / float(grid_.phases());
         const double radius_px = double(SpriteGrid::radius_px(ask));
         const double cells = radius_in_cells(radius_px, ask.level, moving_blur(right, down));
         kernel::PointSpread at_cell = lens_.lens(ask.level).point_spread(cells, lens_.field_at(x, y));

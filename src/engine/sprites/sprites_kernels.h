@@ -36,6 +36,9 @@ public:
     // Pixels by which a light reaches, at most.
     float reach_px(int level, float coc_px) const;
     int phases() const { return phases_; }  // places within a cell, along each axis
+    // Where the first of them lies, in parts of one: so that middles of pixels are among them, or half-way
+    // between two where cells are wider than that.
+    float first_phase(int level) const { return phases_ > 1 && level >= 2 ? 0.5f : 0.0f; }
     int columns() const { return columns_; }
     int rows() const { return rows_; }
 
