@@ -1,5 +1,4 @@
 // What happens on the axis: focus by zone and wavelength, and the rays near it.
-#include "colour/spectrum.h"
 #include "lens_sheet/figures.h"
 #include "lens_sheet/plot.h"
 
@@ -48,7 +47,7 @@ struct RayWindow {
 void draw_rays(Svg& svg, const Subject& subject, const RayWindow& w, int wavelengths, int zones) {
     svg.rect(w.corner, w.width, w.height, "night").open_window(w.corner, w.width, w.height).open_light();
     const double coc_um = 1000 * w.depth_mm / (2 * subject.f_number());
-    for (const colour::SpectralBand& band : colour::spectral_bands(wavelengths)) {
+    for (const colour::SpectralBand& band : slices(wavelengths)) {
         const auto at_sensor = subject.axis().height_um(band.wavelength_nm, 0);
         // The radius of light from beyond infinity is that on a sensor moved away from the lens.
         const auto far_side = subject.axis().height_um(band.wavelength_nm, coc_um);

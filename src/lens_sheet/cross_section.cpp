@@ -1,5 +1,5 @@
 // The lens in section: glass, stop, rays of the axis and of two field points, the image plane.
-#include "lens_sheet/figures.h"
+#include "lens_sheet/frame.h"
 #include "optics/traced_lens.h"
 
 #include <algorithm>
@@ -10,17 +10,9 @@
 namespace petzval::lens_sheet {
 namespace {
 
-constexpr double kWidth = 1100, kTallest = 400, kMargin = 26, kWords = 84;
+constexpr double kTallest = 400, kWords = 84;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kArcSteps = 24;
-
-// From millimetres (z along the axis, y up) to the drawing.
-struct Frame {
-    double scale = 1, left_mm = 0, middle = 0;
-    Point operator()(double z_mm, double y_mm) const {
-        return {kMargin + (z_mm - left_mm) * scale, middle - y_mm * scale};
-    }
-};
 
 struct Bundle {
     double field_deg = 0;
@@ -218,81 +210,10 @@ std::string traced_section(const Subject& subject, const optics::TracedLens& len
     return svg.str();
 }
 
-// Focus of the zone next to a height, mm from the paraxial focus.
-double focus_at(const std::vector<Point>& foci, double height) {
-    double shift = 0, nearest = 2;
-    for (const Point& p : foci)
-        if (std::abs(p.y - height) < nearest) nearest = std::abs(p.y - height), shift = p.x;
-    return shift;
-}
-
-// How often larger than life differences of focus are drawn, so that the longest spans a tenth of the focal
-// length.
-double exaggeration(const Subject& subject) {
-    double longest = 1e-9;
-    for (const SpectralLine& line : spectral_lines())
-        for (const Point& p : subject.zone_foci(line.wavelength_nm))
-            longest = std::max(longest, std::abs(p.x - subject.best_focus_mm()));
-    const double times = 0.1 * subject.focal_length_mm() / longest;
-    const double power = std::pow(10.0, std::floor(std::log10(times)));
-    return std::clamp(std::floor(times / power) * power, 1.0, 1000.0);
-}
-
-void draw_thin_lens(Svg& svg, const Frame& frame, double rim_mm) {
-    std::vector<Point> glass;
-    for (const int side : {-1, 1})
-        for (int k = -kArcSteps; k <= kArcSteps; ++k) {
-            const double y = -side * 1.12 * double(k) / kArcSteps;
-            glass.push_back(frame(side * 0.17 * rim_mm * (1.3 - y * y), y * rim_mm));
-        }
-    svg.path(glass, "ghost", true);
-    for (const int side : {-1, 1}) svg.line(frame(0, side * rim_mm), frame(0, side * 1.3 * rim_mm), "stop");
-    svg.text(frame(0, 1.3 * rim_mm) + Point{0, -6}, "stop", "note", Anchor::Middle);
-}
-
-// A lens known by curves: its rays bend once, at the principal plane, and meet where the curves say.
-std::string drawn_section(const Subject& subject) {
-    constexpr double kHeight = 360;
-    const double f = subject.focal_length_mm(), rim = f / (2 * subject.f_number()),
-                 times = exaggeration(subject);
-    const double low = -0.3 * f, high = 1.2 * f, sensor = f + times * subject.best_focus_mm();
-    // Stretched upwards to fill the page: this is a diagram.
-    Frame frame;
-    frame.left_mm = low, frame.middle = kHeight / 2 - 6;
-    frame.scale = (kWidth - 2 * kMargin) / (high - low);
-    const double stretch = 0.37 * kHeight / rim / frame.scale;
-    const auto place = [&](double z, double y) { return frame(z, stretch * y); };
-    Svg svg(kWidth, kHeight, "schematic section of " + subject.name() + " with rays");
-    svg.line(place(low, 0), place(high, 0), "optical-axis");
-    draw_thin_lens(svg, frame, stretch * rim);
-    for (const SpectralLine& line : spectral_lines()) {
-        if (std::string(line.name) == "F" || std::string(line.name) == "d") continue;
-        const auto foci = subject.zone_foci(line.wavelength_nm);
-        for (const double height : {-1.0, -0.75, -0.4, 0.4, 0.75, 1.0}) {
-            const double y = height * rim, focus = f + times * focus_at(foci, std::abs(height));
-            const Point path[] = {place(low, y), place(0, y), place(high, y * (1 - high / focus))};
-            svg.path(path, line.css);
-        }
-    }
-    svg.line(place(sensor, -0.62 * rim), place(sensor, 0.62 * rim), "sensor");
-    svg.text(place(sensor, 0.62 * rim) + Point{0, -6}, "sensor, best focus", "note", Anchor::Middle);
-    svg.text({kMargin, kHeight - 8}, "g 436 nm dotted, e 546 nm dash and dot, C 656 nm dashed", "note");
-    if (times > 1 && !subject.zone_foci(546).empty())
-        svg.text({kWidth - kMargin, kHeight - 8},
-                 "differences of focus drawn " + number(times, 0) + " times larger", "note", Anchor::End);
-    return svg.str();
-}
-
 }  // namespace
 
 Figure cross_section(const Subject& subject) {
-    if (!subject.prescription())
-        return {drawn_section(subject),
-                "A schematic: this lens is known by its aberration curves, which say where rays meet and not "
-                "through which glass they went. Each ray is aimed at the focus of its own zone and "
-                "wavelength; how far "
-                "these foci lie apart is exaggerated, as in the talk's figures, or nothing would be seen.",
-                12};
+    if (!subject.prescription()) return drawn_section(subject);
     const auto lens = optics::TracedLens::make(*subject.prescription(), {});
     if (!lens) return {"", escaped(lens.error().message), 12};
     return {traced_section(subject, *lens),

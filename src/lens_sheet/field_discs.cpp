@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace petzval::lens_sheet {
@@ -92,10 +93,23 @@ std::vector<Figure> traced_fields(const Subject& subject) {
     return figures;
 }
 
+double one_digit(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    return std::round(value / power) * power;
+}
+
 std::vector<Figure> drawn_fields(const Subject& subject) {
     constexpr double kBlurs = 3;
-    LensChoice barrel, coma, astigmatism;
+    LensChoice barrel, coma, astigmatism, curvature, colour;
     barrel.cats_eye = 0.8, coma.coma = 1, astigmatism.astigmatism = 2;
+    // At the corner, as far as the disc's own radius, and a fifth of it for each colour.
+    const double corner_um =
+        1000 * subject.focal_length_mm() * std::tan(subject.corner_deg() * std::numbers::pi / 180);
+    const double radius_um = kBlurs * subject.blur_um();
+    curvature.added.field_curvature_mm = -one_digit(2 * subject.f_number() * radius_um / 1000);
+    colour.added.lateral_colour_percent = one_digit(100 * 0.4 * radius_um / corner_um);
+    const std::string curved = "--add-field-curvature " + number(curvature.added.field_curvature_mm, 3);
+    const std::string coloured = "--add-lateral-colour " + number(colour.added.lateral_colour_percent, 3);
     const struct {
         const char* title;
         const char* words;
@@ -110,8 +124,17 @@ std::vector<Figure> drawn_fields(const Subject& subject) {
          "Astigmatism: two foci, one for each direction of detail. Discs swirl about the middle on one side "
          "of "
          "focus and point to it on the other.",
-         &astigmatism}};
-    std::vector<Figure> figures;
+         &astigmatism},
+        {curved.c_str(),
+         "Field curvature: the corners focus nearer to the lens, as in all simple lenses. What is behind the "
+         "focus is larger there, what is in front smaller, or already behind.",
+         &curvature},
+        {coloured.c_str(),
+         "Lateral colour: the blue image is larger than the red one. Discs get a blue edge outward and a red "
+         "one "
+         "inward, on both sides of the focus.",
+         &colour}};
+    std::vector<Figure> figures{coma_principle(subject)};
     for (const auto& setting : settings)
         if (auto figure = pair_of(subject, setting.title, *setting.character, kBlurs, setting.words))
             figures.push_back(std::move(*figure));

@@ -4,6 +4,8 @@
 #include "lens_sheet/figure.h"
 #include "lens_sheet/light.h"
 
+#include <optional>
+
 namespace petzval::lens_sheet {
 
 // cross_section.cpp
@@ -32,9 +34,13 @@ Figure squared_column(const Subject& subject);
 std::string disc_pair(const Subject& subject, int disc_px);
 Figure disc_strip(const Subject& subject);
 Figure line_strip(const Subject& subject);
+// control_ring.cpp; none where the lens cannot be turned
+std::optional<Figure> control_ring(const Subject& subject);
 
 // field_discs.cpp
 std::vector<Figure> field_discs(const Subject& subject);
+// coma_principle.cpp; of lenses that are drawn
+Figure coma_principle(const Subject& subject);
 
 // spot_figures.cpp
 Figure spot_diagrams(const Subject& subject);

@@ -30,6 +30,7 @@ std::vector<Section> sections_of(const Subject& subject) {
     sections.push_back(
         {"section", subject.prescription() ? "Cross-section" : "Rays", "", {cross_section(subject)}});
     sections.push_back({"discs", "Discs", "", {disc_strip(subject), line_strip(subject)}});
+    if (auto ring = control_ring(subject)) sections.back().figures.push_back(std::move(*ring));
     sections.push_back(aberrations(subject));
     Figures seidel = seidel_figures(subject);
     if (!seidel.empty()) sections.push_back({"seidel", "Third-order sums", "", std::move(seidel)});
@@ -49,7 +50,7 @@ std::vector<Section> sections_of(const Subject& subject) {
         {"field", "Over the field",
          subject.prescription()
              ? ""
-             : "Curves speak of the axis alone; what happens off it is set by flags. Three of them:",
+             : "What is drawn speaks of the axis alone; what happens off it is set by flags. Five of them:",
          field_discs(subject)});
     Figures sharpness{spot_diagrams(subject)};
     append(sharpness, mtf_figures(subject));

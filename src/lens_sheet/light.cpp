@@ -27,6 +27,12 @@ std::uint16_t code(float value) {
 
 std::span<const SpectralLine> spectral_lines() { return kLines; }
 
+std::vector<colour::SpectralBand> slices(int count) {
+    if (count != 3) return colour::spectral_bands(count);
+    // Dominant wavelengths of the primaries against D65.
+    return {{611.4, 1, 0, 0, 0.2126}, {549.1, 0, 1, 0, 0.7152}, {464.2, 0, 0, 1, 0.0722}};
+}
+
 std::string slice_colour(double r, double g, double b) {
     const double most = std::max({r, g, b, 1e-12});
     std::string text;

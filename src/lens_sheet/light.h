@@ -3,6 +3,7 @@
 
 #include "petzval/image.h"
 
+#include "colour/spectrum.h"
 #include "kernel/model/lens_model.h"
 
 #include <span>
@@ -18,6 +19,9 @@ struct SpectralLine {
     const char* css;
 };
 std::span<const SpectralLine> spectral_lines();  // g, F, e, d, C
+
+// So many slices of the visible spectrum; 3: red, green and blue, where the primaries of Rec.709 lie in it.
+std::vector<colour::SpectralBand> slices(int count);
 
 // Of a slice of the spectrum, on black: "rgb(255,120,0)". r, g, b: as colour::SpectralBand has them.
 std::string slice_colour(double r, double g, double b);

@@ -3,6 +3,8 @@
 #include "base/parallel.h"
 #include "lens_sheet/figures.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace petzval::lens_sheet {
@@ -123,6 +125,67 @@ std::string path_of(const std::string& svg, const std::string& css) {
     return svg.substr(from, svg.find('"', from) - from);
 }
 
+TEST(Slices, OfThreeAreRedGreenAndBlue) {
+    const auto three = slices(3);
+    EXPECT_EQ(slice_colour(three[0].r, three[0].g, three[0].b), "rgb(255,0,0)");
+    EXPECT_EQ(slice_colour(three[1].r, three[1].g, three[1].b), "rgb(0,255,0)");
+    EXPECT_EQ(slice_colour(three[2].r, three[2].g, three[2].b), "rgb(0,0,255)");
+    EXPECT_GT(three[0].wavelength_nm, three[1].wavelength_nm);
+    EXPECT_GT(three[1].wavelength_nm, three[2].wavelength_nm);
+}
+
+TEST(DrawnSection, LensesHaveOutlinesOfTheirOwnAndASlantedBeam) {
+    const auto count = [](const std::string& name, const std::string& what) {
+        const std::string drawing = cross_section(subject_of(name)).drawing;
+        std::size_t found = 0;
+        for (std::size_t at = drawing.find(what); at != std::string::npos; at = drawing.find(what, at + 1))
+            ++found;
+        return found;
+    };
+    EXPECT_EQ(count("uncorrected", "<path class=\"ghost"), 1U);
+    EXPECT_EQ(count("doublet", "<path class=\"ghost"), 2U);
+    EXPECT_EQ(count("triplet", "<path class=\"ghost"), 3U);
+    EXPECT_EQ(count("doublet", "<path class=\"ghost flint"), 1U);
+    for (const char* name : {"ideal", "doublet"}) EXPECT_EQ(count(name, "<path class=\"ray1"), 5U) << name;
+    EXPECT_NE(cross_section(subject_of("asphere")).drawing, cross_section(subject_of("diffractive")).drawing);
+}
+
+TEST(ComaPrinciple, ZonesLandOnCirclesTwiceAroundThatTouchTwoLines) {
+    // In focus: of the zone at rho, circles of radius C rho^2 about 2 C rho^2 outward; a line through the
+    // origin at 30 degrees to the axis touches all of them.
+    const std::string rim = path_of(coma_principle(subject_of("doublet")).drawing, "ray0 bold");
+    ASSERT_NE(rim, "");
+    // Read back the places: "Mx yLx y...".
+    std::vector<Point> points;
+    for (std::size_t at = 0; at < rim.size();) {
+        const double x = std::stod(rim.substr(at + 1)), y = std::stod(rim.substr(rim.find(' ', at) + 1));
+        points.push_back({x, y});
+        at = rim.find('L', at + 1);
+    }
+    ASSERT_EQ(points.size(), 73U);
+    const Point middle{250 + 30 + 125, 30 + 125};  // of the second panel
+    double steepest = 0, farthest = 0;
+    for (const Point& p : points) {
+        const Point d = p - middle;
+        EXPECT_LE(d.y, 0.05) << "outward is up";
+        farthest = std::max(farthest, -d.y);
+        steepest = std::max(steepest, std::abs(d.x) / std::max(1.0, -d.y));
+    }
+    EXPECT_NEAR(steepest, std::tan(std::numbers::pi / 6), 0.01);
+    EXPECT_NEAR(points[0].x, points[36].x, 0.05);  // twice around
+    EXPECT_NEAR(points[0].y, points[36].y, 0.05);
+    EXPECT_GT(farthest, 20);
+}
+
+TEST(ControlRing, TurnsEveryKindOfLensBothWays) {
+    for (const char* name : {"ideal", "doublet", "tessar"}) {
+        const auto figure = control_ring(subject_of(name));
+        ASSERT_TRUE(figure) << name;
+        EXPECT_EQ(fault_of(*figure), "") << name;
+        EXPECT_NE(figure->caption.find("--add-spherical"), std::string::npos);
+    }
+}
+
 TEST(Contrast, OfAPerfectLensIsTheDiffractionLimitAndOfOthersLess) {
     const std::string perfect = mtf_figures(subject_of("ideal")).front().drawing;
     EXPECT_NE(path_of(perfect, "mark"), "");
@@ -145,6 +208,7 @@ TEST(EveryLens, HasAllFiguresWithoutAFault) {
                                     colour_curve(*subject),       axial_fan(*subject),
                                     rays_near_focus(*subject, 3), spot_diagrams(*subject),
                                     squared_column(*subject)};
+        if (!subject->prescription()) figures.push_back(coma_principle(*subject));
         const bool traced = subject->prescription() != nullptr;
         for (const auto& more :
              {ray_fan_figures(*subject), field_curves(*subject), seidel_figures(*subject)}) {

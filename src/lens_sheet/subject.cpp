@@ -1,9 +1,9 @@
 #include "lens_sheet/subject.h"
 
-#include "colour/spectrum.h"
 #include "kernel/draw/ring_kernel.h"
 #include "kernel/lenses/make_lens.h"
 #include "kernel/lenses/opened_lens.h"
+#include "lens_sheet/light.h"
 #include "optics/aberrations.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ double AxialBand::height_um(double rho, double coc_um) const {
 
 AxialBands Axial::bands(int count) const {
     AxialBands bands;
-    for (const colour::SpectralBand& slice : colour::spectral_bands(count)) {
+    for (const colour::SpectralBand& slice : slices(count)) {
         AxialBand& band = bands.emplace_back();
         band.weight = {slice.r, slice.g, slice.b};
         const auto sharp = height_um(slice.wavelength_nm, 0);

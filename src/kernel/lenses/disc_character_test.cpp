@@ -208,5 +208,17 @@ TEST(DiscCharacter, TheUncorrectedLensSplitsALineInFront) {
     EXPECT_EQ(lines_seen("uncorrected", 20, 2), 1);
 }
 
+// The talk: corrected for a small stop a doublet keeps its character; stopped down it loses it.
+TEST(DiscCharacter, ADoubletCorrectedForF4IsAFlatterDoublet) {
+    // Of the rim, from where the sensor stands for this colour.
+    const auto rim = [](const char* name, double f_number) {
+        const CurveSampler sampler(*curve_preset(name), {.f_number = f_number, .axial_colour = 0});
+        return sampler.at(587.56).samples().back() - sampler.best_focus();
+    };
+    EXPECT_GT(rim("doublet", 2), 0) << "beyond the sensor: far discs have the sharp rim";
+    EXPECT_NEAR(rim("doublet-f4", 4), rim("doublet", 2) / 16, 0.05 * rim("doublet", 2) / 16);
+    EXPECT_LT(rim("doublet", 4), 0) << "stopped down the zone towards the lens is the rim";
+}
+
 }  // namespace
 }  // namespace petzval::kernel
