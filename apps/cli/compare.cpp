@@ -149,18 +149,10 @@ Result<Compared> compare_files(const CompareFlags& flags) {
     return Compared{*result, std::move(report)};
 }
 
-Status printed(const std::string& text) {
-    if (print(text)) return Done{};
-    return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-}
-
 Status compare_pair(const CompareFlags& flags) {
     const auto compared = compare_files(flags);
     if (!compared) return compared.error();
-    if (flags.run.json != "-")
-        if (Status said = printed(table(compared->comparison)); !said) return said;
-    if (flags.run.json.empty()) return Done{};
-    return write_report(compared->report, flags.run.json);
+    return tell(table(compared->comparison), compared->report, flags.run.json);
 }
 
 // A row a frame, then the mean and the worst: a shot is as good as its worst frame.
@@ -196,8 +188,7 @@ private:
 Status compare_frames(const CompareFlags& all) {
     const auto of_frame = [&](int frame) {
         CompareFlags flags = all;
-        for (std::string* path : {&flags.reference.path, &flags.test, &flags.mask, &flags.run.json})
-            *path = at_frame(*path, frame);
+        put_frame(frame, {&flags.reference.path, &flags.test, &flags.mask, &flags.run.json});
         return flags;
     };
     ShotTable rows;
@@ -219,7 +210,7 @@ Status compare_frames(const CompareFlags& all) {
             if (Status done = write_report(compared->report, flags.run.json); !done) return done.error();
         return std::move(compared->report);
     };
-    work.finish = [&] { return all.frames.report == "-" ? Status(Done{}) : printed(rows.text()); };
+    work.finish = [&] { return all.frames.report == "-" ? Status(Done{}) : write_text("-", rows.text()); };
     return make_frames(all.frames, all.run, work);
 }
 

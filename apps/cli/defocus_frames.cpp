@@ -72,7 +72,7 @@ Result<std::optional<Track>> read_track(const TrackFlags& flags) {
 }  // namespace
 
 DefocusFlags at_frame(DefocusFlags flags, int frame) {
-    for (std::string* path : paths_of(flags)) *path = at_frame(*path, frame);
+    put_frame(frame, paths_of(flags));
     return flags;
 }
 

@@ -111,8 +111,7 @@ Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
 Status develop_frames(const DevelopVerbFlags& all, const Lens& lens) {
     const auto of_frame = [&](int frame) {
         DevelopVerbFlags flags = all;
-        for (std::string* path : {&flags.input.path, &flags.output, &flags.run.json})
-            *path = at_frame(*path, frame);
+        put_frame(frame, {&flags.input.path, &flags.output, &flags.run.json});
         return flags;
     };
     FrameWork work;

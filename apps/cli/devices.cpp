@@ -25,13 +25,10 @@ Status list_devices(const RunFlags& run) {
     }
     const std::string missing = why_no_gpu();
     if (!missing.empty()) text += "no gpu: " + missing + "\n";
-    if (run.json != "-" && !print(text))
-        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-    if (run.json.empty()) return Done{};
     Json report = new_report("devices");
     report["devices"] = list;
     report["no_gpu"] = missing.empty() ? Json(nullptr) : Json(missing);
-    return write_report(report, run.json);
+    return tell(text, std::move(report), run.json);
 }
 
 }  // namespace

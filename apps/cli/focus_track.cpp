@@ -90,7 +90,7 @@ private:
     }
     InputFlags of(int frame) const {
         InputFlags input = all_.input;
-        for (std::string* path : {&input.path, &input.read.depth_file}) *path = at_frame(*path, frame);
+        put_frame(frame, {&input.path, &input.read.depth_file});
         return input;
     }
 

@@ -301,6 +301,10 @@ std::string at_frame(const std::string& path, int frame) {
     return pattern ? pattern->path(frame) : path;
 }
 
+void put_frame(int frame, const std::vector<std::string*>& paths) {
+    for (std::string* path : paths) *path = at_frame(*path, frame);
+}
+
 bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
                  const RunFlags& run) {
     const bool from_many = std::any_of(inputs.begin(), inputs.end(), has_pattern);

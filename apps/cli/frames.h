@@ -36,6 +36,8 @@ struct FramesFailed {
 bool has_pattern(const std::string& path);
 // The path of a frame; one without a place for a number as it is.
 std::string at_frame(const std::string& path, int frame);
+// Of each in its place.
+void put_frame(int frame, const std::vector<std::string*>& paths);
 
 // Whether the flags are about more than one frame: `inputs` or `output` hold a place for a number, or frames
 // were given. An empty `output` is none. Throws UsageError where they do not fit each other.

@@ -181,18 +181,10 @@ Result<Inspected> look_into(const InspectFlags& flags) {
     return Inspected{std::move(*shot), range, std::move(report)};
 }
 
-Status printed(const std::string& text) {
-    if (print(text)) return Done{};
-    return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-}
-
 Status inspect(const InspectFlags& flags) {
     const auto seen = look_into(flags);
     if (!seen) return seen.error();
-    if (flags.run.json != "-")
-        if (Status said = printed(description(seen->shot, flags, seen->range)); !said) return said;
-    if (flags.run.json.empty()) return Done{};
-    return write_report(seen->report, flags.run.json);
+    return tell(description(seen->shot, flags, seen->range), seen->report, flags.run.json);
 }
 
 // Where the camera stands in the world: the point that becomes the origin, with rotations alone in the
@@ -237,8 +229,7 @@ std::vector<Changes::Value> values_of(const Inspected& seen) {
 Status inspect_frames(const InspectFlags& all) {
     const auto of_frame = [&](int frame) {
         InspectFlags flags = all;
-        for (std::string* path : {&flags.input.path, &flags.input.read.depth_file, &flags.run.json})
-            *path = at_frame(*path, frame);
+        put_frame(frame, {&flags.input.path, &flags.input.read.depth_file, &flags.run.json});
         return flags;
     };
     Changes changes;
@@ -260,7 +251,7 @@ Status inspect_frames(const InspectFlags& all) {
         return std::move(seen->report);
     };
     work.finish = [&] {
-        return all.frames.report == "-" ? Status(Done{}) : printed(printable(changes.text()));
+        return all.frames.report == "-" ? Status(Done{}) : write_text("-", printable(changes.text()));
     };
     return make_frames(all.frames, all.run, work);
 }

@@ -82,12 +82,9 @@ Status list_lenses(const RunFlags& run) {
                     lens.year.c_str());
         text += wrapped(printable(lens.title), "    ");
     }
-    if (run.json != "-" && !print(text))
-        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-    if (run.json.empty()) return Done{};
     Json report = new_report("lens list");
     report["lenses"] = lenses;
-    return write_report(report, run.json);
+    return tell(text, std::move(report), run.json);
 }
 
 Json seidel_json(const SeidelFacts& s) {
@@ -250,13 +247,10 @@ Status show_lens(const std::string& name, const RunFlags& run) {
     const auto facts = lens_facts(name);
     if (!facts) return facts.error();
     for (const std::string& line : facts->warnings) warning(line);
-    if (run.json != "-" && !print(facts_text(*facts)))
-        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-    if (run.json.empty()) return Done{};
     Json report = facts_json(*facts, name);
     report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    return write_report(report, run.json);
+    return tell(facts_text(*facts), std::move(report), run.json);
 }
 
 void add_lens_list(Verb& lens, Action& chosen) {

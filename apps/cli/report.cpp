@@ -122,4 +122,10 @@ Status write_report(Json report, const std::string& path) {
     return write_text(path, report_text(std::move(report)));
 }
 
+Status tell(const std::string& text, Json report, const std::string& json) {
+    if (json != "-")
+        if (Status said = write_text("-", text); !said) return said;
+    return json.empty() ? Status(Done{}) : write_report(std::move(report), json);
+}
+
 }  // namespace petzval::cli

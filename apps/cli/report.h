@@ -48,5 +48,8 @@ std::size_t peak_memory_bytes();
 // One line where `indent` is below 0.
 std::string report_text(Json report, int indent = 2);
 Status write_report(Json report, const std::string& path);
+// What a verb found: as text on standard output, and as a report where --json names a file; the report alone
+// where that is "-". Errors: OutputFailed.
+Status tell(const std::string& text, Json report, const std::string& json);
 
 }  // namespace petzval::cli

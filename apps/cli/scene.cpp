@@ -247,13 +247,10 @@ Status list_scenes(const RunFlags& run) {
         text += "  " + set.name + std::string(8 - set.name.size(), ' ') + set.purpose + "\n";
         points.push_back({{"name", set.name}, {"purpose", set.purpose}, {"count", set.count}});
     }
-    if (run.json != "-" && !print(text))
-        return Error{ErrorCode::OutputFailed, "cannot write to standard output"};
-    if (run.json.empty()) return Done{};
     Json report = new_report("scene list");
     report["scenes"] = scenes;
     report["points"] = points;
-    return write_report(report, run.json);
+    return tell(text, std::move(report), run.json);
 }
 
 void add_list(Verb& scene, Action& chosen) {
