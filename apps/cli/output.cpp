@@ -23,7 +23,8 @@ Result<FileKind> kind_of_output(const std::string& path) {
     for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
     if (extension == ".exr") return FileKind::Exr;
     if (extension == ".png") return FileKind::Png;
-    return Error{ErrorCode::InvalidArgument, "-o " + path + ": the name must end in .exr or .png"};
+    return Error{ErrorCode::InvalidArgument,
+                 "-o " + path + ": the name must end in .exr or .png (standard output is -.exr or -.png)"};
 }
 
 void OverwriteFlags::add_to(Verb& verb, bool with_update) {

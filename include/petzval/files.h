@@ -113,7 +113,9 @@ struct Frame {
     std::shared_ptr<const CarriedContent> carried;
 };
 
-// Reads .exr (flat, tiled, multi-part, multi-view, deep) or .png, decided by content, not by name.
+// Reads .exr (flat, tiled, multi-part, multi-view, deep), .png and, where their libraries were found, .jpg
+// and .tif, decided by content, not by name. "-" is standard input, once and into memory: 4 GiB at most, or
+// max_memory_bytes.
 // Errors: InvalidFile (missing, damaged, truncated, empty, no colour, no depth when needed, larger than
 // max_pixels), InvalidArgument (a layer, view or channel that the file does not have: the message lists those
 // it has).

@@ -2,7 +2,8 @@
 //
 // A file is written beside its final name, synced and renamed: it is complete or untouched. It is never a
 // device, a pipe or a link that leads nowhere; a link to a file is followed. What a process that died left
-// unfinished in a folder is removed by the next one that writes there.
+// unfinished in a folder is removed by the next one that writes there. "-.exr" and "-.png" are standard
+// output.
 #pragma once
 
 #include "petzval/export.h"
@@ -15,7 +16,8 @@ namespace petzval {
 
 // Fails before minutes of work are spent: every folder is there and may be written, no name is a folder,
 // device, pipe or a link that leads nowhere, none is that of an input, and no two are one file. Names that
-// are empty or "-" are passed over. Errors: OutputFailed, InvalidArgument.
+// are empty are passed over; one may be standard output, "-" or "-.exr". Errors: OutputFailed,
+// InvalidArgument.
 PETZVAL_API Status check_outputs(const std::vector<std::string>& outputs,
                                  const std::vector<std::string>& inputs);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petzval/result.h"
+#include "petzval/workers.h"
 
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,12 @@ class InputFile {
 public:
     // Never blocks. Errors: InvalidFile if missing, unreadable, empty, or a directory, pipe or device.
     static Result<std::shared_ptr<const InputFile>> open(const std::string& path);
+    // The same; "-" is standard input, which is read to its end, into memory, the first time it is asked for.
+    // Waits for it, and throws Cancelled where `workers` are cancelled meanwhile. Errors: OutOfMemory for
+    // more than most_bytes (0: 4 GiB).
+    static Result<std::shared_ptr<const InputFile>> open_or_wait(const std::string& path,
+                                                                 const Workers& workers,
+                                                                 std::size_t most_bytes);
     ~InputFile();
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;

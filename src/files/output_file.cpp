@@ -5,6 +5,7 @@
 #include "files/unfinished.h"
 #include "files/wording.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -84,6 +86,9 @@ Result<Target> target_of(const std::string& path) {
     return target;
 }
 
+// "-" itself is for text alone: of a picture the ending says what it is.
+bool is_standard_output(const std::string& path) { return path == "-" || path.starts_with("-."); }
+
 bool is_one_file(const std::string& a, const std::string& b) {
     std::error_code missing;
     if (std::filesystem::equivalent(a, b, missing)) return true;
@@ -102,7 +107,32 @@ void remove_unfinished_outputs() {
     errno = saved_errno;
 }
 
+Result<std::unique_ptr<OutputFile>> OutputFile::standard_output(const std::string& path) {
+    std::unique_ptr<OutputFile> file(new OutputFile);
+    file->path_ = "standard output";
+    file->is_standard_output_ = true;
+    if (::isatty(STDOUT_FILENO))
+        return output_failed(path, "is standard output, a terminal; a picture is for a pipe or a file");
+    file->descriptor_ = ::memfd_create("standard output", MFD_CLOEXEC);
+    if (file->descriptor_ < 0) return output_failed(path, std::strerror(errno));
+    return file;
+}
+
+Status OutputFile::to_standard_output() {
+    std::array<char, 1 << 16> buffer{};
+    ssize_t got = 0;
+    ::lseek(descriptor_, 0, SEEK_SET);
+    while (error_ == 0 && (got = ::read(descriptor_, buffer.data(), buffer.size())) > 0)
+        for (const char* from = buffer.data(); got > 0 && error_ == 0;) {
+            const ssize_t put = ::write(STDOUT_FILENO, from, std::size_t(got));
+            if (put < 0 && errno != EINTR) error_ = errno;
+            if (put > 0) from += put, got -= put;
+        }
+    return error_ == 0 ? Status(Done{}) : error();
+}
+
 Result<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path, bool overwrite) {
+    if (is_standard_output(path)) return standard_output(path);
     const auto target = target_of(path);
     if (!target) return target.error();
     if (target->exists && !overwrite) return output_failed(path, "exists already and may not be overwritten");
@@ -128,6 +158,7 @@ Result<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path, 
 OutputFile::~OutputFile() {
     if (descriptor_ < 0) return;
     ::close(descriptor_);
+    if (is_standard_output_) return;
     if (!committed_) ::unlink(unfinished_path_.c_str());
     forget(slot_);
 }
@@ -151,6 +182,7 @@ Error OutputFile::error() const {
 }
 
 Status OutputFile::commit() {
+    if (is_standard_output_) return error_ == 0 ? to_standard_output() : Status(error());
     if (error_ == 0 && ::fsync(descriptor_) != 0) error_ = errno;
     if (error_ != 0) return error();
     if (Status renamed = rename_to_target(); !renamed) return renamed;
@@ -184,7 +216,10 @@ Status OutputFile::rename_to_target() {
 }
 
 Status check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
-    const auto is_file = [](const std::string& path) { return !path.empty() && path != "-"; };
+    const auto is_file = [](const std::string& path) { return !path.empty() && !is_standard_output(path); };
+    if (std::count_if(outputs.begin(), outputs.end(), is_standard_output) > 1)
+        return Error{ErrorCode::InvalidArgument,
+                     "two outputs cannot both go to standard output; give one of them a file"};
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const std::string& path = outputs[i];
         if (!is_file(path)) continue;

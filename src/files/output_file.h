@@ -11,8 +11,9 @@ namespace petzval {
 
 class OutputFile {
 public:
-    // Errors: OutputFailed if the folder is missing or not writable, the target is no regular file, or it
-    // exists and `overwrite` is false.
+    // "-.exr" and the like is standard output: kept in memory until commit(), as formats write back and
+    // forth. Errors: OutputFailed if the folder is missing or not writable, the target is no regular file, or
+    // it exists and `overwrite` is false.
     static Result<std::unique_ptr<OutputFile>> create(const std::string& path, bool overwrite);
     // Removes the unfinished file unless commit() succeeded.
     ~OutputFile();
@@ -31,10 +32,12 @@ public:
 private:
     OutputFile() = default;
     Status rename_to_target();
+    Status to_standard_output();
+    static Result<std::unique_ptr<OutputFile>> standard_output(const std::string& path);
 
     std::string path_, target_, unfinished_path_;  // target_: path_ with links followed
     int descriptor_ = -1, error_ = 0, slot_ = -1;
-    bool overwrite_ = true, committed_ = false;
+    bool overwrite_ = true, committed_ = false, is_standard_output_ = false;
 };
 
 }  // namespace petzval

@@ -19,10 +19,10 @@ Error unknown_format(const InputFile& file) {
 }
 
 Result<Frame> read(const std::string& path, ReadOptions options, bool pixels) {
-    const auto file = InputFile::open(path);
-    if (!file) return file.error();
     const std::shared_ptr<Workers> workers = workers_of(options.threads, options.workers);
     options.workers = workers.get();
+    const auto file = InputFile::open_or_wait(path, *workers, options.max_memory_bytes);
+    if (!file) return file.error();
     std::optional<Result<Frame>> frame;
     // The room's door: whatever libraries threw and nobody caught further in stops here.
     const Status sound = guarded(path, [&]() -> Status {
@@ -127,7 +127,7 @@ Result<Frame> read_frame_header(const std::string& path, const ReadOptions& opti
 }
 
 Status read_depth_file(const ReadOptions& options, Frame& frame) {
-    const auto file = InputFile::open(options.depth_file);
+    const auto file = InputFile::open_or_wait(options.depth_file, *options.workers, options.max_memory_bytes);
     if (!file) return file.error();
     const RasterFormat* const format = raster_format_of(**file);
     if (!format && !starts_like_exr(**file)) return unknown_format(**file);
