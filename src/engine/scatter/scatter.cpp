@@ -105,7 +105,9 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
         return Error{ErrorCode::OutOfMemory,
                      "job.max_memory_bytes " + std::to_string(input.max_memory_bytes >> 20) +
                          "M is too little for this picture and blur; it takes at least " +
-                         std::to_string((held + least * row_bytes) / (std::size_t(1) << 20) + 1) + "M"};
+                         std::to_string((held + least * row_bytes) / (std::size_t(1) << 20) + 1) + "M, " +
+                         std::to_string(held >> 20) + "M of them whole pictures, the rest a strip of " +
+                         std::to_string(least) + " rows, as high as the blur reaches"};
     return plan;
 }
 
