@@ -187,6 +187,7 @@ void DefocusFlags::check_view() const {
     const std::string here = " has no effect on --view " + std::string(name_of(view));
     if (!input.holdout.empty() && !computes) throw UsageError("--holdout" + here);
     if (overscan_px && !computes) throw UsageError("--overscan" + here);
+    if (!input.mask.empty() && !computes) throw UsageError("--mask" + here);
     if (!input.read.layers.empty() && view != ViewKind::Beauty) throw UsageError("--layers" + here);
     if (view == ViewKind::Beauty) return;
     if (look.is_typed("plate.expand_highlights"))
@@ -202,9 +203,11 @@ void DefocusFlags::check_display() const {
     if (input.read.view_name == kAllViews) {
         if (*kind != FileKind::Exr || view != ViewKind::Beauty)
             throw UsageError("--view-name all writes the picture of every view to one EXR");
-        if (!input.behind.empty() || !input.holdout.empty() || !input.merge.empty() || !points.empty())
+        if (!input.behind.empty() || !input.holdout.empty() || !input.merge.empty() || !input.mask.empty() ||
+            !points.empty())
             throw UsageError(
-                "--view-name all cannot be used with --behind, --holdout, --merge and --points, which "
+                "--view-name all cannot be used with --behind, --holdout, --merge, --mask and --points, "
+                "which "
                 "are of one view");
     }
     if (!input.read.layers.empty() && *kind != FileKind::Exr)
@@ -267,6 +270,7 @@ Json DefocusFlags::parameters_json(const DefocusJob& job) const {
         {"threads", job.threads},
         {"max_memory_bytes", job.max_memory_bytes},
         {"seed", job.seed},
+        {"mask", input.mask.empty() ? Json(nullptr) : Json(input.mask)},
         {"kernel_cache", job.kernel_cache_folder.empty() ? Json(nullptr) : Json(job.kernel_cache_folder)},
         {"near_scale", job.coc.near_scale},
         {"far_scale", job.coc.far_scale},

@@ -14,8 +14,8 @@ namespace {
 std::vector<std::string*> paths_of(DefocusFlags& flags) {
     std::vector<std::string*> paths{&flags.input.path,   &flags.input.read.depth_file,
                                     &flags.input.behind, &flags.input.holdout,
-                                    &flags.points,       &flags.output,
-                                    &flags.run.json};
+                                    &flags.input.mask,   &flags.points,
+                                    &flags.output,       &flags.run.json};
     for (std::string& path : flags.input.merge) paths.push_back(&path);
     return paths;
 }

@@ -58,6 +58,7 @@ const Rows& other_flags() {
         {"shot.holdout", "--holdout"},
         {"shot.layers", "--layers"},
         {"shot.lights", "--points"},
+        {"shot.mask", "--mask"},
         {"shot.merge", "--merge"},
         {"shot.overscan_px", "--overscan"},
     };

@@ -11,7 +11,8 @@ namespace petzval::cli {
 void InputFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Input")
         .argument("IN",
-                  "a picture: EXR, PNG, JPEG or TIFF (whole numbers are decoded through the sRGB curve)",
+                  "a picture: EXR, PNG, JPEG or TIFF (whole numbers are decoded through the sRGB curve); - "
+                  "is standard input",
                   path)
         .value("--layer", "NAME", "colour layer or part", parse_text, read.layer)
         .value("--view-name", "NAME", "view of a stereo file, as left; all (defocus): every view", parse_text,
@@ -53,7 +54,12 @@ void InputFlags::add_others_to(Verb& verb) {
                 merge)
         .value("--holdout", "FILE",
                "a matte, deep EXR or RGBA and Z, that hides what is behind it and stays sharp", parse_text,
-               holdout);
+               holdout)
+        .value("--mask", "FILE[:CHANNEL]",
+               "where the effect is wanted: 1 as blurred, 0 as given, mixed between; without a channel "
+               "alpha, or "
+               "luminance where alpha is 1 everywhere",
+               parse_text, mask);
 }
 
 void InputFlags::add_layers_to(Verb& verb) {
@@ -74,6 +80,7 @@ std::vector<std::string> InputFlags::files() const {
     for (const std::string* other : {&read.depth_file, &behind, &holdout, &lights})
         if (!other->empty()) all.push_back(*other);
     all.insert(all.end(), merge.begin(), merge.end());
+    if (!mask.empty()) all.push_back(file_channel(mask).file);
     return all;
 }
 

@@ -26,7 +26,7 @@ struct InputFlags : ShotSource {
     void add_to(Verb& verb);           // IN, the layer and the view
     void add_depth_to(Verb& verb);     // all that says what depth is
     void add_transfer_to(Verb& verb);  // --transfer
-    void add_others_to(Verb& verb);    // --behind, --merge, --holdout
+    void add_others_to(Verb& verb);    // --behind, --merge, --holdout, --mask
     void add_layers_to(Verb& verb);    // --layers
     // Throws UsageError for depth flags that contradict each other.
     void check() const;

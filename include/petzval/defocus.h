@@ -48,6 +48,10 @@ struct DefocusJob {
     // A matte that is not blurred, same size, of deep samples: light that lands in a pixel is dimmed by what
     // the matte holds there in front of where the light came from. For engines scatter and reference.
     const DeepPicture* holdout = nullptr;
+    // Where the effect is wanted, of the picture's size: 1 takes the blurred picture, 0 `colour` as it is, a
+    // share between them mixes the two; all that Session::take() does to light is limited so. Empty:
+    // everywhere.
+    View<const float> mask;
     std::vector<ColourLayer> layers;  // more layers of the same picture; for engine scatter
     // Where the pixels lie in the display window, for the field position of lenses and the sensor's width.
     Place place;

@@ -58,7 +58,12 @@ struct ShotSource {
     bool depth_kind_given = false;  // depth.kind is what a user said, not the default
     // What the picture hides: RGBA and Z or deep, of the same data window. Empty: not known.
     std::string behind = {};
-    std::string holdout = {};             // a matte that stays sharp and hides what is behind it
+    std::string holdout = {};  // a matte that stays sharp and hides what is behind it
+    // Where the effect is wanted, "FILE" or "FILE:CHANNEL" of the same display window: of an EXR any channel,
+    // of other files R, G, B or A, whole numbers as shares of full scale. Without a channel: alpha where it
+    // is not 1 everywhere, else luminance. Outside of the file's pixels it is 0, beyond the frame as at its
+    // border.
+    std::string mask = {};
     std::vector<std::string> merge = {};  // more pictures of the shot, sorted in by depth
     std::string lights = {};              // CSV, see read_lights()
     CameraChoice camera = {};
@@ -73,6 +78,8 @@ struct Shot {
     DeepPicture deep;  // all samples of a deep input or of several files, else empty
     // Hidden layers, and a matte; empty where there are none. All three know depth in the unit of `depth`.
     DeepPicture behind, holdout;
+    Plane mask;  // of the frame and the data window, whose union mask_window is; empty: everywhere
+    Rect mask_window;
     // More of what the colour shows, as source.read.layers asks, and what stays as it is.
     std::vector<FrameLayer> layers;
     std::vector<CarriedLayer> layers_carried;
@@ -94,6 +101,12 @@ struct Shot {
     // Metres or radii; empty where there are none.
     PETZVAL_API View<const float> depth_plane() const;
 };
+
+// "FILE:CHANNEL" apart; a file that is there by the whole name has no channel.
+struct FileChannel {
+    std::string file, channel;
+};
+PETZVAL_API FileChannel file_channel(const std::string& text);
 
 // Errors: InvalidArgument for settings that contradict each other (depth.kind without its depth.range, …).
 PETZVAL_API Status check(const ShotSource& source);

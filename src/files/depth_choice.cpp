@@ -1,3 +1,5 @@
+#include "petzval/names.h"
+
 #include "files/channel_choice.h"
 #include "files/wording.h"
 
@@ -126,9 +128,10 @@ Result<DepthChoice> named_channel(const std::string& path, const Layout& layout,
         }
     }
     if (!best)
-        return Error{ErrorCode::InvalidArgument, printable(path, 4096) + ": has no depth channel '" +
-                                                     printable(wanted) + "'; it has " +
-                                                     listed(channel_names(layout))};
+        return Error{ErrorCode::InvalidArgument, printable(path, 4096) + ": has no channel '" +
+                                                     printable(wanted) + "'" +
+                                                     did_you_mean(wanted, channel_names(layout)) +
+                                                     "; it has " + listed(channel_names(layout))};
     return choice_of(layout, best_part, *best, "asked for with read.depth_channel");
 }
 

@@ -94,6 +94,9 @@ Status check_job(const DefocusJob& job) {
     for (const ColourLayer& layer : job.layers)
         if (layer.colour.width() != job.colour.width() || layer.colour.height() != job.colour.height())
             return invalid("the layers are not of the picture's size");
+    if (!job.mask.empty() &&
+        (job.mask.width() != job.colour.width() || job.mask.height() != job.colour.height()))
+        return invalid("shot.mask is not of the picture's size");
     if (!job.layers.empty() && job.scatter.view != ScatterView::Result)
         return invalid("shot.layers are blurred for results, not for views");
     if (Status place = check(job.place); !place) return place;

@@ -46,6 +46,11 @@ Status check_region(const Rect& region, const DefocusJob& job) {
     return Done{};
 }
 
+Rect made_pixels(const DefocusJob& job, const std::optional<Rect>& region) {
+    const Rect& all = job.place.data_window;
+    return (region ? region->intersected(all) : all).moved(-all.x0, -all.y0);
+}
+
 Picture part_of(const Picture& image, const Rect& pixels) {
     Picture part = Picture::uninitialised(pixels.width(), pixels.height());
     for (int y = 0; y < part.height(); ++y)

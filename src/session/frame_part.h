@@ -7,6 +7,7 @@
 
 #include "engine/waist/engine.h"
 
+#include <optional>
 #include <vector>
 
 namespace petzval {
@@ -22,6 +23,9 @@ Rect pixels_for(const Rect& region, int margin_px, int grid, const Rect& frame);
 
 // Errors: InvalidArgument for a region without any pixel of the picture, or of what is not one.
 Status check_region(const Rect& region, const DefocusJob& job);
+
+// Of a job's pictures, those that a report of `region` of it holds; of all where there is none.
+Rect made_pixels(const DefocusJob& job, const std::optional<Rect>& region);
 
 Picture part_of(const Picture& image, const Rect& pixels);
 

@@ -6,6 +6,7 @@
 
 #include "session/contents.h"
 #include "session/frame_part.h"
+#include "session/limit.h"
 #include "session/mounted_lens.h"
 
 #include <chrono>
@@ -137,10 +138,11 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                 report->image = part_of(report->image, pixels);
                 for (Picture& layer : report->layers) layer = part_of(layer, pixels);
             }
-            const Rect pixels = asked.moved(-all.x0, -all.y0);
+            const Rect pixels = made_pixels(rendered, control.region);
             if (look.expand_highlights)
                 report->image = compress_highlights(report->image, expanded.view().part(pixels),
                                                     rendered.colour.part(pixels), look.expansion);
+            limit_by_mask(*report, rendered, pixels, workers);
             report->stages.push_back({"light", seconds_since(blurred)});
             return report;
         });

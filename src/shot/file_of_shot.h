@@ -33,9 +33,18 @@ struct Reading {
     Plane& plane;  // of shot.depth
 };
 
+// Errors: InvalidFile where the other has another display window. `field` names the file.
+Status same_frame(const Reading& reading, const Frame& other, const std::string& field);
+// The smallest window that holds both.
+Rect around(const Rect& a, const Rect& b);
+
+// The mask also of what `window` adds: as at its nearest pixel. Nothing for a shot without one.
+void extend_mask(Shot& shot, const Rect& window);
+
 // What stands beside the picture in files of their own. Errors: those of read_shot().
 Status merge_files(Reading& reading);
 Status read_holdout(Reading& reading);
 Status read_behind(Reading& reading);
+Status read_mask(Reading& reading);
 
 }  // namespace petzval::shot

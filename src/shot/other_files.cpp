@@ -32,20 +32,6 @@ Result<FileOfShot> read_other(Reading& r, const std::string& what, const std::st
     return read;
 }
 
-// `field` names the file that is held against the picture.
-Status same_frame(const Reading& r, const Frame& other, const std::string& field) {
-    const Rect& ours = r.shot.place.display_window;
-    if (ours == other.place.display_window) return Done{};
-    return Error{ErrorCode::InvalidFile, field + " has a display window of " +
-                                             window_text(other.place.display_window) + ", but that of " +
-                                             r.source.path + " is " + window_text(ours) +
-                                             "; they must be the same"};
-}
-
-Rect around(const Rect& a, const Rect& b) {
-    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 void extend(DepthReport& report, const DepthReport& other) {
     if (other.nearest_m > 0 && (report.nearest_m == 0 || other.nearest_m < report.nearest_m))
         report.nearest_m = other.nearest_m;
@@ -58,6 +44,19 @@ DeepPicture samples_of(Reading& r) {
 }
 
 }  // namespace
+
+Status same_frame(const Reading& r, const Frame& other, const std::string& field) {
+    const Rect& ours = r.shot.place.display_window;
+    if (ours == other.place.display_window) return Done{};
+    return Error{ErrorCode::InvalidFile, field + " has a display window of " +
+                                             window_text(other.place.display_window) + ", but that of " +
+                                             r.source.path + " is " + window_text(ours) +
+                                             "; they must be the same"};
+}
+
+Rect around(const Rect& a, const Rect& b) {
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
 
 // One deep picture of all files, over the union of their windows.
 Status merge_files(Reading& r) {

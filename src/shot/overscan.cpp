@@ -109,6 +109,7 @@ Result<bool> grow_to(Shot& shot, const Rect& wider) {
         shot.depth);
     for (DeepPicture* deep : {&shot.deep, &shot.behind, &shot.holdout})
         if (!deep->empty()) *deep = merge_deep({{deep, old}}, wider);
+    shot::extend_mask(shot, wider);
     for (LightPoint& light : shot.lights)
         light.x += float(old.x0 - wider.x0), light.y += float(old.y0 - wider.y0);
     shot.place.data_window = wider;

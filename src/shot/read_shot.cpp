@@ -115,12 +115,13 @@ Result<Shot> read(const ShotSource& source, Progress& progress, CancellableWorke
     Plane plane = std::move(frame->depth);
     Reading reading{source, workers, depth, shot, plane};
     const double files = double(1 + source.merge.size() + !source.holdout.empty() + !source.behind.empty() +
-                                !source.lights.empty());
+                                !source.mask.empty() + !source.lights.empty());
     double done = 1;
     progress.advance(done / files);
     for (const auto& [given, step] : {std::pair{!source.merge.empty(), &shot::merge_files},
                                       {!source.holdout.empty(), &shot::read_holdout},
                                       {!source.behind.empty(), &shot::read_behind},
+                                      {!source.mask.empty(), &shot::read_mask},
                                       {!source.lights.empty(), &read_given_lights}}) {
         if (!given) continue;
         workers.check();

@@ -90,6 +90,9 @@ Result<DefocusJob> rendered(const Shot& shot) {
     if (!shot.deep.empty()) job.deep = &shot.deep;
     if (!shot.behind.empty()) job.behind = &shot.behind;
     if (!shot.holdout.empty()) job.holdout = &shot.holdout;
+    if (!shot.mask.empty())
+        job.mask =
+            shot.mask.view().part(shot.place.data_window.moved(-shot.mask_window.x0, -shot.mask_window.y0));
     if (!shot.lights.empty()) job.points = &shot.lights;
     for (const FrameLayer& layer : shot.layers) job.layers.push_back({layer.colour, layer.is_light});
     job.place = shot.place;

@@ -9,7 +9,7 @@ VERBS = ["defocus", "lens", "lens list", "lens show", "lens psf", "lens table", 
 # Every flag of defocus that takes a value, with a value it accepts.
 DEFOCUS_VALUES = {
     "--layer": "x", "--view-name": "left", "--depth": "in.exr", "--depth-channel": "Z", "--depth-kind": "planar",
-    "--unit-scale": "0.01", "--behind": "in.exr", "--holdout": "in.exr", "--overscan": "8", "--focal-length": "50mm", "--sensor-width": "36mm", "--fstop": "2",
+    "--unit-scale": "0.01", "--behind": "in.exr", "--holdout": "in.exr", "--mask": "in.exr", "--overscan": "8", "--focal-length": "50mm", "--sensor-width": "36mm", "--fstop": "2",
     "--focus": "2m", "--focus-at": "1,1", "--focus-point": "1,2,3", "--image-scale": "rendered", "--focus-range": "1,3",
     "--permissible-radius": "2", "--near-scale": "1", "--far-scale": "1", "--max-radius": "9", "--lens": "ideal", "--blades": "5",
     "--squeeze": "2", "--cats-eye": "0.5", "--engine": "reference", "--quality": "draft", "--seed": "3", "--ocio": "sRGB", "--ocio-space": "scene",

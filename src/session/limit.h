@@ -1,0 +1,14 @@
+// DefocusJob::mask: where the effect is limited.
+#pragma once
+
+#include "petzval/defocus.h"
+
+#include "base/parallel.h"
+
+namespace petzval {
+
+// What the mask leaves of the effect in a report that holds `pixels` of the job's pictures, and in its
+// layers. Buffers that are shown instead of the picture stay as they are.
+void limit_by_mask(DefocusReport& report, const DefocusJob& job, const Rect& pixels, Workers& workers);
+
+}  // namespace petzval
