@@ -217,7 +217,9 @@ Status OutputFile::rename_to_target() {
 
 Status check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
     const auto is_file = [](const std::string& path) { return !path.empty() && !is_standard_output(path); };
-    if (std::count_if(outputs.begin(), outputs.end(), is_standard_output) > 1)
+    const bool is_picture = std::any_of(outputs.begin(), outputs.end(),
+                                        [](const std::string& path) { return path.starts_with("-."); });
+    if (is_picture && std::count_if(outputs.begin(), outputs.end(), is_standard_output) > 1)
         return Error{ErrorCode::InvalidArgument,
                      "two outputs cannot both go to standard output; give one of them a file"};
     for (std::size_t i = 0; i < outputs.size(); ++i) {

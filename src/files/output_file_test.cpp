@@ -153,6 +153,8 @@ TEST(Outputs, NeverReplaceAnInputOrEachOther) {
     ASSERT_FALSE(twice);
     EXPECT_THAT(twice.error().message, HasSubstr("would replace the output"));
     EXPECT_TRUE(check_outputs({folder / "new", "-", "", "-"}, {folder / "in", "-"}));
+    EXPECT_TRUE(check_outputs({"-.exr", ""}, {"-"}));
+    EXPECT_FALSE(check_outputs({"-.exr", "-"}, {}));
     EXPECT_TRUE(check_outputs({folder / "new"}, {"new"}));  // a word that is no file
 }
 
