@@ -2,6 +2,7 @@
 // needs one, everything lives with their callers.
 #include "petzval/files.h"
 
+#include "base/cancel.h"
 #include "files/output_file.h"
 #include "files/raster.h"
 #include "files/wording.h"
@@ -20,6 +21,8 @@ namespace {
 // What the callbacks see.
 struct PngReading {
     const InputFile* file = nullptr;
+    const Workers* workers = nullptr;  // who may cancel; null: nobody
+    bool cancelled = false;
     std::uint64_t position = 0;
     std::size_t max_pixels = 0;
     char message[256] = {};
@@ -58,6 +61,17 @@ void on_read(png_structp png, png_bytep to, png_size_t bytes) {
     reading->position += bytes;
 }
 
+void on_row(png_structp png, png_uint_32, int) {
+    auto* reading = static_cast<PngReading*>(png_get_io_ptr(png));
+    if (!reading->workers) return;
+    try {
+        check_cancelled(*reading->workers);
+    } catch (const Cancelled&) {
+        reading->cancelled = true;
+    }
+    if (reading->cancelled) png_error(png, "cancelled");
+}
+
 void on_write(png_structp png, png_bytep from, png_size_t bytes) {
     auto* writing = static_cast<PngWriting*>(png_get_io_ptr(png));
     if (writing->bytes)
@@ -75,6 +89,7 @@ bool read_png_header(PngReading& r) {
     constexpr png_uint_32 kLongestSide = 1 << 20;
     png_set_user_limits(r.png, kLongestSide, kLongestSide);
     png_set_read_fn(r.png, &r, on_read);
+    png_set_read_status_fn(r.png, on_row);
     png_read_info(r.png, r.info);
     png_uint_32 width = 0, height = 0;
     int depth = 0, type = 0;
@@ -139,13 +154,16 @@ std::vector<png_bytep> row_pointers(std::vector<png_byte>& bytes, int height) {
 }
 
 Error png_error_of(const InputFile& file, const PngReading& r) {
+    if (r.cancelled) throw Cancelled{};
     return invalid_file(file.path(), "is damaged or not readable: " + printable(r.message));
 }
 
 // Reads the header only when `pixels` is false.
-Result<PngPixels> read(const InputFile& file, std::size_t max_pixels, bool pixels) {
+Result<PngPixels> read(const InputFile& file, std::size_t max_pixels, bool pixels,
+                       const Workers* workers = nullptr) {
     PngReading r;
     r.file = &file;
+    r.workers = workers;
     r.max_pixels = max_pixels;
     r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r, on_error<PngReading>, ignore_warning);
     r.info = r.png ? png_create_info_struct(r.png) : nullptr;
@@ -194,7 +212,7 @@ bool write_pixels(PngWriting& w, const PngPixels& p) {
 }  // namespace
 
 Result<Raster> read_png_raster(const InputFile& file, const ReadOptions& options, bool pixels) {
-    Result<PngPixels> png = read(file, options.max_pixels, pixels);
+    Result<PngPixels> png = read(file, options.max_pixels, pixels, options.workers);
     if (!png) return png.error();
     Raster raster;
     raster.width = png->width, raster.height = png->height;

@@ -3,6 +3,7 @@
 #include "files/test_exr.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
@@ -286,6 +287,19 @@ TEST_F(Shots, ReadingEndsWithinAFile) {
     asked = 0;
     source.read.threads = 1;
     const auto shot = read_shot(source, {.cancelled = [&] { return ++asked > 20; }});
+    ASSERT_FALSE(shot);
+    EXPECT_EQ(shot.error().code, ErrorCode::Cancelled);
+}
+
+TEST_F(Shots, APngIsLeftBetweenRowsWhenReadingIsCancelled) {
+    PngPixels grey{32, 400, 1, 8, std::vector<std::uint16_t>(std::size_t(32 * 400), 9)};
+    ASSERT_TRUE(write_png(folder / "in.png", grey));
+    ShotSource png;
+    png.path = folder / "in.png", png.read.need_depth = false;
+    std::atomic<int> asked = 0;
+    ASSERT_TRUE(read_shot(png, {.cancelled = [&] { return ++asked < 0; }}));
+    EXPECT_GT(asked, 400);
+    const auto shot = read_shot(png, {.cancelled = [&, until = asked + 100] { return ++asked > until; }});
     ASSERT_FALSE(shot);
     EXPECT_EQ(shot.error().code, ErrorCode::Cancelled);
 }
