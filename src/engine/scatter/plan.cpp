@@ -244,7 +244,7 @@ LevelRule level_rule(const Input& input) {
             rule = {.largest_cells = 8, .surfaces_for_sectors = 2};
             break;
         case Quality::Final:
-            rule = {.largest_cells = 24, .surfaces_for_sectors = 2, .inner_sectors = 1, .outer_sectors = 5};
+            rule = {.largest_cells = 12, .surfaces_for_sectors = 2, .inner_sectors = 1, .outer_sectors = 5};
             break;
     }
     if (!input.deep.empty()) rule.narrow_layer = 0;
