@@ -2,6 +2,8 @@
 // published formulas.
 #include "shots.h"
 
+#include <limits>
+
 namespace petzval::conformance {
 namespace {
 
@@ -121,6 +123,25 @@ TEST(Gaussian, PublishedWeightsAndIndexAreThoseOfTheFormula) {
                                  (1 - d) * (1 - d) * double(large(x, 20).g);
             EXPECT_NEAR(result(x, 20).g, mixed, 1e-5) << x;
         }
+    }
+}
+
+// Depths outside the range too are moved by the offset before they are clamped, and misses are the farthest.
+TEST(Gaussian, DepthIsClampedAfterTheOffsetIsAdded) {
+    DepthShot shot;
+    shot.depth_m(3, 20) = std::numeric_limits<float>::infinity();
+    DefocusJob job = shot.job();
+    job.gaussian.depth_near_m = 1.5, job.gaussian.depth_far_m = 2.5;
+    job.gaussian.view = GaussianView::FocusIndex;
+    for (const double offset : {-0.45, 0.3}) {
+        job.gaussian.depth_offset = offset;
+        const Picture index = rendered(job);
+        for (int x = 4; x < 100; ++x) {
+            const double at = std::clamp(2 * double(x) / 99 - 0.5 + offset, 0.0, 1.0);
+            const double d = at > 0.6 ? 2.5 * (1 - at) : at > 0.4 ? 1 : 2.5 * at;
+            EXPECT_NEAR(index(x, 20).r, d, 1e-5) << x << " offset " << offset;
+        }
+        EXPECT_EQ(index(3, 20).r, 0) << "offset " << offset;
     }
 }
 

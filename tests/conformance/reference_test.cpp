@@ -83,6 +83,28 @@ TEST(Reference, TwoSurfacesBesideEachOtherInAPixelHideALampTogether) {
         for (int x = 0; x < 101; ++x) EXPECT_LT(image(x, y).g, 0.01 * open) << x << ", " << y;
 }
 
+TEST(Reference, SaysWhereHiddenLayersAreMissing) {
+    const auto warnings = [](const DefocusJob& job) {
+        const auto report = defocus(job);
+        EXPECT_TRUE(report);
+        return report ? report->warnings : std::vector<std::string>();
+    };
+    Shot shot = flat(48, 40, {0.5f, 0.5f, 0.5f, 1}, 0);
+    EXPECT_TRUE(warnings(shot.job("reference")).empty());
+    for (int y = 0; y < 40; ++y)
+        for (int x = 20; x < 48; ++x) shot.coc_px(x, y) = -8;
+    const auto said = warnings(shot.job("reference"));
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_NE(said.front().find("job.behind"), std::string::npos) << said.front();
+    put_behind(
+        shot,
+        [](int, int) {
+            return Rgba{0.5f, 0.5f, 0.5f, 1};
+        },
+        [](int, int) { return 0.0f; });
+    EXPECT_TRUE(warnings(shot.job("reference")).empty());
+}
+
 TEST(Reference, EmptinessStaysEmpty) {
     Shot shot = flat(40, 40, {0.3f, 0.2f, 0.1f, 0.5f}, 6);
     const Picture image = rendered(shot.job("reference"));

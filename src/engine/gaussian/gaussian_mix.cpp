@@ -59,10 +59,10 @@ DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_
 }
 
 float DepthMix::normalised(int x, int y) const {
-    if (depth_m_.empty()) return std::clamp((coc_px_(x, y) - near_) * scale_, 0.0f, 1.0f);
+    if (depth_m_.empty()) return (coc_px_(x, y) - near_) * scale_;
     const float z = depth_m_(x, y);
-    if (!(z > 0) || !std::isfinite(z)) return 1;
-    return std::clamp((z - near_) * scale_, 0.0f, 1.0f);
+    if (!(z > 0) || !std::isfinite(z)) return std::numeric_limits<float>::infinity();
+    return (z - near_) * scale_;
 }
 
 float DepthMix::index(int x, int y) const {

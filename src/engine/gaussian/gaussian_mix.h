@@ -59,7 +59,7 @@ public:
     }
 
 private:
-    float normalised(int x, int y) const;
+    float normalised(int x, int y) const;  // may lie outside 0…1
 
     View<const float> depth_m_, coc_px_;  // the former empty: not known
     float near_ = 0, scale_ = 1, offset_ = 0, half_band_ = 0.1f;

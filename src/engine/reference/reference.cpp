@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string>
 
 namespace petzval::engine {
 namespace {
@@ -287,6 +288,23 @@ Status surfaces_fit(const Input& input, const CocSamples& samples, int margin) {
     return error;
 }
 
+// Where the lens looks past what is near and nothing is stated to lie there, rays end in emptiness.
+void say_what_is_not_known(const Input& input, Output& output) {
+    constexpr float kCovered = 0.98f;
+    if (!input.deep.empty()) return;
+    std::size_t empty = 0;
+    for (int y = 0; y < input.height(); ++y)
+        for (int x = 0; x < input.width(); ++x) {
+            if (input.colour(x, y).a != 1) return;  // emptiness may be meant
+            empty += output.image(x, y).a < kCovered;
+        }
+    if (empty == 0) return;
+    const double percent = 100.0 * double(empty) / double(output.image.size());
+    output.warnings.push_back(std::to_string(std::max(1, int(percent))) +
+                              " % of the picture show what near things hide, which is not known and left "
+                              "empty: job.behind (hidden layers) states it");
+}
+
 }  // namespace
 
 Result<Output> run_reference(const Input& input) {
@@ -310,6 +328,7 @@ Result<Output> run_reference(const Input& input) {
     const double traced = seconds();
     spread_points(input, surfaces, points, output.image);
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+    say_what_is_not_known(input, output);
     output.stages = {{"surfaces", prepared}, {"rays", traced - prepared}, {"highlights", seconds() - traced}};
     return output;
 }
