@@ -1,10 +1,10 @@
 #include "engine/lights/highlights.h"
 
 #include "base/parallel.h"
+#include "engine/samples/white.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace petzval::engine {
 namespace {
@@ -37,23 +37,6 @@ float box_mean(View<const float> cells, int cx, int cy, int reach) {
     for (int y = r.y0; y < r.y1; ++y)
         for (int x = r.x0; x < r.x1; ++x) sum += cells(x, y);
     return sum / float(r.width() * r.height());
-}
-
-// Four times the mean luminance of what the picture covers, to the nearest power of two: a frame that shows a
-// little more or less of the same scene has the same lights.
-float white_of(View<const Rgba> picture, Workers& workers) {
-    // Rows are summed on their own, then in order: the same bits for any threads.
-    std::vector<double> light(std::size_t(picture.height())), covered(std::size_t(picture.height()));
-    parallel_for(picture.height(), workers, [&](int y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            light[std::size_t(y)] += double(std::max(0.0f, luminance(picture(x, y))));
-            covered[std::size_t(y)] += double(picture(x, y).a);
-        }
-    });
-    const double all_light = std::accumulate(light.begin(), light.end(), 0.0);
-    const double all_covered = std::accumulate(covered.begin(), covered.end(), 0.0);
-    const double mean = all_light / std::max(1.0, all_covered);
-    return mean > 0 ? float(std::exp2(std::round(std::log2(4 * mean)))) : 0.0f;
 }
 
 }  // namespace

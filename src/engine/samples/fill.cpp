@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/known_surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -35,9 +36,6 @@ constexpr int kBlock = 4;  // pixels on a side share one distance to the nearest
 
 using Hits = std::array<std::array<Found, kHits>, kDirections>;
 
-struct Direction {
-    float x, y;
-};
 struct Step {
     float t;  // distance, px
     int x, y;
@@ -83,17 +81,13 @@ private:
 class Filler {
 public:
     Filler(const LitPicture& picture, View<const float> coc, View<const unsigned char> connected,
-           const Sparse<Mixture>& mixtures, float largest, float farthest, Workers& workers)
-        : picture_(picture),
+           const Sparse<Mixture>& mixtures, float largest, float farthest, float white, Workers& workers)
+        : known_(picture, coc, mixtures, white, workers),
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
           farthest_(farthest),
           largest_(largest) {
-        clean_ = Plane::uninitialised(coc.width(), coc.height());
-        parallel_for(coc.height(), workers, [&](int y) {
-            for (int x = 0; x < coc.width(); ++x) clean_(x, y) = known_radius(x, y);
-        });
         measure_distances(workers);
         lay_paths();
     }
@@ -117,16 +111,6 @@ public:
     }
 
 private:
-    // What is known of the surface that a pixel shows: nothing of the nearer one at a silhouette.
-    float known_radius(int x, int y) const {
-        const Mixture* m = mixtures_.at(x, y);
-        return !m ? coc_(x, y) : m->shows_far ? m->far_coc_px : -1e30f;
-    }
-    Rgba known_colour(int x, int y) const {
-        const Mixture* m = mixtures_.at(x, y);
-        return m ? m->far_colour : picture_.dim(x, y);
-    }
-
     // Per block of pixels: distance to each silhouette of a surface in the block, less the blur of what lies
     // behind it, the smallest. A two-sweep chamfer transform (G. Borgefors, "Distance transformations in
     // digital images", 1986) that does not enter surfaces as far as what it carries. Pixels beyond their own
@@ -175,7 +159,7 @@ private:
             for (float t = 1; t <= longest; t += std::max(1.0f, t / 8)) {
                 const int dx = int(std::lround(t * path.direction.x)),
                           dy = int(std::lround(t * path.direction.y));
-                path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * clean_.width() + dx});
+                path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * coc_.width() + dx});
             }
             for (std::size_t i = 0; i < path.steps.size(); ++i)
                 while (float(path.at_distance.size()) <= path.steps[i].t) path.at_distance.push_back(i);
@@ -186,11 +170,11 @@ private:
     std::array<Found, kHits> search(int x, int y, float own, Slope slope, const Path& path) const {
         const float own_per_px = std::max(0.0f, slope.x * path.direction.x + slope.y * path.direction.y);
         float longest = std::abs(own) + std::abs(farthest_) + kPastEdgePx;
-        const float* const start = &clean_(x, y);
+        const float* const start = &known_.radii()(x, y);
         std::array<Found, kHits> hits;
         std::size_t n = 0;
         float behind = own + kBehindPx;
-        const unsigned width = unsigned(clean_.width()), height = unsigned(clean_.height());
+        const unsigned width = unsigned(coc_.width()), height = unsigned(coc_.height());
         const Step *step = path.steps.data(), *const end = step + path.steps.size();
         while (step != end && step->t <= longest) {
             const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
@@ -231,8 +215,8 @@ private:
         for (int k = 0; k < kPatch; ++k) {
             const Direction o = offsets[std::size_t(k)];
             const int u = x + int(std::lround(o.x)), v = y + int(std::lround(o.y));
-            const bool usable = coc_.rect().contains(u, v) && std::abs(clean_(u, v) - hit.coc_px) < 1;
-            patch[std::size_t(k)] = comparable(usable ? known_colour(u, v) : known_colour(x, y));
+            const bool usable = known_.shows(u, v, hit.coc_px);
+            patch[std::size_t(k)] = comparable(usable ? known_.colour(u, v) : known_.colour(x, y));
         }
         return patch;
     }
@@ -253,10 +237,6 @@ private:
         const float plain = kPlain * level;
         const float edge = (plain + across(at_a) + across(at_b)) / (plain + along(at_a) + along(at_b));
         return edge / (kLikeEnough + unlike * unlike);
-    }
-
-    static bool one_surface(float coc_a, float coc_b) {
-        return std::abs(coc_a - coc_b) < 1.5f + 0.05f * std::abs(coc_a + coc_b);
     }
 
     // A surface mostly there is wholly there, one hardly there is not: smoothstep around one half.
@@ -295,7 +275,10 @@ private:
                 if (f.found && one_surface(f.coc_px, coc_px)) return &f;
             return nullptr;
         };
-        const auto colour_of = [&](const Found& f) { return known_colour(f.x, f.y); };
+        const auto colour_of = [&](const Found& f) { return known_.colour(f.x, f.y); };
+        float nearest = 1e9f;
+        for (std::size_t k = 0; k < kDirections; ++k)
+            if (const Found* f = take(k)) nearest = std::min(nearest, f->distance_px);
         constexpr std::size_t kPairs = kDirections / 2;
         for (std::size_t k = 0; k < kPairs; ++k) {
             Found *a = take(k), *b = take(k + kPairs);
@@ -311,7 +294,10 @@ private:
                           closeness * std::sqrt(closeness) * alike);
             } else if (a || b) {
                 const Found& one = a ? *a : *b;
-                votes.add(colour_of(one), one.coc_px, kOneSided / (one.distance_px * one.distance_px));
+                const Direction d = paths_[a ? k : k + kPairs].direction;
+                const float away = one.distance_px * one.distance_px;
+                votes.add(known_.going_on({one.x, one.y, one.coc_px}, d, one.distance_px), one.coc_px,
+                          kOneSided * nearest / (away * one.distance_px));
             }
             if (a) a->found = false;
             if (b) b->found = false;
@@ -319,11 +305,10 @@ private:
         return votes.result();
     }
 
-    const LitPicture& picture_;
+    KnownSurfaces known_;
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Sparse<Mixture>& mixtures_;
-    Plane clean_;      // radius of pixels that touch no silhouette, else far in front
     Plane beyond_;     // see measure_distances
     Image<int> free_;  // pixels one can go from anywhere in a block without meeting a silhouette
     std::array<Path, kDirections> paths_;
@@ -373,11 +358,19 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
                          float nearest_coc_px, float farthest_coc_px, float shared_from_px,
                          Workers& workers) {
+    return fill_hidden(picture, coc, connected, mixtures, nearest_coc_px, farthest_coc_px, shared_from_px, 0,
+                       workers);
+}
+
+HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
+                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
+                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, float white,
+                         Workers& workers) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
     if (mixtures.values.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
-    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, workers);
+    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, white, workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
     layers.ranges = Image<Range>::uninitialised(width, height);

@@ -1,0 +1,79 @@
+#include "engine/samples/known_surfaces.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kDark = 0.01f;        // times white; keeps ratios finite
+constexpr float kWidestLightPx = 64;  // what is wider is a lit surface, as of lamps
+
+float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
+
+// 0 up to `from`, 1 at twice that.
+float above(float value, float from) { return std::clamp(value / from - 1, 0.0f, 1.0f); }
+
+}  // namespace
+
+KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc,
+                             const Sparse<Mixture>& mixtures, float white, Workers& workers)
+    : picture_(picture),
+      mixtures_(mixtures),
+      radii_(Plane::uninitialised(coc.width(), coc.height())),
+      white_(white) {
+    parallel_for(coc.height(), workers, [&](int y) {
+        for (int x = 0; x < coc.width(); ++x) {
+            const Mixture* m = mixtures_.at(x, y);
+            radii_(x, y) = !m ? coc(x, y) : m->shows_far ? m->far_coc_px : -1e30f;
+        }
+    });
+}
+
+Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
+    // Times white: what is darker is no light, a bright wall may go on as long as it likes.
+    constexpr float kLight = 0.55f;
+    // Times what is beyond.
+    constexpr float kStandsOut = 3;
+    const Rgba own = wide_colour(from, outwards, distance_px);
+    const float light = light_of(own);
+    if (white_ <= 0 || light <= kLight * white_) return own;
+    const Rgba other = beyond(from, outwards, distance_px, own);
+    const float t = above(light / (light_of(other) + kDark * white_), kStandsOut);
+    const float falls = above(light, kLight * white_) * t * t * (3 - 2 * t);
+    return own * (1 - falls) + falls * other;
+}
+
+Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
+    Rgba sum = colour(at.x, at.y);
+    float n = 1;
+    for (const float aside : {-0.2f, -0.1f, 0.1f, 0.2f}) {
+        const float far = aside * distance_px;
+        const int dx = -int(std::lround(far * outwards.y)), dy = int(std::lround(far * outwards.x));
+        if ((dx != 0 || dy != 0) && shows(at.x + dx, at.y + dy, at.coc_px))
+            sum += colour(at.x + dx, at.y + dy), ++n;
+    }
+    return sum * (1 / n);
+}
+
+// What shows of the surface from `from` to four times the distance, dark things before bright ones.
+Rgba KnownSurfaces::beyond(Place from, Direction outwards, float distance_px, Rgba otherwise) const {
+    constexpr float kNearest = 0.3f, kFarthest = 4, kStep = 1.3f;  // the first two times the distance
+    const float farthest = std::min(kFarthest * distance_px, kWidestLightPx);
+    const float dark = kDark * white_;
+    Rgba sum;
+    float total = 0;
+    for (float far = kNearest * distance_px; far <= farthest; far *= kStep) {
+        const int x = from.x + int(std::lround(far * outwards.x)),
+                  y = from.y + int(std::lround(far * outwards.y));
+        if (!radii_.rect().contains(x, y)) break;
+        if (!one_surface(radii_(x, y), from.coc_px)) continue;
+        const Rgba c = comparable(colour(x, y));
+        const float light = light_of(c) + dark, weight = 1 / (light * light);
+        sum += weight * c, total += weight;
+    }
+    return total > 0 ? sum * (1 / total) : otherwise;
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,66 @@
+// What a picture's pixels say of the surfaces they show, and how far those may be taken to go on where
+// something nearer hides them.
+#pragma once
+
+#include "engine/samples/hidden.h"
+
+#include <cmath>
+
+namespace petzval::engine {
+
+// Whether two pixels at some distance may show one surface.
+inline bool one_surface(float coc_a_px, float coc_b_px) {
+    return std::abs(coc_a_px - coc_b_px) < 1.5f + 0.05f * std::abs(coc_a_px + coc_b_px);
+}
+
+struct Direction {
+    float x, y;  // of length 1
+};
+
+class KnownSurfaces {
+public:
+    // Borrows the picture and what was found at its silhouettes. white: what counts as bright, scene-linear
+    // luminance (engine/samples/white.h); 0: nothing.
+    KnownSurfaces(const LitPicture& picture, View<const float> coc_px, const Sparse<Mixture>& mixtures,
+                  float white, Workers& workers);
+
+    // Of what each pixel shows; far in front of everything where that is the nearer surface at a silhouette,
+    // of which nothing is known.
+    View<const float> radii() const { return radii_; }
+    // Of the farther surface at a silhouette; without lamps.
+    Rgba colour(int x, int y) const {
+        const Mixture* m = mixtures_.at(x, y);
+        return m ? m->far_colour : picture_.dim(x, y);
+    }
+    bool shows(int x, int y, float coc_px) const {
+        return radii_.rect().contains(x, y) && std::abs(radii_(x, y) - coc_px) < 1;
+    }
+
+    // A pixel that shows a surface.
+    struct Place {
+        int x, y;
+        float coc_px;
+    };
+    // Its surface as it goes on from there against `outwards`, hidden, over `distance_px`: as wide as one of
+    // sixteen directions is at that distance. Something bright goes on no farther than it shows: its light
+    // falls to that of the surface beyond it (from here, outwards), the more so the smaller it is beside the
+    // distance. So what an edge cuts fades as it slips behind that edge.
+    Rgba going_on(Place from, Direction outwards, float distance_px) const;
+
+private:
+    Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
+    Rgba beyond(Place from, Direction outwards, float distance_px, Rgba otherwise) const;
+
+    const LitPicture& picture_;
+    const Sparse<Mixture>& mixtures_;
+    Plane radii_;
+    float white_;
+};
+
+// fill_hidden() that continues nothing bright farther than it shows.
+HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
+                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
+                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, float white,
+                         Workers& workers);
+
+}  // namespace petzval::engine

@@ -1,0 +1,13 @@
+// What counts as bright in a frame.
+#pragma once
+
+#include "petzval/image.h"
+#include "petzval/workers.h"
+
+namespace petzval::engine {
+
+// Four times the mean luminance of what the picture covers, to the nearest power of two: a frame that shows a
+// little more or less of the same scene has the same lights.
+float white_of(View<const Rgba> picture, Workers& workers);
+
+}  // namespace petzval::engine
