@@ -53,10 +53,10 @@ Figure coma_principle(const Subject& subject) {
     pure.coma = 1, pure.spherical = pure.axial_colour = 0;
     const auto lens = subject.mounted(subject.f_number(), pure);
     if (!lens) return {"", escaped(lens.error().message), 12};
-    const double tail = reach_of(landed_zone(**lens, 1, 0)), coc = 1.6 * tail;
-    const double scale = 0.46 * kPanel / reach_of(landed_zone(**lens, 1, coc));
+    const double tail = reach_of(landed_zone(**lens, 1, 0));
+    const double defocus[] = {0, 0, 0.5 * tail, 1.6 * tail};
     Svg svg(4 * kPanel + 3 * 30, kPanel + kTop, "coma of " + subject.name());
-    const char* const titles[] = {"Zones of the pupil", "In focus", "In front of focus", "Behind"};
+    const char* const titles[] = {"Zones of the pupil", "In focus", "A little out of focus", "Farther out"};
     for (const int i : {1, 2, 3, 0}) {
         const Point corner{i * (kPanel + 30), kTop}, middle = corner + Point{kPanel / 2, kPanel / 2};
         svg.rect(corner, kPanel, kPanel, "field");
@@ -65,7 +65,8 @@ Figure coma_principle(const Subject& subject) {
             for (std::size_t k = 0; k < std::size(kZones); ++k)
                 svg.path(circle(middle, 0.44 * kPanel * kZones[k]), kClasses[k]);
         else
-            draw_landed(svg, **lens, i == 1 ? 0 : i == 2 ? -coc : coc, middle, scale);
+            draw_landed(svg, **lens, defocus[i], middle,
+                        0.46 * kPanel / reach_of(landed_zone(**lens, 1, defocus[i])));
     }
     svg.text(Point{kPanel + 36, kTop + 14}, "↑ outward", "note");
     return {
@@ -74,7 +75,8 @@ Figure coma_principle(const Subject& subject) {
         "else: zones of the pupil are imaged to different sizes. In focus the zone at height ρ lands "
         "on a circle, twice around, of radius Cρ², whose middle is shifted outward by 2Cρ²: all circles "
         "touch two lines 60° apart, the comet's tail. Out of focus the same shift moves each zone's ring; "
-        "rings crowd on one side, the bright edge, and spread on the other.",
+        "rings crowd on one side, the bright edge, and spread on the other, in front of the focus and behind "
+        "it alike. Each panel has its own scale.",
         12};
 }
 

@@ -43,20 +43,20 @@ using Elements = std::vector<Element>;
 
 // As lenses of this description are built; not to scale. Empty: nobody knows.
 const Elements& elements_of(const std::string& name) {
-    static const Elements doublet = {{{-0.28, 0.22}, {0.08, -0.20}}, {{0.08, -0.20}, {0.22, -0.03}, true}};
+    static const Elements doublet = {{{-0.34, 0.20}, {0.08, -0.18}}, {{0.08, -0.18}, {0.22, -0.03}, true}};
     static const std::pair<const char*, Elements> known[] = {
         {"uncorrected", {{{-0.22, 0.21}, {0.22, -0.21}}}},
         {"doublet", doublet},
         {"doublet-ccd", doublet},
         {"doublet-f4", {{{-0.20, 0.13}, {0.06, -0.12}}, {{0.06, -0.12}, {0.17, -0.02}, true}}},
-        {"doublet-overcorrected", {{{-0.30, 0.26}, {0.08, -0.26}}, {{0.08, -0.26}, {0.20, 0.10}, true}}},
+        {"doublet-overcorrected", {{{-0.38, 0.20}, {0.08, -0.22}}, {{0.08, -0.22}, {0.20, 0.10}, true}}},
         {"triplet",
          {{{-0.46, 0.18}, {-0.20, 0.01}},
           {{-0.05, -0.11}, {0.03, 0.13}, true},
           {{0.24, -0.02}, {0.48, -0.17}}}},
         {"asphere", {{{-0.28, 0.26, Shape::Asphere}, {0.14, 0}}}},
         {"apochromat",
-         {{{-0.36, 0.20}, {-0.04, -0.15}},
+         {{{-0.42, 0.20}, {-0.04, -0.15}},
           {{-0.04, -0.15}, {0.06, 0.13}, true},
           {{0.06, 0.13}, {0.36, -0.15}}}},
         {"diffractive", {{{-0.24, 0.20}, {0.14, 0.05, Shape::Steps}}}},
