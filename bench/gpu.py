@@ -22,10 +22,13 @@ from quality import CACHE, PROGRAM, ROOT, machine, petzval, scene_state
 
 BENCH = pathlib.Path(PROGRAM).parents[2] / "bench/petzval_bench_gpu"
 SPEED = BENCH.with_name("petzval_bench_speed")
-# As their makers publish them: bytes a second of memory, FP32 multiply-adds a second (half the FLOPS).
+# Bytes a second of memory, FP32 multiply-adds a second (half the FLOPS), as published; read on 2026-11-22:
+# https://fpsbench.com/compare/gpu/nvidia-geforce-rtx-4060-vs-nvidia-t600 (272.0 GB/s, 15.11 TFLOPS),
+# https://www.gpu-monkey.com/en/gpu-amd_radeon_rx_7800_xt (624 GB/s), https://cputronic.com/gpu/amd-radeon-rx-7800-xt
+# (37.32 TFLOPS), https://archive-lib.hpctech.co.jp/gpuproduct/nvidia-h100.html (3,350 GB/s, 67 TFLOPS).
 DATA_SHEETS = {
-    "GeForce RTX 4060": (272e9, 15.1e12 / 2),
-    "Radeon RX 7800 XT": (624e9, 37.3e12 / 2),
+    "GeForce RTX 4060": (272e9, 15.11e12 / 2),
+    "Radeon RX 7800 XT": (624e9, 37.32e12 / 2),
     "H100 SXM": (3350e9, 67e12 / 2),
 }
 

@@ -49,9 +49,9 @@ def petzval(*words):
 
 
 def engine_names():
-    """As the program's own help lists them."""
+    """As the program's own help lists them, but for that of GPUs alone."""
     listed = re.search(r"--engine NAME\s+(.*?);", petzval("defocus", "--help"), re.DOTALL)[1]
-    return [name for name in re.findall(r"\w+", listed) if name != "and"]
+    return [name for name in re.findall(r"\w+", listed) if name not in ("and", "realtime")]
 
 
 def scene_state():

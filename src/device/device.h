@@ -15,6 +15,7 @@ namespace petzval::engine {
 struct GatherPlan;
 struct GaussianPlan;
 struct LightsPlan;
+struct RealtimePlan;
 struct ScatterPlan;
 }  // namespace petzval::engine
 
@@ -72,6 +73,8 @@ public:
                         const Control& control) const = 0;
     // Writes all of `out`.
     virtual void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const = 0;
+    // Writes all of `out`. The CPU has no pass for real time and says so.
+    virtual void draw_realtime(const engine::RealtimePlan& plan, View<Rgba> out) const = 0;
     // Adds to the plan's rows of `out`, the whole frame.
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                             const Control& control) const = 0;

@@ -17,6 +17,8 @@ std::span<const Engine> engines() {
         {"gaussian", "drafts: the sharp picture mixed with two Gaussian blurs; no bokeh, the fastest",
          run_gaussian, false, Layers::OneByOne},
         {"sprites", "lights as the lens's own kernels, found or given, over gather or gaussian", run_sprites},
+        {"realtime", "as games draw it, on a GPU alone: what hosts embed, near and far at half resolution",
+         run_realtime, false, Layers::OneByOne},
         {"reference", "the definition of a correct result, traced through the lens; slow", run_reference,
          true},
     };

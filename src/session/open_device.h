@@ -42,6 +42,10 @@ public:
         note();
         device_.mix(plan, out, control);
     }
+    void draw_realtime(const engine::RealtimePlan& plan, View<Rgba> out) const override {
+        note();
+        device_.draw_realtime(plan, out);
+    }
     device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, View<Rgba> out,
                             const device::Control& control) const override {
         note();

@@ -6,6 +6,7 @@
 #include "device/cpu/gather.h"
 #include "device/cpu/mix.h"
 #include "device/cpu/stamp_lights.h"
+#include "device/failure.h"
 #include "engine/lights/plan.h"
 
 namespace petzval::device {
@@ -39,6 +40,10 @@ public:
     }
     void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
         mix_blurs(plan, out, control);
+    }
+    void draw_realtime(const engine::RealtimePlan&, View<Rgba>) const override {
+        throw Failed{{ErrorCode::Unsupported,
+                      "job.engine realtime is drawn by a GPU alone: session.device gpu", "job.engine"}};
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {

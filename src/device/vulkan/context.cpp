@@ -1,6 +1,7 @@
 #include "device/vulkan/context.h"
 
 #include "device/vulkan/failure.h"
+#include "device/vulkan/pipeline.h"
 
 #include <utility>
 
@@ -30,10 +31,7 @@ Status Context::create(std::size_t number) {
         opened_.device = VK_NULL_HANDLE;
         return Error{ErrorCode::Unsupported, candidate_.name + " does not start"};
     }
-#define PETZVAL_VK_FIND(name) \
-    vk_.name = reinterpret_cast<PFN_##name>(vk_.vkGetDeviceProcAddr(opened_.device, #name));
-    PETZVAL_VK_DEVICE(PETZVAL_VK_FIND)
-#undef PETZVAL_VK_FIND
+    find_functions(vk_, opened_.device);
     opened_.vk = &vk_;
     vk_.vkGetDeviceQueue(opened_.device, candidate_.queue_family, 0, &queue_);
     heap_ = std::make_unique<Heap>(opened_, candidate_.memory);
@@ -77,23 +75,7 @@ Program Context::make_program(const ShaderWords& words, std::uint32_t variant) c
     layout.setLayoutCount = 1, layout.pSetLayouts = &program.set_layout;
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &push;
     check(vk_.vkCreatePipelineLayout(handle(), &layout, nullptr, &program.layout), name(), what);
-    VkShaderModuleCreateInfo module = {};
-    module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    module.codeSize = words.spirv.size_bytes(), module.pCode = words.spirv.data();
-    VkShaderModule code = VK_NULL_HANDLE;
-    check(vk_.vkCreateShaderModule(handle(), &module, nullptr, &code), name(), what);
-    const VkSpecializationMapEntry entry = {0, 0, sizeof variant};
-    const VkSpecializationInfo special = {1, &entry, sizeof variant, &variant};
-    VkComputePipelineCreateInfo info = {};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = code, info.stage.pName = "main", info.stage.pSpecializationInfo = &special;
-    info.layout = program.layout;
-    const VkResult made =
-        vk_.vkCreateComputePipelines(handle(), VK_NULL_HANDLE, 1, &info, nullptr, &program.pipeline);
-    vk_.vkDestroyShaderModule(handle(), code, nullptr);
-    check(made, name(), what);
+    program.pipeline = make_pipeline(opened_, words.spirv, program.layout, variant);
     return program;
 }
 

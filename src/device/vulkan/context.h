@@ -37,6 +37,7 @@ public:
 
     const Functions& vk() const { return vk_; }
     VkDevice handle() const { return opened_.device; }
+    const Opened& opened() const { return opened_; }
     const std::string& name() const { return opened_.name; }  // "gpu:0"
     const Candidate& candidate() const { return candidate_; }
     std::size_t most_range_bytes() const { return candidate_.limits.maxStorageBufferRange; }

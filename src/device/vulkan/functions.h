@@ -58,6 +58,16 @@ namespace petzval::device::vulkan {
     X(vkCmdDispatch)                 \
     X(vkCmdPipelineBarrier)          \
     X(vkCmdCopyBuffer)               \
+    X(vkCmdCopyBufferToImage)        \
+    X(vkCmdCopyImageToBuffer)        \
+    X(vkCreateImage)                 \
+    X(vkDestroyImage)                \
+    X(vkGetImageMemoryRequirements)  \
+    X(vkBindImageMemory)             \
+    X(vkCreateImageView)             \
+    X(vkDestroyImageView)            \
+    X(vkCreateSampler)               \
+    X(vkDestroySampler)              \
     X(vkCreateQueryPool)             \
     X(vkDestroyQueryPool)            \
     X(vkCmdResetQueryPool)           \
@@ -75,5 +85,9 @@ struct Functions {
     PETZVAL_VK_DEVICE(PETZVAL_VK_POINTER)
 };
 #undef PETZVAL_VK_POINTER
+
+// Of an instance; of a device. Requires: vkGetInstanceProcAddr; vkGetDeviceProcAddr.
+void find_functions(Functions& vk, VkInstance instance);
+void find_functions(Functions& vk, VkDevice device);
 
 }  // namespace petzval::device::vulkan

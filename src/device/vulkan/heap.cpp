@@ -9,7 +9,6 @@
 namespace petzval::device::vulkan {
 namespace {
 
-constexpr VkDeviceSize kBlock = VkDeviceSize(32) << 20;
 constexpr VkDeviceSize kAlignment = 256;  // the most that any device asks of a storage buffer's offset
 
 constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
@@ -19,8 +18,8 @@ constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
 
 }  // namespace
 
-Heap::Heap(Opened opened, const VkPhysicalDeviceMemoryProperties& memory)
-    : opened_(std::move(opened)), memory_(memory) {}
+Heap::Heap(Opened opened, const VkPhysicalDeviceMemoryProperties& memory, std::size_t block_bytes)
+    : opened_(std::move(opened)), memory_(memory), block_bytes_(block_bytes) {}
 
 Heap::~Heap() {
     for (Block& block : blocks_) destroy(block);
@@ -42,7 +41,7 @@ Heap::Piece Heap::allocate(Kind kind, std::size_t bytes) {
     };
     for (Block& block : blocks_)
         if (block.kind == kind && take(block)) return piece;
-    take(new_block(kind, std::max(kBlock, size)));
+    take(new_block(kind, std::max(block_bytes_, size)));
     return piece;
 }
 

@@ -26,7 +26,9 @@ class Heap {
     struct Block;
 
 public:
-    Heap(Opened opened, const VkPhysicalDeviceMemoryProperties& memory);
+    // block_bytes: of the device's memory that is taken at least, each time.
+    Heap(Opened opened, const VkPhysicalDeviceMemoryProperties& memory,
+         std::size_t block_bytes = std::size_t(32) << 20);
     ~Heap();
     Heap(const Heap&) = delete;
     Heap& operator=(const Heap&) = delete;
@@ -85,6 +87,7 @@ private:
 
     const Opened opened_;
     const VkPhysicalDeviceMemoryProperties memory_;
+    const VkDeviceSize block_bytes_;
     mutable std::mutex mutex_;
     std::list<Block> blocks_;
 };

@@ -103,7 +103,7 @@ Status Instance::create_instance() {
                 "$PETZVAL_VULKAN_VALIDATION is set, but the validation layer is not installed");
         return unsupported("no driver of Vulkan is installed");
     }
-    PETZVAL_VK_INSTANCE(PETZVAL_VK_FIND)
+    find_functions(vk_, instance_);
     if (is_watched) vk_.vkCreateDebugUtilsMessengerEXT(instance_, &watching, nullptr, &messenger_);
     return Done{};
 }

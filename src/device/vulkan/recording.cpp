@@ -78,6 +78,16 @@ void Recording::order(VkPipelineStageFlags to, VkAccessFlags access) {
                              to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
+// Plans are cut so that this fails for no picture that was met; a kernel of a few thousand pixels may.
+void Recording::check_range(const Piece& piece) const {
+    const std::size_t most = context_.most_range_bytes();
+    if (piece.size() <= most) return;
+    throw Failed{{ErrorCode::OutOfMemory, context_.name() + " reads at most " + std::to_string(most >> 20) +
+                                              " MiB in one piece, and this frame has one of " +
+                                              std::to_string(piece.size() >> 20) +
+                                              " MiB; session.device cpu has no such limit"}};
+}
+
 VkDescriptorSet Recording::set_for(const Program& program, std::initializer_list<const Piece*> buffers) {
     VkDescriptorSetAllocateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
@@ -85,7 +95,10 @@ VkDescriptorSet Recording::set_for(const Program& program, std::initializer_list
     VkDescriptorSet set = VK_NULL_HANDLE;
     check(vk_.vkAllocateDescriptorSets(context_.handle(), &info, &set), context_.name(), "buffers of a pass");
     std::vector<VkDescriptorBufferInfo> ranges;
-    for (const Piece* piece : buffers) ranges.push_back({piece->buffer(), piece->offset(), piece->size()});
+    for (const Piece* piece : buffers) {
+        check_range(*piece);
+        ranges.push_back({piece->buffer(), piece->offset(), piece->size()});
+    }
     VkWriteDescriptorSet write = {};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set, write.descriptorCount = std::uint32_t(ranges.size());

@@ -41,6 +41,9 @@ public:
     void copy(const Piece& from, const Piece& to, std::size_t bytes);
     // The piece's bytes once run, in memory that the host sees; lives as long as this.
     const std::byte* downloaded(const Piece& piece, std::size_t bytes);
+    // For what is recorded by other means: what was uploaded can be copied from then.
+    VkCommandBuffer commands() const { return commands_; }
+    void wait_for_uploads() { order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT); }
     // Starts; then waits for the end. Nothing is recorded afterwards.
     void run();
 
@@ -48,6 +51,7 @@ private:
     void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
               std::span<const std::byte> push, Groups groups);
     VkDescriptorSet set_for(const Program& program, std::initializer_list<const Piece*> buffers);
+    void check_range(const Piece& piece) const;
     void order(VkPipelineStageFlags to, VkAccessFlags access);
     void note_times();
 

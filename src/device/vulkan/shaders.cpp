@@ -33,6 +33,21 @@ constexpr std::uint32_t kBlurCells[] =
 constexpr std::uint32_t kMixBlurs[] =
 #include "mix_blurs.comp.inc"
     ;
+constexpr std::uint32_t kRealtimeSplit[] =
+#include "realtime_split.comp.inc"
+    ;
+constexpr std::uint32_t kRealtimeReach[] =
+#include "realtime_reach.comp.inc"
+    ;
+constexpr std::uint32_t kRealtimeGather[] =
+#include "realtime_gather.comp.inc"
+    ;
+constexpr std::uint32_t kRealtimeCombine16[] =
+#include "realtime_combine_16.comp.inc"
+    ;
+constexpr std::uint32_t kRealtimeCombine32[] =
+#include "realtime_combine_32.comp.inc"
+    ;
 
 }  // namespace
 
@@ -57,9 +72,19 @@ ShaderWords words_of(Shader shader) {
         case Shader::BlurCells:
             return {kBlurCells, 5, 84};
         case Shader::MixBlurs:
+            return {kMixBlurs, 6, 84};
+        case Shader::RealtimeSplit:
+            return {kRealtimeSplit, 0, 36};
+        case Shader::RealtimeReach:
+            return {kRealtimeReach, 0, 36};
+        case Shader::RealtimeGather:
+            return {kRealtimeGather, 0, 36};
+        case Shader::RealtimeCombine16:
+            return {kRealtimeCombine16, 0, 36};
+        case Shader::RealtimeCombine32:
             break;
     }
-    return {kMixBlurs, 6, 84};
+    return {kRealtimeCombine32, 0, 36};
 }
 
 }  // namespace petzval::device::vulkan

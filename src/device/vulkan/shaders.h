@@ -16,12 +16,17 @@ enum class Shader {
     Gather,
     SpreadCells,
     BlurCells,
-    MixBlurs
+    MixBlurs,
+    RealtimeSplit,
+    RealtimeReach,
+    RealtimeGather,
+    RealtimeCombine16,  // its result is rgba16f
+    RealtimeCombine32   // rgba32f
 };
 
 struct ShaderWords {
     std::span<const std::uint32_t> spirv;
-    int buffers;               // storage buffers, bound from 0 on
+    int buffers;               // storage buffers, bound from 0 on; RealtimePass knows its own bindings
     std::uint32_t push_bytes;  // of push constants
 };
 

@@ -5,6 +5,7 @@
 #include "device/vulkan/composite.h"
 #include "device/vulkan/gather.h"
 #include "device/vulkan/mix.h"
+#include "device/vulkan/realtime.h"
 #include "device/vulkan/recording.h"
 #include "device/vulkan/stamp_lights.h"
 #include "engine/lights/plan.h"
@@ -40,6 +41,9 @@ public:
     }
     void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
         mix_blurs(*context_, plan, out, control);
+    }
+    void draw_realtime(const engine::RealtimePlan& plan, View<Rgba> out) const override {
+        vulkan::draw_realtime(*context_, plan, out);
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {

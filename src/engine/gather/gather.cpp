@@ -5,6 +5,7 @@
 #include "device/device.h"
 #include "engine/gather/gather_stages.h"
 #include "engine/gather/plan.h"
+#include "engine/gather/realtime_plan.h"
 #include "engine/waist/memory.h"
 
 #include <algorithm>
@@ -98,6 +99,29 @@ std::size_t least_gather_bytes(const Input& input) {
 Result<Output> run_gather(const Input& input) {
     if (input.gather.stage != GatherStage::Final) return run_gather_stage(input);
     return Gather(input).run();
+}
+
+Result<Output> run_realtime(const Input& input) {
+    const auto start = std::chrono::steady_clock::now();
+    constexpr std::size_t kBytesPerPixel = 3 * sizeof(Rgba);
+    if (const Status fits = fits_memory(input, kBytesPerPixel, "realtime"); !fits) return fits.error();
+    Output output;
+    output.image = Picture::uninitialised(input.width(), input.height());
+    const kernel::FieldPosition middle;
+    const RealtimePlan plan{
+        input.colour, input.coc_px, std::max(-input.nearest_coc_px, input.farthest_coc_px),
+        float(input.pixel_aspect),
+        realtime_lens(input.lens(0), middle, double(-input.nearest_coc_px), double(input.farthest_coc_px))};
+    if (!input.progress->cancelled()) input.device->draw_realtime(plan, output.image);
+    if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
+    output.stages = {
+        {"realtime", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
+    if (!input.deep.empty())
+        output.warnings.emplace_back("job.engine realtime looks at the front view alone");
+    if (input.lens(0).varies_over_field())
+        output.warnings.emplace_back(
+            "job.engine realtime draws the lens as it is in the middle of the frame");
+    return output;
 }
 
 }  // namespace petzval::engine

@@ -11,4 +11,7 @@ std::size_t least_gather_bytes(const Input& input);
 // Errors: Cancelled, OutOfMemory.
 Result<Output> run_gather(const Input& input);
 
+// The front view alone, in one go, by the pass for real time (docs/design/realtime.md).
+Result<Output> run_realtime(const Input& input);
+
 }  // namespace petzval::engine

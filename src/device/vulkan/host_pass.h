@@ -1,0 +1,54 @@
+// The pass for real time on a device that somebody else opened.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/result.h"
+
+#include "device/vulkan/realtime_pass.h"
+#include "kernel/model/lens_model.h"
+
+#include <memory>
+
+namespace petzval::device::vulkan {
+
+struct Host {
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+};
+
+// One over the distance in metres is scale * depth + bias.
+struct DepthScale {
+    double scale = 0, bias = 0;
+};
+
+// Radii of a camera over such depth. Errors: those of CircleOfConfusion; InvalidArgument: no such depth.
+Result<RealtimeOptics> optics_of(const Camera& camera, int width, const DepthScale& depth, double most_px,
+                                 double aspect);
+
+class HostPass {
+public:
+    // Errors: Unsupported (what the device lacks), OutOfMemory.
+    static Result<std::unique_ptr<HostPass>> open(const Host& host, const RealtimeSettings& settings);
+    // If it fails, nothing changed. Errors: as above.
+    Status resize(std::uint32_t width, std::uint32_t height);
+    // From any thread.
+    void set_lens(const kernel::LensModel& lens);
+    RealtimePass& pass() { return *pass_; }
+    const RealtimeSettings& settings() const { return settings_; }
+
+private:
+    HostPass() = default;
+    Result<std::unique_ptr<RealtimePass>> made(const RealtimeSettings& settings);
+
+    Functions vk_;
+    Opened opened_;
+    VkPhysicalDeviceMemoryProperties memory_ = {};
+    RealtimeSettings settings_;
+    std::unique_ptr<RealtimePass> pass_;
+    std::mutex mutex_;  // of the next line, and of pass_ while it changes
+    engine::RealtimeLens lens_;
+};
+
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,266 @@
+#include "device/vulkan/realtime_pass.h"
+
+#include "device/vulkan/failure.h"
+#include "device/vulkan/pipeline.h"
+
+#include <cstring>
+#include <utility>
+
+namespace petzval::device::vulkan {
+namespace {
+
+constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                           kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                           kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+constexpr std::uint32_t kTile = 16, kGroup = 8;  // pixels; invocations along a side
+constexpr std::uint32_t kLevels = 4;             // of cells
+
+struct Push {
+    std::int32_t width, height, tiles_x, tiles_y;
+    RealtimeOptics optics;
+    std::uint32_t has_layer;
+};
+static_assert(sizeof(Push) == 36, "as shaders/realtime.glsl has it");
+
+// What each dispatch is bound to, from binding 0 on: as its program declares it.
+std::vector<VkDescriptorType> bindings_of(int step) {
+    switch (step) {
+        case 0:
+            return {kSampled, kSampled, kStored, kStored, kStored, kStored, kBuffer};
+        case 1:
+            return {kBuffer, kBuffer};
+        case 2:
+            return {kSampled, kBuffer, kBuffer, kBuffer, kStored};
+        default:
+            return {kSampled, kSampled, kSampled, kSampled, kStored};
+    }
+}
+
+}  // namespace
+
+RealtimePass::RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory,
+                           const RealtimeSettings& settings)
+    : opened_(opened),
+      vk_(*opened.vk),
+      memory_(memory),
+      settings_(settings),
+      heap_(opened, memory, std::size_t(1) << 20),
+      slots_(settings.slots) {
+    try {
+        make();
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+RealtimePass::~RealtimePass() { destroy(); }
+
+void RealtimePass::make() {
+    ImageKind kind;
+    kind.width = tiles_x() * kGroup, kind.height = tiles_y() * kGroup, kind.is_array = true;
+    kind.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    kind.layers = 4, kind.levels = kLevels;
+    cells_ = DeviceImage(opened_, memory_, kind);
+    kind.layers = 3, kind.levels = 1;
+    gathered_ = DeviceImage(opened_, memory_, kind);
+    const std::size_t tiles = std::size_t(tiles_x()) * tiles_y();
+    tiles_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
+    reach_ = heap_.allocate(Kind::OnDevice, tiles * sizeof(float));
+    lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
+    make_sampler(VK_FILTER_NEAREST, nearest_);
+    make_sampler(VK_FILTER_LINEAR, linear_);
+    for (const Step step : {kSplit, kReach, kGather, kCombine}) make_program(step);
+    make_sets();
+}
+
+void RealtimePass::make_sampler(VkFilter filter, VkSampler& sampler) const {
+    VkSamplerCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = filter;
+    info.mipmapMode =
+        filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.maxLod = VK_LOD_CLAMP_NONE;
+    check(vk_.vkCreateSampler(opened_.device, &info, nullptr, &sampler), opened_.name, "a sampler");
+}
+
+void RealtimePass::make_program(Step step) {
+    const std::string what = "a program";
+    Program& program = programs_[step];
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const VkDescriptorType type : bindings_of(step))
+        bindings.push_back({std::uint32_t(bindings.size()), type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    VkDescriptorSetLayoutCreateInfo set = {};
+    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set.bindingCount = std::uint32_t(bindings.size()), set.pBindings = bindings.data();
+    check(vk_.vkCreateDescriptorSetLayout(opened_.device, &set, nullptr, &program.set_layout), opened_.name,
+          what);
+    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push)};
+    VkPipelineLayoutCreateInfo layout = {};
+    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layout.setLayoutCount = 1, layout.pSetLayouts = &program.set_layout;
+    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &push;
+    check(vk_.vkCreatePipelineLayout(opened_.device, &layout, nullptr, &program.layout), opened_.name, what);
+    const std::array shaders{
+        Shader::RealtimeSplit, Shader::RealtimeReach, Shader::RealtimeGather,
+        settings_.has_float_result ? Shader::RealtimeCombine32 : Shader::RealtimeCombine16};
+    program.pipeline = make_pipeline(opened_, words_of(shaders[step]).spirv, program.layout, 0);
+}
+
+void RealtimePass::make_sets() {
+    const std::uint32_t slots = settings_.slots;
+    // Of all four dispatches together.
+    const std::array<VkDescriptorPoolSize, 3> sizes{
+        {{kSampled, 7 * slots}, {kStored, 6 * slots}, {kBuffer, 6 * slots}}};
+    VkDescriptorPoolCreateInfo pool = {};
+    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool.maxSets = kSteps * slots;
+    pool.poolSizeCount = std::uint32_t(sizes.size()), pool.pPoolSizes = sizes.data();
+    check(vk_.vkCreateDescriptorPool(opened_.device, &pool, nullptr, &pool_), opened_.name, "descriptors");
+    std::array<VkDescriptorSetLayout, kSteps> layouts = {};
+    for (std::size_t i = 0; i < kSteps; ++i) layouts[i] = programs_[i].set_layout;
+    VkDescriptorSetAllocateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorPool = pool_, info.descriptorSetCount = kSteps, info.pSetLayouts = layouts.data();
+    for (Slot& slot : slots_) {
+        check(vk_.vkAllocateDescriptorSets(opened_.device, &info, slot.sets.data()), opened_.name,
+              "descriptors");
+        slot.lens = heap_.allocate(Kind::ToDevice, engine::RealtimeLens::kBytes);
+        write_own(slot);
+    }
+}
+
+void RealtimePass::destroy() {
+    if (pool_) vk_.vkDestroyDescriptorPool(opened_.device, pool_, nullptr);
+    for (const Program& p : programs_) {
+        if (p.pipeline) vk_.vkDestroyPipeline(opened_.device, p.pipeline, nullptr);
+        if (p.layout) vk_.vkDestroyPipelineLayout(opened_.device, p.layout, nullptr);
+        if (p.set_layout) vk_.vkDestroyDescriptorSetLayout(opened_.device, p.set_layout, nullptr);
+    }
+    for (VkSampler sampler : {nearest_, linear_})
+        if (sampler) vk_.vkDestroySampler(opened_.device, sampler, nullptr);
+}
+
+void RealtimePass::write_image(VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
+                               const VkDescriptorImageInfo& info) const {
+    VkWriteDescriptorSet write = {};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set, write.dstBinding = binding, write.descriptorCount = 1;
+    write.descriptorType = type, write.pImageInfo = &info;
+    vk_.vkUpdateDescriptorSets(opened_.device, 1, &write, 0, nullptr);
+}
+
+void RealtimePass::write_buffer(VkDescriptorSet set, std::uint32_t binding, const Piece& piece) const {
+    const VkDescriptorBufferInfo info = {piece.buffer(), piece.offset(), piece.size()};
+    VkWriteDescriptorSet write = {};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set, write.dstBinding = binding, write.descriptorCount = 1;
+    write.descriptorType = kBuffer, write.pBufferInfo = &info;
+    vk_.vkUpdateDescriptorSets(opened_.device, 1, &write, 0, nullptr);
+}
+
+void RealtimePass::write_own(const Slot& slot) const {
+    constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_GENERAL;
+    for (std::uint32_t level = 0; level < kLevels; ++level)
+        write_image(slot.sets[kSplit], 2 + level, kStored, {VK_NULL_HANDLE, cells_.level(level), kLayout});
+    write_buffer(slot.sets[kSplit], 6, tiles_);
+    write_buffer(slot.sets[kReach], 0, tiles_);
+    write_buffer(slot.sets[kReach], 1, reach_);
+    write_image(slot.sets[kGather], 0, kSampled, {linear_, cells_.view(), kLayout});
+    write_buffer(slot.sets[kGather], 1, lens_);
+    write_buffer(slot.sets[kGather], 2, tiles_);
+    write_buffer(slot.sets[kGather], 3, reach_);
+    write_image(slot.sets[kGather], 4, kStored, {VK_NULL_HANDLE, gathered_.view(), kLayout});
+    write_image(slot.sets[kCombine], 3, kSampled, {linear_, gathered_.view(), kLayout});
+}
+
+void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) const {
+    const auto sampled = [this](const RealtimeImages::Input& input) {
+        return VkDescriptorImageInfo{nearest_, input.view, input.layout};
+    };
+    for (const Step step : {kSplit, kCombine}) {
+        write_image(slot.sets[step], 0, kSampled, sampled(images.colour));
+        write_image(slot.sets[step], 1, kSampled, sampled(images.depth));
+    }
+    // Without one something must be bound all the same.
+    write_image(slot.sets[kCombine], 2, kSampled, sampled(images.layer.view ? images.layer : images.colour));
+    write_image(slot.sets[kCombine], 4, kStored, {VK_NULL_HANDLE, images.result, VK_IMAGE_LAYOUT_GENERAL});
+}
+
+void RealtimePass::set_lens(engine::RealtimeLens lens) {
+    auto made = std::make_shared<const engine::RealtimeLens>(std::move(lens));
+    const std::lock_guard lock(mutex_);
+    chosen_ = std::move(made);
+}
+
+void RealtimePass::order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
+                         VkPipelineStageFlags to) const {
+    VkMemoryBarrier barrier = {};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = written;
+    barrier.dstAccessMask = to == VK_PIPELINE_STAGE_TRANSFER_BIT
+                                ? VK_ACCESS_TRANSFER_WRITE_BIT
+                                : VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    vk_.vkCmdPipelineBarrier(commands, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+// After all of the frame before: its images are ours again, and the lens is written.
+void RealtimePass::begin(VkCommandBuffer commands, Slot& slot) {
+    constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    {
+        const std::lock_guard lock(mutex_);
+        if (slot.has != chosen_) {
+            slot.has = chosen_;
+            std::memcpy(slot.lens.mapped(), slot.has->fours.data(), engine::RealtimeLens::kBytes);
+        }
+    }
+    order(commands, kCompute, 0, VK_PIPELINE_STAGE_TRANSFER_BIT);
+    const VkBufferCopy copy = {slot.lens.offset(), lens_.offset(), engine::RealtimeLens::kBytes};
+    vk_.vkCmdCopyBuffer(commands, slot.lens.buffer(), lens_.buffer(), 1, &copy);
+    std::array<VkImageMemoryBarrier, 2> fresh = {};
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+        fresh[i].sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+        fresh[i].dstAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+        fresh[i].oldLayout = VK_IMAGE_LAYOUT_UNDEFINED, fresh[i].newLayout = VK_IMAGE_LAYOUT_GENERAL;
+        fresh[i].srcQueueFamilyIndex = fresh[i].dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        fresh[i].image = i == 0 ? cells_.handle() : gathered_.handle();
+        fresh[i].subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                     VK_REMAINING_ARRAY_LAYERS};
+    }
+    vk_.vkCmdPipelineBarrier(commands, kCompute, kCompute, 0, 0, nullptr, 0, nullptr,
+                             std::uint32_t(fresh.size()), fresh.data());
+    order(commands, VK_PIPELINE_STAGE_TRANSFER_BIT | kCompute,
+          VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT, kCompute);
+}
+
+void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                          const RealtimeOptics& optics, bool plant) {
+    begin(commands, slots_[slot]);
+    write_given(slots_[slot], images);
+    const Push push{std::int32_t(settings_.width),
+                    std::int32_t(settings_.height),
+                    std::int32_t(tiles_x()),
+                    std::int32_t(tiles_y()),
+                    optics,
+                    images.layer.view ? 1u : 0u};
+    const auto up = [](std::uint32_t count, std::uint32_t of) { return (count + of - 1) / of; };
+    const std::array<std::array<std::uint32_t, 2>, kSteps> groups{
+        {{tiles_x(), tiles_y()},
+         {up(tiles_x() * tiles_y(), 64), 1},
+         {tiles_x(), tiles_y()},
+         {up(settings_.width, kGroup), up(settings_.height, kGroup)}}};
+    for (std::size_t step = 0; step < kSteps; ++step) {
+        if (step > 0 && !(plant && step == kGather))
+            order(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+        const Program& program = programs_[step];
+        vk_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
+        vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
+                                    &slots_[slot].sets[step], 0, nullptr);
+        vk_.vkCmdPushConstants(commands, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
+        vk_.vkCmdDispatch(commands, groups[step][0], groups[step][1], 1);
+    }
+}
+
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,91 @@
+#include "device/vulkan/failure.h"
+#include "device/vulkan/realtime.h"
+#include "device/vulkan/recording.h"
+#include "device/vulkan/test_context.h"
+#include "kernel/lenses/make_lens.h"
+
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace petzval::device::vulkan {
+namespace {
+
+engine::RealtimeLens ideal_lens() {
+    const kernel::Mount mount{{50, 36, 1.4, 2}, 64, 48};
+    return engine::realtime_lens(**kernel::make_lens(LensChoice{}, mount), {}, 20, 20);
+}
+
+// A plane at any radius keeps its light: what taps count is 1, whatever share of the disc they are.
+TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
+    const engine::RealtimeLens lens = ideal_lens();
+    ASSERT_EQ(lens.fours.size(), engine::RealtimeLens::kFours);
+    const std::size_t norms = engine::RealtimeLens::kTaps;
+    const Rgba last = lens.fours[norms + engine::RealtimeLens::kNorms - 1];
+    EXPECT_NEAR(last.r * engine::RealtimeLens::kTaps, 1, 0.06) << "taps over the whole disc";
+    EXPECT_NEAR(last.g, last.r, 1e-6) << "a round lens is the same on both sides";
+    EXPECT_NEAR(lens.fours[norms].r, 1, 1e-6) << "the smallest disc is one tap";
+}
+
+class Watched : public testing::Test {
+protected:
+    // The validation layer is asked for when the instance is made: nobody holds one yet.
+    static void SetUpTestSuite() { setenv("PETZVAL_VULKAN_VALIDATION", "1", 1); }
+    static void TearDownTestSuite() { unsetenv("PETZVAL_VULKAN_VALIDATION"); }
+    static std::string said_of(bool plant) {
+        const auto context = any_context();
+        if (!context) return "skipped";
+        const Picture colour(64, 48, {0.5f, 0.5f, 0.5f, 1});
+        const Plane coc_px(64, 48, -6.0f);
+        Picture out(64, 48);
+        try {
+            draw_realtime(*context, {colour, coc_px, 6, 1, ideal_lens()}, out, plant);
+        } catch (const Failed& failed) {
+            return failed.error.message;
+        }
+        EXPECT_NEAR(out(30, 20).g, 0.5, 2e-3);
+        return "";
+    }
+};
+
+TEST_F(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
+    const std::string silent = said_of(false);
+    if (silent == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
+    EXPECT_EQ(silent, "");
+    EXPECT_NE(said_of(true).find("SYNC-HAZARD"), std::string::npos);
+}
+
+TEST(Recording, RefusesAPieceThatNoProgramCanRead) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    if (context->most_range_bytes() > std::size_t(256) << 20) GTEST_SKIP() << "a device that reads it";
+    const Piece large = context->heap().allocate(Kind::OnDevice, context->most_range_bytes() + 1024);
+    Recording recording(*context);
+    const std::uint32_t push[] = {0};
+    try {
+        recording.pass("too large", context->program(Shader::OpenPupil), {&large, &large, &large}, push, {});
+        FAIL() << "it was taken";
+    } catch (const Failed& failed) {
+        EXPECT_EQ(failed.error.code, ErrorCode::OutOfMemory);
+        EXPECT_NE(failed.error.message.find("MiB"), std::string::npos);
+    }
+}
+
+TEST(Failure, EachEndOfADeviceIsOneLineOfItsOwn) {
+    const auto said = [](VkResult result) {
+        try {
+            check(result, "gpu:0", "drawing");
+        } catch (const Failed& failed) {
+            return failed.error.message;
+        }
+        return std::string();
+    };
+    EXPECT_EQ(said(VK_SUCCESS), "");
+    EXPECT_EQ(said(VK_ERROR_DEVICE_LOST), "gpu:0 was lost during drawing; the frame was not made");
+    EXPECT_EQ(said(VK_ERROR_OUT_OF_DEVICE_MEMORY), "gpu:0 has no memory left for drawing");
+    EXPECT_NE(said(VK_ERROR_INITIALIZATION_FAILED).find("VkResult"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,26 @@
+// The largest radius in front of focus that reaches a tile, from whatever tile it comes.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 0) readonly buffer Tiles { vec2 tiles[]; };
+layout(std430, binding = 1) writeonly buffer Reach { float reach[]; };
+#include "realtime.glsl"
+
+void main() {
+    const int own = int(gl_GlobalInvocationID.x);
+    if (own >= at.tiles.x * at.tiles.y) return;
+    const ivec2 tile = ivec2(own % at.tiles.x, own / at.tiles.x);
+    const ivec2 far = ivec2(vec2(at.most_px, at.most_px * at.aspect) / float(kTile)) + 1;
+    const ivec2 low = max(tile - far, ivec2(0)), high = min(tile + far, at.tiles - 1);
+    float most = 0;
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+            const float radius = -tiles[y * at.tiles.x + x].x;
+            // Between the nearest pixels of both.
+            vec2 gap = float(kTile) * vec2(max(abs(ivec2(x, y) - tile) - 1, ivec2(0)));
+            gap.y /= at.aspect;
+            if (radius > most && dot(gap, gap) <= (radius + 1) * (radius + 1)) most = radius;
+        }
+    reach[own] = most;
+}

@@ -1,0 +1,94 @@
+#include "engine/gather/realtime_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace petzval::engine {
+namespace {
+
+using kernel::PointSpread;
+constexpr int kSide = RealtimeLens::kSide;
+constexpr float kHalf = RealtimeLens::kHalf;
+
+// Rings of 6, 12, … taps: each stands for as much of the disc.
+void add_taps(std::vector<Rgba>& fours) {
+    fours.push_back({0, 0, 0, 0});
+    for (int ring = 1; ring <= RealtimeLens::kRings; ++ring)
+        for (int i = 0; i < 6 * ring; ++i) {
+            const double angle = 2 * std::numbers::pi * (i + 0.5 * (ring % 2)) / (6 * ring);
+            const double r = ring / (RealtimeLens::kRings + 0.5);
+            fours.push_back({float(r * std::cos(angle)), float(r * std::sin(angle)), float(r), 0});
+        }
+}
+
+// The mean of a kernel's weights over a square of its pixels, times `scale`.
+Rgba mean_weight(const PointSpread& spread, double x0, double y0, double side, float scale) {
+    Rgba sum;
+    const auto share = [side](double from, int pixel) {
+        return std::max(0.0, std::min(from + side, pixel + 0.5) - std::max(from, pixel - 0.5));
+    };
+    const Rect& e = spread.extent;
+    for (int y = std::max(e.y0, int(std::floor(y0 + 0.5))); y < e.y1 && y - 0.5 < y0 + side; ++y)
+        for (int x = std::max(e.x0, int(std::floor(x0 + 0.5))); x < e.x1 && x - 0.5 < x0 + side; ++x)
+            sum += float(share(x0, x) * share(y0, y) / (side * side)) * scale *
+                   spread.weights(x - e.x0, y - e.y0);
+    return sum;
+}
+
+void add_shape(const PointSpread& spread, double radius_px, std::vector<Rgba>& fours) {
+    const double cell = 2.0 * double(kHalf) / kSide * radius_px;
+    const auto scale = float(std::numbers::pi * radius_px * radius_px);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            fours.push_back(mean_weight(spread, (x - kSide / 2) * cell, (y - kSide / 2) * cell, cell, scale));
+}
+
+// What a tap counts of something blurred by a share of the disc's radius. Of the smallest only a few taps
+// count, which a shape with a dark middle must not lose: they are even discs. As realtime_gather.comp has it.
+float weight_of(const std::vector<Rgba>& fours, std::size_t shape, float u, float v, float share) {
+    const int x = int(std::floor((u / kHalf * 0.5f + 0.5f) * kSide));
+    const int y = int(std::floor((v / kHalf * 0.5f + 0.5f) * kSide));
+    const bool is_inside = x >= 0 && y >= 0 && x < kSide && y < kSide;
+    const float own = is_inside ? fours[shape + std::size_t(y * kSide + x)].a : 0;
+    const float t = std::clamp((share - 0.15f) / 0.2f, 0.0f, 1.0f), shaped = t * t * (3 - 2 * t);
+    const float even = u * u + v * v <= 1 ? 1 : 0;
+    return even + shaped * (own - even);
+}
+
+// What taps over a disc count, together, of a plane that is blurred by a share of its radius.
+float counted(const std::vector<Rgba>& fours, std::size_t shape, float share) {
+    float sum = 0;
+    for (int i = 0; i < RealtimeLens::kTaps; ++i) {
+        const Rgba& tap = fours[std::size_t(i)];
+        sum += weight_of(fours, shape, -tap.r / share, -tap.g / share, share);
+    }
+    return sum;
+}
+
+}  // namespace
+
+RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition field, double near_radius_px,
+                           double far_radius_px) {
+    // Large enough to show the shape, no larger than can be made in a moment.
+    constexpr double kLeastPx = 16, kMostPx = 64;
+    RealtimeLens made;
+    std::vector<Rgba>& fours = made.fours;
+    fours.reserve(RealtimeLens::kFours);
+    add_taps(fours);
+    const std::size_t norms = fours.size();
+    fours.resize(norms + RealtimeLens::kNorms);
+    const std::size_t near = fours.size(), far = near + std::size_t(kSide) * kSide;
+    const double near_px = std::clamp(near_radius_px, kLeastPx, kMostPx),
+                 far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);
+    add_shape(lens.point_spread(-near_px, field), near_px, fours);
+    add_shape(lens.point_spread(far_px, field), far_px, fours);
+    for (int i = 0; i < RealtimeLens::kNorms; ++i) {
+        const float share = std::max(float(i) / (RealtimeLens::kNorms - 1), 1e-3f);
+        fours[norms + std::size_t(i)] = {1 / std::max(counted(fours, near, share), 0.05f),
+                                         1 / std::max(counted(fours, far, share), 0.05f), 0, 0};
+    }
+    return made;
+}
+
+}  // namespace petzval::engine

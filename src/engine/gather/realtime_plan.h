@@ -1,0 +1,40 @@
+// What the pass for real time is given (docs/design/realtime.md): a lens's shape in front of focus and behind
+// it, as a device's programs read it, and a picture.
+#pragma once
+
+#include "petzval/image.h"
+
+#include "kernel/model/lens_model.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace petzval::engine {
+
+// Fours of floats, one after the other: taps over the unit disc (x, y, distance from the middle, 0); for
+// shares of the disc's radius 0…1, what makes the taps of a plane of that radius sum to 1 (near, far, 0, 0);
+// the shape in front of focus and behind it, kSide x kSide each over -kHalf…kHalf pupil radii, r, g, b and a:
+// 1 is the mean over the unit disc.
+struct RealtimeLens {
+    static constexpr int kRings = 6, kTaps = 1 + 3 * kRings * (kRings + 1);
+    static constexpr int kNorms = 64, kSide = 64;
+    static constexpr float kHalf = 1.25f;
+    static constexpr std::size_t kFours = std::size_t(kTaps) + kNorms + 2 * std::size_t(kSide) * kSide;
+    static constexpr std::size_t kBytes = kFours * sizeof(Rgba);
+    std::vector<Rgba> fours;  // kFours
+};
+
+// The shapes that a lens has at these radii, in pixels, in one place of the field.
+RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition field, double near_radius_px,
+                           double far_radius_px);
+
+struct RealtimePlan {
+    View<const Rgba> colour;
+    View<const float> coc_px;
+    float most_px = 0;  // no radius is larger
+    float pixel_aspect = 1;
+    RealtimeLens lens;
+};
+
+}  // namespace petzval::engine

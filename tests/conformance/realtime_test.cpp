@@ -1,0 +1,158 @@
+// Laws of the pass for real time, on every device that can draw it: what it may not do however large a radius
+// is, however depth jitters, however little a camera moves.
+#include "petzval/devices.h"
+#include "petzval/session.h"
+
+#include "shots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace petzval::conformance {
+namespace {
+
+// A session on each GPU that there is.
+class Realtime : public testing::Test {
+protected:
+    void SetUp() override {
+        for (const DeviceFacts& device : devices()) {
+            if (device.name == "cpu" || !device.lacks.empty()) continue;
+            SessionSettings settings;
+            settings.device = device.name;
+            sessions_.emplace_back(settings);
+        }
+        if (sessions_.empty()) GTEST_SKIP() << why_no_gpu();
+    }
+    static Picture drawn(Session& session, const Shot& shot) {
+        auto report = session.defocus(shot.job("realtime"));
+        EXPECT_TRUE(report) << report.error().message;
+        return report ? std::move(report->image) : Picture(shot.colour.width(), shot.colour.height());
+    }
+    std::vector<Session> sessions_;
+};
+
+double sum_of(const Picture& p) {
+    double sum = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) sum += double(p.pixels()[i].g);
+    return sum;
+}
+
+double rms(const Picture& a, const Picture& b) {
+    double squares = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Rgba d = a.pixels()[i] - b.pixels()[i];
+        squares += double(d.r * d.r + d.g * d.g + d.b * d.b) / 3;
+    }
+    return std::sqrt(squares / double(a.size()));
+}
+
+// A bar in front, `width` pixels wide, over noise or one colour.
+Shot bar_in_front(int width, float coc_px, bool noise) {
+    Shot shot = flat(240, 80, {0.2f, 0.2f, 0.2f, 1}, 0);
+    if (noise) paint_noise(shot.colour, 4);
+    for (int y = 0; y < 80; ++y)
+        for (int x = 120; x < 120 + width; ++x)
+            shot.colour(x, y) = {0.8f, 0.8f, 0.8f, 1}, shot.coc_px(x, y) = coc_px;
+    return shot;
+}
+
+TEST(RealtimeOnTheCpu, IsRefusedInOneLine) {
+    const auto cpu = defocus(flat(8, 8, {1, 1, 1, 1}, 2).job("realtime"));
+    ASSERT_FALSE(cpu);
+    EXPECT_EQ(cpu.error().message, "job.engine realtime is drawn by a GPU alone: session.device gpu");
+}
+
+TEST_F(Realtime, KeepsOneColourAndWhatIsInFocus) {
+    for (Session& session : sessions_) {
+        for (const float coc_px : {-40.0f, -7.0f, -1.2f, 0.0f, 1.2f, 7.0f, 40.0f}) {
+            const Picture made = drawn(session, flat(70, 50, {0.3f, 0.5f, 0.7f, 0.8f}, coc_px));
+            for (const Rgba& p : {made(3, 3), made(35, 25), made(69, 49)}) {
+                EXPECT_NEAR(p.g, 0.5, 2e-3) << coc_px;
+                EXPECT_NEAR(p.a, 0.8, 3e-3) << "alpha at " << coc_px;
+            }
+        }
+        Shot sharp = flat(70, 50, {}, 0);
+        paint_noise(sharp.colour, 1);
+        EXPECT_LE(largest_difference(drawn(session, sharp), sharp.colour), 1e-6);
+    }
+}
+
+// The radius is that of a bar many tiles away; what is in focus keeps its light beside it.
+TEST_F(Realtime, NothingLeaksAndNothingIsCutAtLargeRadii) {
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, bar_in_front(20, -60, false));
+        EXPECT_NEAR(made(40, 40).g, 0.2, 1e-3) << "farther away than the radius";
+        EXPECT_GT(made(75, 40).g, 0.202) << "55 px from the bar, where its disc reaches";
+        // In front of the bar's own middle a disc of 60 px holds 20 px of it: a share of about 0.21.
+        EXPECT_NEAR(made(130, 40).g, 0.2 + 0.6 * 0.21, 0.02);
+        float largest_step = 0;
+        for (int x = 1; x < 240; ++x)
+            largest_step = std::max(largest_step, std::abs(made(x, 40).g - made(x - 1, 40).g));
+        EXPECT_LT(largest_step, 0.02) << "a tile's edge shows";
+        // And the other way round: light far behind focus does not land on what is in focus before it.
+        Shot lit = flat(240, 80, {0.2f, 0.2f, 0.2f, 1}, 60);
+        for (int y = 0; y < 80; ++y)
+            for (int x = 100; x < 140; ++x) lit.colour(x, y) = {0, 0, 0, 1}, lit.coc_px(x, y) = 0;
+        EXPECT_LT(drawn(session, lit)(120, 40).g, 1e-3);
+    }
+}
+
+// A twig of one pixel sets the radius of its tile, whichever of its neighbours the jitter gives its depth to.
+TEST_F(Realtime, JitteredDepthMovesNoLight) {
+    for (Session& session : sessions_) {
+        const Picture left = drawn(session, bar_in_front(1, -24, false));
+        Shot shot = bar_in_front(1, -24, false);
+        for (int y = 0; y < 80; ++y)
+            std::swap(shot.coc_px(120, y), shot.coc_px(121, y)),
+                std::swap(shot.colour(120, y), shot.colour(121, y));
+        const Picture right = drawn(session, shot);
+        EXPECT_NEAR(sum_of(left) / sum_of(right), 1, 1e-3);
+        EXPECT_LT(largest_difference(left, right), 0.012) << "of a twig of 0.6 above its ground";
+    }
+}
+
+// Moved by a tenth of a pixel, a picture of smooth things changes by a tenth of what a whole pixel changes.
+TEST_F(Realtime, IsSteadyUnderACameraThatMovesByATenthOfAPixel) {
+    const auto scene = [](float shift) {
+        Shot shot = flat(160, 96, {}, 0);
+        for (int y = 0; y < 96; ++y)
+            for (int x = 0; x < 160; ++x) {
+                const float at = float(x) + shift, edge = std::clamp(at - 70.0f, 0.0f, 1.0f);
+                const float behind = 0.5f + 0.3f * std::sin(0.35f * at), before = 0.2f;
+                const float value = edge * behind + (1 - edge) * before;
+                shot.colour(x, y) = {value, value, value, 1};
+                shot.coc_px(x, y) = edge > 0.5f ? 12.0f : -9.0f;
+            }
+        return shot;
+    };
+    for (Session& session : sessions_) {
+        const Picture still = drawn(session, scene(0));
+        const double tenth = rms(still, drawn(session, scene(0.1f))),
+                     whole = rms(still, drawn(session, scene(1)));
+        EXPECT_LT(tenth, 0.25 * whole);
+        EXPECT_LT(tenth, 2e-3);
+    }
+}
+
+TEST_F(Realtime, IsTheSameBitsTwiceAndNearWhatGatherDraws) {
+    Shot shot = flat(150, 90, {}, 6);
+    paint_rectangles(shot.colour, 3);
+    for (int y = 20; y < 70; ++y)
+        for (int x = 30; x < 60; ++x) shot.coc_px(x, y) = -10;
+    for (int y = 0; y < 90; ++y)
+        for (int x = 110; x < 150; ++x) shot.coc_px(x, y) = 0;
+    const auto gather = defocus(shot.job("gather"));
+    ASSERT_TRUE(gather) << gather.error().message;
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        EXPECT_EQ(largest_difference(made, drawn(session, shot)), 0);
+        EXPECT_LT(rms(made, gather->image), 0.05);
+    }
+}
+
+}  // namespace
+}  // namespace petzval::conformance
