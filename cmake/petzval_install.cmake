@@ -28,7 +28,11 @@ endfunction()
 
 file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
 list(FILTER core_headers EXCLUDE REGEX "/(files|focus_track|frames|lens_report|look_file|ocio|output|scene|shot|track)\\.h$")
-list(FILTER core_headers EXCLUDE REGEX "/petzval_c\\.h$")
+list(FILTER core_headers EXCLUDE REGEX "/(petzval_c|vulkan)\\.h$")
+set(c_headers ${headers}/petzval_c.h)
+if(vulkan)
+  list(APPEND c_headers ${headers}/vulkan.h)
+endif()
 if(PETZVAL_TBB)
   set(tbb_module tbb)
 endif()
@@ -48,7 +52,7 @@ petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/s
                   REQUIRES petzval LIBS -lembree3 DESCRIPTION "Built-in scenes of petzval")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h
                   REQUIRES petzval OpenColorIO DESCRIPTION "OpenColorIO displays for petzval")
-petzval_component(petzval_shared PACKAGE petzval-c HEADERS ${headers}/petzval_c.h
+petzval_component(petzval_shared PACKAGE petzval-c HEADERS ${c_headers}
                   DESCRIPTION "petzval for C: libpetzval.so")
 if(TARGET petzval_cli)
   install(TARGETS petzval_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

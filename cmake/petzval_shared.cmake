@@ -1,6 +1,9 @@
 # libpetzval.so: the core behind its C door (include/petzval/petzval_c.h), and nothing else to be seen. A program that
 # links it needs no C++ of ours, and two hosts' versions of anything inside cannot meet.
 file(GLOB c_door CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/c/*.cpp)
+if(NOT vulkan)
+  list(FILTER c_door EXCLUDE REGEX "/vulkan_pass\\.cpp$")
+endif()
 get_property(core_objects GLOBAL PROPERTY PETZVAL_CORE_OBJECTS)
 get_property(core_links GLOBAL PROPERTY PETZVAL_CORE_LINKS)
 set(map ${PROJECT_SOURCE_DIR}/src/c/petzval_c.map)
@@ -10,7 +13,7 @@ set_target_properties(petzval_shared PROPERTIES OUTPUT_NAME petzval VERSION ${PR
                       EXPORT_NAME shared LINK_DEPENDS ${map} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
 target_compile_definitions(petzval_shared PRIVATE PETZVAL_BUILDS_C)
 # Types of the door are read from its debugging information by tools/check_abi.py; the rest of the core has none.
-set_source_files_properties(${PROJECT_SOURCE_DIR}/src/c/petzval_c.cpp PROPERTIES COMPILE_OPTIONS -g)
+set_source_files_properties(${c_door} PROPERTIES COMPILE_OPTIONS -g)
 target_link_libraries(petzval_shared PRIVATE $<BUILD_INTERFACE:petzval_options> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
                       ${core_links})
 target_link_options(petzval_shared PRIVATE -Wl,--version-script=${map} -Wl,--no-undefined)

@@ -28,14 +28,6 @@ SampleType type_of(petzval_sample sample) {
 
 Rect rect_of(const petzval_rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
-Camera camera_of(const petzval_camera& c) {
-    return {.focal_length_mm = c.focal_length_mm,
-            .sensor_width_mm = c.sensor_width_mm,
-            .f_number = c.f_number,
-            .focus_distance_m = c.focus_distance_m,
-            .image_scale = c.thin_lens != 0 ? ImageScale::ThinLens : ImageScale::Rendered};
-}
-
 // Depth or radii, whichever was given.
 Status take_depth(const petzval_shot& shot, TakenShot& into) {
     if ((shot.depth_m != nullptr) == (shot.radii_px != nullptr))
@@ -106,6 +98,14 @@ private:
 };
 
 }  // namespace
+
+Camera camera_of(const petzval_camera& c) {
+    return {.focal_length_mm = c.focal_length_mm,
+            .sensor_width_mm = c.sensor_width_mm,
+            .f_number = c.f_number,
+            .focus_distance_m = c.focus_distance_m,
+            .image_scale = c.thin_lens != 0 ? ImageScale::ThinLens : ImageScale::Rendered};
+}
 
 Result<std::shared_ptr<Workers>> workers_of(const petzval_workers* given) {
     if (!given) return std::shared_ptr<Workers>();

@@ -32,6 +32,8 @@ Struct taken(const Struct* given) {
 Result<ColourView> colour_view(const petzval_pixels* given, const char* name);
 Status check_plane(const petzval_plane* given, int width, int height, const char* name);
 
+Camera camera_of(const petzval_camera& c);
+
 // The pictures of a shot, read into ours.
 struct TakenShot {
     Picture colour;

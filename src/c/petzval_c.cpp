@@ -1,5 +1,4 @@
-// The library behind its C door: handles, structs of any age, errors as a code and a sentence. The one place
-// that catches.
+// The library behind its C door: handles, structs of any age, errors as a code and a sentence.
 #include "petzval/petzval_c.h"
 
 #include "petzval/devices.h"
@@ -8,26 +7,20 @@
 #include "petzval/session.h"
 #include "petzval/version.h"
 
+#include "c/handles.h"
 #include "c/lent.h"
 #include "c/report_text.h"
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 #include <iterator>
 #include <memory>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
 struct petzval_session {
     petzval::Session session;
-};
-
-struct petzval_look {
-    petzval::Look look;
-    mutable std::string json;
 };
 
 struct petzval_report {
@@ -37,55 +30,10 @@ struct petzval_report {
 namespace {
 
 using namespace petzval;
-
-// Of this thread's last failure.
-std::string& error_text() {
-    thread_local std::string text;
-    return text;
-}
-
-petzval_status fail(petzval_status status, std::string text) {
-    error_text() = std::move(text);
-    return status;
-}
-
-petzval_status status_of(ErrorCode code) {
-    switch (code) {
-        case ErrorCode::InvalidArgument:
-            return PETZVAL_INVALID_ARGUMENT;
-        case ErrorCode::InvalidFile:
-            return PETZVAL_INVALID_FILE;
-        case ErrorCode::Unsupported:
-            return PETZVAL_UNSUPPORTED;
-        case ErrorCode::OutputFailed:
-            return PETZVAL_OUTPUT_FAILED;
-        case ErrorCode::OutOfMemory:
-            return PETZVAL_OUT_OF_MEMORY;
-        case ErrorCode::Cancelled:
-            return PETZVAL_CANCELLED;
-    }
-    return PETZVAL_INTERNAL;
-}
-
-petzval_status fail(const Error& error) { return fail(status_of(error.code), error.message); }
-
-petzval_status missing(const char* argument) {
-    return fail(PETZVAL_INVALID_ARGUMENT, std::string(argument) + " is null");
-}
-
-// Runs what may throw on behalf of somebody who cannot catch.
-template <typename Body>
-petzval_status guarded(const Body& body) noexcept {
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        return fail(PETZVAL_OUT_OF_MEMORY, "out of memory");
-    } catch (const std::exception& e) {
-        return fail(PETZVAL_INTERNAL, std::string("a fault of petzval: ") + e.what());
-    } catch (...) {
-        return fail(PETZVAL_INTERNAL, "a fault of petzval");
-    }
-}
+using petzval::c::check_pictures;
+using petzval::c::fail;
+using petzval::c::guarded;
+using petzval::c::missing;
 
 // Errors: those of lent workers.
 Result<SessionSettings> settings_of(const petzval_session_settings* given) {
@@ -109,16 +57,6 @@ Control control_of(const petzval_control* given) {
     const Rect region{c.region.x0, c.region.y0, c.region.x1, c.region.y1};
     if (!region.empty()) control.region = region;
     return control;
-}
-
-// A look names its pictures by file, and files are not the core's to read.
-Status check_pictures(const Look& look) {
-    for (const auto& [field, file] : {std::pair("lens.aperture_image", &look.aperture_image),
-                                      std::pair("lens.kernel_image", &look.kernel_image_far)})
-        if (!file->empty())
-            return Error{ErrorCode::Unsupported,
-                         std::string(field) + " names a file, which this library does not read: " + *file};
-    return Done{};
 }
 
 petzval_status take_frame(petzval_session* session, const petzval_shot* given, const petzval_look* look,
@@ -161,8 +99,6 @@ const char* name_at(const std::vector<std::string>& names, int index) {
 }
 
 }  // namespace
-
-const char* petzval_error_text(void) { return error_text().c_str(); }
 
 const char* petzval_status_name(petzval_status status) {
     static const char* const names[] = {"ok",          "invalid_argument", "invalid_file",

@@ -1,4 +1,4 @@
-"""libpetzval.so exports what petzval_c.h declares, all of it and nothing else.
+"""libpetzval.so exports what petzval_c.h declares, all of it, what vulkan.h does all or nothing, and nothing else.
 
 Usage: symbols_test.py LIBPETZVAL.SO
 """
@@ -7,11 +7,12 @@ import re
 import subprocess
 import sys
 
-HEADER = pathlib.Path(__file__).resolve().parents[2] / "include/petzval/petzval_c.h"
+HEADERS = pathlib.Path(__file__).resolve().parents[2] / "include/petzval"
+HEADER = HEADERS / "petzval_c.h"
 
 
-def declared():
-    return set(re.findall(r"^PETZVAL_C_API [^(]*?\b(petzval_\w+)\(", HEADER.read_text(), re.MULTILINE))
+def declared(header):
+    return set(re.findall(r"^PETZVAL_C_API [^(]*?\b(petzval_\w+)\(", header.read_text(), re.MULTILINE))
 
 
 def exported(library):
@@ -21,7 +22,9 @@ def exported(library):
 
 
 def main(library):
-    wanted, found = declared(), exported(library)
+    wanted, optional, found = declared(HEADER), declared(HEADERS / "vulkan.h"), exported(library)
+    if optional & found:
+        wanted |= optional
     for name in sorted(wanted - found):
         print(f"{name} is declared and not exported")
     for name in sorted(found - wanted):

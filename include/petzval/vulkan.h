@@ -1,0 +1,86 @@
+/* The pass for real time, recorded into a host's own command buffer: colour and depth that are on the GPU in,
+ * the picture that a lens would have taken out, on the GPU. Part of libpetzval.so where it was built with
+ * Vulkan. docs/gpu.md says how it is used, examples/embed_vulkan.cpp shows it, every line explained.
+ *
+ * - Instance, device, queue, command buffers and images are the host's. What is ours is made by
+ * petzval_pass_open() and petzval_pass_resize(), never by petzval_pass_record(): that allocates nothing on
+ * the device, waits for nothing and submits nothing.
+ * - The device needs no extension and no feature: Vulkan 1.2, compute, 4 storage images and 128 invocations a
+ * group.
+ * - Hold: before the pass, the host makes colour, depth and layer visible to VK_ACCESS_SHADER_READ_BIT of
+ *   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, in the layouts it names, and brings the result into
+ *   VK_IMAGE_LAYOUT_GENERAL, free to be written by that stage: by barriers of its own, or by a semaphore that
+ * the submission waits for at that stage.
+ * - Release: after the pass, the result was written by VK_ACCESS_SHADER_WRITE_BIT of that stage, in
+ *   VK_IMAGE_LAYOUT_GENERAL; no image changed its layout. The host's next barrier or semaphore goes on from
+ * there.
+ * - What one pass records runs on queues of one family, one submission after the other: its own images serve
+ *   every frame in flight, and its first barrier waits for compute work that was submitted to the queue
+ * before. */
+#ifndef PETZVAL_VULKAN_H
+#define PETZVAL_VULKAN_H
+
+#include "petzval/petzval_c.h"
+
+#include <vulkan/vulkan.h>
+
+/* This is C: NOLINTBEGIN(modernize-use-using,modernize-deprecated-headers,readability-identifier-naming) */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct petzval_pass petzval_pass;
+
+typedef struct petzval_pass_settings {
+    size_t size;
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+    uint32_t width, height;    /* pixels, 1…16384 */
+    uint32_t frames_in_flight; /* slots, 1…16; 0: 2 */
+    /* VK_FORMAT_R16G16B16A16_SFLOAT, or VK_FORMAT_R32G32B32A32_SFLOAT; VK_FORMAT_UNDEFINED: the former. */
+    VkFormat result_format;
+} petzval_pass_settings;
+
+/* The ideal lens until petzval_pass_set_lens(). */
+PETZVAL_C_API petzval_status petzval_pass_open(const petzval_pass_settings* settings, petzval_pass** pass);
+/* Nothing that it recorded may be under way, here and when it is closed. If it fails, the pass is as it was.
+ */
+PETZVAL_C_API petzval_status petzval_pass_resize(petzval_pass* pass, uint32_t width, uint32_t height);
+PETZVAL_C_API void petzval_pass_close(petzval_pass* pass);
+
+/* Makes the shapes of the look's lens on this camera: milliseconds, for lenses with surfaces up to seconds.
+ * From any thread, beside petzval_pass_record(): frames have the lens before until it is done. All else of a
+ * look is not used. */
+PETZVAL_C_API petzval_status petzval_pass_set_lens(petzval_pass* pass, const petzval_look* look,
+                                                   const petzval_camera* camera);
+
+typedef struct petzval_pass_image {
+    VkImageView view;     /* of a 2D image, its depth aspect where it is depth */
+    VkImageLayout layout; /* UNDEFINED (0): VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL */
+} petzval_pass_image;
+
+typedef struct petzval_pass_frame {
+    size_t size;
+    VkCommandBuffer commands;  /* recording, outside of a render pass */
+    uint32_t slot;             /* 0…frames_in_flight - 1; what was recorded into it before has run */
+    petzval_pass_image colour; /* scene-linear, premultiplied, of any format that is sampled as floats */
+    petzval_pass_image depth;
+    petzval_pass_image layer; /* what is above all, as glass and smoke are: premultiplied; view null: none */
+    VkImageView result;       /* of the settings' format, VK_IMAGE_USAGE_STORAGE_BIT */
+    /* A depth d is so many metres away, along the axis: 1 / (depth_scale * d + depth_bias). Reversed and
+     * infinite: 1 / near and 0. From `near` at 0 to `far` at 1: 1 / far - 1 / near and 1 / near. */
+    double depth_scale, depth_bias;
+    const petzval_camera* camera; /* of this frame; the sensor's width spans the picture */
+    double pixel_aspect;          /* width / height of a pixel; 0: 1 */
+    double largest_radius_px;     /* radii are cut there; 0: a twentieth of the width */
+} petzval_pass_frame;
+
+PETZVAL_C_API petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame* frame);
+
+#ifdef __cplusplus
+}
+#endif
+/* NOLINTEND(modernize-use-using,modernize-deprecated-headers,readability-identifier-naming) */
+#endif

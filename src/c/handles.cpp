@@ -1,0 +1,56 @@
+#include "c/handles.h"
+
+#include <utility>
+
+namespace petzval::c {
+namespace {
+
+// Of this thread's last failure.
+std::string& error_text() {
+    thread_local std::string text;
+    return text;
+}
+
+petzval_status status_of(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::InvalidArgument:
+            return PETZVAL_INVALID_ARGUMENT;
+        case ErrorCode::InvalidFile:
+            return PETZVAL_INVALID_FILE;
+        case ErrorCode::Unsupported:
+            return PETZVAL_UNSUPPORTED;
+        case ErrorCode::OutputFailed:
+            return PETZVAL_OUTPUT_FAILED;
+        case ErrorCode::OutOfMemory:
+            return PETZVAL_OUT_OF_MEMORY;
+        case ErrorCode::Cancelled:
+            return PETZVAL_CANCELLED;
+    }
+    return PETZVAL_INTERNAL;
+}
+
+}  // namespace
+
+petzval_status fail(petzval_status status, std::string text) {
+    error_text() = std::move(text);
+    return status;
+}
+
+petzval_status fail(const Error& error) { return fail(status_of(error.code), error.message); }
+
+petzval_status missing(const char* argument) {
+    return fail(PETZVAL_INVALID_ARGUMENT, std::string(argument) + " is null");
+}
+
+Status check_pictures(const Look& look) {
+    for (const auto& [field, file] : {std::pair("lens.aperture_image", &look.aperture_image),
+                                      std::pair("lens.kernel_image", &look.kernel_image_far)})
+        if (!file->empty())
+            return Error{ErrorCode::Unsupported,
+                         std::string(field) + " names a file, which this library does not read: " + *file};
+    return Done{};
+}
+
+}  // namespace petzval::c
+
+const char* petzval_error_text(void) { return petzval::c::error_text().c_str(); }

@@ -1,0 +1,134 @@
+// The pass for real time behind its C door.
+#include "petzval/vulkan.h"
+
+#include "c/handles.h"
+#include "c/lent.h"
+#include "device/vulkan/host_pass.h"
+#include "kernel/lenses/make_lens.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+struct petzval_pass {
+    std::unique_ptr<petzval::device::vulkan::HostPass> host;
+};
+
+namespace {
+
+using namespace petzval;
+using c::fail;
+using c::guarded;
+using c::missing;
+using device::vulkan::HostPass;
+using device::vulkan::RealtimeImages;
+using device::vulkan::RealtimeSettings;
+
+Status check_size(std::uint32_t width, std::uint32_t height) {
+    if (width >= 1 && height >= 1 && width <= 16384 && height <= 16384) return Done{};
+    return Error{ErrorCode::InvalidArgument, "settings.width and height must be 1 to 16384 pixels, not " +
+                                                 std::to_string(width) + " x " + std::to_string(height)};
+}
+
+Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
+    if (!given.get_instance_proc_addr || !given.instance || !given.physical_device || !given.device)
+        return Error{ErrorCode::InvalidArgument,
+                     "settings lacks get_instance_proc_addr, instance, physical_device or device"};
+    if (const Status size = check_size(given.width, given.height); !size) return size.error();
+    RealtimeSettings settings;
+    settings.width = given.width, settings.height = given.height;
+    settings.slots = given.frames_in_flight == 0 ? 2 : given.frames_in_flight;
+    if (settings.slots > 16)
+        return Error{ErrorCode::InvalidArgument, "settings.frames_in_flight must be at most 16"};
+    settings.has_float_result = given.result_format == VK_FORMAT_R32G32B32A32_SFLOAT;
+    if (!settings.has_float_result && given.result_format != VK_FORMAT_UNDEFINED &&
+        given.result_format != VK_FORMAT_R16G16B16A16_SFLOAT)
+        return Error{ErrorCode::InvalidArgument,
+                     "settings.result_format must be R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT"};
+    return settings;
+}
+
+petzval_status set_lens(HostPass& host, const LensChoice& choice, const Camera& camera) {
+    const kernel::Mount mount{camera, int(host.settings().width), int(host.settings().height)};
+    const auto lens = kernel::make_lens(choice, mount);
+    if (!lens) return fail(lens.error());
+    host.set_lens(**lens);
+    return PETZVAL_OK;
+}
+
+RealtimeImages::Input input_of(const petzval_pass_image& given) {
+    RealtimeImages::Input input;
+    input.view = given.view;
+    if (given.layout != VK_IMAGE_LAYOUT_UNDEFINED) input.layout = given.layout;
+    return input;
+}
+
+petzval_status record(HostPass& host, const petzval_pass_frame& f) {
+    if (!f.commands) return missing("frame.commands");
+    if (!f.colour.view || !f.depth.view || !f.result)
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame lacks colour, depth or result");
+    if (!f.camera) return missing("frame.camera");
+    if (f.slot >= host.settings().slots)
+        return fail(PETZVAL_INVALID_ARGUMENT,
+                    "frame.slot must be below frames_in_flight, " + std::to_string(host.settings().slots));
+    const double aspect = f.pixel_aspect == 0 ? 1 : f.pixel_aspect;
+    const double most_px =
+        f.largest_radius_px == 0 ? double(host.settings().width) / 20 : f.largest_radius_px;
+    if (!(aspect > 0) || !(most_px > 0))
+        return fail(PETZVAL_INVALID_ARGUMENT,
+                    "frame.pixel_aspect and largest_radius_px must not be negative");
+    const auto optics =
+        device::vulkan::optics_of(c::camera_of(c::taken(f.camera)), int(host.settings().width),
+                                  {f.depth_scale, f.depth_bias}, most_px, aspect);
+    if (!optics) return fail(optics.error());
+    const RealtimeImages images{input_of(f.colour), input_of(f.depth), input_of(f.layer), f.result};
+    host.pass().record(f.commands, f.slot, images, *optics);
+    return PETZVAL_OK;
+}
+
+}  // namespace
+
+petzval_status petzval_pass_open(const petzval_pass_settings* given, petzval_pass** pass) {
+    if (!pass) return missing("pass");
+    *pass = nullptr;
+    if (!given) return missing("settings");
+    return guarded([&] {
+        const petzval_pass_settings s = c::taken(given);
+        const auto settings = settings_of(s);
+        if (!settings) return fail(settings.error());
+        auto host =
+            HostPass::open({s.get_instance_proc_addr, s.instance, s.physical_device, s.device}, *settings);
+        if (!host) return fail(host.error());
+        const petzval_status status = set_lens(**host, {}, Camera{50, 36, 2, 2});
+        if (status == PETZVAL_OK) *pass = new petzval_pass{std::move(*host)};
+        return status;
+    });
+}
+
+petzval_status petzval_pass_resize(petzval_pass* pass, uint32_t width, uint32_t height) {
+    if (!pass) return missing("pass");
+    return guarded([&] {
+        if (const Status size = check_size(width, height); !size) return fail(size.error());
+        const Status done = pass->host->resize(width, height);
+        return done ? PETZVAL_OK : fail(done.error());
+    });
+}
+
+void petzval_pass_close(petzval_pass* pass) { delete pass; }
+
+petzval_status petzval_pass_set_lens(petzval_pass* pass, const petzval_look* look,
+                                     const petzval_camera* camera) {
+    if (!pass) return missing("pass");
+    if (!look) return missing("look");
+    if (!camera) return missing("camera");
+    return guarded([&] {
+        if (const Status ok = c::check_pictures(look->look); !ok) return fail(ok.error());
+        return set_lens(*pass->host, look->look.lens, c::camera_of(c::taken(camera)));
+    });
+}
+
+petzval_status petzval_pass_record(petzval_pass* pass, const petzval_pass_frame* frame) {
+    if (!pass) return missing("pass");
+    if (!frame) return missing("frame");
+    return guarded([&] { return record(*pass->host, c::taken(frame)); });
+}
