@@ -25,12 +25,15 @@ struct NamedShot {
     bool moves;  // the scene; else the focus
     const char* scene;
     double from_m, to_m, wider;
+    int temporal = 0;  // frames on each side
 };
 
 constexpr NamedShot kShots[] = {
-    {"night-pull", false, "night", 8, 3, 1},   {"table-pull", false, "table", 1.8, 0.8, 1},
-    {"fence-pull", false, "fence", 6, 1.5, 1}, {"night-move", true, "night", 0, 0, 1},
-    {"fence-move", true, "fence", 0, 0, 1},    {"post-move", true, "post", 0, 0, 1},
+    {"night-pull", false, "night", 8, 3, 1},       {"table-pull", false, "table", 1.8, 0.8, 1},
+    {"fence-pull", false, "fence", 6, 1.5, 1},     {"night-move", true, "night", 0, 0, 1},
+    {"fence-move", true, "fence", 0, 0, 1},        {"post-move", true, "post", 0, 0, 1},
+    {"night-temporal", true, "night", 0, 0, 1, 4}, {"fence-temporal", true, "fence", 0, 0, 1, 4},
+    {"post-temporal", true, "post", 0, 0, 1, 4},
 };
 
 void write(const std::string& path, View<const Rgba> picture, ToneCurve tone) {
@@ -84,9 +87,10 @@ int main(int count, char** words) {
     for (const NamedShot& named : kShots) {
         if (named.name != std::string(words[1])) continue;
         const flicker::Size size{width, width * 9 / 16};
-        const flicker::Shot shot = named.moves ? flicker::camera_move(named.scene, size, 0, frames, points)
-                                               : flicker::focus_pull(named.scene, size, frames, named.from_m,
-                                                                     named.to_m, named.wider);
+        flicker::Shot shot = named.moves ? flicker::camera_move(named.scene, size, 0, frames, points)
+                                         : flicker::focus_pull(named.scene, size, frames, named.from_m,
+                                                               named.to_m, named.wider);
+        if (named.temporal > 0) flicker::look_around(shot, named.temporal);
         const Frames result = flicker::defocused(shot, "scatter");
         const Frames truth =
             named.moves ? flicker::truths_of(shot) : flicker::defocused(shot, "reference", points);

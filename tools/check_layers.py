@@ -95,6 +95,8 @@ PUBLIC = {
     "pixel_view": "image",
     "result": "base",
     "scene": "scene",
+    "neighbours": "sequence",
+    "seen_elsewhere": "shot",
     "session": "session",
     "shot": "shot",
     "focus_track": "sequence",

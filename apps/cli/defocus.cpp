@@ -37,6 +37,9 @@ public:
 private:
     Status read();
     Status read_other_views();
+    Status look_around();
+    bool may_look_around() const;
+    void take_behind(SeenElsewhere seen);
     Status choose_camera();
     Status focus_within_range();
     Status grow();
@@ -96,8 +99,8 @@ Status Run::operator()() {
         return fine;
     if (flags_.ocio.is_on())
         if (Status fine = flags_.ocio.try_out(); !fine) return fine;
-    for (const auto step : {&Run::read, &Run::choose_camera, &Run::read_other_views, &Run::grow,
-                            &Run::compute, &Run::write, &Run::finish}) {
+    for (const auto step : {&Run::read, &Run::choose_camera, &Run::read_other_views, &Run::look_around,
+                            &Run::grow, &Run::compute, &Run::write, &Run::finish}) {
         if (Status done = (this->*step)(); !done) return done;
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
@@ -216,6 +219,48 @@ Status Run::read_other_views() {
             if (Status done = (run.*step)(); !done) return done;
     }
     return Done{};
+}
+
+// What the picture hides and others see: frames before and after, or the other eye.
+Status Run::look_around() {
+    if (flags_.around) {
+        auto seen = flags_.around(shot_);
+        if (!seen) return seen.error();
+        take_behind(std::move(*seen));
+        return Done{};
+    }
+    std::vector<Run*> runs{this};
+    for (const auto& other : others_) runs.push_back(&other->run);
+    if (runs.size() < 2 ||
+        !std::all_of(runs.begin(), runs.end(), [](Run* run) { return run->may_look_around(); }))
+        return Done{};
+    const auto workers = own_workers(flags_.run.threads);
+    for (Run* run : runs) {
+        std::vector<const Shot*> eyes;
+        for (const Run* other : runs)
+            if (other->shot_.camera.camera_from_world != run->shot_.camera.camera_from_world)
+                eyes.push_back(&other->shot_);
+        if (eyes.empty()) continue;
+        auto seen = seen_elsewhere(run->shot_, eyes, *workers);
+        if (!seen) return seen.error();
+        run->take_behind(std::move(*seen));
+    }
+    return Done{};
+}
+
+// Only with all it takes is one eye shown what the other sees; what a user gives as hidden is known better.
+bool Run::may_look_around() const {
+    const FoundCamera& camera = shot_.camera;
+    return std::holds_alternative<DepthMetres>(shot_.depth) && shot_.deep.empty() && shot_.behind.empty() &&
+           camera.camera_from_world && camera.focal_length_mm && camera.sensor_width_mm && !expands_plate() &&
+           is_rendered(flags_.view);
+}
+
+void Run::take_behind(SeenElsewhere seen) {
+    note("seen elsewhere: what lies behind " + std::to_string(seen.pixels) + " pixels");
+    report_["seen_elsewhere"] = {{"pixels", seen.pixels}, {"left_out", seen.left_out}};
+    warn(seen.left_out);
+    shot_.behind = std::move(seen.behind);
 }
 
 // Room around the picture for the light that leaves it, where nothing follows; views that lie in one part of

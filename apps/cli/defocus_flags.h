@@ -3,6 +3,7 @@
 
 #include "petzval/camera.h"
 #include "petzval/defocus.h"
+#include "petzval/seen_elsewhere.h"
 #include "petzval/session.h"
 
 #include "camera.h"
@@ -18,6 +19,7 @@
 #include "run_flags.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +49,8 @@ struct DefocusFlags {
     RunFlags run;
     FrameFlags frames;
     TrackFlags track;
+    // Of a frame of a shot with --temporal: what the frames around it see behind its surfaces.
+    std::function<Result<SeenElsewhere>(const Shot&)> around;
 
     void add_to(Verb& verb);
     // What a window knows of them: what is rendered, what is chosen, how it is shown.

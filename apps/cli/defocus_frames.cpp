@@ -1,10 +1,12 @@
 #include "defocus_frames.h"
 
 #include "petzval/look_json.h"
+#include "petzval/neighbours.h"
 
 #include "console.h"
 #include "defocus_flags.h"
 
+#include <memory>
 #include <utility>
 
 namespace petzval::cli {
@@ -59,6 +61,38 @@ Status write_black(const DefocusFlags& like, const DefocusFlags& flags) {
     return write_exr(flags.output, to_frame(std::move(*shot)), options);
 }
 
+void check_temporal(const DefocusFlags& flags, bool from_many) {
+    if (!from_many)
+        throw UsageError("--temporal needs an input of many frames, with #### or %04d in its name");
+    const std::pair<bool, const char*> others[] = {
+        {!flags.input.behind.empty(), "--behind"},
+        {!flags.input.merge.empty(), "--merge"},
+        {flags.input.depth_is_coc(), "--depth-kind coc-px"},
+        {flags.max_memory_bytes > 0, "--max-memory"},
+        {flags.look.look().expand_highlights, "--expand-highlights"},
+        {flags.view == ViewKind::Depth, "--view depth"}};
+    for (const auto& [given, name] : others)
+        if (given) throw UsageError(std::string("--temporal cannot be used with ") + name);
+}
+
+// What the frames around each frame see of what it hides. Errors: those of listing the files.
+Result<std::shared_ptr<Neighbours>> neighbours_of(const DefocusFlags& flags,
+                                                  std::function<Result<DefocusFlags>(int)> of_frame) {
+    const auto pattern = FramePattern::find(flags.input.path);
+    if (!pattern) return pattern.error();
+    auto frames = (*pattern)->frames_there();
+    if (!frames) return frames.error();
+    return std::make_shared<Neighbours>(
+        std::move(*frames), flags.track.temporal, [of_frame](int frame) -> Result<Shot> {
+            const auto of = of_frame(frame);
+            if (!of) return of.error();
+            ShotSource source = of->input.source(of->camera);
+            if (source.read.view_name == kAllViews) source.read.view_name.clear();
+            source.holdout.clear(), source.lights.clear(), source.read.layers.clear();
+            return load_shot(source);
+        });
+}
+
 Result<std::optional<Track>> read_track(const TrackFlags& flags) {
     std::optional<Track> track;
     if (flags.file.empty()) return track;
@@ -83,13 +117,19 @@ void TrackFlags::add_to(Verb& verb) {
                "(pixels), fstop, focal_length (mm), and fields of a look, as lens.blades",
                parse_text, file)
         .value("--focus-speed", "DIOPTRES", "the focus of a track moves no faster from frame to frame",
-               parse_positive, focus_speed);
+               parse_positive, focus_speed)
+        .value(
+            "--temporal", "N",
+            "what silhouettes hide is taken from up to N frames before and N after, where these see it, by "
+            "worldToCamera and depth (default 0: each frame by itself)",
+            parse_index, temporal);
 }
 
 std::vector<std::string> TrackFlags::given() const {
     std::vector<std::string> names;
     if (!file.empty()) names.emplace_back("--track");
     if (focus_speed) names.emplace_back("--focus-speed");
+    if (temporal > 0) names.emplace_back("--temporal");
     return names;
 }
 
@@ -105,6 +145,7 @@ bool is_sequence(const DefocusFlags& flags) {
         throw UsageError("no frames: the input has no #### or %04d; give it, --frames or --track");
     if (flags.track.focus_speed && flags.track.file.empty())
         throw UsageError("--focus-speed has no effect without --track");
+    if (flags.track.temporal > 0) check_temporal(flags, from_many);
     if (flags.frames.missing == Missing::Black && flags.view != ViewKind::Beauty)
         throw UsageError("--missing black is for --view beauty");
     return true;
@@ -114,6 +155,12 @@ Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
     const auto track = read_track(flags.track);
     if (!track) return track.error();
     const auto of_frame = [&](int frame) { return flags_of(flags, frame, *track ? &**track : nullptr); };
+    std::shared_ptr<Neighbours> neighbours;
+    if (flags.track.temporal > 0) {
+        auto found = neighbours_of(flags, of_frame);
+        if (!found) return found.error();
+        neighbours = *found;
+    }
     FrameWork work;
     work.input = flags.input.path;
     if (*track)  // of one picture: the track says which frames
@@ -133,6 +180,10 @@ Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
         auto of = of_frame(frame);
         if (!of) return of.error();
         if (again) of->overwrite = {};
+        if (neighbours)
+            of->around = [&neighbours, frame, threads = of->run.threads](const Shot& shot) {
+                return neighbours->behind(shot, frame, *own_workers(threads));
+            };
         return make(*of);
     };
     work.black = [&](int frame, int like) -> Status {

@@ -17,6 +17,7 @@ struct DefocusFlags;
 struct TrackFlags {
     std::string file;
     std::optional<double> focus_speed;  // dioptres per frame
+    int temporal = 0;                   // frames on each side
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;

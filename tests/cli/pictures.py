@@ -53,6 +53,28 @@ def write_exr(path, channels, **options):
     return path
 
 
+def write_eyes(path, views):
+    """A file of several parts, (view, channels, attributes) each: pictures of one size for several eyes."""
+    heads, chunks = [], []
+    for number, (view, channels, attributes) in enumerate(views):
+        names = sorted(channels)
+        height, width = len(channels[names[0]]), len(channels[names[0]][0])
+        own = (attribute("name", "string", view.encode()) + attribute("type", "string", b"scanlineimage")
+               + attribute("view", "string", view.encode()) + attribute("chunkCount", "int", struct.pack("<i", height)))
+        heads.append(header(names, (), width, height, attributes=own + attributes)[len(MAGIC):])
+        lines = [b"".join(struct.pack("<%df" % width, *channels[n][y]) for n in names) for y in range(height)]
+        chunks.append([struct.pack("<iiI", number, y, len(line)) + line for y, line in enumerate(lines)])
+    multi_part = 0x1000
+    start = struct.pack("<II", 20000630, 2 | multi_part) + b"".join(heads) + b"\0"
+    at, offsets = len(start) + 8 * sum(map(len, chunks)), []
+    for chunk in (c for part in chunks for c in part):
+        offsets.append(at)
+        at += len(chunk)
+    with open(path, "wb") as file:
+        file.write(start + struct.pack("<%dQ" % len(offsets), *offsets) + b"".join(c for part in chunks for c in part))
+    return path
+
+
 def plane(width, height, value):
     """Rows of a constant, or of a function of (x, y)."""
     if callable(value):

@@ -11,6 +11,7 @@
 
 #include "petzval/defocus.h"
 #include "petzval/scene.h"
+#include "petzval/seen_elsewhere.h"
 
 #include <algorithm>
 #include <array>
@@ -86,6 +87,7 @@ inline Steadiness measure(const Frames& result, const Frames& truth) {
 struct Shot {
     std::vector<RenderedScene> pictures;
     std::vector<Camera> cameras;
+    std::vector<DeepPicture> behind = {};  // of each frame, where its neighbours were asked
     const RenderedScene& picture(std::size_t frame) const {
         return pictures[std::min(frame, pictures.size() - 1)];
     }
@@ -134,12 +136,34 @@ inline Shot camera_move(const std::string& scene, Size size, int first, int fram
     return shot;
 }
 
+// Each frame is shown what up to `each_side` frames before and after it see behind its silhouettes.
+inline void look_around(Shot& shot, int each_side) {
+    std::vector<petzval::Shot> frames(shot.pictures.size());
+    for (std::size_t t = 0; t < frames.size(); ++t) {
+        const RenderedScene& picture = shot.pictures[t];
+        frames[t].place = Place::whole(picture.colour.rect());
+        frames[t].colour = picture.colour.clone();
+        frames[t].depth = DepthMetres{picture.depth_m.clone()};
+        frames[t].camera.focal_length_mm = FoundNumber{picture.camera.focal_length_mm, ""};
+        frames[t].camera.sensor_width_mm = FoundNumber{picture.camera.sensor_width_mm, ""};
+        frames[t].camera.camera_from_world = picture.camera_from_world;
+    }
+    for (std::size_t t = 0; t < frames.size(); ++t) {
+        std::vector<const petzval::Shot*> others;
+        for (std::size_t away = 1; away <= std::size_t(each_side); ++away) {
+            if (away <= t) others.push_back(&frames[t - away]);
+            if (t + away < frames.size()) others.push_back(&frames[t + away]);
+        }
+        shot.behind.push_back(std::move(seen_elsewhere(frames[t], others, *own_workers()).value().behind));
+    }
+}
+
 inline DefocusJob job_of(const Shot& shot, std::size_t frame, const std::string& engine, int pupil_points) {
     DefocusJob job;
     job.colour = shot.picture(frame).colour;
     job.depth_m = shot.picture(frame).depth_m;
     job.place = Place::whole(shot.picture(frame).colour.rect());
-    const DeepPicture& layers = shot.picture(frame).layers;
+    const DeepPicture& layers = shot.behind.empty() ? shot.picture(frame).layers : shot.behind[frame];
     job.behind = layers.empty() ? nullptr : &layers;
     job.camera = shot.cameras[frame];
     job.engine = engine;

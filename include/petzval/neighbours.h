@@ -1,0 +1,40 @@
+// Frames around each frame of a shot, for what its silhouettes hide. Component petzval::files.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/result.h"
+#include "petzval/seen_elsewhere.h"
+#include "petzval/shot.h"
+#include "petzval/workers.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace petzval {
+
+// Each is read once and kept while frames near it may follow: at most 2 * `each_side` + 4 pictures with their
+// depths, 20 bytes a pixel. Several threads may ask at once.
+class PETZVAL_API Neighbours {
+public:
+    using Read = std::function<Result<Shot>(int frame)>;
+    // frames: those of the shot that are there, ascending. Requires: each_side > 0.
+    Neighbours(std::vector<int> frames, int each_side, Read read);
+    ~Neighbours();
+    Neighbours(const Neighbours&) = delete;
+    Neighbours& operator=(const Neighbours&) = delete;
+
+    // What up to `each_side` frames before and as many after see of what the shot hides, the nearest in time
+    // first. A function of these frames alone. A neighbour that cannot be read is left out by name. Errors:
+    // those of seen_elsewhere().
+    Result<SeenElsewhere> behind(const Shot& shot, int frame, Workers& workers);
+
+private:
+    struct Kept;
+    std::unique_ptr<Kept> kept_;
+    std::vector<int> frames_;
+    int each_side_;
+    Read read_;
+};
+
+}  // namespace petzval

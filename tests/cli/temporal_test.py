@@ -1,0 +1,85 @@
+"""What silhouettes hide, taken from the frames around or from the other eye."""
+import json
+import math
+import struct
+import unittest
+
+from pictures import attribute, camera_attributes, picture, read_exr, write_exr, write_eyes
+from program import CommandLineTest
+
+WIDTH, HEIGHT, FOCAL_PX = 64, 24, 60
+CARD_M, WALL_M = 1.0, 6.0
+SENSOR_MM = 400  # large, so that few pixels make wide discs
+
+
+class SeenElsewhere(CommandLineTest):
+    def seen_from(self, camera_x, card=True):
+        """Channels and attributes of a wall behind a near card, whose camera stands at camera_x (m)."""
+        def tangent(x):
+            return (x + 0.5 - WIDTH / 2) / FOCAL_PX
+        def is_card(x):
+            return card and abs(tangent(x) * CARD_M + camera_x) < 0.12
+        def light(x):
+            return 0.05 if is_card(x) else 0.5 + 0.4 * math.sin(2.2 * (tangent(x) * WALL_M + camera_x))
+        matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -camera_x, 0, 0, 1]
+        return (picture(WIDTH, HEIGHT, lambda x, y: light(x), lambda x, y: CARD_M if is_card(x) else WALL_M),
+                camera_attributes(SENSOR_MM * FOCAL_PX / WIDTH, SENSOR_MM, 2, WALL_M)
+                + attribute("worldToCamera", "m44f", struct.pack("<16f", *matrix)))
+
+    def write_frames(self, places):
+        for frame, place in enumerate(places, 1):
+            channels, attributes = self.seen_from(place)
+            write_exr(self.path("in.%04d.exr" % frame), channels, attributes=attributes)
+
+    def result(self, name, channel="R"):
+        return read_exr(self.path(name))[0][channel]
+
+    def json(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_frames_around_show_what_a_card_hides(self):
+        self.write_frames([-0.15, 0, 0.15])
+        for name, flags in (("alone", []), ("none", ["--temporal", "0"]), ("together", ["--temporal", "1"])):
+            self.succeed("defocus", "in.####.exr", "-o", name + ".####.exr", "--json", name + ".####.json", *flags)
+        self.assertTrue(self.result("alone.0002.exr") == self.result("none.0002.exr"))
+        self.assertTrue(self.result("alone.0002.exr") != self.result("together.0002.exr"))
+        self.assertGreater(self.json("together.0002.json")["seen_elsewhere"]["pixels"], 4 * HEIGHT)
+        # A frame is a function of its neighbours alone, not of the run it is made in.
+        self.succeed("defocus", "in.####.exr", "-o", "one.####.exr", "--temporal", "1", "--frames", "2")
+        self.assertTrue(self.result("one.0002.exr") == self.result("together.0002.exr"))
+
+    def test_frames_that_do_not_move_are_left_as_they_are(self):
+        self.write_frames([0, 0, 0])
+        self.succeed("defocus", "in.####.exr", "-o", "alone.####.exr")
+        self.succeed("defocus", "in.####.exr", "-o", "out.####.exr", "--temporal", "2")
+        for frame in (1, 2, 3):
+            self.assertTrue(self.result("alone.%04d.exr" % frame) == self.result("out.%04d.exr" % frame))
+
+    def test_what_does_not_go_together_is_refused(self):
+        self.write_frames([0, 0.1])
+        self.refuse(2, "defocus", "in.0001.exr", "-o", "out.exr", "--temporal", "1", says=["--temporal"])
+        for flags in (["--behind", "in.####.exr"], ["--max-memory", "1G"], ["--expand-highlights"]):
+            self.refuse(2, "defocus", "in.####.exr", "-o", "out.####.exr", "--temporal", "1", *flags,
+                        says=["--temporal", flags[0]])
+
+    def test_each_eye_shows_the_other_what_it_hides(self):
+        """A flat wall stays flat: what shines through the blurred card is the same wall to both eyes."""
+        places = {"left": -0.1, "right": 0.1}
+        write_eyes(self.path("in.exr"), [(view, *self.seen_from(x)) for view, x in places.items()])
+        self.succeed("defocus", "in.exr", "-o", "both.exr", "--view-name", "all", "--json", "both.json")
+        self.assertGreater(self.json("both.json")["seen_elsewhere"]["pixels"], 4 * HEIGHT)
+        for view, x in places.items():
+            channels, attributes = self.seen_from(x)
+            write_eyes(self.path("one.exr"), [(view, channels, attributes)])
+            write_exr(self.path("wall.exr"), self.seen_from(x, card=False)[0], attributes=attributes)
+            self.succeed("defocus", "one.exr", "-o", "guessed.exr")
+            self.succeed("defocus", "one.exr", "-o", "known.exr", "--behind", "wall.exr")
+            together, guessed = (self.report("compare", "known.exr", name, "--view-name", view)["psnr_lin"]
+                                 for name in ("both.exr", "guessed.exr"))
+            self.assertLess(guessed, 40)
+            self.assertGreater(together, guessed + 3, view)
+
+
+if __name__ == "__main__":
+    unittest.main()
