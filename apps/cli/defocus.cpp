@@ -38,10 +38,8 @@ private:
     Status read();
     Status read_other_views();
     Status look_around();
-    bool may_look_around() const;
     void take_behind(SeenElsewhere seen);
     Status choose_camera();
-    Status focus_within_range();
     Status grow();
     Result<Rect> wanted_window();
     Status grow_to(const Rect& window);
@@ -174,7 +172,7 @@ Status Run::choose_camera() {
         if (Status done = focus_on_pixel(shot_, *flags_.focus.focus_at); !done) return done;
     if (flags_.focus.focus_point)
         if (Status done = focus_on_point(shot_, *flags_.focus.focus_point); !done) return done;
-    if (Status done = focus_within_range(); !done) return done;
+    if (Status done = focus_within_range(shot_, look().coc); !done) return done;
     tell_new_warnings();
     const auto camera = complete_camera(shot_.camera, shot_.image_scale);
     if (!camera)
@@ -186,21 +184,6 @@ Status Run::choose_camera() {
     const auto limits = focus_limits(*camera, shot_.place.display_window.width(), permissible_radius_px());
     if (limits) report_["focus_limits"] = limits_json(*limits, permissible_radius_px());
     return Done{};
-}
-
-// The middle of a range that is held sharp, in dioptres, where nothing says the focus; else it lies inside.
-Status Run::focus_within_range() {
-    const double near = look().coc.focus_near_m, far = look().coc.focus_far_m;
-    auto& focus = shot_.camera.focus_distance_m;
-    if (!(far > 0)) return Done{};
-    if (!focus) {
-        const double middle = std::isinf(far) ? 2 * near : 2 * near * far / (near + far);
-        focus = FoundNumber{middle, "the middle of focus.range_m"};
-    }
-    if (focus->value >= near && focus->value <= far) return Done{};
-    return Error{ErrorCode::InvalidArgument, "focus.range_m " + plain(near) + "," + plain(far) +
-                                                 " does not hold the focus distance, " + plain(focus->value) +
-                                                 " m (" + focus->origin + ")"};
 }
 
 Status Run::read_other_views() {
@@ -229,31 +212,13 @@ Status Run::look_around() {
         take_behind(std::move(*seen));
         return Done{};
     }
-    std::vector<Run*> runs{this};
-    for (const auto& other : others_) runs.push_back(&other->run);
-    if (runs.size() < 2 ||
-        !std::all_of(runs.begin(), runs.end(), [](Run* run) { return run->may_look_around(); }))
-        return Done{};
-    const auto workers = own_workers(flags_.run.threads);
-    for (Run* run : runs) {
-        std::vector<const Shot*> eyes;
-        for (const Run* other : runs)
-            if (other->shot_.camera.camera_from_world != run->shot_.camera.camera_from_world)
-                eyes.push_back(&other->shot_);
-        if (eyes.empty()) continue;
-        auto seen = seen_elsewhere(run->shot_, eyes, *workers);
-        if (!seen) return seen.error();
-        run->take_behind(std::move(*seen));
-    }
+    if (others_.empty() || expands_plate() || !is_rendered(flags_.view)) return Done{};
+    std::vector<const Shot*> eyes{&shot_};
+    for (const auto& other : others_) eyes.push_back(&other->run.shot_);
+    auto seen = seen_by_each_other(eyes, *own_workers(flags_.run.threads));
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        if (seen[i].pixels > 0) (i == 0 ? *this : others_[i - 1]->run).take_behind(std::move(seen[i]));
     return Done{};
-}
-
-// Only with all it takes is one eye shown what the other sees; what a user gives as hidden is known better.
-bool Run::may_look_around() const {
-    const FoundCamera& camera = shot_.camera;
-    return std::holds_alternative<DepthMetres>(shot_.depth) && shot_.deep.empty() && shot_.behind.empty() &&
-           camera.camera_from_world && camera.focal_length_mm && camera.sensor_width_mm && !expands_plate() &&
-           is_rendered(flags_.view);
 }
 
 void Run::take_behind(SeenElsewhere seen) {

@@ -33,4 +33,9 @@ struct SeenElsewhere {
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* const> others,
                                                  Workers& workers);
 
+// The same of views of one moment, as of two eyes, each from the others. Nothing is found for a view that has
+// no depth in metres or no camera, that is deep or has hidden layers of its own.
+PETZVAL_API std::vector<SeenElsewhere> seen_by_each_other(std::span<const Shot* const> views,
+                                                          Workers& workers);
+
 }  // namespace petzval

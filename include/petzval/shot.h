@@ -152,6 +152,10 @@ struct WorldPoint {
 // without a matrix, or for a point in the plane of the lens.
 PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
 
+// Sets the focus to the middle, in dioptres, of the range that is held sharp, where there is such a range and
+// nothing says the focus. Errors: InvalidArgument for a focus outside of the range.
+PETZVAL_API Status focus_within_range(Shot& shot, const CocControls& coc);
+
 // How far the light of this look reaches beyond the picture, in pixels: the largest radius of what is not
 // empty, and what distortion moves it. Errors: those of rendered() and circle_of_confusion().
 PETZVAL_API Result<int> reach_px(const Shot& shot, const Look& look);

@@ -426,4 +426,18 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* con
     return found;
 }
 
+std::vector<SeenElsewhere> seen_by_each_other(std::span<const Shot* const> views, Workers& workers) {
+    std::vector<SeenElsewhere> all(views.size());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (!views[i]->deep.empty() || !views[i]->behind.empty()) continue;
+        std::vector<const Shot*> others;
+        for (const Shot* other : views)
+            if (other->deep.empty() && other->camera.camera_from_world != views[i]->camera.camera_from_world)
+                others.push_back(other);
+        if (others.empty()) continue;
+        if (auto seen = seen_elsewhere(*views[i], others, workers)) all[i] = std::move(*seen);
+    }
+    return all;
+}
+
 }  // namespace petzval

@@ -167,4 +167,18 @@ Status focus_on_point(Shot& shot, WorldPoint point) {
     return Done{};
 }
 
+Status focus_within_range(Shot& shot, const CocControls& coc) {
+    const double near = coc.focus_near_m, far = coc.focus_far_m;
+    auto& focus = shot.camera.focus_distance_m;
+    if (!(far > 0)) return Done{};
+    if (!focus) {
+        const double middle = std::isinf(far) ? 2 * near : 2 * near * far / (near + far);
+        focus = FoundNumber{middle, "the middle of focus.range_m"};
+    }
+    if (focus->value >= near && focus->value <= far) return Done{};
+    return invalid("focus.range_m " + number(near) + "," + number(far) +
+                   " does not hold the focus distance, " + number(focus->value) + " m (" + focus->origin +
+                   ")");
+}
+
 }  // namespace petzval
