@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,6 +74,26 @@ struct RenderedScene {
 // Deterministic for the same settings and any thread count. Errors: InvalidArgument for an unknown scene (the
 // message lists them) or numbers out of range; Cancelled.
 PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings);
+
+// A scene that is built and lit once, and looked at from many places, by one thread at a time.
+class PETZVAL_API StandingScene {
+public:
+    // Of the settings the frame and the threads. Errors: those of render_scene().
+    static Result<StandingScene> build(const std::string& name, const SceneSettings& settings);
+    ~StandingScene();
+    StandingScene(StandingScene&&) noexcept;
+    StandingScene& operator=(StandingScene&&) noexcept;
+
+    // The same bits as render_scene(). Errors: also InvalidArgument for another frame than it was built for.
+    Result<RenderedScene> render(const SceneSettings& settings);
+    // Where what the scene is about stands in this frame; nothing where it is about nothing in particular.
+    std::optional<ScenePoint> subject() const;
+
+private:
+    struct Contents;
+    explicit StandingScene(std::unique_ptr<Contents> contents);
+    std::unique_ptr<Contents> contents_;
+};
 
 // Lights without a picture, for DefocusJob::points: glitter on water, a city at night, drops on the lens.
 struct PointSetSummary {

@@ -10,9 +10,8 @@
 namespace petzval::scene {
 namespace {
 
-constexpr int kFirstSamples = 64;    // where these agree (all of the lamp seen, or none), no more are taken
-constexpr int kSharpSamples = 1024;  // of a lamp that is nearly sharp: few pixels, but very bright ones
-constexpr float kSharpRadius = 3;    // px
+constexpr int kFirstSamples = 64;  // where these agree (all of the lamp seen, or none), no more are taken
+constexpr float kSharpRadius = 3;  // px
 
 }  // namespace
 
@@ -34,11 +33,11 @@ std::vector<LampImage> lamp_images(const World& world, const LensRays& lens, con
     return images;
 }
 
-LampLight::LampLight(const World& world, const LensRays& lens, int disc_samples)
+LampLight::LampLight(const World& world, const LensRays& lens, int disc_samples, int sharp_samples)
     : world_(world),
       lens_(lens),
       disc_points_(disc_samples),
-      sharp_points_(std::max(disc_samples, kSharpSamples)) {}
+      sharp_points_(std::max(disc_samples, sharp_samples)) {}
 
 LampShare LampLight::at(const LampImage& image, int x, int y, std::uint32_t seed) const {
     const float dx = float(x) + 0.5f - image.x, dy = float(y) + 0.5f - image.y;

@@ -32,7 +32,8 @@ struct LampShare {
 
 class LampLight {
 public:
-    LampLight(const World& world, const LensRays& lens, int disc_samples);
+    // sharp_samples: of lamps that are nearly sharp, few pixels, but very bright ones.
+    LampLight(const World& world, const LensRays& lens, int disc_samples, int sharp_samples = 1024);
     LampShare at(const LampImage& image, int x, int y, std::uint32_t seed) const;
 
 private:

@@ -209,7 +209,8 @@ bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPictu
     depth_m = Plane::uninitialised(width, height);
     LensRays pinhole = pass.lens;
     pinhole.aperture_radius_m = 0;
-    const Tools tools{SobolPoints(pass.samples), LampLight(pass.world, pinhole, pass.samples),
+    const int sharp_samples = pass.world.is_baked ? 1024 : std::clamp(16 * pass.samples, 64, 1024);
+    const Tools tools{SobolPoints(pass.samples), LampLight(pass.world, pinhole, pass.samples, sharp_samples),
                       lamp_images(pass.world, pinhole, pass.area)};
     std::vector<std::vector<DeepSample>> samples(layers ? std::size_t(height) : 0);
     std::vector<std::vector<std::size_t>> counts(samples.size());

@@ -15,9 +15,9 @@ namespace scene {
 namespace {
 
 const std::vector<BuiltInScene>& built_in_scenes() {
-    static const std::vector<BuiltInScene> scenes{night(),         fence(),    table(), slant(),  bars(),
-                                                  dynamic_range(), lanterns(), hair(),  post(),   meadow(),
-                                                  tori(),          cubes(),    rows(),  cutouts()};
+    static const std::vector<BuiltInScene> scenes{
+        night(),  fence(), table(), slant(), bars(),    dynamic_range(), lanterns(), hair(), post(),
+        meadow(), tori(),  cubes(), rows(),  cutouts(), hexadrive(),     wgld(),     unity()};
     return scenes;
 }
 
@@ -144,19 +144,58 @@ const std::vector<SceneSummary>& scene_list() {
     return list;
 }
 
-Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings) {
+struct StandingScene::Contents {
+    explicit Contents(bool one_thread) : world(one_thread) {}
+    scene::World world;
+    scene::Viewpoint own;
+    Camera camera;
+    int frame = 0, frames = 1;
+    std::optional<ScenePoint> subject;
+};
+
+StandingScene::StandingScene(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+StandingScene::~StandingScene() = default;
+StandingScene::StandingScene(StandingScene&&) noexcept = default;
+StandingScene& StandingScene::operator=(StandingScene&&) noexcept = default;
+
+Result<StandingScene> StandingScene::build(const std::string& name, const SceneSettings& settings) {
     const scene::BuiltInScene* found = scene::find(name);
     if (!found) return scene::unknown(name);
     const int frames = found->summary.frames;
     if (const Status status = scene::check(settings, frames); !status) return status.error();
     const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
-    scene::World world(workers->width() == 1);
-    found->build(world, frames > 1 ? float(settings.frame) / float(frames - 1) : 0);
-    const auto view = scene::moved(world.view, settings);
+    auto contents = std::make_unique<Contents>(workers->width() == 1);
+    const float time = frames > 1 ? float(settings.frame) / float(frames - 1) : 0;
+    found->build(contents->world, time);
+    contents->own = contents->world.view;
+    contents->camera = found->summary.camera;
+    contents->frame = settings.frame, contents->frames = frames;
+    if (found->subject) {
+        const scene::Vec3 at = found->subject(time);
+        contents->subject = ScenePoint{double(at.x), double(at.y), double(at.z)};
+    }
+    if (const Status status = contents->world.commit(*workers); !status) return status.error();
+    return StandingScene(std::move(contents));
+}
+
+std::optional<ScenePoint> StandingScene::subject() const { return contents_->subject; }
+
+Result<RenderedScene> StandingScene::render(const SceneSettings& settings) {
+    if (const Status status = scene::check(settings, contents_->frames); !status) return status.error();
+    if (settings.frame != contents_->frame)
+        return scene::invalid("frame (scene.frame)", settings.frame,
+                              std::to_string(contents_->frame) + ", for which the scene was built");
+    const auto view = scene::moved(contents_->own, settings);
     if (!view) return view.error();
-    world.view = *view;
-    if (const Status status = world.commit(*workers); !status) return status.error();
-    return scene::render(world, settings.camera.value_or(found->summary.camera), settings, *workers);
+    if (const Status status = contents_->world.look_from(*view); !status) return status.error();
+    const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
+    return scene::render(contents_->world, settings.camera.value_or(contents_->camera), settings, *workers);
+}
+
+Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings) {
+    auto standing = StandingScene::build(name, settings);
+    if (!standing) return standing.error();
+    return standing->render(settings);
 }
 
 }  // namespace petzval

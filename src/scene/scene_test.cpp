@@ -47,6 +47,42 @@ TEST(BuiltInScenes, AreTheSameBitsForAnyThreadCount) {
     EXPECT_FALSE(same_bits(*one, *render_scene("bars", s)));
 }
 
+TEST(BuiltInScenes, OneThatStaysBuiltShowsTheSameFromEverywhere) {
+    for (const char* name : {"hexadrive", "lanterns"}) {
+        SceneSettings s;
+        s.width = 96, s.height = 54, s.samples = 1;
+        auto standing = StandingScene::build(name, s);
+        ASSERT_TRUE(standing) << name;
+        RenderedScene first = standing->render(s).value();
+        s.camera_at = ScenePoint{0.8, 0.4, 0.2}, s.look_at = ScenePoint{0, 0, 1.5};
+        EXPECT_TRUE(same_bits(*standing->render(s), *render_scene(name, s))) << name;
+        s.camera_at.reset(), s.look_at.reset();
+        EXPECT_TRUE(same_bits(*standing->render(s), first)) << name;
+        s.frame = 1;
+        EXPECT_FALSE(standing->render(s)) << name;
+    }
+}
+
+TEST(BuiltInScenes, TheSubjectOfUnitysWalksAndIsSeenWhereItIsSaidToBe) {
+    SceneSettings s;
+    s.width = 96, s.height = 54, s.samples = 1;
+    for (const int frame : {0, 12, 24}) {
+        s.frame = frame;
+        auto standing = StandingScene::build("unity", s);
+        ASSERT_TRUE(standing && standing->subject());
+        const ScenePoint at = *standing->subject();
+        const RenderedScene seen = standing->render(s).value();
+        const auto& m = seen.camera_from_world;
+        const double z = at.x * m[2] + at.y * m[6] + at.z * m[10] + m[14];
+        double nearest = 1e9;
+        for (int y = 0; y < 54; ++y)
+            for (int x = 0; x < 96; ++x)
+                if (seen.colour(x, y).g > 2 * seen.colour(x, y).r)
+                    nearest = std::min(nearest, std::abs(double(seen.depth_m(x, y)) - z));
+        EXPECT_LT(nearest, 0.05) << frame;
+    }
+}
+
 TEST(BuiltInScenes, AnUnknownNameIsAnsweredWithTheList) {
     const auto refused = render_scene("nihgt", small());
     ASSERT_FALSE(refused);

@@ -12,6 +12,8 @@ struct BuiltInScene {
     SceneSummary summary;
     // Fills an empty world as it stands at `time`, 0 at the first frame and 1 at the last.
     void (*build)(World& world, float time) = nullptr;
+    // Where what it is about stands then; null: it is about nothing in particular.
+    Vec3 (*subject)(float time) = nullptr;
 };
 
 BuiltInScene night();
@@ -28,6 +30,10 @@ BuiltInScene tori();
 BuiltInScene cubes();
 BuiltInScene rows();
 BuiltInScene cutouts();
+// Of three articles, shaded as shaders do: built within milliseconds, for a window.
+BuiltInScene hexadrive();
+BuiltInScene wgld();
+BuiltInScene unity();
 
 // The three passes over a world that was committed.
 Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings,

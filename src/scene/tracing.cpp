@@ -37,7 +37,7 @@ void Packet::test_occlusion() {
 World::Hit Packet::hit(int lane) const {
     const RTCRay16& r = packet_.ray;
     const RTCHit16& h = packet_.hit;
-    World::Hit hit{h.geomID[lane], h.primID[lane], h.u[lane], h.v[lane], {}, {}, {}};
+    World::Hit hit{h.geomID[lane], h.primID[lane], h.u[lane], h.v[lane], {}, {}, {}, false};
     hit.direction = {r.dir_x[lane], r.dir_y[lane], r.dir_z[lane]};
     if (hit.object == World::kSky) return hit;
     hit.position = Vec3{r.org_x[lane], r.org_y[lane], r.org_z[lane]} + r.tfar[lane] * hit.direction;

@@ -150,15 +150,32 @@ void World::attach_lamps() {
         discs[i] = {lamps_[i].centre, lamps_[i].radius_m};
         normals[i] = -view.forward;
     }
+    lamp_normals_ = normals;
     lamp_object_ = attach(geometry);
+}
+
+Status World::look_from(const Viewpoint& from) {
+    const bool is_other = !(from == view);
+    view = from;
+    if (lamp_object_ == kSky || !is_other) return Done{};
+    for (std::size_t i = 0; i < lamps_.size(); ++i) lamp_normals_[i] = -view.forward;
+    RTCGeometry geometry = rtcGetGeometry(rays_, lamp_object_);
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0);
+    rtcCommitGeometry(geometry);
+    return commit_rays();
+}
+
+Status World::commit_rays() {
+    rtcCommitScene(rays_);
+    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+        return Error{ErrorCode::OutOfMemory, "the scene's ray tracing structure does not fit the memory"};
+    return Done{};
 }
 
 Status World::commit(Workers& workers) {
     attach_lamps();
-    rtcCommitScene(rays_);
-    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
-        return Error{ErrorCode::OutOfMemory, "the scene's ray tracing structure does not fit the memory"};
-    bake(workers);
+    if (Status done = commit_rays(); !done) return done;
+    if (is_baked) bake(workers);
     return Done{};
 }
 
@@ -271,7 +288,8 @@ bool World::is_inside(const Hit& hit) const {
 
 Matter World::matter(const Hit& hit) const {
     const Object& object = *objects_[hit.object];
-    SurfacePoint point{hit.position, {}, hit.u, hit.v};
+    SurfacePoint point{hit.position, {}, hit.u, hit.v, {}, hit.in_mirror};
+    if (!is_baked) point.direction = normalised(hit.direction);
     if (object.mesh.triangles.empty()) {
         point.normal = normalised(hit.normal);
     } else {
@@ -291,6 +309,7 @@ Vec3 World::radiance(const Hit& hit) const {
     if (hit.object == kSky) return sky(hit.direction);
     if (is_lamp(hit.object)) return lamps_[hit.primitive].radiance;
     const Matter m = matter(hit);
+    if (!is_baked) return m.emission;
     const Object& object = *objects_[hit.object];
     Vec3 irradiance;
     if (object.mesh.triangles.empty()) {
@@ -301,6 +320,35 @@ Vec3 World::radiance(const Hit& hit) const {
                      hit.v * object.irradiance[t[2]];
     }
     return m.emission + m.albedo * irradiance / kPi;
+}
+
+Vec3 World::seen(Vec3 from, Vec3 direction) const {
+    RTCIntersectContext context{};
+    rtcInitIntersectContext(&context);
+    RTCRayHit met{};
+    met.ray = ray(from, direction, 1e-4f, std::numeric_limits<float>::infinity());
+    do {
+        met.ray.tfar = std::numeric_limits<float>::infinity();
+        met.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(rays_, &context, &met);
+        met.ray.tnear = met.ray.tfar * (1 + 1e-5f);
+    } while (is_lamp(met.hit.geomID));
+    return radiance({met.hit.geomID,
+                     met.hit.primID,
+                     met.hit.u,
+                     met.hit.v,
+                     from + met.ray.tfar * direction,
+                     {met.hit.Ng_x, met.hit.Ng_y, met.hit.Ng_z},
+                     direction,
+                     true});
+}
+
+bool World::is_shaded(Vec3 from, Vec3 towards, bool is_distant) const {
+    RTCIntersectContext context{};
+    rtcInitIntersectContext(&context);
+    RTCRay shadow = ray(from, towards, 1e-4f, is_distant ? std::numeric_limits<float>::infinity() : 0.999f);
+    rtcOccluded1(rays_, &context, &shadow);
+    return shadow.tfar < 0;
 }
 
 }  // namespace petzval::scene

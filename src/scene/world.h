@@ -1,8 +1,9 @@
 // A scene ready to be looked at: shapes, what they are painted with, the light that falls on them.
 //
-// Everything is matt or glows by itself, so a point has the same colour from everywhere: a pinhole picture
-// with depth says all there is to say about what is visible, and the truth differs from it by the lens alone.
-// Light is baked once into the vertices (soft shadows, sky, one bounce); tubes are lit without shadows.
+// In most of them everything is matt or glows by itself, so a point has the same colour from everywhere: a
+// pinhole picture with depth says all there is to say about what is visible, and the truth differs from it by
+// the lens alone. Light is baked once into the vertices (soft shadows, sky, one bounce); tubes are lit
+// without shadows. Others are shaded as shaders do (shading.h): built at once, with highlights and mirrors.
 #pragma once
 
 #include "petzval/result.h"
@@ -23,6 +24,8 @@ namespace petzval::scene {
 struct SurfacePoint {
     Vec3 position, normal;
     float u = 0, v = 0;
+    Vec3 direction = {};     // of the ray that sees it, unit length
+    bool in_mirror = false;  // seen by World::seen()
 };
 
 struct Matter {
@@ -60,6 +63,10 @@ struct Lamp {
 struct Viewpoint {
     Vec3 position, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
     static Viewpoint looking(Vec3 from, Vec3 at);
+    bool operator==(const Viewpoint& o) const {
+        return length(position - o.position) == 0 && length(right - o.right) == 0 && length(up - o.up) == 0 &&
+               length(forward - o.forward) == 0;
+    }
     Vec3 to_world(Vec3 v) const { return v.x * right + v.y * up + v.z * forward; }
     Vec3 from_world(Vec3 p) const {
         return {dot(p - position, right), dot(p - position, up), dot(p - position, forward)};
@@ -81,6 +88,8 @@ public:
     // What baking takes at most from one ray: a bright spot that few rays find would bake to blotches. Where
     // it matters (a window), a Light stands for it.
     float brightest_bounce = 20;
+    // False: paints say all light as emission, by SurfacePoint::direction if they like; nothing is baked.
+    bool is_baked = true;
     std::vector<Light> lights;
     void add(Mesh mesh, Paint paint, Sides sides, Cutout cutout = nullptr);
     void add(Tubes tubes, Paint paint);
@@ -88,6 +97,8 @@ public:
 
     // Builds the ray tracing structure and bakes light. Errors: OutOfMemory.
     Status commit(Workers& workers);
+    // From elsewhere, before or after commit(): lamps face whoever looks. Errors: as commit().
+    Status look_from(const Viewpoint& from);
 
     // Looking, after commit(); thread-safe.
     static constexpr std::uint32_t kSky = RTC_INVALID_GEOMETRY_ID;
@@ -95,6 +106,7 @@ public:
         std::uint32_t object = kSky, primitive = 0;
         float u = 0, v = 0;
         Vec3 position, normal, direction;  // normal of the geometry, not of unit length; direction of the ray
+        bool in_mirror = false;
     };
     RTCScene rays() const { return rays_; }
     const std::vector<Lamp>& lamps() const { return lamps_; }
@@ -102,11 +114,16 @@ public:
     // A surface that can never be seen from this side.
     bool is_inside(const Hit& hit) const;
     Vec3 radiance(const Hit& hit) const;
+    // What a mirror at `from` shows in that direction, lamps left out; whether anything stands in the way of
+    // a light, which is infinitely far where `is_distant`.
+    Vec3 seen(Vec3 from, Vec3 direction) const;
+    bool is_shaded(Vec3 from, Vec3 towards, bool is_distant) const;
 
 private:
     struct Object;
     static void open_holes(const RTCFilterFunctionNArguments* hits);
     void attach_lamps();
+    Status commit_rays();
     // Throw std::bad_alloc: Embree fails at nothing else here.
     RTCGeometry new_geometry(RTCGeometryType type) const;
     unsigned attach(
@@ -124,6 +141,7 @@ private:
     std::vector<std::unique_ptr<Object>> objects_;  // by Embree geometry id
     std::vector<Lamp> lamps_;
     std::uint32_t lamp_object_ = kSky;
+    Vec3* lamp_normals_ = nullptr;  // Embree's, after commit()
 };
 
 }  // namespace petzval::scene

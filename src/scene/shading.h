@@ -1,0 +1,25 @@
+// Light as shaders compute it, for scenes that are not baked: of the point alone, from wherever it is seen.
+#pragma once
+
+#include "scene/world.h"
+
+namespace petzval::scene {
+
+// A light infinitely far away, and what comes from everywhere.
+struct Daylight {
+    Vec3 towards;                            // it, unit length
+    Vec3 sun, ambient_above, ambient_below;  // irradiance
+};
+
+// A matt surface, in the sun's shadow or not. Requires: the world outlives it and is not baked.
+Vec3 matt(const World& world, const Daylight& light, const SurfacePoint& at, Vec3 albedo);
+
+// The lamps of the world in a glossy surface: (n + 8)/(8 pi) (N.H)^n of each, as Blinn has it (1977),
+// normalised to keep its light.
+Vec3 gloss(const World& world, const SurfacePoint& at, float exponent);
+
+// What a mirror shows, by Schlick's share of reflection (1994): `facing` where it is looked at from in front.
+// Black in another mirror.
+Vec3 mirrored(const World& world, const SurfacePoint& at, Vec3 facing);
+
+}  // namespace petzval::scene
