@@ -44,6 +44,10 @@ SHOWN = [
         frame 3
         wait
         shot {shot}"""),
+    ("view-hexadrive", ["--scene", "hexadrive"], """
+        frame 6
+        wait
+        shot {shot}"""),
     ("view-scene", ["--scene", "cubes", "--engine", "gather"], """
         wait
         orbit 12 8

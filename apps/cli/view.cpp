@@ -148,8 +148,10 @@ Status open_window(const ViewFlags& flags) {
     if (flags.scene_size)
         setup.scene_width = flags.scene_size->first, setup.scene_height = flags.scene_size->second;
     for (const SceneSummary& known : scene_list())
-        for (int frame = 0; known.name == flags.scene && known.frames > 1 && frame < known.frames; ++frame)
-            setup.frames.push_back(frame);
+        if (known.name == flags.scene) setup.scene_frames = known.frames;
+    // One that stands still has as many: its camera may move.
+    for (int frame = 0; !flags.scene.empty() && frame < std::max(48, setup.scene_frames); ++frame)
+        setup.frames.push_back(frame);
     setup.source = flags.input.source(flags.camera);
     setup.source.lights = flags.points;
     setup.choice.camera = flags.camera.choice();

@@ -2,6 +2,8 @@
 
 #include "petzval/frames.h"
 
+#include "articles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 int whole_target(int side) { return 2 * side; }
 int detail_target(int side) { return 2 * side + 1; }
 constexpr int kOverlayTarget = 4;
+constexpr int kFineSamples = 4;  // rays a pixel of a scene whose camera rests
 
 double area(const Rect& r) { return r.empty() ? 0 : double(r.width()) * double(r.height()); }
 bool holds(const Rect& outer, const Rect& inner) { return inner.intersected(outer) == inner; }
@@ -38,6 +41,7 @@ App::App(const Setup& setup, const std::function<void()>& wake)
         line.frame = line.first = line.frames.front(), line.last = line.frames.back();
         state.choice.frame = line.frame;
     }
+    begin_article(*this);
     read_again();
 }
 
@@ -57,6 +61,9 @@ void App::go_to(int frame) {
     state.timeline.frame = frame;
     state.choice.frame = frame;
     if (const auto focus = state.timeline.focus_at(frame)) state.choice.camera.focus_distance_m = *focus;
+    if (const auto orbit = state.path.at(frame); orbit && !state.path.recording) state.orbit = *orbit;
+    if (is_live()) coarse_ = state.timeline.playing, moved_ = Clock::now();
+    if (state.path.recording) state.path.keys[frame] = state.orbit;
     shown_since_ = Clock::now();
     read_again();
 }
@@ -71,7 +78,10 @@ void App::play() {
 void App::read_again() {
     reading_ = true;
     Reading reading{source(), false, setup_.focus_point};
-    if (is_live()) reading.scene = scene_wish();
+    if (is_live()) {
+        reading.scene = scene_wish();
+        if (coarse_) reading.scene->settings.samples = 1;
+    }
     maker_.read(std::move(reading));
     if (setup_.against.empty() || (is_live() && against_)) return;
     ShotSource other;
@@ -82,13 +92,15 @@ void App::read_again() {
     maker_.read({other, true});
 }
 
-SceneWish App::scene_wish() const {
+SceneWish App::scene_wish(int frame) const {
     SceneWish wish{setup_.scene, {}};
     wish.settings.width = setup_.scene_width, wish.settings.height = setup_.scene_height;
-    wish.settings.samples = 4;
-    wish.settings.frame = state.timeline.frame;
-    if (state.orbit.is_home() || !home_) return wish;
-    const Stand stand = orbited(stand_of(*home_, home_->focus_distance_m->value), state.orbit);
+    wish.settings.samples = kFineSamples;
+    wish.settings.frame = std::clamp(frame, 0, setup_.scene_frames - 1);
+    const Orbit orbit = state.path.at(frame).value_or(state.orbit);
+    const Orbit& seen = frame == state.timeline.frame ? state.orbit : orbit;
+    if (seen.is_home() || !home_) return wish;
+    const Stand stand = orbited(stand_of(*home_, home_->focus_distance_m->value), seen);
     wish.settings.camera_at = stand.at, wish.settings.look_at = stand.target;
     return wish;
 }
@@ -112,22 +124,10 @@ Rect App::frame() const {
 double App::pixel_aspect() const { return shot_ ? shot_->shot.place.pixel_aspect : 1; }
 
 std::optional<double> App::depth_near(PixelPosition pixel) const {
-    const auto* depth = shot_ ? std::get_if<DepthMetres>(&shot_->shot.depth) : nullptr;
-    if (!depth) return std::nullopt;
-    const Place& place = shot_->shot.place;
-    const int x = pixel.x + place.display_window.x0 - place.data_window.x0;
-    const int y = pixel.y + place.display_window.y0 - place.data_window.y0;
-    const auto at = [&](int u, int v) -> double {
-        if (!depth->plane.rect().contains(u, v)) return INFINITY;
-        const double z = double(depth->plane(u, v));
-        return z > 0 ? z : INFINITY;
-    };
-    if (!std::isfinite(at(x, y))) return std::nullopt;
-    double sum = 0, count = 0;
-    for (int v = y - 1; v <= y + 1; ++v)
-        for (int u = x - 1; u <= x + 1; ++u)
-            if (std::abs(at(u, v) / at(x, y) - 1) < 0.05) sum += 1 / at(u, v), count += 1;
-    return count / sum;
+    constexpr int kWithin_px = 2;
+    if (!shot_) return std::nullopt;
+    const auto distance = distance_around_m(shot_->shot, pixel, kWithin_px);
+    return distance ? *distance : std::nullopt;
 }
 
 std::optional<float> App::radius_at(PixelPosition pixel) const {
@@ -142,29 +142,56 @@ std::optional<float> App::radius_at(PixelPosition pixel) const {
 
 void App::note_action() { acted_ = Clock::now(); }
 
+void App::turn_to(const Orbit& orbit) {
+    state.orbit = orbit;
+    if (state.path.recording) state.path.keys[state.timeline.frame] = orbit;
+    coarse_ = true, moved_ = Clock::now();
+    read_again();
+}
+
+bool App::is_coarse() const { return is_live() && coarse_ && !state.timeline.playing; }
+
+// Once the camera rests and its picture stands, the scene is looked at with more rays.
+void App::refine_scene() {
+    if (!is_coarse() || reading_ || !maker_.is_idle()) return;
+    if (Clock::now() - moved_ < std::chrono::milliseconds(200)) return;
+    coarse_ = false;
+    read_again();
+}
+
 bool App::is_busy() const {
-    return reading_ || !maker_.is_idle() || !darkroom_.is_idle() || !bench_.is_idle() || saving_.valid();
+    return reading_ || is_coarse() || !maker_.is_idle() || !darkroom_.is_idle() || !bench_.is_idle() ||
+           saving_.valid();
 }
 
 void App::save(const std::string& path) {
+    if (is_live()) {
+        const std::vector<Recorded> one{{scene_wish(), path}};
+        return start_saving(
+            path, [one, choice = state.choice, following = state.following, session = setup_.session] {
+                return record_results(one, choice, following, *session);
+            });
+    }
     start_saving(path, [save = setup_.save, choice = state.choice, path] { return save(choice, path); });
 }
 
 void App::record(const std::string& path) {
     const Timeline& line = state.timeline;
-    std::vector<int> frames{line.frame};
-    if (line.is_shot()) frames.clear();
-    for (const int frame : line.frames)
-        if (frame >= line.first && frame <= line.last) frames.push_back(frame);
     const auto pattern = FramePattern::find(path);
-    if (!pattern || (!*pattern && frames.size() > 1)) {
-        error =
-            path + ": a name for many frames has a place for their number, as " + setup_.scene + "-####.exr";
-        return;
-    }
-    std::vector<std::string> paths;
-    for (const int frame : frames) paths.push_back(*pattern ? (*pattern)->path(frame) : path);
-    start_saving(path, [wish = scene_wish(), frames, paths] { return view::record(wish, frames, paths); });
+    if (!pattern) return void(error = pattern.error().message);
+    std::vector<Recorded> frames;
+    for (const int frame : line.frames)
+        if (frame >= line.first && frame <= line.last)
+            frames.push_back({scene_wish(frame), *pattern ? (*pattern)->path(frame) : path});
+    if (frames.size() > 1 && !*pattern)
+        return void(error =
+                        path + ": a name for many frames has a place for their number, as scene-####.exr");
+    if (!path.ends_with(".exr") && !path.ends_with(".png"))
+        return void(error = path + ": the name must end in .exr (sharp, with depth) or .png (as shown)");
+    const bool is_sharp = path.ends_with(".exr");
+    start_saving(path, [=, choice = state.choice, following = state.following, session = setup_.session] {
+        return is_sharp ? view::record(frames) : record_results(frames, choice, following, *session);
+    });
 }
 
 void App::start_saving(const std::string& path, std::function<Status()> save) {
@@ -210,6 +237,7 @@ void App::take_shot(ReadShot read) {
     if (state.orbit.is_home()) home_ = shot_->shot.camera_of_file;
     if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
     notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
+    if (state.following && shot_->subject_m) state.choice.camera.focus_distance_m = shot_->subject_m;
     if (setup_.focus_at) {
         state.pick = *setup_.focus_at;
         if (const auto depth = depth_near(*setup_.focus_at)) state.choice.camera.focus_distance_m = *depth;
@@ -240,6 +268,7 @@ void App::take_frame(MadeFrame made) {
         (is_part ? frames.detail_area : frames.whole_area) = made.area;
         (is_part ? frames.detail_is_old : frames.whole_is_old) = false;
         if (!is_part) frames.detail.reset();
+        frames.numbers = made.numbers;
         frames.panels =
             made.panels.empty() ? nullptr : std::make_shared<const std::vector<Panel>>(made.panels);
     }
@@ -267,6 +296,7 @@ void App::take_print(Print print) {
 
 void App::ask() {
     play();
+    refine_scene();
     if (!shot_) return;
     ask_frame(0, state.left);
     ask_prints(0, state.left);
@@ -303,14 +333,14 @@ std::optional<Rect> App::region_for(const SideFrames& frames, const Wish& wish) 
 
 void App::ask_frame(int index, const Side& side) {
     SideFrames& frames = sides_[std::size_t(index)];
-    const bool is_made = side.shown != "sharp" && side.shown != "against" && side.shown != "depth";
-    if (!is_made && index == 1) return;
+    if (!is_made(side.shown) && index == 1) return;
     const auto numbers = camera();
     if (!numbers) {
         trouble = numbers.error().message;
         return;
     }
-    Wish wish{shot_, *numbers, state.choice.look, is_made ? side.shown : "coc", {}, state.final_quality};
+    Wish wish{shot_, *numbers,           state.choice.look, is_made(side.shown) ? side.shown : "coc",
+              {},    state.final_quality};
     if (!side.engine.empty()) wish.look.engine = side.engine;
     wish.on_cpu = side.on_cpu;
     wish.region = region_for(frames, wish);
@@ -341,7 +371,16 @@ void App::ask_prints(int index, const Side& side) {
     } else if (side.shown == "against" && against_) {
         whole.picture = borrowed(against_, against_->shot.colour);
         whole.area = against_->shot.place.data_window;
-    } else if (side.shown != "sharp" && frames.whole) {
+    } else if (side.shown == "hidden" && shot_->hidden) {
+        whole.picture = shot_->hidden;
+    } else if (side.shown == "holdout" && shot_->holdout) {
+        whole.picture = shot_->holdout;
+    } else if (side.shown.starts_with(kSharpLayer)) {
+        for (const FrameLayer& layer : shot_->shot.layers)
+            if (side.shown == kSharpLayer + name_of(layer)) whole.picture = borrowed(shot_, layer.colour);
+    } else if (is_made(side.shown) && frames.whole && frames.numbers) {
+        whole.plane = frames.numbers, whole.numbers = Numbers::Radii;
+    } else if (is_made(side.shown) && frames.whole) {
         whole.picture = frames.whole, whole.area = frames.whole_area, whole.panels = frames.panels;
     } else {
         whole.picture = borrowed(shot_, shot_->shot.colour);

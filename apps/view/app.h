@@ -26,6 +26,7 @@ struct SideFrames {
     std::shared_ptr<const Picture> whole, detail;
     Rect whole_area, detail_area;
     bool whole_is_old = false, detail_is_old = false;  // of another wish
+    std::shared_ptr<const Plane> numbers;              // in place of the whole; else null
     std::shared_ptr<const Plane> radii;
     std::shared_ptr<const std::vector<Panel>> panels;  // of a buffer; else null
     MadeFrame last;                                    // without its pictures
@@ -85,8 +86,8 @@ public:
     // The frame in which things lie: the display window, or a buffer's own size. Empty: nothing is open.
     Rect frame() const;
     double pixel_aspect() const;
-    // Depth in metres at a pixel of the frame, misses ignored: the mean of 1/depth over those of the 3 x 3
-    // pixels around that are within a twentieth of the middle one. Nothing: a miss, or no depth.
+    // distance_around_m() of the 5 x 5 pixels around one of the frame, as focus-track has it. Nothing: all of
+    // them misses, or no depth.
     std::optional<double> depth_near(PixelPosition pixel) const;
     std::optional<float> radius_at(PixelPosition pixel) const;
 
@@ -99,7 +100,11 @@ public:
     void read_again();
     void go_to(int frame);
     bool is_live() const { return !setup_.scene.empty(); }
-    SceneWish scene_wish() const;  // requires: is_live()
+    // The scene at a frame as its camera looks at it now, or on its path. Requires: is_live().
+    SceneWish scene_wish(int frame) const;
+    SceneWish scene_wish() const { return scene_wish(state.timeline.frame); }
+    void turn_to(const Orbit& orbit);  // the scene's camera
+    // .exr: sharp frames with depth; .png: what is shown.
     void record(const std::string& path);
     void save(const std::string& path);
 
@@ -107,6 +112,8 @@ private:
     ShotSource source() const;  // of the frame that is shown
     void start_saving(const std::string& path, std::function<Status()> save);
     void play();
+    void refine_scene();
+    bool is_coarse() const;  // a scene whose camera moved a moment ago
     void take_shot(ReadShot read);
     void take_frame(MadeFrame made);
     void take_print(Print print);
@@ -127,7 +134,9 @@ private:
     std::future<Status> saving_;
     std::string saving_to_;
     bool reading_ = false;
-    std::optional<FoundCamera> home_;                    // of a scene: its own view
+    std::optional<FoundCamera> home_;  // of a scene: its own view
+    bool coarse_ = false;              // it is to be seen with few rays, as it moves
+    std::chrono::steady_clock::time_point moved_;
     std::chrono::steady_clock::time_point shown_since_;  // the frame, while it is played
     LensMade lens_made_;
     std::array<Texture, LensMade::kPictures> lens_pictures_;

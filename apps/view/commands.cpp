@@ -5,6 +5,7 @@
 #include "petzval/names.h"
 #include "petzval/output.h"
 
+#include "articles.h"
 #include "fields.h"
 
 #include <GLFW/glfw3.h>
@@ -98,14 +99,44 @@ Status channel(App& app, const Words& words) {
     return Done{};
 }
 
-Status show(App& app, const Words& words) {
-    if (!has(shown_names(), words[0]))
-        return invalid("show " + words[0] +
-                       ": not one of result, sharp, against, coc, depth, a buffer of an engine");
-    if (words[0] == "against" && !app.against())
+Status is_there(const App& app, const std::string& shown) {
+    const auto layer = shown.starts_with(kLayer)        ? shown.substr(kLayer.size())
+                       : shown.starts_with(kSharpLayer) ? shown.substr(kSharpLayer.size())
+                                                        : "";
+    if (!layer.empty()) {
+        if (app.shot())
+            for (const FrameLayer& known : app.shot()->shot.layers)
+                if (name_of(known) == layer) return Done{};
+        return invalid("show " + shown + ": no such layer is blurred; give --layers");
+    }
+    if (!has(shown_names(), shown))
+        return invalid("show " + shown +
+                       ": not one of result, sharp, against, coc, depth, a layer, a buffer of an engine");
+    if (shown == "against" && !app.against())
         return invalid("there is no second picture; give --against FILE");
+    if (app.shot() &&
+        ((shown == "hidden" && !app.shot()->hidden) || (shown == "holdout" && !app.shot()->holdout)))
+        return invalid("show " + shown + ": there is none; give --" + (shown == "hidden" ? "behind" : shown));
+    return Done{};
+}
+
+Status show(App& app, const Words& words) {
+    if (Status there = is_there(app, words[0]); !there) return there;
     app.state.left.shown = words[0];
     return Done{};
+}
+
+// Of the article that the scene is of: a buffer by its label.
+Status buffer(App& app, const Words& words) {
+    const Article* article = article_of(app.setup().scene);
+    if (!article) return invalid("this is no article; --scene hexadrive, wgld and unity are");
+    for (const ArticleBuffer& one : article->buffers) {
+        if (one.label != words[0]) continue;
+        if (!one.stage.empty())
+            if (Status done = set_field(app, "gather.stage", one.stage); !done) return done;
+        return show(app, {one.shown});
+    }
+    return invalid("buffer " + words[0] + ": the article has no such buffer");
 }
 
 // The other side of the wipe: something to show, or an engine.
@@ -128,9 +159,10 @@ Status wipe(App& app, const Words& words) {
         app.state.right = {"result", "", true};
     else if (what == "against" && !app.against())
         return invalid("there is no second picture; give --against FILE");
-    else if (has(shown_names(), what) && !is_buffer(what))
+    else if (has(shown_names(), what) && !is_buffer(what)) {
+        if (Status there = is_there(app, what); !there) return there;
         app.state.right = {what, ""};
-    else
+    } else
         return invalid("wipe " + what + ": not off, sharp, against, coc, depth, cpu or an engine");
     app.state.wiping = true;
     return Done{};
@@ -171,8 +203,6 @@ Status pan(App& app, const Words& words) {
 }
 
 Status save(App& app, const Words& words) {
-    if (app.is_live())
-        return invalid("a scene is no file; record FILE-####.exr writes its frames, which defocus takes");
     app.save(words[0]);
     return Done{};
 }
@@ -222,22 +252,43 @@ Status orbit(App& app, const Words& words) {
     const auto yaw = number_of(words[0]), pitch = number_of(words[1]);
     if (!app.is_live()) return no_scene();
     if (!yaw || !pitch) return invalid("orbit: not two angles");
-    app.state.orbit.yaw_deg += *yaw, app.state.orbit.pitch_deg += *pitch;
-    app.read_again();
+    Orbit turned = app.state.orbit;
+    turned.yaw_deg += *yaw, turned.pitch_deg += *pitch;
+    app.turn_to(turned);
     return Done{};
 }
 Status dolly(App& app, const Words& words) {
     const auto factor = number_of(words[0]);
     if (!app.is_live()) return no_scene();
     if (!factor || !(*factor > 0.01 && *factor < 100)) return invalid("dolly " + words[0] + ": not a factor");
-    app.state.orbit.distance *= *factor;
-    app.read_again();
+    Orbit nearer = app.state.orbit;
+    nearer.distance = std::clamp(nearer.distance * *factor, 0.01, 100.0);
+    app.turn_to(nearer);
     return Done{};
 }
 Status home(App& app, const Words&) {
     if (!app.is_live()) return no_scene();
-    app.state.orbit = {};
-    app.read_again();
+    app.turn_to({});
+    return Done{};
+}
+Status save_path(App& app, const Words& words) {
+    if (!app.is_live()) return no_scene();
+    if (app.state.path.keys.empty()) return invalid("no camera path yet; set scene.recording on, and turn");
+    if (Status done = write_text(words[0], app.state.path.text()); !done) return done;
+    app.notice = "wrote " + words[0];
+    return Done{};
+}
+Status load_path(App& app, const Words& words) {
+    if (!app.is_live()) return no_scene();
+    auto path = CameraPath::read(words[0]);
+    if (!path) return path.error();
+    app.state.path = std::move(*path);
+    app.notice = "camera path: " + words[0];
+    app.go_to(app.state.timeline.frame);
+    return Done{};
+}
+Status forget_path(App& app, const Words&) {
+    app.state.path = {};
     return Done{};
 }
 Status record(App& app, const Words& words) {
@@ -316,6 +367,7 @@ const std::vector<Command>& commands() {
         {"toggle", "FIELD", "a switch", toggle},
         {"exposure_by", "STOPS", "brighter, or darker", exposure_by},
         {"channel", "rgb|r|g|b|a", "one channel; again: all", channel},
+        {"buffer", "NAME", "of an article: one of its buffers", buffer},
         {"show", "NAME", "result, sharp, against, coc, depth, or a buffer of an engine", show},
         {"wipe", "NAME|off", "compare with sharp, against, coc, depth, another engine, the cpu", wipe},
         {"zoom", "fit|in|out|FACTOR [X Y]", "about the middle, or a pixel", zoom},
@@ -334,7 +386,11 @@ const std::vector<Command>& commands() {
         {"orbit", "YAW PITCH", "turn the camera of a scene by degrees about what was in focus", orbit},
         {"dolly", "FACTOR", "its distance times this", dolly},
         {"home", "", "the scene's own camera", home},
-        {"record", "FILE-####.exr", "sharp frames of a scene, with depth, for defocus", record},
+        {"record", "FILE-####.exr", "sharp frames of a scene, with depth, for defocus; .png: as shown",
+         record},
+        {"save_path", "FILE", "where the camera of a scene went, by frames", save_path},
+        {"load_path", "FILE", "the same again", load_path},
+        {"forget_path", "", "", forget_path},
         {"reload", "", "read the files again", reload},
         {"quit", "", "", quit},
     };

@@ -72,6 +72,25 @@ Field camera_number(const char* name, std::optional<double> CameraChoice::*chose
             }};
 }
 
+// The diameter, in place of the f-number.
+Field aperture() {
+    return {"camera.aperture_mm",
+            [](const App& app) {
+                const FoundCamera known = app.found_camera();
+                if (!known.f_number || !known.focal_length_mm) return std::string("unknown");
+                return text_of(known.focal_length_mm->value / known.f_number->value, 6);
+            },
+            [](App& app, const std::string& text) -> Status {
+                const auto value = number_of(text);
+                const auto focal = app.found_camera().focal_length_mm;
+                if (!value || !(*value > 0))
+                    return invalid("camera.aperture_mm " + text + ": not more than 0");
+                if (!focal) return invalid("no focal length; set camera.focal_length_mm");
+                app.state.choice.camera.f_number = focal->value / *value;
+                return Done{};
+            }};
+}
+
 template <typename E>
 Field word(const char* name, E& (*of)(State&)) {
     return {name, [of](const App& app) { return name_of(of(const_cast<State&>(app.state))); },  // NOLINT
@@ -119,6 +138,16 @@ std::vector<Field> facts() {
                  return std::to_string(wish->region.value_or(app.shot()->shot.place.data_window).width());
              }),
         fact("left.shown", [](const App& app) { return app.state.left.shown; }),
+        fact("scene.subject_m",
+             [](const App& app) { return or_unknown(app.shot() ? app.shot()->subject_m : std::nullopt); }),
+        fact("scene.build_ms",
+             [](const App& app) { return app.shot() ? text_of(1000 * app.shot()->build_s, 4) : "0"; }),
+        fact("scene.render_ms",
+             [](const App& app) { return app.shot() ? text_of(1000 * app.shot()->render_s, 4) : "0"; }),
+        fact("scene.samples",
+             [](const App& app) { return app.shot() ? std::to_string(app.shot()->samples) : "0"; }),
+        fact("scene.path_keys", [](const App& app) { return std::to_string(app.state.path.keys.size()); }),
+        fact("frame.ms", [](const App& app) { return text_of(1000 * app.side(0).last.seconds, 4); }),
         fact("orbit.yaw_deg", [](const App& app) { return text_of(app.state.orbit.yaw_deg, 6); }),
         fact("orbit.pitch_deg", [](const App& app) { return text_of(app.state.orbit.pitch_deg, 6); }),
         fact("shot.frame", [](const App& app) { return std::to_string(app.state.timeline.frame); }),
@@ -162,6 +191,11 @@ std::vector<Field> choices() {
             "shot.keying", +[](State& s) -> bool& { return s.timeline.keying; }),
         toggle(
             "shot.easing", +[](State& s) -> bool& { return s.timeline.easing; }),
+        aperture(),
+        toggle(
+            "scene.follow", +[](State& s) -> bool& { return s.following; }),
+        toggle(
+            "scene.recording", +[](State& s) -> bool& { return s.path.recording; }),
         toggle(
             "view.lens", +[](State& s) -> bool& { return s.lens; }),
         toggle(

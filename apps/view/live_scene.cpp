@@ -1,10 +1,14 @@
 #include "live_scene.h"
 
 #include "fields.h"
+#include "view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <sstream>
 #include <utility>
 
 namespace petzval::view {
@@ -20,6 +24,30 @@ FoundCamera found(const RenderedScene& scene) {
                        std::nullopt,
                        scene.camera_from_world};
     return camera;
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Status write_result(const std::string& path, Picture image, const Place& place,
+                    const DevelopSettings& develop_settings) {
+    if (path.ends_with(".png")) {
+        const PngPixels png{.width = image.width(),
+                            .height = image.height(),
+                            .channels = 3,
+                            .bits = 8,
+                            .samples = develop(image, develop_settings)};
+        return write_png(path, png);
+    }
+    if (!path.ends_with(".exr"))
+        return Error{ErrorCode::InvalidArgument, path + ": the name must end in .exr or .png"};
+    Frame frame;
+    frame.place = place;
+    frame.has_alpha = true;
+    frame.colour = std::move(image);
+    return write_exr(path, frame, {});
 }
 
 std::string place_text(const ScenePoint& p) {
@@ -53,32 +81,112 @@ Stand orbited(const Stand& own, const Orbit& orbit) {
     return turned;
 }
 
-Result<Shot> shot_of(const SceneWish& wish, const std::function<bool()>& cancelled) {
+std::optional<Orbit> CameraPath::at(int frame) const {
+    if (keys.empty()) return std::nullopt;
+    const auto after = keys.lower_bound(frame);
+    if (after == keys.begin()) return after->second;
+    const auto before = std::prev(after);
+    if (after == keys.end()) return before->second;
+    const double share = double(frame - before->first) / double(after->first - before->first);
+    const Orbit &a = before->second, &b = after->second;
+    return Orbit{std::lerp(a.yaw_deg, b.yaw_deg, share), std::lerp(a.pitch_deg, b.pitch_deg, share),
+                 std::exp(std::lerp(std::log(a.distance), std::log(b.distance), share))};
+}
+
+std::string CameraPath::text() const {
+    std::string all = "frame,yaw_deg,pitch_deg,distance\n";
+    for (const auto& [frame, orbit] : keys)
+        all += std::to_string(frame) + "," + text_of(orbit.yaw_deg, 9) + "," + text_of(orbit.pitch_deg, 9) +
+               "," + text_of(orbit.distance, 9) + "\n";
+    return all;
+}
+
+Result<CameraPath> CameraPath::read(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) return Error{ErrorCode::InvalidFile, path + ": no such camera path"};
+    CameraPath read;
+    int line = 0;
+    for (std::string text; std::getline(file, text);) {
+        if (++line == 1) {
+            if (text.starts_with("frame,yaw_deg,pitch_deg,distance")) continue;
+            return Error{ErrorCode::InvalidFile, path + ":1: not frame,yaw_deg,pitch_deg,distance"};
+        }
+        std::vector<double> numbers;
+        std::istringstream cells(text);
+        for (std::string cell; std::getline(cells, cell, ',');)
+            if (const auto number = number_of(cell)) numbers.push_back(*number);
+        const bool fine = numbers.size() == 4 && std::abs(numbers[0]) < 1e9 && std::abs(numbers[1]) < 1e6 &&
+                          std::abs(numbers[2]) < 1e6 && numbers[3] > 1e-3 && numbers[3] < 1e3;
+        if (!fine)
+            return Error{ErrorCode::InvalidFile, path + ":" + std::to_string(line) +
+                                                     ": not a frame, two angles and a factor above 0"};
+        read.keys[int(numbers[0])] = {numbers[1], numbers[2], numbers[3]};
+    }
+    if (read.keys.empty()) return Error{ErrorCode::InvalidFile, path + ": no frame"};
+    return read;
+}
+
+Result<LiveScene::Seen> LiveScene::look(const SceneWish& wish, const std::function<bool()>& cancelled) {
+    const auto start = Clock::now();
     SceneSettings settings = wish.settings;
     settings.progress = [&](double) { return !cancelled(); };
-    auto scene = render_scene(wish.name, settings);
+    if (!standing_ || name_ != wish.name || frame_ != settings.frame) {
+        standing_.reset();
+        auto built = StandingScene::build(wish.name, settings);
+        if (!built) return built.error();
+        standing_ = std::move(*built), name_ = wish.name, frame_ = settings.frame;
+    }
+    const double build_s = seconds_since(start);
+    auto scene = standing_->render(settings);
     if (!scene) return scene.error();
-    Shot shot;
+    Seen seen;
+    seen.build_s = build_s, seen.render_s = seconds_since(start) - build_s;
+    Shot& shot = seen.shot;
     shot.path = wish.name;
     shot.place = Place::whole({0, 0, settings.width, settings.height});
     shot.camera = shot.camera_of_file = found(*scene);
+    if (const auto at = standing_->subject()) {
+        const auto& m = scene->camera_from_world;
+        const double z = at->x * m[2] + at->y * m[6] + at->z * m[10] + m[14];
+        if (z > 0) seen.subject_m = z;
+    }
     shot.colour = std::move(scene->colour);
     shot.has_alpha = true;
     shot.depth = DepthMetres{std::move(scene->depth_m)};
-    shot.detected = {"the built-in scene " + wish.name + ", " + std::to_string(settings.samples) +
-                     " rays a pixel"};
-    return shot;
+    shot.detected = {"the scene " + wish.name + ", " + std::to_string(settings.samples) + " rays a pixel"};
+    return seen;
 }
 
-Status record(SceneWish wish, const std::vector<int>& frames, const std::vector<std::string>& paths) {
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        wish.settings.frame = frames[i];
-        auto shot = shot_of(wish, [] { return false; });
-        if (!shot) return shot.error();
+Status record(const std::vector<Recorded>& frames) {
+    LiveScene scene;
+    for (const Recorded& one : frames) {
+        auto seen = scene.look(one.wish, [] { return false; });
+        if (!seen) return seen.error();
         WriteOptions options;
-        options.camera = shot->camera;
-        Frame frame = to_frame(std::move(*shot));
-        if (Status done = write_exr(paths[i], frame, options); !done) return done;
+        options.camera = seen->shot.camera;
+        const Frame frame = to_frame(std::move(seen->shot));
+        if (Status done = write_exr(one.path, frame, options); !done) return done;
+    }
+    return Done{};
+}
+
+Status record_results(const std::vector<Recorded>& frames, const Choice& choice, bool follows_subject,
+                      Session& session) {
+    LiveScene scene;
+    for (const Recorded& one : frames) {
+        auto seen = scene.look(one.wish, [] { return false; });
+        if (!seen) return seen.error();
+        CameraChoice camera = choice.camera;
+        if (follows_subject && seen->subject_m) camera.focus_distance_m = seen->subject_m;
+        Shot& shot = seen->shot;
+        const auto numbers = complete_camera(merged_camera(shot.camera_of_file, camera), camera.image_scale);
+        if (!numbers) return numbers.error();
+        Look look = choice.look;
+        if (Status done = read_lens_images(look); !done) return done;
+        auto made = session.take(rendered(shot, *numbers), look);
+        if (!made) return made.error();
+        if (Status done = write_result(one.path, std::move(made->image), shot.place, choice.develop); !done)
+            return done;
     }
     return Done{};
 }

@@ -3,14 +3,18 @@
 
 #include "petzval/result.h"
 #include "petzval/scene.h"
+#include "petzval/session.h"
 #include "petzval/shot.h"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace petzval::view {
+
+struct Choice;
 
 // From where a scene is seen, besides its own view: turned about the point in focus on the axis.
 struct Orbit {
@@ -18,6 +22,18 @@ struct Orbit {
 
     bool is_home() const { return yaw_deg == 0 && pitch_deg == 0 && distance == 1; }
     bool operator==(const Orbit&) const = default;
+};
+
+// Orbits over the frames of a scene, as a hand made them.
+struct CameraPath {
+    std::map<int, Orbit> keys;
+    bool recording = false;  // every move becomes a key of the frame that is shown
+
+    // Evenly between keys; before the first and behind the last as there. Nothing without keys.
+    std::optional<Orbit> at(int frame) const;
+    // CSV: frame, yaw_deg, pitch_deg, distance. read() errors: InvalidFile with the path and the line.
+    std::string text() const;
+    static Result<CameraPath> read(const std::string& path);
 };
 
 // Where the camera of a picture stood, and the point on its axis so many metres away.
@@ -33,11 +49,34 @@ struct SceneWish {
     SceneSettings settings;
 };
 
-// The picture with its depth as a shot of no file. Errors: those of render_scene().
-Result<Shot> shot_of(const SceneWish& wish, const std::function<bool()>& cancelled);
-// Pictures with depth and camera numbers, as `scene make` writes them: what defocus takes. `paths`: one for
-// each frame. Errors: also OutputFailed.
-Status record(SceneWish wish, const std::vector<int>& frames, const std::vector<std::string>& paths);
+// A scene that stays built while only its camera moves. For one thread at a time.
+class LiveScene {
+public:
+    struct Seen {
+        Shot shot;                        // of no file
+        std::optional<double> subject_m;  // along the axis: where what the scene is about stands
+        double build_s = 0, render_s = 0;
+    };
+    // Errors: those of render_scene().
+    Result<Seen> look(const SceneWish& wish, const std::function<bool()>& cancelled);
+
+private:
+    std::optional<StandingScene> standing_;
+    std::string name_;
+    int frame_ = 0;
+};
+
+// One frame of a recording, and the file that it becomes.
+struct Recorded {
+    SceneWish wish;
+    std::string path;
+};
+// Pictures with depth and camera numbers, as `scene make` writes them: what defocus takes. Errors: those of
+// render_scene(), OutputFailed.
+Status record(const std::vector<Recorded>& frames);
+// What the window shows of them: made by the session at the look's quality; .exr as light, .png developed.
+Status record_results(const std::vector<Recorded>& frames, const Choice& choice, bool follows_subject,
+                      Session& session);
 // How `scene make` is asked for that picture.
 std::vector<std::string> scene_words(const SceneWish& wish, const std::string& output);
 

@@ -22,12 +22,14 @@ auto numbers_of(const Camera& c) {
     return std::tuple(c.focal_length_mm, c.sensor_width_mm, c.f_number, c.focus_distance_m, c.image_scale);
 }
 
-// The steps of a frame. Scatter, and the tracer that judges it, begin with what is quick.
-Look look_of_step(const Look& look, const std::string& shown, int step) {
+// The steps of a frame. Scatter, and the tracer that judges it, begin with what is quick: in a scene, which
+// is small, lights as sprites.
+Look look_of_step(const Wish& wish, int step) {
+    const Look& look = wish.look;
     Look now = look;
     const bool slow = look.engine == "scatter" || look.engine == "reference";
     now.quality = step == 0 ? Quality::Draft : step == 1 ? Quality::Standard : Quality::Final;
-    if (step == 0 && slow && shown == "result") now.engine = "gather";
+    if (step == 0 && slow && wish.shown == "result") now.engine = wish.shot->is_live ? "sprites" : "gather";
     if (look.engine == "reference")
         now.pupil_points = std::min(look.pupil_points, step == 1 ? 64 : look.pupil_points);
     return now;
@@ -70,18 +72,30 @@ std::optional<std::filesystem::file_time_type> time_of(const std::string& path) 
     return missing ? std::nullopt : std::optional(time);
 }
 
+// What a session takes: of its layers at most the one that is shown.
 DefocusJob job_of(const Wish& wish) {
-    const Shot& shot = wish.shot->shot;
-    DefocusJob job;
-    job.camera = wish.camera;
-    job.colour = shot.colour;
-    (shot.has_radii() ? job.coc_px : job.depth_m) = shot.depth_plane();
-    if (!shot.deep.empty()) job.deep = &shot.deep;
-    if (!shot.behind.empty()) job.behind = &shot.behind;
-    if (!shot.holdout.empty()) job.holdout = &shot.holdout;
-    if (!shot.lights.empty()) job.points = &shot.lights;
-    job.place = shot.place;
+    DefocusJob job = rendered(wish.shot->shot, wish.camera);
+    const auto& layers = wish.shot->shot.layers;
+    std::vector<ColourLayer> kept;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        if (wish.shown == kLayer + name_of(layers[i])) kept.push_back(job.layers[i]);
+    job.layers = std::move(kept);
     return job;
+}
+
+// The first number of every pixel.
+Plane red_of(const Picture& picture) {
+    Plane plane = Plane::uninitialised(picture.width(), picture.height());
+    for (std::size_t i = 0; i < picture.size(); ++i) plane.pixels()[i] = picture.pixels()[i].r;
+    return plane;
+}
+
+std::shared_ptr<const Picture> flat(const DeepPicture& deep) {
+    if (deep.empty()) return nullptr;
+    auto picture = std::make_shared<Picture>();
+    Plane depth;
+    flatten(deep, *picture, depth);
+    return picture;
 }
 
 // A first look is of no more pixels than can be drawn at once: of every n-th.
@@ -138,10 +152,27 @@ double DepthHistogram::share_of(double distance_m) const {
 }
 
 const std::vector<std::string>& shown_names() {
-    static const std::vector<std::string> names{"result",     "sharp",      "against",    "coc",
-                                                "depth",      "layers",     "levels",     "highlights",
-                                                "blur-small", "blur-large", "focus-index"};
+    static const std::vector<std::string> names{
+        "result", "sharp",  "against", "coc",        "depth",      "hidden",     "holdout",    "blurred",
+        "glare",  "layers", "levels",  "highlights", "blur-small", "blur-large", "focus-index"};
     return names;
+}
+
+std::string name_of(const FrameLayer& layer) {
+    std::string name;
+    for (const std::string& part : layer.names) name += (name.empty() ? "" : ",") + part;
+    return name;
+}
+
+bool is_made(const std::string& shown) {
+    for (const char* there : {"sharp", "against", "depth", "hidden", "holdout"})
+        if (shown == there) return false;
+    return !shown.starts_with(kSharpLayer);
+}
+
+// What an engine makes in place of its result.
+bool is_view(const std::string& shown) {
+    return is_buffer(shown) || (shown != "result" && parse<GaussianView>(shown));
 }
 
 bool is_buffer(const std::string& shown) {
@@ -232,22 +263,36 @@ void Maker::work() {
     }
 }
 
+Result<OpenShot> Maker::opened(const Reading& reading) {
+    OpenShot open;
+    if (reading.scene) {
+        auto seen = scene_.look(*reading.scene, [this] { return interrupt_.load(); });
+        if (!seen) return seen.error();
+        open.is_live = true, open.samples = reading.scene->settings.samples;
+        open.subject_m = seen->subject_m, open.build_s = seen->build_s, open.render_s = seen->render_s;
+        open.shot = std::move(seen->shot);
+    } else {
+        auto shot = read_shot(reading.source);
+        if (!shot) return shot.error();
+        open.shot = std::move(*shot);
+    }
+    if (reading.focus_point)
+        if (Status focused = focus_on_point(open.shot, *reading.focus_point); !focused)
+            return focused.error();
+    open.histogram = histogram_of(open.shot);
+    open.hidden = flat(open.shot.behind), open.holdout = flat(open.shot.holdout);
+    return open;
+}
+
 void Maker::do_reading(const Reading& reading) {
     ReadShot read{reading.is_against, reading.source.path, nullptr, {}};
     const auto time = time_of(reading.source.path);
     try {
-        auto shot = reading.scene ? shot_of(*reading.scene, [this] { return interrupt_.load(); })
-                                  : read_shot(reading.source);
-        Status focused = Done{};
-        if (shot && reading.focus_point) focused = focus_on_point(*shot, *reading.focus_point);
-        if (shot && focused) {
-            auto open = std::make_shared<OpenShot>();
-            open->histogram = histogram_of(*shot);
-            open->shot = std::move(*shot);
-            read.shot = std::move(open);
-        } else {
-            read.error = shot ? focused.error() : shot.error();
-        }
+        auto open = opened(reading);
+        if (open)
+            read.shot = std::make_shared<const OpenShot>(std::move(*open));
+        else
+            read.error = open.error();
     } catch (const std::bad_alloc&) {
         read.error = Error{ErrorCode::OutOfMemory, reading.source.path + ": not enough memory"};
     }
@@ -329,7 +374,7 @@ MadeFrame Maker::made(int, const Order& order, const Control& control) {
 Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
                            MadeFrame& frame) {
     const Wish& wish = order.wish;
-    Look look = look_of_step(wish.look, wish.shown, order.step);
+    Look look = look_of_step(wish, order.step);
     if (Status done = read_lens_images(look); !done) return done.error();
     Result<DefocusReport> done = Error{ErrorCode::InvalidArgument, ""};
     const int by = order.step == 0 ? thinning_of(wish.shot->shot) : 1;
@@ -339,20 +384,16 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
         if (!look_at_it) return look_at_it.error();
         report.image = std::move(*look_at_it);
         done = std::move(report);
-    } else if (wish.shown == "result") {
-        done = (wish.on_cpu && cpu_session_ ? cpu_session_ : session_)->take(rendered, look, control);
     } else {
-        DefocusJob job = with_look(rendered, look);
-        if (const auto scatter = parse<ScatterView>(wish.shown)) job.scatter.view = *scatter;
-        if (const auto gaussian = parse<GaussianView>(wish.shown)) job.gaussian.view = *gaussian;
-        job.engine = is_buffer(wish.shown) ? "scatter" : "gaussian";
-        done = session_->defocus(job, control);
-        frame.last = order.step > 0 || job.engine == "gaussian";
+        done = shown(wish, rendered, look, control);
     }
     if (!done) return done.error();
+    if (is_view(wish.shown)) frame.last = order.step > 0 || done->engine == "gaussian";
     frame.is_part = control.region.has_value();
     if (frame.is_part) frame.area = *control.region;
     if (is_buffer(wish.shown)) frame.area = done->image.rect();
+    if (look.engine == "gather" && look.gather.stage == GatherStage::Coc && wish.shown == "result")
+        frame.numbers = std::make_shared<const Plane>(red_of(done->image));
     frame.picture = std::make_shared<const Picture>(std::move(done->image));
     frame.panels = std::move(done->panels);
     frame.engine = done->engine;
@@ -362,6 +403,35 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     frame.stages = std::move(done->stages);
     frame.warnings = std::move(done->warnings);
     return Done{};
+}
+
+Result<DefocusReport> Maker::shown(const Wish& wish, const DefocusJob& rendered, const Look& look,
+                                   const Control& control) {
+    Session& session = wish.on_cpu && cpu_session_ ? *cpu_session_ : *session_;
+    if (wish.shown == "result") return session.take(rendered, look, control);
+    if (wish.shown.starts_with(kLayer)) {
+        auto report = session.take(rendered, look, control);
+        if (report && report->layers.size() == 1) report->image = std::move(report->layers[0]);
+        return report;
+    }
+    DefocusJob job = with_look(rendered, look);
+    if (is_view(wish.shown)) {
+        if (const auto scatter = parse<ScatterView>(wish.shown)) job.scatter.view = *scatter;
+        if (const auto gaussian = parse<GaussianView>(wish.shown)) job.gaussian.view = *gaussian;
+        job.engine = is_buffer(wish.shown) ? "scatter" : "gaussian";
+    }
+    auto report = session.defocus(job, control);
+    if (!report || wish.shown != "glare") return report;
+    const Picture blurred = report->image.clone();
+    auto lit = add_light(std::move(report->image), rendered, look);
+    if (!lit) return lit.error();
+    for (std::size_t i = 0; i < lit->size(); ++i) {
+        Rgba& pixel = lit->pixels()[i];
+        pixel = pixel - blurred.pixels()[i];
+        pixel.a = 1;
+    }
+    report->image = std::move(*lit);
+    return report;
 }
 
 // Said once per change; a file that was read again is watched afresh.

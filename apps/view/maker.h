@@ -37,6 +37,13 @@ struct DepthHistogram {
 struct OpenShot {
     Shot shot;
     DepthHistogram histogram;
+    // What the picture hides and what stays sharp, one sample over the other; null: there is none.
+    std::shared_ptr<const Picture> hidden, holdout;
+    // Of a scene:
+    bool is_live = false;
+    int samples = 0;
+    std::optional<double> subject_m;
+    double build_s = 0, render_s = 0;
 };
 using ShotPointer = std::shared_ptr<const OpenShot>;
 
@@ -45,7 +52,7 @@ struct Wish {
     ShotPointer shot;
     Camera camera;
     Look look;
-    std::string shown = "result";     // one of shown_names() that is made: not "sharp", "against", "depth"
+    std::string shown = "result";     // one that is_made()
     std::optional<Rect> region = {};  // in pixels as the data window is
     bool final_quality = false;       // after standard quality
     bool on_cpu = false;              // in place of the session's device
@@ -62,6 +69,8 @@ struct MadeFrame {
     Rect area;             // where its pixels lie
     bool is_part = false;  // they are those of the wish's region
     std::shared_ptr<const Picture> picture;
+    std::shared_ptr<const Plane>
+        numbers;                         // signed radii in place of the picture, where that is what it holds
     std::shared_ptr<const Plane> radii;  // of the whole data window; with the first step
     std::vector<Panel> panels;
     std::string engine, device, lens;
@@ -122,12 +131,15 @@ private:
     void work();
     void tell(MadeFrame frame);
     void do_reading(const Reading& reading);
+    Result<OpenShot> opened(const Reading& reading);
     void take_up_again(const Reading& reading);
     void do_step(int side, const Order& order);
     MadeFrame made(int side, const Order& order, const Control& control);
     Status take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
                         MadeFrame& frame);
     void look_at_files();
+    Result<DefocusReport> shown(const Wish& wish, const DefocusJob& rendered, const Look& look,
+                                const Control& control);
 
     std::shared_ptr<Session> session_, cpu_session_;
     std::function<void()> wake_;
@@ -136,15 +148,21 @@ private:
     std::array<std::optional<Order>, 2> orders_;
     std::vector<Reading> readings_;
     News news_;
-    std::vector<Watched> watched_;  // of the thread alone
+    std::vector<Watched> watched_;  // of the thread alone, as
+    LiveScene scene_;
     std::uint64_t numbers_ = 0;
     bool busy_ = false, ending_ = false;
     std::atomic<bool> interrupt_ = false;  // what is being made is no longer the most urgent
     std::thread thread_;                   // last: it uses all of the above
 };
 
-// What a side may show: the result, what it is made of, buffers of engines.
+// What a side may show: the result, what it is made of, buffers of engines. Besides, of the layers of a shot,
+// kLayer and kSharpLayer with name_of(layer).
 const std::vector<std::string>& shown_names();
+inline const std::string kLayer = "layer:", kSharpLayer = "sharp-layer:";
+std::string name_of(const FrameLayer& layer);
+// Those that an engine makes; the others are there already.
+bool is_made(const std::string& shown);
 // Those that are shown whole, whatever is seen of them, as they lie elsewhere than the picture.
 bool is_buffer(const std::string& shown);
 

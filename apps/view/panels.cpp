@@ -4,6 +4,7 @@
 #include "petzval/lens_facts.h"
 #include "petzval/names.h"
 
+#include "articles.h"
 #include "canvas.h"
 #include "commands.h"
 #include "fields.h"
@@ -162,8 +163,13 @@ void compare_panel(App& app) {
         wipe_button(engine);
     }
     if (ImGui::BeginCombo("shown", app.state.left.shown.c_str())) {
-        for (const std::string& name : shown_names())
-            if (ImGui::Selectable(name.c_str(), name == app.state.left.shown)) say(app, "show " + name);
+        std::vector<std::string> names = shown_names();
+        if (app.shot())
+            for (const FrameLayer& layer : app.shot()->shot.layers)
+                for (const std::string& kind : {kLayer, kSharpLayer}) names.push_back(kind + name_of(layer));
+        for (const std::string& name : names)
+            if (ImGui::Selectable(name.c_str(), name == app.state.left.shown))
+                say(app, "show \"" + name + "\"");
         ImGui::EndCombo();
     }
     bool overlay = app.state.overlay;
@@ -300,11 +306,13 @@ std::string under_pointer(const App& app) {
 
 void draw_panels(App& app) {
     ImGui::PushItemWidth(-11 * ImGui::GetFontSize());
-    section(app, "Camera", true, camera_panel);
-    if (app.shot()) section(app, "Depth", true, depth_panel);
+    const bool is_article = article_of(app.setup().scene) != nullptr;
+    if (is_article) section(app, "Article", true, article_panel);
+    section(app, "Camera", !is_article, camera_panel);
+    if (app.shot()) section(app, "Depth", !is_article, depth_panel);
     section(app, "Lenses", false, shelf_panel);
-    section(app, "Look", true, look_panel);
-    section(app, "Compare", true, compare_panel);
+    section(app, "Look", !is_article, look_panel);
+    section(app, "Compare", !is_article, compare_panel);
     section(app, "Display", false, display_panel);
     section(app, "Files", false, files_panel);
     section(app, "Pixel", false, pixel_panel);

@@ -26,7 +26,9 @@ struct State {
     Choice choice;
     Side left, right;  // right: beyond the wipe
     Timeline timeline;
-    Orbit orbit;  // of a built-in scene's camera
+    Orbit orbit;  // of a scene's camera
+    CameraPath path;
+    bool following = false;  // the focus stays on what the scene is about
     bool wiping = false;
     double wipe = 0.5;  // where, share of the canvas's width
     Channel channel = Channel::Colour;

@@ -38,7 +38,7 @@ struct Choice {
 struct Setup {
     ShotSource source;
     std::string scene;  // a built-in scene in place of files; its source.path is only what it is called
-    int scene_width = 480, scene_height = 270;
+    int scene_width = 480, scene_height = 270, scene_frames = 1;
     std::vector<int> frames;  // that are there, where names of the source's files hold a place for a number
     Choice choice;
     std::optional<PixelPosition> focus_at;

@@ -75,6 +75,23 @@ void number_widget(App& app, const std::string& path, const std::string& label, 
     if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
 }
 
+void slider_widget(App& app, const std::string& path, const std::string& label, double least, double most) {
+    const auto text = field_text(app, path);
+    const auto known = text ? number_of(*text) : Result<double>(text.error());
+    double value = known ? *known : least;
+    const bool changed = ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &least, &most,
+                                             known ? "%.3g" : "auto");
+    is_field(app, path);
+    if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
+}
+
+void switch_widget(App& app, const std::string& path, const std::string& label) {
+    const auto now = field_text(app, path);
+    bool on = now && (*now == "on" || *now == "true");
+    if (ImGui::Checkbox(label.c_str(), &on)) static_cast<void>(act(app, "toggle " + path));
+    is_field(app, path);
+}
+
 void row_widget(App& app, const FieldRow& row) {
     const auto now = field_text(app, row.path);
     if (!now) return;

@@ -9,6 +9,10 @@ namespace petzval::view {
 
 // A number that is dragged, by shares of itself where `is_scale`, else by `speed`.
 void number_widget(App& app, const std::string& path, const std::string& label, double speed, bool is_scale);
+// The same between two ends.
+void slider_widget(App& app, const std::string& path, const std::string& label, double least, double most);
+// On or off.
+void switch_widget(App& app, const std::string& path, const std::string& label);
 // A row of the table of look flags: switch, choice, number or text, as its placeholder says.
 void row_widget(App& app, const FieldRow& row);
 // The last widget can be pointed at by this name in scripts, and says this when the pointer rests on it.
