@@ -49,7 +49,7 @@ const SceneSummary* find_scene(const std::string& name) {
 
 void MakeFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Scene")
-        .argument("NAME", "one of petzval scene list", name)
+        .argument("NAME", "one of petzval scene list, or a .gltf or .glb file", name)
         .value("--width", "PX", "width of the picture (default 960); one alone keeps 16:9", parse_size_px,
                width)
         .value("--height", "PX", "height of the picture (default 540)", parse_size_px, height)
@@ -109,7 +109,7 @@ void MakeFlags::check(const Verb& verb) {
     require_argument(verb, output, "-o FILE.exr");
     run.apply();
     overwrite.check();
-    if (!find_scene(name)) {
+    if (!name.ends_with(".gltf") && !name.ends_with(".glb") && !find_scene(name)) {
         std::vector<std::string> names;
         for (const SceneSummary& known : scene_list()) names.push_back(known.name);
         throw UsageError("there is no scene " + name + "; there are " + listed(names));
@@ -207,17 +207,20 @@ Status make_scene(const MakeFlags& flags) {
     auto all = outputs;
     all.push_back(flags.run.json);
     if (Status fine = check_outputs(all, {}); !fine) return fine;
-    const SceneSummary& summary = *find_scene(flags.name);
+    auto standing = StandingScene::build(flags.name, flags.scene);
+    if (!standing) return standing.error();
+    for (const std::string& line : standing->warnings()) warning(line);
+    const Camera& own = standing->camera();
     const FoundCamera camera =
-        merged_camera(camera_of_scene(summary.camera, "scene " + flags.name), flags.camera.choice());
-    const ImageScale image_scale = flags.camera.image_scale.value_or(summary.camera.image_scale);
+        merged_camera(camera_of_scene(own, "scene " + flags.name), flags.camera.choice());
+    const ImageScale image_scale = flags.camera.image_scale.value_or(own.image_scale);
     SceneSettings settings = flags.scene;
     settings.camera = complete(camera, image_scale);
     note(camera_line(camera, image_scale));
     auto scene = [&] {
         ProgressLine progress(flags.run.progress, flags.run.quiet, "scene");
         settings.progress = [&](double share) { return progress(share); };
-        return render_scene(flags.name, settings);
+        return standing->render(settings);
     }();
     if (!scene) return scene.error();
     if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};

@@ -204,7 +204,8 @@ void check_scene(ViewFlags& flags) {
     refuse_both(!flags.input.path.empty(), "IN", true, "--scene");
     std::vector<std::string> known;
     for (const SceneSummary& one : scene_list()) known.push_back(one.name);
-    if (std::find(known.begin(), known.end(), flags.scene) == known.end())
+    const bool is_file = flags.scene.ends_with(".gltf") || flags.scene.ends_with(".glb");
+    if (!is_file && std::find(known.begin(), known.end(), flags.scene) == known.end())
         throw UsageError("--scene " + flags.scene + ": no such scene" + did_you_mean(flags.scene, known) +
                          "; petzval scene list tells them");
     flags.input.path = flags.scene;
@@ -222,8 +223,10 @@ void add_view(Verb& program, Action& chosen) {
     FlagGroup(verb, "Window")
         .value("--against", "FILE", "another picture to compare with, as the truth or a frame made before",
                parse_text, flags->against)
-        .value("--scene", "NAME", "a built-in scene in place of IN, rendered at every move of its camera",
-               parse_text, flags->scene)
+        .value(
+            "--scene", "NAME",
+            "a built-in scene, or a .gltf or .glb file, in place of IN, rendered at every move of its camera",
+            parse_text, flags->scene)
         .value("--scene-size", "WxH", "its picture (default 480x270)", parse_window, flags->scene_size)
         .value("--script", "FILE", "do what the lines of a file say (docs/view.md), then close", parse_text,
                flags->script)

@@ -153,6 +153,7 @@ Result<LiveScene::Seen> LiveScene::look(const SceneWish& wish, const std::functi
     shot.colour = std::move(scene->colour);
     shot.has_alpha = true;
     shot.depth = DepthMetres{std::move(scene->depth_m)};
+    shot.warnings = standing_->warnings();
     shot.detected = {"the scene " + wish.name + ", " + std::to_string(settings.samples) + " rays a pixel"};
     return seen;
 }

@@ -75,7 +75,8 @@ struct RenderedScene {
 // message lists them) or numbers out of range; Cancelled.
 PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings);
 
-// A scene that is built and lit once, and looked at from many places, by one thread at a time.
+// A scene that is built and lit once, and looked at from many places, by one thread at a time. `name`: a
+// built-in one, or a glTF file, which ends in .gltf or .glb (by tinygltf, where it was found).
 class PETZVAL_API StandingScene {
 public:
     // Of the settings the frame and the threads. Errors: those of render_scene().
@@ -88,6 +89,8 @@ public:
     Result<RenderedScene> render(const SceneSettings& settings);
     // Where what the scene is about stands in this frame; nothing where it is about nothing in particular.
     std::optional<ScenePoint> subject() const;
+    const Camera& camera() const;                      // the scene's own
+    const std::vector<std::string>& warnings() const;  // of a file: what of it could not be read
 
 private:
     struct Contents;

@@ -2,6 +2,7 @@
 #include "petzval/scene.h"
 
 #include "base/parallel.h"
+#include "scene/gltf.h"
 #include "scene/scenes.h"
 #include "scene/soft_depth.h"
 #include "scene/tracing.h"
@@ -146,11 +147,13 @@ const std::vector<SceneSummary>& scene_list() {
 
 struct StandingScene::Contents {
     explicit Contents(bool one_thread) : world(one_thread) {}
+    Status fill(const std::string& name, const SceneSettings& settings);
     scene::World world;
     scene::Viewpoint own;
     Camera camera;
     int frame = 0, frames = 1;
     std::optional<ScenePoint> subject;
+    std::vector<std::string> warnings;
 };
 
 StandingScene::StandingScene(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
@@ -158,26 +161,36 @@ StandingScene::~StandingScene() = default;
 StandingScene::StandingScene(StandingScene&&) noexcept = default;
 StandingScene& StandingScene::operator=(StandingScene&&) noexcept = default;
 
-Result<StandingScene> StandingScene::build(const std::string& name, const SceneSettings& settings) {
+Status StandingScene::Contents::fill(const std::string& name, const SceneSettings& settings) {
+    if (scene::is_gltf(name)) {
+        if (const Status status = scene::check(settings, 1); !status) return status;
+        return scene::add_gltf(world, name, camera, warnings);
+    }
     const scene::BuiltInScene* found = scene::find(name);
     if (!found) return scene::unknown(name);
-    const int frames = found->summary.frames;
-    if (const Status status = scene::check(settings, frames); !status) return status.error();
+    frames = found->summary.frames;
+    if (const Status status = scene::check(settings, frames); !status) return status;
+    const float time = frames > 1 ? float(settings.frame) / float(frames - 1) : 0;
+    found->build(world, time);
+    camera = found->summary.camera;
+    frame = settings.frame;
+    if (!found->subject) return Done{};
+    const scene::Vec3 at = found->subject(time);
+    subject = ScenePoint{double(at.x), double(at.y), double(at.z)};
+    return Done{};
+}
+
+Result<StandingScene> StandingScene::build(const std::string& name, const SceneSettings& settings) {
     const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
     auto contents = std::make_unique<Contents>(workers->width() == 1);
-    const float time = frames > 1 ? float(settings.frame) / float(frames - 1) : 0;
-    found->build(contents->world, time);
+    if (const Status status = contents->fill(name, settings); !status) return status.error();
     contents->own = contents->world.view;
-    contents->camera = found->summary.camera;
-    contents->frame = settings.frame, contents->frames = frames;
-    if (found->subject) {
-        const scene::Vec3 at = found->subject(time);
-        contents->subject = ScenePoint{double(at.x), double(at.y), double(at.z)};
-    }
     if (const Status status = contents->world.commit(*workers); !status) return status.error();
     return StandingScene(std::move(contents));
 }
 
+const std::vector<std::string>& StandingScene::warnings() const { return contents_->warnings; }
+const Camera& StandingScene::camera() const { return contents_->camera; }
 std::optional<ScenePoint> StandingScene::subject() const { return contents_->subject; }
 
 Result<RenderedScene> StandingScene::render(const SceneSettings& settings) {

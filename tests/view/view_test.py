@@ -1,98 +1,16 @@
 """petzval view under Xvfb: scripts do what a hand would, and look at the screen. Prints how long windows took."""
-import json
 import os
 import shlex
 import shutil
-import struct
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
-import zlib
 
-PETZVAL = os.environ.get("PETZVAL", "petzval")
-TIME_LIMIT_S = 60
-
-
-class Display:
-    """An X server of our own, software rendered; `name` is None where none can be had."""
-
-    def __init__(self):
-        self.server, self.name = None, None
-        if not shutil.which("Xvfb"):
-            return
-        read, write = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1100x900x24"],
-                                       pass_fds=[write], stderr=subprocess.DEVNULL)
-        os.close(write)
-        with os.fdopen(read) as says:
-            number = says.readline().strip()
-        self.name = ":" + number if number else None
-
-    def close(self):
-        if self.server:
-            self.server.terminate()
-            self.server.wait()
+import window
+from window import DISPLAY, PETZVAL, TIME_LIMIT_S, png_codes
 
 
-def png_codes(data):
-    """Rows of (r, g, b) of an 8-bit RGB PNG."""
-    at, chunks, width, height = 8, b"", 0, 0
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height = struct.unpack(">II", data[at + 8:at + 16])
-        chunks += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
-        at += size + 12
-    raw, rows, above = zlib.decompress(chunks), [], bytes(3 * width)
-    for y in range(height):
-        row = bytearray(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
-        for i in range(3 * width):
-            left, up, corner = (row[i - 3] if i > 2 else 0), above[i], (above[i - 3] if i > 2 else 0)
-            guess = left + up - corner
-            paeth = min((left, up, corner), key=lambda value: abs(guess - value))
-            row[i] = (row[i] + [0, left, up, (left + up) // 2, paeth][raw[y * (3 * width + 1)]]) & 255
-        above = bytes(row)
-        rows.append([tuple(row[3 * x:3 * x + 3]) for x in range(width)])
-    return rows
-
-
-class ViewTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.shared = tempfile.mkdtemp(prefix="petzval-view-")
-        subprocess.run([PETZVAL, "scene", "make", "table", "-o", "table.exr", "--width",
-                       "320", "--height", "180", "--pinhole-samples", "4", "--truth", "truth.exr", "--samples", "4"],
-                       cwd=cls.shared, check=True, capture_output=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.shared, ignore_errors=True)
-
-    def contents(self, *names):
-        for name in names:
-            with open(os.path.join(self.shared, name), "rb") as file:
-                yield file.read()
-
-    def start(self, *arguments, display=None):
-        env = {**os.environ, "PETZVAL_KERNEL_CACHE": "off", "DISPLAY": display or DISPLAY.name}
-        window = subprocess.Popen([PETZVAL, "view", *arguments, "--window", "1000x850"], cwd=self.shared, env=env,
-                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(lambda: (window.kill(), window.communicate()))
-        return window
-
-    def do(self, script, *arguments, code=0):
-        """Runs a script; returns its standard output and standard error."""
-        with open(os.path.join(self.shared, "script.txt"), "w") as file:
-            file.write(script)
-        window = self.start(*(arguments or ["table.exr"]), "--script", "script.txt")
-        out, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, code, err)
-        if code == 0:
-            print(self.id().split(".")[-1] + ":", err.strip().splitlines()[-1])
-        return out, err
-
+class ViewTest(window.WindowTest):
     def test_a_click_focuses_on_what_is_seen_there_and_the_picture_follows(self):
         # The checked ball in the middle stands 1.2 m away; the red one at the back is farther.
         out, _ = self.do("""
@@ -320,148 +238,6 @@ class ViewTest(unittest.TestCase):
         eased = next(self.contents("eased.csv")).decode()
         self.assertEqual(len(eased.splitlines()), 6)
 
-    def test_a_scene_is_turned_by_a_drag_and_recorded_for_defocus(self):
-        out, _ = self.do("""
-            wait
-            expect no error
-            expect frame.width 160
-            say focus
-            click 80 45
-            wait
-            expect orbit.yaw_deg 0
-            drag 80 45 100 45
-            wait
-            say orbit.yaw_deg
-            expect no error
-            show focus-index
-            wait
-            expect no error
-            show result
-            range 0 1
-            record turned-####.exr
-            wait
-            expect no error
-            copy
-            say copied
-            key home
-            wait
-            expect orbit.yaw_deg 0
-        """, "--scene", "tori", "--scene-size", "160x90", "--engine", "gaussian")
-        _, yaw, command = out.splitlines()
-        self.assertNotEqual(float(yaw), 0)
-        made, defocused = command.split(" && ")
-        for line in (made.replace("tori.exr", "made.exr").replace("--frame 0", "--frame 1"),
-                     defocused.replace("tori.exr", "turned-0001.exr")):
-            subprocess.run([PETZVAL, *shlex.split(line)[1:]], cwd=self.shared, check=True, capture_output=True)
-        compared = subprocess.run([PETZVAL, "compare", "made.exr", "turned-0001.exr"], cwd=self.shared,
-                                  capture_output=True, text=True)
-        self.assertIn("inf", compared.stdout + compared.stderr)
-
-    def buffers_of(self, scene, buffers, before=""):
-        """Shows every buffer of an article; all are different pictures."""
-        self.do("wait\nexpect no error\nkey tab\n" + before + "".join(
-            'buffer "%s"\nwait\nexpect no error\nshot %s%d.png\n' % (name, scene, i) for i, name in enumerate(buffers)),
-            "--scene", scene, "--scene-size", "120x68")
-        shots = list(self.contents(*["%s%d.png" % (scene, i) for i in range(len(buffers))]))
-        self.assertEqual(len(set(shots)), len(buffers), "two buffers look alike")
-
-    def test_every_buffer_of_hexadrives_demo_can_be_seen(self):
-        self.buffers_of("hexadrive", ["result", "sharp, HDR", "depth", "radii", "surfaces", "levels in one buffer",
-                                      "highlights", "blurred, no glare", "glare alone"])
-
-    def test_every_buffer_of_wglds_page_can_be_seen(self):
-        self.buffers_of("wgld", ["result", "depth index", "sharp", "small blur", "large blur", "depth"])
-
-    def test_every_stage_of_unitys_articles_can_be_seen(self):
-        self.buffers_of("unity", ["result: cure", "radii", "half size", "blind disc", "hard test", "four-tap blur",
-                                  "combined: hard edges", "near and far", "sharp", "depth", "ours"], "set fstop 0.5\n")
-
-    def test_an_article_begins_with_its_own_look_and_the_focus_follows_its_subject(self):
-        out, _ = self.do("""
-            wait
-            expect engine gather
-            expect gather.stage cure
-            click "focus on the green cube"
-            expect scene.follow on
-            frame 24
-            wait
-            say focus
-            say scene.subject_m
-            frame 0
-            wait
-            say focus
-            set camera.aperture_mm 25
-            expect fstop 2
-            drag camera.aperture_mm 20
-            wait
-            say camera.aperture_mm
-            expect no error
-        """, "--scene", "unity", "--scene-size", "120x68")
-        far, subject, near, aperture = map(float, out.split())
-        self.assertAlmostEqual(far, subject, 4)
-        self.assertGreater(far, near + 0.5)
-        self.assertGreater(aperture, 30)
-
-    def test_a_camera_path_is_recorded_saved_and_played_again(self):
-        out, _ = self.do("""
-            wait
-            set scene.recording on
-            frame 0
-            orbit 20 0
-            frame 10
-            orbit 10 5
-            dolly 2
-            set scene.recording off
-            save_path path.csv
-            forget_path
-            home
-            wait
-            load_path path.csv
-            frame 5
-            wait
-            say orbit.yaw_deg
-            say orbit.pitch_deg
-            range 4 5
-            record path-####.exr
-            wait
-            expect no error
-            load_path script.txt
-            expect error script.txt:1
-            load_path nothing.csv
-            expect error nothing.csv
-        """, "--scene", "wgld", "--scene-size", "60x34")
-        yaw, pitch = map(float, out.split())
-        self.assertAlmostEqual(yaw, 25)
-        self.assertAlmostEqual(pitch, 2.5)
-        four, five = self.contents("path-0004.exr", "path-0005.exr")
-        self.assertNotEqual(four, five)
-
-    def test_the_live_picture_is_that_of_defocus_of_the_recorded_frame(self):
-        out, _ = self.do("""
-            wait
-            orbit 10 5
-            wait
-            range 0 0
-            record recorded.exr
-            wait
-            save live.exr
-            wait
-            record live-####.png
-            wait
-            expect no error
-            copy
-            say copied
-        """, "--scene", "unity", "--scene-size", "120x68")
-        defocus = out.strip().split(" && ")[1].replace("unity.exr", "recorded.exr").replace("out.exr", "made.exr")
-        subprocess.run([PETZVAL, *shlex.split(defocus)[1:]], cwd=self.shared, check=True, capture_output=True)
-        done = subprocess.run([PETZVAL, "compare", "live.exr", "made.exr", "--json", "live.json"], cwd=self.shared,
-                              capture_output=True, text=True)
-        print("live against recorded:", done.stdout.strip())
-        with open(os.path.join(self.shared, "live.json")) as file:
-            psnr = json.load(file)["psnr_lin"]
-        self.assertTrue(psnr is None or psnr == "inf" or float(psnr) > 55, psnr)  # files hold halves
-        self.assertEqual(next(self.contents("live-0000.png"))[1:4], b"PNG")
-
     def test_what_is_wrong_is_said_in_the_window_which_stays(self):
         shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gone.exr"))
         self.do("""
@@ -517,10 +293,4 @@ class ViewTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    DISPLAY = Display()
-    if not DISPLAY.name:
-        print("SKIPPED: no display can be had (Xvfb is missing or does not start)")
-        sys.exit(77)
-    done = unittest.main(exit=False)
-    DISPLAY.close()
-    sys.exit(not done.result.wasSuccessful())
+    window.run()

@@ -1,0 +1,131 @@
+// Small files written here: what is right is seen where it stands, what is wrong is refused in one line.
+#include "petzval/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+std::string base64(const std::vector<unsigned char>& bytes) {
+    static const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto at = [&](std::size_t k) { return i + k < bytes.size() ? unsigned(bytes[i + k]) : 0U; };
+        const unsigned three = at(0) << 16 | at(1) << 8 | at(2);
+        for (unsigned k = 0; k < 4; ++k)
+            text += i + k > bytes.size() ? '=' : kLetters[three >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
+// A red square of 2 x 2, 3 m before a camera at the origin that looks along -z, and a smaller one 2 m away
+// that glows green, up and to the right.
+std::string two_squares() {
+    const float places[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    const std::uint16_t order[] = {0, 1, 2, 0, 2, 3};
+    std::vector<unsigned char> bytes(sizeof places + sizeof order);
+    std::memcpy(bytes.data(), places, sizeof places);
+    std::memcpy(bytes.data() + sizeof places, order, sizeof order);
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+"nodes":[{"mesh":0,"translation":[0,0,-3]},{"mesh":1,"translation":[0.4,0.3,-2],"scale":[0.1,0.1,0.1]},{"camera":0}],
+"cameras":[{"type":"perspective","perspective":{"yfov":0.6,"znear":0.1}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]},
+{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":1}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0}}},
+{"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]},"emissiveFactor":[0,1,0]}],
+"textures":[{"source":0}],"images":[{"uri":"missing.png"}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],
+"buffers":[{"byteLength":60,"uri":"data:application/octet-stream;base64,)" +
+           base64(bytes) + "\"}]}";
+}
+
+class GltfScenes : public testing::Test {
+protected:
+    void SetUp() override {
+        settings_.width = 64, settings_.height = 36, settings_.samples = 4, settings_.threads = 1;
+        const auto built = build(two_squares());
+        if (!built && built.error().code == ErrorCode::Unsupported) GTEST_SKIP() << built.error().message;
+    }
+    Result<StandingScene> build(const std::string& text) {
+        path_ = testing::TempDir() + "petzval-scene.gltf";
+        std::ofstream(path_) << text;
+        return StandingScene::build(path_, settings_);
+    }
+    // Of a text in which something else stands.
+    std::string refusal(const std::string& what, const std::string& instead) {
+        std::string text = two_squares();
+        EXPECT_NE(text.find(what), std::string::npos) << what;
+        text.replace(text.find(what), what.size(), instead);
+        const auto built = build(text);
+        return built ? "" : built.error().message;
+    }
+
+    SceneSettings settings_;
+    std::string path_;
+};
+
+TEST_F(GltfScenes, TrianglesStandWhereTheFilesCameraSeesThem) {
+    auto standing = build(two_squares());
+    ASSERT_TRUE(standing) << standing.error().message;
+    // 0.6 rad of height on a sensor of 36 x 20.25 mm.
+    EXPECT_NEAR(standing->camera().focal_length_mm, 0.5 * 20.25 / std::tan(0.3), 1e-4);
+    const RenderedScene seen = standing->render(settings_).value();
+    EXPECT_NEAR(seen.depth_m(32, 18), 3, 1e-4);
+    EXPECT_GT(seen.colour(32, 18).r, 0.1f);
+    EXPECT_FLOAT_EQ(seen.colour(32, 18).g, 0);
+    // (0.4, 0.3) at 2 m: 18 / tan(0.3) px for a tangent of 1.
+    const double px = 18 / std::tan(0.3);
+    const int x = int(32 + 0.2 * px), y = int(18 - 0.15 * px);
+    EXPECT_NEAR(seen.depth_m(x, y), 2, 1e-4);
+    EXPECT_NEAR(seen.colour(x, y).g, 1, 1e-4);
+    EXPECT_TRUE(std::isinf(seen.depth_m(0, 0)));
+}
+
+TEST_F(GltfScenes, APictureThatIsMissingIsAWarningAndWhite) {
+    const auto standing = build(two_squares());
+    ASSERT_TRUE(standing);
+    ASSERT_EQ(standing->warnings().size(), 1U);
+    EXPECT_NE(standing->warnings()[0].find("missing.png"), std::string::npos) << standing->warnings()[0];
+}
+
+TEST_F(GltfScenes, WhatIsBrokenIsRefusedInOneLineThatNamesTheFile) {
+    const std::pair<const char*, const char*> faults[] = {
+        {R"("count":6)", R"("count":600)"},
+        {R"("count":4)", R"("count":3)"},
+        {R"("byteOffset":48)", R"("byteOffset":4000000000)"},
+        {R"("nodes":[0,1,2])", R"("nodes":[0,1,9])"},
+        {R"("camera":0})", R"("children":[2]})"},
+        {R"("mesh":1)", R"("mesh":7)"},
+        {R"("POSITION":0)", R"("POSITION":1)"},
+        {R"("scale":[0.1,0.1,0.1])", R"("scale":[1e300,1e300,1e300])"},
+        {R"("asset":{"version":"2.0"})",
+         R"("asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"])"},
+    };
+    for (const auto& [what, instead] : faults) {
+        const std::string said = refusal(what, instead);
+        EXPECT_NE(said.find(path_), std::string::npos) << instead << ": " << said;
+        EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+    EXPECT_FALSE(StandingScene::build("nowhere.glb", settings_));
+}
+
+TEST_F(GltfScenes, WhereverAFileEndsNothingBreaks) {
+    const std::string whole = two_squares();
+    for (std::size_t length = 0; length + 1 < whole.size(); length += 17) {
+        const auto built = build(whole.substr(0, length));
+        ASSERT_FALSE(built) << length;
+        EXPECT_EQ(built.error().message.find('\n'), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace petzval

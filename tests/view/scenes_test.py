@@ -1,0 +1,156 @@
+"""Scenes that are rendered as one looks, under Xvfb: articles, camera paths, recordings."""
+import json
+import os
+import shlex
+import subprocess
+
+import window
+from window import PETZVAL
+
+
+class SceneTest(window.WindowTest):
+    def test_a_scene_is_turned_by_a_drag_and_recorded_for_defocus(self):
+        out, _ = self.do("""
+            wait
+            expect no error
+            expect frame.width 160
+            say focus
+            click 80 45
+            wait
+            expect orbit.yaw_deg 0
+            drag 80 45 100 45
+            wait
+            say orbit.yaw_deg
+            expect no error
+            show focus-index
+            wait
+            expect no error
+            show result
+            range 0 1
+            record turned-####.exr
+            wait
+            expect no error
+            copy
+            say copied
+            key home
+            wait
+            expect orbit.yaw_deg 0
+        """, "--scene", "tori", "--scene-size", "160x90", "--engine", "gaussian")
+        _, yaw, command = out.splitlines()
+        self.assertNotEqual(float(yaw), 0)
+        made, defocused = command.split(" && ")
+        for line in (made.replace("tori.exr", "made.exr").replace("--frame 0", "--frame 1"),
+                     defocused.replace("tori.exr", "turned-0001.exr")):
+            subprocess.run([PETZVAL, *shlex.split(line)[1:]], cwd=self.shared, check=True, capture_output=True)
+        compared = subprocess.run([PETZVAL, "compare", "made.exr", "turned-0001.exr"], cwd=self.shared,
+                                  capture_output=True, text=True)
+        self.assertIn("inf", compared.stdout + compared.stderr)
+
+    def buffers_of(self, scene, buffers, before=""):
+        """Shows every buffer of an article; all are different pictures."""
+        self.do("wait\nexpect no error\nkey tab\n" + before + "".join(
+            'buffer "%s"\nwait\nexpect no error\nshot %s%d.png\n' % (name, scene, i) for i, name in enumerate(buffers)),
+            "--scene", scene, "--scene-size", "120x68")
+        shots = list(self.contents(*["%s%d.png" % (scene, i) for i in range(len(buffers))]))
+        self.assertEqual(len(set(shots)), len(buffers), "two buffers look alike")
+
+    def test_every_buffer_of_hexadrives_demo_can_be_seen(self):
+        self.buffers_of("hexadrive", ["result", "sharp, HDR", "depth", "radii", "surfaces", "levels in one buffer",
+                                      "highlights", "blurred, no glare", "glare alone"])
+
+    def test_every_buffer_of_wglds_page_can_be_seen(self):
+        self.buffers_of("wgld", ["result", "depth index", "sharp", "small blur", "large blur", "depth"])
+
+    def test_every_stage_of_unitys_articles_can_be_seen(self):
+        self.buffers_of("unity", ["result: cure", "radii", "half size", "blind disc", "hard test", "four-tap blur",
+                                  "combined: hard edges", "near and far", "sharp", "depth", "ours"], "set fstop 0.5\n")
+
+    def test_an_article_begins_with_its_own_look_and_the_focus_follows_its_subject(self):
+        out, _ = self.do("""
+            wait
+            expect engine gather
+            expect gather.stage cure
+            click "focus on the green cube"
+            expect scene.follow on
+            frame 24
+            wait
+            say focus
+            say scene.subject_m
+            frame 0
+            wait
+            say focus
+            set camera.aperture_mm 25
+            expect fstop 2
+            drag camera.aperture_mm 20
+            wait
+            say camera.aperture_mm
+            expect no error
+        """, "--scene", "unity", "--scene-size", "120x68")
+        far, subject, near, aperture = map(float, out.split())
+        self.assertAlmostEqual(far, subject, 4)
+        self.assertGreater(far, near + 0.5)
+        self.assertGreater(aperture, 30)
+
+    def test_a_camera_path_is_recorded_saved_and_played_again(self):
+        out, _ = self.do("""
+            wait
+            set scene.recording on
+            frame 0
+            orbit 20 0
+            frame 10
+            orbit 10 5
+            dolly 2
+            set scene.recording off
+            save_path path.csv
+            forget_path
+            home
+            wait
+            load_path path.csv
+            frame 5
+            wait
+            say orbit.yaw_deg
+            say orbit.pitch_deg
+            range 4 5
+            record path-####.exr
+            wait
+            expect no error
+            load_path script.txt
+            expect error script.txt:1
+            load_path nothing.csv
+            expect error nothing.csv
+        """, "--scene", "wgld", "--scene-size", "60x34")
+        yaw, pitch = map(float, out.split())
+        self.assertAlmostEqual(yaw, 25)
+        self.assertAlmostEqual(pitch, 2.5)
+        four, five = self.contents("path-0004.exr", "path-0005.exr")
+        self.assertNotEqual(four, five)
+
+    def test_the_live_picture_is_that_of_defocus_of_the_recorded_frame(self):
+        out, _ = self.do("""
+            wait
+            orbit 10 5
+            wait
+            range 0 0
+            record recorded.exr
+            wait
+            save live.exr
+            wait
+            record live-####.png
+            wait
+            expect no error
+            copy
+            say copied
+        """, "--scene", "unity", "--scene-size", "120x68")
+        defocus = out.strip().split(" && ")[1].replace("unity.exr", "recorded.exr").replace("out.exr", "made.exr")
+        subprocess.run([PETZVAL, *shlex.split(defocus)[1:]], cwd=self.shared, check=True, capture_output=True)
+        done = subprocess.run([PETZVAL, "compare", "live.exr", "made.exr", "--json", "live.json"], cwd=self.shared,
+                              capture_output=True, text=True)
+        print("live against recorded:", done.stdout.strip())
+        with open(os.path.join(self.shared, "live.json")) as file:
+            psnr = json.load(file)["psnr_lin"]
+        self.assertTrue(psnr is None or psnr == "inf" or float(psnr) > 55, psnr)  # files hold halves
+        self.assertEqual(next(self.contents("live-0000.png"))[1:4], b"PNG")
+
+
+if __name__ == "__main__":
+    window.run()
