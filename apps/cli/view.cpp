@@ -25,6 +25,7 @@ struct ViewFlags : DefocusFlags {
     std::string against, script, scene;
     std::optional<double> scale;
     std::optional<std::pair<int, int>> size, scene_size;
+    std::optional<int> listen;
     std::vector<std::string> files;  // IN and flags that say where and what it is, as typed
 };
 
@@ -35,6 +36,12 @@ Result<std::pair<int, int>> parse_window(const std::string& text) {
         if (width && height) return std::pair(*width, *height);
     }
     return Error{ErrorCode::InvalidArgument, "not a width and a height, as 1280x800"};
+}
+
+Result<int> parse_port(const std::string& text) {
+    const auto port = parse_count(text);
+    if (port && *port <= 65535) return port;
+    return Error{ErrorCode::InvalidArgument, "not a port, 1 to 65535"};
 }
 
 #ifdef PETZVAL_VIEW
@@ -165,6 +172,7 @@ Status open_window(const ViewFlags& flags) {
     setup.permissible_radius_px = flags.focus.permissible_radius_px.value_or(1);
     setup.against = flags.against;
     setup.script = flags.script;
+    setup.listen_port = flags.listen.value_or(0);
     setup.scale = flags.scale.value_or(0);
     if (flags.size) setup.width = flags.size->first, setup.height = flags.size->second;
     setup.fields = field_rows();
@@ -228,6 +236,11 @@ void add_view(Verb& program, Action& chosen) {
             "a built-in scene, or a .gltf or .glb file, in place of IN, rendered at every move of its camera",
             parse_text, flags->scene)
         .value("--scene-size", "WxH", "its picture (default 480x270)", parse_window, flags->scene_size)
+        .value(
+            "--listen", "PORT",
+            "take pictures that renderers push to the viewer tev, on this port of this machine (tev's own is "
+            "14158); with a channel Z in metres they are shown, without compared",
+            parse_port, flags->listen)
         .value("--script", "FILE", "do what the lines of a file say (docs/view.md), then close", parse_text,
                flags->script)
         .value("--window", "WxH", "its size (default 1280x800)", parse_window, flags->size)

@@ -1,11 +1,15 @@
 #include "app.h"
 
 #include "petzval/frames.h"
+#include "petzval/look_json.h"
+#include "petzval/output.h"
 
 #include "articles.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <unistd.h>
 #include <utility>
 
 namespace petzval::view {
@@ -13,14 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Targets of the darkroom: of each side all of it and its detail, then the overlay.
-int whole_target(int side) { return 2 * side; }
-int detail_target(int side) { return 2 * side + 1; }
-constexpr int kOverlayTarget = 4;
 constexpr int kFineSamples = 4;  // rays a pixel of a scene whose camera rests
-
-double area(const Rect& r) { return r.empty() ? 0 : double(r.width()) * double(r.height()); }
-bool holds(const Rect& outer, const Rect& inner) { return inner.intersected(outer) == inner; }
 
 }  // namespace
 
@@ -31,6 +28,7 @@ Rect Mapping::seen() const {
 
 App::App(const Setup& setup, const std::function<void()>& wake)
     : setup_(setup),
+      wake_(wake),
       darkroom_(setup.ocio_codes, wake),
       bench_(wake),
       maker_(setup.session, setup.cpu_session, wake) {
@@ -42,7 +40,20 @@ App::App(const Setup& setup, const std::function<void()>& wake)
         state.choice.frame = line.frame;
     }
     begin_article(*this);
+    if (setup.listen_port > 0) {
+        auto listener = TevListener::open(setup.listen_port, wake_);
+        if (listener)
+            listener_ = std::move(*listener),
+            notice = "listening on port " + std::to_string(setup.listen_port);
+        else
+            error = listener.error().message;
+    }
     read_again();
+}
+
+App::~App() {
+    std::error_code ignored;
+    if (!bent_file_.empty()) std::filesystem::remove(bent_file_, ignored);
 }
 
 ShotSource App::source() const {
@@ -60,12 +71,93 @@ ShotSource App::source() const {
 void App::go_to(int frame) {
     state.timeline.frame = frame;
     state.choice.frame = frame;
+    take_track(frame);
     if (const auto focus = state.timeline.focus_at(frame)) state.choice.camera.focus_distance_m = *focus;
     if (const auto orbit = state.path.at(frame); orbit && !state.path.recording) state.orbit = *orbit;
     if (is_live()) coarse_ = state.timeline.playing, moved_ = Clock::now();
     if (state.path.recording) state.path.keys[frame] = state.orbit;
     shown_since_ = Clock::now();
     read_again();
+}
+
+void App::use_track(Track track) {
+    constexpr int kMostFrames = 100'000;
+    Timeline& line = state.timeline;
+    line.keys.clear(), line.easing = false;
+    const int last = std::min(track.last(), track.first() + kMostFrames);
+    std::optional<double> before, now;
+    for (int frame = track.first(); frame <= last; ++frame) {  // keys where it bends, and at its ends
+        const auto next = frame < last ? track.at(frame + 1).camera.focus_distance_m : std::nullopt;
+        now = track.at(frame).camera.focus_distance_m;
+        const bool is_straight = now && before && next &&
+                                 std::abs(1 / *before + 1 / *next - 2 / *now) < 1e-6 / std::max(1e-6, *now);
+        if (now && !is_straight) line.keys[frame] = *now;
+        before = now;
+    }
+    track_ = std::move(track);
+    go_to(line.frame);
+}
+
+// All that a track says of a frame but its focus distance, which is keys.
+void App::take_track(int frame) {
+    if (!track_) return;
+    const TrackedFrame now = track_->at(frame);
+    CameraChoice& camera = state.choice.camera;
+    if (now.camera.f_number) camera.f_number = now.camera.f_number;
+    if (now.camera.focal_length_mm) camera.focal_length_mm = now.camera.focal_length_mm;
+    if (now.focus_pixel) setup_.focus_at = now.focus_pixel;
+    if (now.focus_point) setup_.focus_point = now.focus_point;
+    for (const auto& [field, value] : now.look) {
+        auto changed = look_with(state.choice.look, field, value);
+        if (!changed) return void(error = changed.error().message);
+        state.choice.look = std::move(*changed);
+    }
+}
+
+Status App::bend_lens(double zone, double by_mm, double only_nm) {
+    LensChoice& lens = state.choice.look.lens;
+    if (!bent_ || lens.name != bent_file_) {
+        auto found = bent_lens_of(lens);
+        if (!found) return found.error();
+        bent_ = std::move(*found);
+    }
+    bend(*bent_, zone, by_mm, only_nm);
+    std::error_code failed;
+    const auto folder = std::filesystem::temp_directory_path(failed);
+    const std::string file =
+        (folder / ("petzval-bent-" + std::to_string(::getpid()) + "-" + std::to_string(++bends_) + ".json"))
+            .string();
+    if (Status done = write_text(file, lens_file_text(*bent_)); !done) return done;
+    if (!bent_file_.empty()) std::filesystem::remove(bent_file_, failed);
+    lens.name = bent_file_ = file;
+    return Done{};
+}
+
+Status App::push(int port) {
+    const auto picture = sides_[0].whole;
+    if (!picture) return Error{ErrorCode::InvalidArgument, "nothing has been made yet"};
+    const std::string name = "petzval: " + setup_.source.path;
+    start_saving("127.0.0.1:" + std::to_string(port),
+                 [picture, port, name] { return push_to_tev(port, name, *picture); });
+    return Done{};
+}
+
+// What came by the socket: with depth it is looked at, without it is what is compared with.
+void App::take_pushed() {
+    if (!listener_) return;
+    TevListener::News news = listener_->news();
+    if (!news.wrong.empty()) error = news.wrong;
+    if (!news.path.empty()) {
+        setup_.source.path = news.path;
+        read_again();
+    }
+    if (!news.picture) return;
+    Reading reading;
+    reading.is_against = news.picture->depth_m.empty();
+    reading.source.path = news.picture->name;
+    reading.pushed = std::move(news.picture);
+    if (!reading.is_against) reading_ = true;
+    maker_.read(std::move(reading));
 }
 
 // On to the next frame when something of this one was to be seen, 24 a second at most.
@@ -214,6 +306,7 @@ void App::take_news() {
     Maker::News news = maker_.news();
     for (ReadShot& read : news.shots) take_shot(std::move(read));
     for (MadeFrame& made : news.frames) take_frame(std::move(made));
+    take_pushed();
     for (const std::string& line : news.changed) notice = line;
     for (Print& print : darkroom_.prints()) take_print(std::move(print));
     for (LensMade& made : bench_.news()) take_lens(std::move(made));
@@ -292,167 +385,6 @@ void App::take_print(Print print) {
         slowest.first_picture = std::max(slowest.first_picture, ms);
         changed_.reset();
     }
-}
-
-void App::ask() {
-    play();
-    refine_scene();
-    if (!shot_) return;
-    ask_frame(0, state.left);
-    ask_prints(0, state.left);
-    if (state.wiping) {
-        ask_frame(1, state.right);
-        ask_prints(1, state.right);
-    } else if (sides_[1].wish) {
-        maker_.forget(1);
-        sides_[1] = {};
-    }
-    if (state.lens) ask_lens();
-    const std::string& shown = state.left.shown;
-    const bool is_light = shown == "result" || shown == "sharp" || shown == "against";
-    if (!state.overlay || !is_light || !sides_[0].radii) return clear_print(kOverlayTarget);
-    Negative tint;
-    tint.plane = sides_[0].radii;
-    tint.area = shot_->shot.place.data_window;
-    tint.numbers = Numbers::Overlay;
-    ask_print(kOverlayTarget, std::move(tint));
-}
-
-// Nothing more than what is seen is made, once that is a good deal less than all.
-std::optional<Rect> App::region_for(const SideFrames& frames, const Wish& wish) const {
-    const Rect data = shot_->shot.place.data_window;
-    const Rect seen = mapping.seen().intersected(data);
-    if (wish.shown != "result" || seen.empty() || area(seen) > 0.5 * area(data)) return std::nullopt;
-    if (frames.wish && same_frame(*frames.wish, wish) && frames.wish->final_quality == wish.final_quality) {
-        const auto& before = frames.wish->region;
-        if (!before && frames.complete) return before;
-        if (before && holds(*before, seen) && area(*before) < 6 * area(seen)) return before;
-    }
-    return seen.grown(std::max(seen.width(), seen.height()) / 4).intersected(data);
-}
-
-void App::ask_frame(int index, const Side& side) {
-    SideFrames& frames = sides_[std::size_t(index)];
-    if (!is_made(side.shown) && index == 1) return;
-    const auto numbers = camera();
-    if (!numbers) {
-        trouble = numbers.error().message;
-        return;
-    }
-    Wish wish{shot_, *numbers,           state.choice.look, is_made(side.shown) ? side.shown : "coc",
-              {},    state.final_quality};
-    if (!side.engine.empty()) wish.look.engine = side.engine;
-    wish.on_cpu = side.on_cpu;
-    wish.region = region_for(frames, wish);
-    const bool same = frames.wish && same_frame(*frames.wish, wish);
-    if (same && frames.wish->region == wish.region && frames.wish->final_quality == wish.final_quality)
-        return;
-    if (!same) frames.whole_is_old = frames.detail_is_old = true;
-    if (frames.wish && frames.wish->shown != wish.shown) frames.whole.reset(), frames.detail.reset();
-    if (!same && index == 0 && !changed_) changed_ = acted_;
-    frames.complete = false;
-    frames.wish = wish;
-    frames.number = maker_.make(index, std::move(wish));
-}
-
-void App::ask_prints(int index, const Side& side) {
-    const SideFrames& frames = sides_[std::size_t(index)];
-    Negative whole;
-    whole.area = shot_->shot.place.data_window;
-    const auto borrowed = [](const ShotPointer& owner, const auto& picture) {
-        using Image = std::remove_reference_t<decltype(picture)>;
-        return std::shared_ptr<Image>(owner, &picture);
-    };
-    if (side.shown == "coc") {
-        whole.plane = sides_[0].radii, whole.numbers = Numbers::Radii;
-    } else if (side.shown == "depth") {
-        if (const auto* depth = std::get_if<DepthMetres>(&shot_->shot.depth))
-            whole.plane = borrowed(shot_, depth->plane), whole.numbers = Numbers::Depth;
-    } else if (side.shown == "against" && against_) {
-        whole.picture = borrowed(against_, against_->shot.colour);
-        whole.area = against_->shot.place.data_window;
-    } else if (side.shown == "hidden" && shot_->hidden) {
-        whole.picture = shot_->hidden;
-    } else if (side.shown == "holdout" && shot_->holdout) {
-        whole.picture = shot_->holdout;
-    } else if (side.shown.starts_with(kSharpLayer)) {
-        for (const FrameLayer& layer : shot_->shot.layers)
-            if (side.shown == kSharpLayer + name_of(layer)) whole.picture = borrowed(shot_, layer.colour);
-    } else if (is_made(side.shown) && frames.whole && frames.numbers) {
-        whole.plane = frames.numbers, whole.numbers = Numbers::Radii;
-    } else if (is_made(side.shown) && frames.whole) {
-        whole.picture = frames.whole, whole.area = frames.whole_area, whole.panels = frames.panels;
-    } else {
-        whole.picture = borrowed(shot_, shot_->shot.colour);
-    }
-    ask_print(whole_target(index), std::move(whole));
-    if (side.shown != "result" || !frames.detail) return clear_print(detail_target(index));
-    Negative detail;
-    detail.picture = frames.detail, detail.area = frames.detail_area;
-    ask_print(detail_target(index), std::move(detail));
-}
-
-// Of the picked pixel, else of the middle of the frame at the distance in focus.
-void App::ask_lens() {
-    const auto numbers = camera();
-    if (!numbers) return;
-    const Place& place = shot_->shot.place;
-    LensWish wish;
-    wish.choice = state.choice.look.lens;
-    wish.mount = {*numbers, place.display_window.width(), place.display_window.height(), place.pixel_aspect};
-    wish.depth_m = numbers->focus_distance_m;
-    if (state.pick) {
-        const FieldPosition field =
-            Place::whole({0, 0, wish.mount.width_px, wish.mount.height_px}, place.pixel_aspect)
-                .field()
-                .field_at(state.pick->x, state.pick->y);
-        if (std::hypot(field.x, field.y) <= 1) wish.field_x = field.x, wish.field_y = field.y;
-        wish.depth_m = depth_near(*state.pick).value_or(INFINITY);
-    }
-    if (lens_wish_ && *lens_wish_ == wish) return;
-    lens_wish_ = wish;
-    bench_.make(std::move(wish));
-}
-
-void App::take_lens(LensMade made) {
-    if (made.error) trouble = made.error->message;
-    const LensCodes* codes[] = {&made.disc, &made.front, &made.behind, &made.strip};
-    for (std::size_t i = 0; i < LensMade::kPictures; ++i)
-        if (!codes[i]->rgba.empty())
-            lens_pictures_[i].load(codes[i]->width, codes[i]->height, codes[i]->rgba);
-    lens_made_ = std::move(made);
-}
-
-// What is seen of it, and a little more, so that moving about shows no gaps; as fine as the screen.
-void App::ask_print(int target, Negative negative) {
-    Shown& shown = on_screen_[std::size_t(target)];
-    if (!negative.picture && !negative.plane) return clear_print(target);
-    const double scale = std::min(mapping.scale_x, mapping.scale_y);
-    if (!(scale > 0)) return;
-    const Rect seen = mapping.seen();
-    const Rect wanted = seen.intersected(negative.area);
-    if (wanted.empty()) return clear_print(target);
-    negative.reduce = std::max(1, int(std::floor(1 / scale)));
-    negative.part = seen.grown(std::max(seen.width(), seen.height()) / 4 + 1).intersected(negative.area);
-    negative.permissible_radius_px = setup_.permissible_radius_px;
-    negative.develop = state.choice.develop;
-    negative.ocio = state.choice.ocio;
-    negative.channel = state.channel;
-    if (shown.asked) {  // the part that was asked for will do while it holds what is seen
-        const Rect& before = shown.asked->part;
-        if (shown.asked->area == negative.area && shown.asked->reduce == negative.reduce &&
-            holds(before, wanted) && area(before) < 6 * area(negative.part))
-            negative.part = before;
-        if (*shown.asked == negative) return;
-    }
-    shown.asked = negative;
-    darkroom_.print(target, std::move(negative));
-}
-
-void App::clear_print(int target) {
-    Shown& shown = on_screen_[std::size_t(target)];
-    shown.asked.reset();
-    shown.print = {};
 }
 
 }  // namespace petzval::view

@@ -1,10 +1,14 @@
 // What is open, what is chosen, what has been made of it: everything but how it is drawn.
 #pragma once
 
+#include "petzval/track.h"
+
 #include "bench.h"
+#include "curve_edit.h"
 #include "darkroom.h"
 #include "maker.h"
 #include "state.h"
+#include "tev.h"
 #include "texture.h"
 #include "view.h"
 
@@ -61,6 +65,9 @@ struct Slowest {
 class App {
 public:
     App(const Setup& setup, const std::function<void()>& wake);
+    ~App();
+    App(const App&) = delete;
+    App& operator=(const App&) = delete;
 
     const Setup& setup() const { return setup_; }
     const ShotPointer& shot() const { return shot_; }
@@ -107,11 +114,21 @@ public:
     // .exr: sharp frames with depth; .png: what is shown.
     void record(const std::string& path);
     void save(const std::string& path);
+    // What is made of the left side, to a viewer that listens there.
+    Status push(int port);
+    // Focus, aperture and all else over the frames, as `defocus --track` has it; focus becomes keys.
+    void use_track(Track track);
+    // The lens in use bends at a zone of its pupil (curve_edit.h) and is used from then on. Errors: those of
+    // bent_lens_of(), OutputFailed.
+    Status bend_lens(double zone, double by_mm, double only_nm);
+    const std::optional<BentLens>& bent() const { return bent_; }
 
 private:
     ShotSource source() const;  // of the frame that is shown
     void start_saving(const std::string& path, std::function<Status()> save);
     void play();
+    void take_track(int frame);
+    void take_pushed();
     void refine_scene();
     bool is_coarse() const;  // a scene whose camera moved a moment ago
     void take_shot(ReadShot read);
@@ -141,6 +158,12 @@ private:
     LensMade lens_made_;
     std::array<Texture, LensMade::kPictures> lens_pictures_;
     std::optional<LensWish> lens_wish_;
+    std::optional<Track> track_;
+    std::optional<BentLens> bent_;
+    std::string bent_file_;  // in a folder of temporary files, until it is saved
+    int bends_ = 0;
+    std::unique_ptr<TevListener> listener_;
+    std::function<void()> wake_;
     Darkroom darkroom_;
     LensBench bench_;
     Maker maker_;  // last: its thread uses the above

@@ -8,7 +8,6 @@
 #include "articles.h"
 #include "fields.h"
 
-#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -340,6 +339,36 @@ Status save_track(App& app, const Words& words) {
     app.notice = "wrote " + words[0] + "; defocus --track takes it";
     return Done{};
 }
+Status load_track(App& app, const Words& words) {
+    if (!app.state.timeline.is_shot()) return no_shot();
+    auto track = Track::read(words[0]);
+    if (!track) return track.error();
+    app.use_track(std::move(*track));
+    app.notice = "track: " + words[0];
+    return Done{};
+}
+// A zone of the pupil, millimetres along the axis, and of one wavelength alone if it is named.
+Status bend(App& app, const Words& words) {
+    std::vector<double> numbers;
+    for (const std::string& word : words)
+        if (const auto number = number_of(word)) numbers.push_back(*number);
+    const bool fine = numbers.size() == words.size() && (words.size() == 2 || words.size() == 3) &&
+                      numbers[0] >= 0 && numbers[0] <= 1 && std::abs(numbers[1]) < 1000;
+    if (!fine) return invalid("bend needs a zone of 0 to 1, millimetres, and perhaps a wavelength in nm");
+    return app.bend_lens(numbers[0], numbers[1], words.size() == 3 ? numbers[2] : 0);
+}
+Status save_curves(App& app, const Words& words) {
+    if (!app.bent()) return invalid("no curve has been bent yet; L shows them");
+    if (Status done = write_text(words[0], lens_file_text(*app.bent())); !done) return done;
+    app.state.choice.look.lens.name = words[0];
+    app.notice = "wrote " + words[0] + ", and uses it; --lens takes it";
+    return Done{};
+}
+Status push(App& app, const Words& words) {
+    const auto port = words.empty() ? Result<double>(double(kTevPort)) : number_of(words[0]);
+    if (!port || *port < 1 || *port > 65535) return invalid("tev " + words[0] + ": not a port, 1 to 65535");
+    return app.push(int(*port));
+}
 Status reload(App& app, const Words&) {
     app.read_again();
     return Done{};
@@ -377,12 +406,17 @@ const std::vector<Command>& commands() {
         {"load_look", "FILE", "", load_look},
         {"save_look", "FILE", "", save_look},
         {"light", "X Y", "light up the rays that land there in the disc, pixels from its middle", light},
+        {"bend", "ZONE MM [NM]", "bend the lens's curves: focus of a zone of the pupil, + away from the lens",
+         bend},
+        {"save_curves", "FILE", "the curves that were bent, as a lens file", save_curves},
+        {"tev", "[PORT]", "what is made, to the viewer tev on this machine (default port 14158)", push},
         {"save_lens", "FILE", "the lens alone, as a look", save_lens},
         {"frame", "N|+1|-1|first|last", "another frame of the shot", frame},
         {"range", "FIRST LAST", "what is played", range},
         {"key_focus", "", "this focus at this frame", key_focus},
         {"remove_key", "", "of this frame", remove_key},
         {"save_track", "FILE", "the focus over the frames, as defocus --track takes it", save_track},
+        {"load_track", "FILE", "what defocus --track takes", load_track},
         {"orbit", "YAW PITCH", "turn the camera of a scene by degrees about what was in focus", orbit},
         {"dolly", "FACTOR", "its distance times this", dolly},
         {"home", "", "the scene's own camera", home},
@@ -395,63 +429,6 @@ const std::vector<Command>& commands() {
         {"quit", "", "", quit},
     };
     return all;
-}
-
-const std::vector<Binding>& bindings() {
-    static const std::vector<Binding> all{
-        {"left", "focus_by -1", "focus nearer"},
-        {"right", "focus_by 1", "focus farther"},
-        {"up", "stop_by -1", "open the aperture by a third of a stop"},
-        {"down", "stop_by 1", "close it"},
-        {"space", "toggle shot.playing", "play the shot, stop"},
-        {"period", "frame +1", "next frame"},
-        {"comma", "frame -1", "frame before"},
-        {"k", "key_focus", "a key: this focus at this frame"},
-        {"home", "home", "the scene's own camera (a left drag turns it)"},
-        {"1", "show result", "the picture"},
-        {"2", "show sharp", "the sharp picture"},
-        {"3", "show against", "the second picture"},
-        {"4", "show coc", "blur radii: near blue, far orange"},
-        {"5", "show depth", "depth: near bright"},
-        {"6", "show layers", "surfaces that scatter found"},
-        {"7", "show levels", "levels that scatter drew"},
-        {"8", "show highlights", "light that scatter spreads by itself"},
-        {"9", "show focus-index", "what gaussian mixes by"},
-        {"f", "zoom fit", "all of the picture"},
-        {"0", "zoom 1", "pixel by pixel"},
-        {"equal", "zoom in", "closer (also the wheel)"},
-        {"minus", "zoom out", "farther"},
-        {"r", "channel r", "red alone; again: all"},
-        {"g", "channel g", "green"},
-        {"b", "channel b", "blue"},
-        {"a", "channel a", "alpha"},
-        {"e", "exposure_by 0.5", "brighter by half a stop"},
-        {"shift+e", "exposure_by -0.5", "darker"},
-        {"o", "toggle view.overlay", "what is in focus, near and far"},
-        {"w", "wipe toggle", "compare: drag the line"},
-        {"l", "toggle view.lens", "the lens in section, its discs and curves"},
-        {"enter", "toggle view.final", "final quality"},
-        {"ctrl+c", "copy", "copy the command that makes this frame"},
-        {"ctrl+r", "reload", "read the files again"},
-        {"tab", "toggle view.panels", "panels"},
-        {"h", "toggle view.help", "this sheet"},
-        {"shift+slash", "toggle view.help", "this sheet"},
-        {"ctrl+q", "quit", "close"},
-    };
-    return all;
-}
-
-int key_code(const std::string& name) {
-    static const std::map<std::string, int> named{
-        {"left", GLFW_KEY_LEFT},     {"right", GLFW_KEY_RIGHT}, {"up", GLFW_KEY_UP},
-        {"down", GLFW_KEY_DOWN},     {"enter", GLFW_KEY_ENTER}, {"tab", GLFW_KEY_TAB},
-        {"escape", GLFW_KEY_ESCAPE}, {"space", GLFW_KEY_SPACE}, {"equal", GLFW_KEY_EQUAL},
-        {"minus", GLFW_KEY_MINUS},   {"slash", GLFW_KEY_SLASH}, {"period", GLFW_KEY_PERIOD},
-        {"comma", GLFW_KEY_COMMA},   {"home", GLFW_KEY_HOME},   {"end", GLFW_KEY_END}};
-    if (const auto found = named.find(name); found != named.end()) return found->second;
-    if (name.size() != 1) return 0;
-    if (name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + name[0] - 'a';
-    return name[0] >= '0' && name[0] <= '9' ? GLFW_KEY_0 + name[0] - '0' : 0;
 }
 
 std::vector<std::string> words_of(const std::string& line) {
@@ -478,8 +455,10 @@ Status act(App& app, const std::string& line) {
     for (const Command& command : commands()) {
         if (command.name != words[0]) continue;
         words.erase(words.begin());
-        const bool optional = command.arguments.find('[') != std::string::npos;
-        if (int(words.size()) == count_of(command.arguments) || (optional && words.size() == 1))
+        const std::size_t bracket = command.arguments.find('[');
+        const std::string needed = command.arguments.substr(0, bracket > 0 ? bracket - 1 : 0);
+        const bool may_end = bracket != std::string::npos && int(words.size()) == count_of(needed);
+        if (int(words.size()) == count_of(command.arguments) || may_end)
             done = command.run(app, words);
         else
             done = invalid(command.name + " needs " +

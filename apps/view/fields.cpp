@@ -154,6 +154,14 @@ std::vector<Field> facts() {
         fact("shot.keys", [](const App& app) { return std::to_string(app.state.timeline.keys.size()); }),
         fact("lens.rays", [](const App& app) { return std::to_string(app.lens_made().section.rays.size()); }),
         fact("lens.lit_rays", [](const App& app) { return std::to_string(lit_rays(app).size()); }),
+        fact("lens.bent_mm",  // of the rim
+             [](const App& app) {
+                 return app.bent() ? text_of(app.bent()->curves.shift_mm[0].back(), 6) : std::string("0");
+             }),
+        fact("against.width",
+             [](const App& app) {
+                 return app.against() ? std::to_string(app.against()->shot.colour.width()) : std::string("0");
+             }),
         fact("lens.disc_px", [](const App& app) { return std::to_string(app.lens_made().disc.width); }),
         fact("slowest.tick_ms", [](const App& app) { return text_of(app.slowest.tick, 4); }),
         fact("slowest.picture_ms", [](const App& app) { return text_of(app.slowest.first_picture, 4); }),

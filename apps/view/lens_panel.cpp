@@ -141,12 +141,27 @@ void picked_disc(App& app, float side) {
 }
 
 // Focus of the zones of the pupil, one curve a wavelength.
-void draw_curves(const LensMade& made, const Box& box) {
-    const LongitudinalAberrationFacts& curves = made.curves;
+// Dragged sideways, the curves bend where they are taken; with Shift the nearest wavelength alone.
+void bend_curves(App& app, const Box& box, double most_mm) {
+    static double zone = 0;
+    const ImGuiIO& io = ImGui::GetIO();
+    if (ImGui::IsItemActivated())
+        zone = std::clamp(double((box.to.y - io.MousePos.y) / (0.95f * box.height())), 0.0, 1.0);
+    if (!ImGui::IsItemActive() || io.MouseDelta.x == 0) return;
+    const double by_mm = double(io.MouseDelta.x / (0.45f * box.width())) * most_mm;
+    static_cast<void>(
+        act(app, "bend " + text_of(zone, 4) + " " + text_of(by_mm, 5) + (io.KeyShift ? " 549" : "")));
+}
+
+void draw_curves(App& app, const Box& box) {
+    is_field(app, "curves",
+             "drag sideways to bend them, with Shift green alone; save_curves FILE keeps the lens");
+    const LongitudinalAberrationFacts& curves = app.lens_made().curves;
     double most = 1e-9;
     for (const auto& curve : curves.shift_mm)
         for (const double shift : curve)
             if (std::isfinite(shift)) most = std::max(most, std::abs(shift));
+    bend_curves(app, box, std::max(most, 0.05));
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float middle = 0.5f * (box.from.x + box.to.x);
     list->AddLine({middle, box.from.y}, {middle, box.to.y}, kLine);
@@ -205,7 +220,7 @@ void draw_lens(App& app) {
     note_in(behind, "behind");
     ImGui::EndGroup();
     ImGui::SameLine();
-    draw_curves(made, box_of("curves", {small, high}));
+    draw_curves(app, box_of("curves", {small, high}));
     const Box strip_box = box_of("strip", {all.x, strip});
     draw_disc(strip_box, app.lens_pictures()[3], made.strip);
     note_in(strip_box, "-60 … +60 px, on the axis");

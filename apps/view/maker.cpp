@@ -271,6 +271,14 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
         open.is_live = true, open.samples = reading.scene->settings.samples;
         open.subject_m = seen->subject_m, open.build_s = seen->build_s, open.render_s = seen->render_s;
         open.shot = std::move(seen->shot);
+    } else if (reading.pushed) {
+        const Pushed& pushed = *reading.pushed;
+        open.shot.path = pushed.name;
+        open.shot.place = Place::whole(pushed.colour.rect());
+        open.shot.colour = pushed.colour.clone();
+        open.shot.has_alpha = pushed.has_alpha;
+        if (!pushed.depth_m.empty()) open.shot.depth = DepthMetres{pushed.depth_m.clone()};
+        open.shot.detected = {"pushed by another program: " + pushed.name};
     } else {
         auto shot = read_shot(reading.source);
         if (!shot) return shot.error();
@@ -298,7 +306,7 @@ void Maker::do_reading(const Reading& reading) {
     }
     if (read.error && read.error->code == ErrorCode::Cancelled) return take_up_again(reading);
     std::erase_if(watched_, [&](const Watched& w) { return w.path == reading.source.path; });
-    if (read.shot && !reading.scene) watched_.push_back({reading.source.path, time});
+    if (read.shot && !reading.scene && !reading.pushed) watched_.push_back({reading.source.path, time});
     {
         const std::lock_guard lock(mutex_);
         news_.shots.push_back(std::move(read));

@@ -8,6 +8,7 @@
 #include "petzval/shot.h"
 
 #include "live_scene.h"
+#include "tev.h"
 
 #include <array>
 #include <atomic>
@@ -92,7 +93,8 @@ struct Reading {
     ShotSource source;
     bool is_against = false;
     std::optional<WorldPoint> focus_point = {};  // what its camera is to be focused on, if anything
-    std::optional<SceneWish> scene = {};         // in place of the source
+    std::optional<SceneWish> scene = {};         // in place of the source, as
+    std::shared_ptr<const Pushed> pushed = {};   // what came from another program
 };
 
 class Maker {

@@ -197,6 +197,8 @@ void files_panel(App& app) {
         ImGui::SameLine();
         command_button(app, "record", "record \"" + std::string(recorded) + "\"");
     }
+    command_button(app, "to tev", "tev");
+    ImGui::SameLine();
     command_button(app, "copy command", "copy");
     ImGui::SameLine();
     command_button(app, "load look", "load_look \"" + std::string(look) + "\"");

@@ -46,6 +46,7 @@ struct Setup {
     double permissible_radius_px = 1;
     bool tone_is_chosen = false;  // false: that of the file's kind
     std::string against;          // a picture to compare with; empty: none
+    int listen_port = 0;          // for pictures that are pushed (tev.h); 0: none
     std::string script;           // a file of commands; empty: a hand
     int width = 1280, height = 800;
     double scale = 0;  // of letters and lines; 0: the display's

@@ -1,0 +1,65 @@
+#include "commands.h"
+
+#include <GLFW/glfw3.h>
+#include <map>
+
+namespace petzval::view {
+
+const std::vector<Binding>& bindings() {
+    static const std::vector<Binding> all{
+        {"left", "focus_by -1", "focus nearer"},
+        {"right", "focus_by 1", "focus farther"},
+        {"up", "stop_by -1", "open the aperture by a third of a stop"},
+        {"down", "stop_by 1", "close it"},
+        {"space", "toggle shot.playing", "play the shot, stop"},
+        {"period", "frame +1", "next frame"},
+        {"comma", "frame -1", "frame before"},
+        {"k", "key_focus", "a key: this focus at this frame"},
+        {"home", "home", "the scene's own camera (a left drag turns it)"},
+        {"1", "show result", "the picture"},
+        {"2", "show sharp", "the sharp picture"},
+        {"3", "show against", "the second picture"},
+        {"4", "show coc", "blur radii: near blue, far orange"},
+        {"5", "show depth", "depth: near bright"},
+        {"6", "show layers", "surfaces that scatter found"},
+        {"7", "show levels", "levels that scatter drew"},
+        {"8", "show highlights", "light that scatter spreads by itself"},
+        {"9", "show focus-index", "what gaussian mixes by"},
+        {"f", "zoom fit", "all of the picture"},
+        {"0", "zoom 1", "pixel by pixel"},
+        {"equal", "zoom in", "closer (also the wheel)"},
+        {"minus", "zoom out", "farther"},
+        {"r", "channel r", "red alone; again: all"},
+        {"g", "channel g", "green"},
+        {"b", "channel b", "blue"},
+        {"a", "channel a", "alpha"},
+        {"e", "exposure_by 0.5", "brighter by half a stop"},
+        {"shift+e", "exposure_by -0.5", "darker"},
+        {"o", "toggle view.overlay", "what is in focus, near and far"},
+        {"w", "wipe toggle", "compare: drag the line"},
+        {"l", "toggle view.lens", "the lens in section, its discs and curves"},
+        {"enter", "toggle view.final", "final quality"},
+        {"ctrl+c", "copy", "copy the command that makes this frame"},
+        {"ctrl+r", "reload", "read the files again"},
+        {"tab", "toggle view.panels", "panels"},
+        {"h", "toggle view.help", "this sheet"},
+        {"shift+slash", "toggle view.help", "this sheet"},
+        {"ctrl+q", "quit", "close"},
+    };
+    return all;
+}
+
+int key_code(const std::string& name) {
+    static const std::map<std::string, int> named{
+        {"left", GLFW_KEY_LEFT},     {"right", GLFW_KEY_RIGHT}, {"up", GLFW_KEY_UP},
+        {"down", GLFW_KEY_DOWN},     {"enter", GLFW_KEY_ENTER}, {"tab", GLFW_KEY_TAB},
+        {"escape", GLFW_KEY_ESCAPE}, {"space", GLFW_KEY_SPACE}, {"equal", GLFW_KEY_EQUAL},
+        {"minus", GLFW_KEY_MINUS},   {"slash", GLFW_KEY_SLASH}, {"period", GLFW_KEY_PERIOD},
+        {"comma", GLFW_KEY_COMMA},   {"home", GLFW_KEY_HOME},   {"end", GLFW_KEY_END}};
+    if (const auto found = named.find(name); found != named.end()) return found->second;
+    if (name.size() != 1) return 0;
+    if (name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + name[0] - 'a';
+    return name[0] >= '0' && name[0] <= '9' ? GLFW_KEY_0 + name[0] - '0' : 0;
+}
+
+}  // namespace petzval::view

@@ -1,0 +1,166 @@
+"""What one does beside a picture in the window: bends curves, loads tracks, pushes pictures and takes them."""
+import json
+import os
+import shutil
+import socket
+import struct
+import subprocess
+import threading
+import time
+
+import window
+from window import PETZVAL, TIME_LIMIT_S
+
+
+def packet(kind, *fields):
+    body = bytes([kind])
+    for field in fields:
+        if isinstance(field, str):
+            body += field.encode() + b"\0"
+        elif isinstance(field, bytes):
+            body += field
+        else:
+            body += struct.pack("<i", field)
+    return struct.pack("<I", len(body) + 4) + body
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class ToolsTest(window.WindowTest):
+    def test_curves_that_are_bent_make_another_lens_that_can_be_saved(self):
+        out, _ = self.do("""
+            wait
+            set lens doublet
+            set fstop 2
+            set focus 0.5
+            pick 250 40
+            key l
+            wait
+            shot before.png
+            drag curves 30
+            wait
+            expect no error
+            bend 1 0.4
+            bend 0.5 -0.1 549
+            wait
+            expect no error
+            shot bent.png
+            say lens.bent_mm
+            save_curves bent.json
+            wait
+            expect lens bent.json
+            copy
+            say copied
+            bend 2 1
+            expect error zone
+            save_curves missing/folder.json
+            expect error missing
+        """)
+        rim_mm, command = out.strip().splitlines()
+        self.assertGreater(abs(float(rim_mm)), 0.3)
+        self.assertIn("--lens bent.json", command)
+        before, bent = self.contents("before.png", "bent.png")
+        self.assertNotEqual(before, bent)
+        with open(os.path.join(self.shared, "bent.json")) as file:
+            curves = json.load(file)
+        self.assertAlmostEqual(curves["curves"][0]["shift"][-1], float(rim_mm), 4)
+        subprocess.run([PETZVAL, "defocus", "table.exr", "-o", "bent.exr", "--lens", "bent.json", "--quality", "draft"],
+                       cwd=self.shared, check=True, capture_output=True)
+
+    def test_a_track_is_loaded_with_its_keys(self):
+        for number in range(1, 6):
+            shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "pull.%04d.exr" % number))
+        with open(os.path.join(self.shared, "pull.csv"), "w") as file:
+            file.write("frame,focus,fstop,lens.blades\n1,0.6,2,\n3,1.2,,6\n5,1.2,4,\n")
+        out, _ = self.do("""
+            wait
+            load_track pull.csv
+            wait
+            expect no error
+            expect shot.keys 3
+            expect fstop 2
+            frame 2
+            wait
+            expect focus 0.8
+            frame 5
+            wait
+            expect fstop 4
+            expect lens.blades 6
+            load_track missing.csv
+            expect error missing.csv
+            save_track again.csv
+            frame 3
+            wait
+            expect focus 1.2
+        """, "pull.####.exr", "--engine", "gaussian")
+        again = next(self.contents("again.csv")).decode().splitlines()
+        self.assertEqual(len(again), 4, again)
+
+    def push(self, port, *packets):
+        with socket.create_connection(("127.0.0.1", port), timeout=TIME_LIMIT_S) as to:
+            for one in packets:
+                to.sendall(one)
+            to.shutdown(socket.SHUT_WR)
+            try:
+                to.recv(1)  # until it was taken
+            except OSError:
+                pass  # what sends nonsense is hung up on
+
+    def test_pictures_are_taken_as_tev_takes_them_and_nonsense_is_refused(self):
+        port = free_port()
+        with open(os.path.join(self.shared, "listen.txt"), "w") as file:
+            file.write("wait\nsay frame.engine\nsleep 1\nwait\nexpect frame.width 40\nexpect against.width 8\n"
+                       "pick 3 3\nexpect pick.depth_m 2\nexpect error no picture\nset engine gather\nwait\nsay frame.width\n")
+        window = self.start("table.exr", "--engine", "gaussian", "--fstop", "2", "--focal-length", "50", "--sensor-width",
+                            "36", "--focus", "1", "--listen", str(port), "--script", "listen.txt")
+        self.assertIn("gaussian", window.stdout.readline())
+        floats = struct.pack("<4f", 0.5, 0.4, 0.3, 2.0) * (40 * 30)
+        names = ("R", "G", "B", "depth.Z")
+        offsets = struct.pack("<4q", 0, 1, 2, 3) + struct.pack("<4q", 4, 4, 4, 4)
+        self.push(port, packet(4, b"\1", "beauty", 40, 30, 4, *names),
+                  packet(6, b"\0", "beauty", 4, *names, 0, 0, 40, 30, offsets, floats))
+        self.push(port, packet(4, b"\1", "flat", 8, 6, 1, "R"),
+                  packet(3, b"\0", "flat", "R", 0, 0, 8, 6, struct.pack("<48f", *[0.25] * 48)))
+        for nonsense in (b"GET / HTTP/1.1\r\n\r\n", packet(77, "what"), packet(4, b"\1", "huge", 1 << 30, 1 << 30, 4),
+                         packet(6, b"\0", "beauty", 4, *names, 0, 0, 40, 31, offsets, floats),
+                         packet(6, b"\0", "beauty", 4, *names, 0, 0, 40, 30, offsets, floats[:-4]),
+                         packet(3, b"\0", "nobody", "R", 0, 0, 1, 1, floats[:4]), packet(4, b"\1", "cut")[:9]):
+            self.push(port, nonsense)
+        out, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, 0, err)
+        self.assertEqual(out.strip(), "40")
+
+    def test_what_is_made_is_pushed_to_a_viewer_that_listens(self):
+        listener = socket.socket()
+        listener.bind(("127.0.0.1", 0))
+        listener.listen()
+        taken = []
+
+        def take():
+            connection, _ = listener.accept()
+            with connection:
+                while piece := connection.recv(1 << 16):
+                    taken.append(piece)
+
+        thread = threading.Thread(target=take)
+        thread.start()
+        self.do("wait\ntev %d\nwait\nexpect no error\nexpect notice wrote\ntev 1\nwait\nexpect error listens\n"
+                % listener.getsockname()[1], "table.exr", "--engine", "gaussian")
+        thread.join(TIME_LIMIT_S)
+        listener.close()
+        data, floats, at = b"".join(taken), 0, 0
+        while at < len(data):
+            size, kind = struct.unpack("<IB", data[at:at + 5])
+            self.assertIn(kind, (4, 6))
+            floats += kind == 6 and (size - len(packet(6, b"\0", "petzval: table.exr", 4, "R", "G", "B", "A", 0, 0, 0, 0,
+                                                       bytes(64)))) // 4
+            at += size
+        self.assertEqual(floats, 4 * 320 * 180)
+
+
+if __name__ == "__main__":
+    window.run()
