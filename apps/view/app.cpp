@@ -85,14 +85,14 @@ void App::use_track(Track track) {
     Timeline& line = state.timeline;
     line.keys.clear(), line.easing = false;
     const int last = std::min(track.last(), track.first() + kMostFrames);
-    std::optional<double> before, now;
-    for (int frame = track.first(); frame <= last; ++frame) {  // keys where it bends, and at its ends
-        const auto next = frame < last ? track.at(frame + 1).camera.focus_distance_m : std::nullopt;
-        now = track.at(frame).camera.focus_distance_m;
-        const bool is_straight = now && before && next &&
-                                 std::abs(1 / *before + 1 / *next - 2 / *now) < 1e-6 / std::max(1e-6, *now);
-        if (now && !is_straight) line.keys[frame] = *now;
-        before = now;
+    std::map<int, double> dioptres;
+    for (int frame = track.first(); frame <= last; ++frame)
+        if (const auto focus = track.at(frame).camera.focus_distance_m) dioptres[frame] = 1 / *focus;
+    for (const auto& [frame, now] : dioptres) {  // keys where it bends, and at its ends
+        const auto before = dioptres.find(frame - 1), next = dioptres.find(frame + 1);
+        const bool is_end = before == dioptres.end() || next == dioptres.end();
+        if (is_end || std::abs(before->second + next->second - 2 * now) > 1e-6 * std::max(now, 1e-6))
+            line.keys[frame] = 1 / now;
     }
     track_ = std::move(track);
     go_to(line.frame);

@@ -50,7 +50,7 @@ TEST(BuiltInScenes, AreTheSameBitsForAnyThreadCount) {
 TEST(BuiltInScenes, OneThatStaysBuiltShowsTheSameFromEverywhere) {
     for (const char* name : {"hexadrive", "lanterns"}) {
         SceneSettings s;
-        s.width = 96, s.height = 54, s.samples = 1;
+        s.width = 64, s.height = 36, s.samples = 1, s.truth_samples = 4, s.want_truth = true;
         auto standing = StandingScene::build(name, s);
         ASSERT_TRUE(standing) << name;
         RenderedScene first = standing->render(s).value();
