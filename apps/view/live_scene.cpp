@@ -180,11 +180,13 @@ Status record_results(const std::vector<Recorded>& frames, const Choice& choice,
         CameraChoice camera = choice.camera;
         if (follows_subject && seen->subject_m) camera.focus_distance_m = seen->subject_m;
         Shot& shot = seen->shot;
-        const auto numbers = complete_camera(merged_camera(shot.camera_of_file, camera), camera.image_scale);
-        if (!numbers) return numbers.error();
+        shot.camera = merged_camera(shot.camera_of_file, camera);
+        shot.image_scale = camera.image_scale;
+        const auto job = rendered(shot);
+        if (!job) return job.error();
         Look look = choice.look;
         if (Status done = read_lens_images(look); !done) return done;
-        auto made = session.take(rendered(shot, *numbers), look);
+        auto made = session.take(*job, look);
         if (!made) return made.error();
         if (Status done = write_result(one.path, std::move(made->image), shot.place, choice.develop); !done)
             return done;

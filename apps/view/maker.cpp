@@ -72,9 +72,17 @@ std::optional<std::filesystem::file_time_type> time_of(const std::string& path) 
     return missing ? std::nullopt : std::optional(time);
 }
 
+// The wish's numbers take the place of the shot's: where those are missing, any will do.
+void complete(FoundCamera& camera) {
+    for (auto* number :
+         {&camera.focal_length_mm, &camera.sensor_width_mm, &camera.f_number, &camera.focus_distance_m})
+        if (!*number) *number = FoundNumber{1, "the window"};
+}
+
 // What a session takes: of its layers at most the one that is shown.
 DefocusJob job_of(const Wish& wish) {
-    DefocusJob job = rendered(wish.shot->shot, wish.camera);
+    DefocusJob job = rendered(wish.shot->shot).value();
+    job.camera = wish.camera;
     const auto& layers = wish.shot->shot.layers;
     std::vector<ColourLayer> kept;
     for (std::size_t i = 0; i < layers.size(); ++i)
@@ -287,6 +295,7 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
     if (reading.focus_point)
         if (Status focused = focus_on_point(open.shot, *reading.focus_point); !focused)
             return focused.error();
+    complete(open.shot.camera);
     open.histogram = histogram_of(open.shot);
     open.hidden = flat(open.shot.behind), open.holdout = flat(open.shot.holdout);
     return open;

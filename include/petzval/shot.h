@@ -130,8 +130,6 @@ PETZVAL_API Camera known_camera(const FoundCamera& found, ImageScale image_scale
 // What a session takes: all of the shot but its choices, borrowed. A camera number may be missing where radii
 // are given; it is 0 then. Errors: those of complete_camera().
 PETZVAL_API Result<DefocusJob> rendered(const Shot& shot);
-// The same with these numbers in place of the shot's.
-PETZVAL_API DefocusJob rendered(const Shot& shot, const Camera& camera);
 
 // A pixel of the display window, counted from its top left.
 struct PixelPosition {

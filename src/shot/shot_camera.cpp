@@ -79,16 +79,12 @@ Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale)
 }
 
 Result<DefocusJob> rendered(const Shot& shot) {
+    DefocusJob job;
+    job.camera = known_camera(shot.camera, shot.image_scale);
     if (!shot.has_radii()) {
         const auto complete = complete_camera(shot.camera, shot.image_scale);
         if (!complete) return complete.error();
     }
-    return rendered(shot, known_camera(shot.camera, shot.image_scale));
-}
-
-DefocusJob rendered(const Shot& shot, const Camera& camera) {
-    DefocusJob job;
-    job.camera = camera;
     job.colour = shot.colour;
     (shot.has_radii() ? job.coc_px : job.depth_m) = shot.depth_plane();
     if (!shot.deep.empty()) job.deep = &shot.deep;
