@@ -21,9 +21,9 @@ struct Verb {
     const char* name;
     std::size_t least, most;  // words after it
 };
-constexpr Verb kVerbs[]{{"click", 1, 2},  {"drag", 2, 4},   {"move", 1, 2},  {"wheel", 1, 1},
-                        {"key", 1, 1},    {"wait", 0, 1},   {"sleep", 1, 1}, {"shot", 1, 1},
-                        {"resize", 2, 2}, {"expect", 1, 7}, {"say", 1, 1}};
+constexpr Verb kVerbs[]{{"click", 1, 2}, {"drag", 2, 4},   {"move", 1, 2},   {"wheel", 1, 1},
+                        {"key", 1, 1},   {"wait", 0, 1},   {"until", 2, 2},  {"sleep", 1, 1},
+                        {"shot", 1, 1},  {"resize", 2, 2}, {"expect", 1, 7}, {"say", 1, 1}};
 
 const Verb* verb_called(const std::string& name) {
     for (const Verb& verb : kVerbs)
@@ -185,6 +185,10 @@ Hand Script::tick(App& app) {
         if (line.words[0] == "wait" ? has_waited(app) : has_slept()) ++step_;
         return hand_;
     }
+    if (line.words[0] == "until") {
+        if (has_come(app)) ++step_;
+        return hand_;
+    }
     looks_ = line.words[0] == "shot" || (line.words[0] == "expect" && line.words[1] == "screen");
     if (looks_) return hand_;
     begin(app, line);
@@ -206,6 +210,20 @@ bool Script::has_waited(App& app) {
     }
     if (std::chrono::duration<double>(Clock::now() - *waiting_since_).count() > patience_s_)
         fail("still busy after " + text_of(patience_s_, 3) + " s");
+    return false;
+}
+
+bool Script::has_come(App& app) {
+    if (!waiting_since_) waiting_since_ = Clock::now();
+    const Words& words = lines_[step_].words;
+    const auto text = field_text(app, words[1]);
+    if (!text) fail(text.error().message);
+    if (text && text->find(words[2]) != std::string::npos) {
+        waiting_since_.reset();
+        return true;
+    }
+    if (std::chrono::duration<double>(Clock::now() - *waiting_since_).count() > 60)
+        fail(words[1] + " has not become " + words[2] + " in 60 s");
     return false;
 }
 

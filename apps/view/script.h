@@ -6,6 +6,7 @@
 //   move X Y, wheel N, key KEY      as "key shift+e"
 //   wait [SECONDS]                  until nothing is being made (at most so long, 60), or fail
 //   sleep SECONDS                   whatever is being made
+//   until FIELD TEXT                until the field contains it, 60 s at most, or fail
 //   shot FILE.png                   what is on the screen
 //   resize W H
 //   expect FIELD VALUE [TOLERANCE]  of numbers, a share of the value; of texts: contained
@@ -62,6 +63,7 @@ private:
     void expect_screen(App& app, const Screen& screen);
     bool has_waited(App& app);
     bool has_slept();
+    bool has_come(App& app);
     std::optional<std::pair<double, double>> place_of(App& app, const std::vector<std::string>& words,
                                                       std::size_t first);
     void fail(const std::string& why);

@@ -70,7 +70,7 @@ class SceneTest(window.WindowTest):
             wait
             expect engine gather
             expect gather.stage cure
-            click "focus on the green cube"
+            click scene.follow
             expect scene.follow on
             frame 24
             wait

@@ -113,8 +113,8 @@ class ToolsTest(window.WindowTest):
     def test_pictures_are_taken_as_tev_takes_them_and_nonsense_is_refused(self):
         port = free_port()
         with open(os.path.join(self.shared, "listen.txt"), "w") as file:
-            file.write("wait\nsay frame.engine\nsleep 1\nwait\nexpect frame.width 40\nexpect against.width 8\n"
-                       "pick 3 3\nexpect pick.depth_m 2\nexpect error no picture\nset engine gather\nwait\nsay frame.width\n")
+            file.write("wait\nsay frame.engine\nuntil frame.width 40\nuntil against.width 8\nuntil error picture\npick 3 3\n"
+                       "expect pick.depth_m 2\nset engine gather\nwait\nsay frame.width\n")
         window = self.start("table.exr", "--engine", "gaussian", "--fstop", "2", "--focal-length", "50", "--sensor-width",
                             "36", "--focus", "1", "--listen", str(port), "--script", "listen.txt")
         self.assertIn("gaussian", window.stdout.readline())
