@@ -151,13 +151,14 @@ void App::take_pushed() {
         setup_.source.path = news.path;
         read_again();
     }
-    if (!news.picture) return;
-    Reading reading;
-    reading.is_against = news.picture->depth_m.empty();
-    reading.source.path = news.picture->name;
-    reading.pushed = std::move(news.picture);
-    if (!reading.is_against) reading_ = true;
-    maker_.read(std::move(reading));
+    for (auto& picture : news.pictures) {
+        Reading reading;
+        reading.is_against = picture->depth_m.empty();
+        reading.source.path = picture->name;
+        reading.pushed = std::move(picture);
+        if (!reading.is_against) reading_ = true;
+        maker_.read(std::move(reading));
+    }
 }
 
 // On to the next frame when something of this one was to be seen, 24 a second at most.

@@ -176,16 +176,13 @@ Status TevInbox::update(Fields& fields, int version) {
                         fields.rest().data() + std::size_t(from) * sizeof(float), sizeof(float));
         }
     }
-    changed_ = name;
+    changed_.insert(name);
     return Done{};
 }
 
 std::string TevInbox::take_path() { return std::exchange(path_, {}); }
 
-std::shared_ptr<const Pushed> TevInbox::take_picture() {
-    const auto found = canvases_.find(std::exchange(changed_, {}));
-    if (found == canvases_.end()) return nullptr;
-    const auto& [name, canvas] = *found;
+std::shared_ptr<const Pushed> TevInbox::picture_of(const std::string& name, const Canvas& canvas) {
     auto pushed = std::make_shared<Pushed>();
     pushed->name = name;
     pushed->has_alpha = canvas.channels.contains("A");
@@ -205,6 +202,14 @@ std::shared_ptr<const Pushed> TevInbox::take_picture() {
         }
     }
     return pushed;
+}
+
+std::vector<std::shared_ptr<const Pushed>> TevInbox::take_pictures() {
+    std::vector<std::shared_ptr<const Pushed>> pictures;
+    for (const std::string& name : std::exchange(changed_, {}))
+        if (const auto found = canvases_.find(name); found != canvases_.end())
+            pictures.push_back(picture_of(name, found->second));
+    return pictures;
 }
 
 Result<std::unique_ptr<TevListener>> TevListener::open(int port, std::function<void()> wake) {
@@ -233,7 +238,7 @@ TevListener::~TevListener() {
 
 TevListener::News TevListener::news() {
     const std::lock_guard lock(mutex_);
-    return {inbox_.take_path(), std::exchange(wrong_, {}), inbox_.take_picture()};
+    return {inbox_.take_path(), std::exchange(wrong_, {}), inbox_.take_pictures()};
 }
 
 void TevListener::listen() {
@@ -252,7 +257,7 @@ void TevListener::serve(int connection) {
         Status done = Done{};
         try {
             done = read_packet(connection, packet, ended);
-            if (ended) return;
+            if (ended && done) return;
             const std::lock_guard lock(mutex_);
             if (done) done = inbox_.take(packet);
             if (!done) wrong_ = done.error().message;
@@ -291,6 +296,7 @@ Status TevListener::read_packet(int connection, std::vector<std::byte>& packet, 
         ended = !receive(packet.data() + before, piece);
         left -= piece;
     }
+    if (ended && !ending_) return nonsense("it ends before its length");
     return Done{};
 }
 

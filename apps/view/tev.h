@@ -16,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -40,7 +41,7 @@ public:
     Status take(std::span<const std::byte> packet);
     // What has changed since the last call: a file to open, or a picture.
     std::string take_path();
-    std::shared_ptr<const Pushed> take_picture();
+    std::vector<std::shared_ptr<const Pushed>> take_pictures();
 
 private:
     struct Canvas {
@@ -48,11 +49,13 @@ private:
         std::map<std::string, std::vector<float>> channels;
     };
     class Fields;
+    static std::shared_ptr<const Pushed> picture_of(const std::string& name, const Canvas& canvas);
     Status create(Fields& fields);
     Status update(Fields& fields, int version);
 
     std::map<std::string, Canvas> canvases_;
-    std::string path_, changed_;
+    std::string path_;
+    std::set<std::string> changed_;
 };
 
 // Listens until it is gone. Its thread keeps one connection at a time; one that sends nonsense is closed.
@@ -67,7 +70,7 @@ public:
 
     struct News {
         std::string path, wrong;  // empty: none
-        std::shared_ptr<const Pushed> picture;
+        std::vector<std::shared_ptr<const Pushed>> pictures;
     };
     News news();
 
