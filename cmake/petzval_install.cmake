@@ -49,7 +49,7 @@ petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/fil
                   REQUIRES petzval OpenEXR libpng libdeflate zlib ${raster_modules}
                   DESCRIPTION "EXR, PNG, JPEG and TIFF for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
-                  REQUIRES petzval LIBS -lembree3 ${petzval_gltf_links} DESCRIPTION "Built-in scenes of petzval")
+                  REQUIRES petzval LIBS "-lembree3 ${petzval_gltf_links}" DESCRIPTION "Built-in scenes of petzval")
 petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.h
                   REQUIRES petzval OpenColorIO DESCRIPTION "OpenColorIO displays for petzval")
 petzval_component(petzval_shared PACKAGE petzval-c HEADERS ${c_headers}
