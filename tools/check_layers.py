@@ -82,6 +82,7 @@ PUBLIC = {
     "lens_report": "lens_sheet",
     "lens_section": "lens_facts",
     "light_point": "image",
+    "light_spectrum": "image",
     "look": "look",
     "look_check": "look",
     "look_file": "shot",

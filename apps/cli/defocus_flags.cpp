@@ -55,7 +55,8 @@ void DefocusFlags::add_engines_to(Verb& verb) {
     look.add_to(verb, {"Engine gather", "Engine gaussian", "Engine sprites"});
     FlagGroup(verb, "Engine sprites")
         .value("--points", "FILE.csv",
-               "lights to draw: columns x, y, depth or coc, r, g, b, perhaps size, named in its first line",
+               "lights to draw: columns x, y, depth or coc, r, g, b, perhaps size and spectrum, named in its "
+               "first line",
                parse_text, points);
 }
 

@@ -145,6 +145,10 @@ std::vector<LookRow> rows_of_lenses() {
             "it"),
         row("Lens character", "--distortion", "lens.distortion", value("SHARE", parse_number),
             "discs, and the picture of defocus with them, stretch towards the corners by this share"),
+        row("Lens character", "--light", "lens.light", name<LightSpectrum>(),
+            "what the light is made of (default daylight): a lamp's lines land where their own wavelengths "
+            "do, "
+            "and its discs have no rainbow"),
         row("Lens character", "--wavelengths", "lens.wavelengths", value("N", parse_count),
             "bands of the spectrum; as many as needed by default"),
         row("Lens character", "--wave", "lens.wave", nothing(),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petzval/image.h"
+#include "petzval/light_spectrum.h"
 
 #include <cstdint>
 #include <memory>
@@ -108,6 +109,8 @@ struct LensChoice {
     // picture with them: from r half diagonals to r (1 + d r^2). Channels besides colour and alpha stay where
     // they are.
     double distortion = 0;
+    // What the light of the picture is made of. The sensor stands as for daylight.
+    LightSpectrum light = LightSpectrum::Daylight;
     int wavelengths = 0;  // bands of the spectrum; 0: as many as the kernel needs to be smooth
     bool wave = false;    // diffraction: rings in discs of small sensors, spikes of blades; slow
 

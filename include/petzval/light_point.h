@@ -1,7 +1,10 @@
 // A light of no size, or nearly none, that an engine draws as the lens's own kernel.
 #pragma once
 
+#include "petzval/light_spectrum.h"
+
 #include <limits>
+#include <optional>
 
 namespace petzval {
 
@@ -11,6 +14,7 @@ struct LightPoint {
     // Where it is: planar depth (a miss is infinitely far) or, where that is NaN, its signed radius.
     float depth_m = std::numeric_limits<float>::quiet_NaN(), coc_px = 0;
     float diameter_px = 0;  // its own size in the picture: an evenly lit disc, blurred as it is
+    std::optional<LightSpectrum> spectrum = {};  // none: that of the picture's light (LensChoice::light)
 };
 
 }  // namespace petzval

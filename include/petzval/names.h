@@ -47,6 +47,8 @@ PETZVAL_API std::span<const Named<SpriteBackground>> names();
 template <>
 PETZVAL_API std::span<const Named<FocusMode>> names();
 template <>
+PETZVAL_API std::span<const Named<LightSpectrum>> names();
+template <>
 PETZVAL_API std::span<const Named<ImageScale>> names();
 template <>
 PETZVAL_API std::span<const Named<StarQuality>> names();

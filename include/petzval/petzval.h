@@ -17,6 +17,7 @@
 #include "petzval/lens_facts.h"
 #include "petzval/lens_kernel.h"
 #include "petzval/lens_section.h"
+#include "petzval/light_spectrum.h"
 #include "petzval/look.h"
 #include "petzval/look_check.h"
 #include "petzval/look_json.h"

@@ -2,6 +2,8 @@
 // white point of light.
 #pragma once
 
+#include "petzval/light_spectrum.h"
+
 #include <vector>
 
 namespace petzval::colour {
@@ -19,5 +21,11 @@ struct SpectralBand {
 // lies outside, 0.04 % of the luminance, is left out; each channel is scaled to sum to 1, which is the white
 // balance. Requires: count >= 1.
 std::vector<SpectralBand> spectral_bands(int count);
+
+// The same of other light: each channel's share of *that* light, whose own colour is not said here. Light of
+// lines has a slice for each, whatever `count`. A channel that has next to none of a lamp's light, as blue of
+// neon, where lines cancel, is shared like the luminance.
+std::vector<SpectralBand> spectral_bands(int count, LightSpectrum light);
+bool has_lines(LightSpectrum light);
 
 }  // namespace petzval::colour

@@ -20,6 +20,27 @@ TEST(Spectrum, EveryChannelSumsToOneForAnyNumberOfBands) {
     }
 }
 
+TEST(Spectrum, LampsHaveTheirLinesAndEveryChannelSumsToOne) {
+    for (const LightSpectrum light :
+         {LightSpectrum::Sodium, LightSpectrum::Mercury, LightSpectrum::Neon, LightSpectrum::Led}) {
+        double r = 0, g = 0, b = 0, y = 0;
+        for (const SpectralBand& band : spectral_bands(40, light))
+            r += band.r, g += band.g, b += band.b, y += band.luminance;
+        for (const double sum : {r, g, b, y}) EXPECT_NEAR(sum, 1, 1e-12) << int(light);
+    }
+    EXPECT_TRUE(has_lines(LightSpectrum::Neon));
+    EXPECT_FALSE(has_lines(LightSpectrum::Led));
+    const auto mercury = spectral_bands(1, LightSpectrum::Mercury);
+    ASSERT_EQ(mercury.size(), 5U);
+    EXPECT_NEAR(mercury[1].wavelength_nm, 435.83, 0.01);
+    EXPECT_GT(mercury[1].b, 0.8);          // its blue line
+    EXPECT_GT(mercury[2].luminance, 0.5);  // the green one
+    for (const SpectralBand& band : spectral_bands(1, LightSpectrum::Sodium))
+        EXPECT_NEAR(band.wavelength_nm, 589.3, 0.4);
+    // Neon has no blue to speak of: that channel goes with the luminance.
+    for (const SpectralBand& band : spectral_bands(1, LightSpectrum::Neon)) EXPECT_EQ(band.b, band.luminance);
+}
+
 TEST(Spectrum, ColoursComeInTheOrderOfTheRainbow) {
     const auto bands = spectral_bands(31);
     const auto at = [&](double nm) { return bands[std::size_t((nm - 400) / 300 * 31)]; };

@@ -128,6 +128,9 @@ Rules rules_of_gather() {
     };
 }
 
+bool is_of_lines(LightSpectrum light) {
+    return light != LightSpectrum::Daylight && light != LightSpectrum::Led;
+}
 bool blurs_the_axis(const AddedAberrations& added) {
     return added.spherical_waves != 0 || added.axial_colour_mm != 0;
 }
@@ -152,6 +155,7 @@ const std::vector<std::string> kCharacter{"lens.focus_mode",
                                           "lens.added_lateral_colour_percent",
                                           "lens.coma",
                                           "lens.astigmatism",
+                                          "lens.light",
                                           "lens.wavelengths"};
 
 Rules rules_of_lenses() {
@@ -205,6 +209,12 @@ Rules rules_of_character() {
                            "on the ideal lens; give another with lens.name");
          }},
         {{"lens.wavelengths"},
+         [](const Look& l) {
+             return unless(!is_of_lines(l.lens.light), std::string("with lens.light ") +
+                                                           name_of(l.lens.light) +
+                                                           ", whose lines are drawn one by one");
+         }},
+        {{"lens.light", "lens.wavelengths"},
          [](const Look& l) {
              return unless(l.lens.name != "ideal" || l.lens.wave || adds_colour(l.lens.added),
                            "on the ideal lens without lens.wave; give another with lens.name");

@@ -95,6 +95,7 @@ std::vector<Field> lens_fields() {
             field("lens.coma", MEMBER(lens.coma)),
             field("lens.astigmatism", MEMBER(lens.astigmatism)),
             field("lens.distortion", MEMBER(lens.distortion)),
+            field("lens.light", MEMBER(lens.light)),
             field("lens.wavelengths", MEMBER(lens.wavelengths)),
             field("lens.wave", MEMBER(lens.wave))};
 }

@@ -63,6 +63,7 @@ Changes changes_of_focus_and_lens() {
             [](Look& l) { l.lens.added.field_curvature_mm = -0.3; },
             [](Look& l) { l.lens.added.lateral_colour_percent = 0.5; },
             [](Look& l) { l.lens.astigmatism = -2; },
+            [](Look& l) { l.lens.light = LightSpectrum::Mercury; },
             [](Look& l) { l.lens.distortion = 0.05; },
             [](Look& l) { l.lens.wavelengths = 12; },
             [](Look& l) { l.lens.wave = true; }};

@@ -41,6 +41,12 @@ constexpr Named<SpriteBackground> kBackgrounds[]{{SpriteBackground::Gather, "gat
 constexpr Named<FocusMode> kFocusModes[]{{FocusMode::Best, "best", "least blur at this aperture"},
                                          {FocusMode::Paraxial, "paraxial", "where light near the axis meets"},
                                          {FocusMode::Shift, "shift", "so far behind the paraxial focus"}};
+constexpr Named<LightSpectrum> kSpectra[]{
+    {LightSpectrum::Daylight, "daylight", "all wavelengths"},
+    {LightSpectrum::Sodium, "sodium", "street lamps: one wavelength"},
+    {LightSpectrum::Mercury, "mercury", "five lines, violet to yellow"},
+    {LightSpectrum::Neon, "neon", "signs: lines from yellow to red"},
+    {LightSpectrum::Led, "led", "a white diode: blue and its phosphor"}};
 constexpr Named<ImageScale> kImageScales[]{
     {ImageScale::Rendered, "rendered", "sensor one focal length behind the pinhole"},
     {ImageScale::ThinLens, "thin-lens", "sensor where a real lens forms the image"}};
@@ -88,6 +94,7 @@ template <> std::span<const Named<GaussianStyle>> names() { return kStyles; }
 template <> std::span<const Named<GaussianView>> names() { return kGaussianViews; }
 template <> std::span<const Named<SpriteBackground>> names() { return kBackgrounds; }
 template <> std::span<const Named<FocusMode>> names() { return kFocusModes; }
+template <> std::span<const Named<LightSpectrum>> names() { return kSpectra; }
 template <> std::span<const Named<ImageScale>> names() { return kImageScales; }
 template <> std::span<const Named<StarQuality>> names() { return kStarQualities; }
 template <> std::span<const Named<LensCoating>> names() { return kCoatings; }

@@ -4,6 +4,9 @@
 #include "kernel/lenses/make_lens.h"
 #include "kernel/lenses/opened_lens.h"
 
+#include <optional>
+#include <set>
+
 namespace petzval {
 
 kernel::Mount mount_of(const DefocusJob& job) {
@@ -28,9 +31,10 @@ namespace {
 using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
 
 // The lens as engines see it: distortion comes last, of discs and picture at once.
-Lens before_distortion(const DefocusJob& job) {
+Lens before_distortion(const DefocusJob& job, std::optional<LightSpectrum> light = {}) {
     LensChoice straight = job.opened_lens->choice();
     straight.distortion = 0;
+    if (light) straight.light = *light;
     return job.opened_lens->with(straight).value();  // which asks for less than what was granted
 }
 
@@ -39,11 +43,12 @@ std::string key_of_kernels(const DefocusJob& job) {
 }
 
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
-Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store) {
+Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store,
+                               std::optional<LightSpectrum> light = {}) {
     constexpr std::size_t kRememberedBytes = std::size_t(48) << 20;
     constexpr int kLevels =
         13;  // the largest radius in cells of the last one is 4, fewer than any engine needs
-    auto levels = kernel::make_lens_levels(before_distortion(job), mount_of(job), kLevels);
+    auto levels = kernel::make_lens_levels(before_distortion(job, light), mount_of(job), kLevels);
     if (!levels) return levels;
     for (std::size_t i = 0; i < levels->size(); ++i) {
         auto& lens = (*levels)[i];
@@ -60,6 +65,15 @@ std::shared_ptr<kernel::KernelStore> store_for(const DefocusJob& job) {
                                                  job.kernel_cache_bytes);
 }
 
+// Of given points, but for that of the picture.
+std::set<LightSpectrum> spectra_of_points(const DefocusJob& job) {
+    std::set<LightSpectrum> spectra;
+    if (job.points)
+        for (const LightPoint& p : *job.points)
+            if (p.spectrum && *p.spectrum != job.opened_lens->choice().light) spectra.insert(*p.spectrum);
+    return spectra;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job) {
@@ -68,6 +82,11 @@ Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job) {
     auto levels = lens_levels(job, mounted->store);
     if (!levels) return levels.error();
     mounted->levels = std::move(*levels);
+    for (const LightSpectrum light : spectra_of_points(job)) {
+        auto seen = lens_levels(job, nullptr, light);
+        if (!seen) return seen.error();
+        mounted->lamps.push_back({light, std::move(*seen)});
+    }
     return mounted;
 }
 
@@ -76,6 +95,7 @@ std::string MountedLens::key_of(const DefocusJob& job) {
     if (key.empty()) return key;
     const Rect& display = job.place.display_window;
     for (const int n : {display.width(), display.height(), int(job.quality)}) key += " " + std::to_string(n);
+    for (const LightSpectrum light : spectra_of_points(job)) key += " lamp " + std::to_string(int(light));
     return key + " " + job.engine + " " + job.kernel_cache_folder;
 }
 

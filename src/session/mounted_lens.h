@@ -5,6 +5,7 @@
 #include "petzval/defocus.h"
 
 #include "device/memory.h"
+#include "engine/waist/engine.h"
 #include "kernel/keep/kernel_store.h"
 #include "kernel/model/lens_model.h"
 
@@ -31,6 +32,8 @@ struct MountedLens {
 
     std::shared_ptr<kernel::KernelStore> store;  // on disk; null: none
     std::vector<std::unique_ptr<const kernel::LensModel>> levels;
+    // The same for the light of given points that says what it is made of; each once.
+    std::vector<engine::LampLens> lamps;
     device::Memory kernels{
         std::numeric_limits<std::size_t>::max()};  // of `levels`, and what engines know of them
 };

@@ -182,6 +182,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
     engine::Input& input = frame.input;
     input.lens_levels = lens.levels;
+    input.lamps = lens.lamps;
     input.device = &drawing;
     input.memory = &lens.kernels;
     input.progress = &progress;

@@ -1,3 +1,4 @@
+#include "petzval/names.h"
 #include "petzval/shot.h"
 
 #include <algorithm>
@@ -14,13 +15,13 @@
 namespace petzval {
 namespace {
 
-constexpr const char* kAccepted = "x, y, depth or coc, r, g, b, and size, vx, vy if wanted";
+constexpr const char* kAccepted = "x, y, depth or coc, r, g, b, and size, spectrum, vx, vy if wanted";
 
 constexpr std::size_t kLongestLine = 4096;
 
-enum Column { kX, kY, kDepth, kCoc, kR, kG, kB, kSize, kVx, kVy, kColumns };
-constexpr std::array<const char*, kColumns> kNames{"x", "y", "depth", "coc", "r",
-                                                   "g", "b", "size",  "vx",  "vy"};
+enum Column { kX, kY, kDepth, kCoc, kR, kG, kB, kSize, kSpectrum, kVx, kVy, kColumns };
+constexpr std::array<const char*, kColumns> kNames{"x", "y",    "depth",    "coc", "r", "g",
+                                                   "b", "size", "spectrum", "vx",  "vy"};
 
 std::string_view trimmed(std::string_view text) {
     constexpr const char* kSpace = " \t\r";
@@ -112,13 +113,27 @@ private:
         return std::nullopt;
     }
 
+    // Left empty: that of the picture's light.
+    static std::optional<std::string> take_spectrum(std::string_view field, LightPoint& p) {
+        if (field.empty()) return std::nullopt;
+        const auto spectrum = parse<LightSpectrum>(std::string(field));
+        if (!spectrum) return quoted(field) + " in column spectrum is " + spectrum.error().message;
+        p.spectrum = *spectrum;
+        return std::nullopt;
+    }
+
     std::optional<std::string> take_point(std::string_view line) {
         std::optional<std::string> wrong;
         std::array<float, kColumns> values{};
+        LightPoint p;
         const std::size_t fields = for_each_field(line, [&](std::size_t i, std::string_view field) {
             if (i >= order_.size()) {
                 wrong = "more values than the " + std::to_string(order_.size()) + " columns";
                 return false;
+            }
+            if (order_[i] == kSpectrum) {
+                wrong = take_spectrum(field, p);
+                return !wrong;
             }
             if (field.starts_with('+')) field.remove_prefix(1);
             double value = 0;
@@ -134,7 +149,6 @@ private:
         if (fields < order_.size())
             return std::to_string(fields) + " values, but there are " + std::to_string(order_.size()) +
                    " columns";
-        LightPoint p;
         p.x = values[kX] - float(data_window_.x0), p.y = values[kY] - float(data_window_.y0);
         p.r = values[kR], p.g = values[kG], p.b = values[kB];
         p.diameter_px = values[kSize];
@@ -161,7 +175,9 @@ std::string lights_text(const std::vector<LightPoint>& points, const std::vector
     std::string text;
     text.reserve(points.size() * 72 + 256);
     for (const std::string& line : comment) text += "# " + line + "\n";
-    text += "x,y,depth,r,g,b,size\n";
+    const bool has_spectra =
+        std::any_of(points.begin(), points.end(), [](const LightPoint& p) { return p.spectrum.has_value(); });
+    text += has_spectra ? "x,y,depth,r,g,b,size,spectrum\n" : "x,y,depth,r,g,b,size\n";
     for (const LightPoint& p : points) {
         char separator = '\0';
         for (const float value : {p.x, p.y, p.depth_m, p.r, p.g, p.b, p.diameter_px}) {
@@ -171,6 +187,7 @@ std::string lights_text(const std::vector<LightPoint>& points, const std::vector
                         std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
             separator = ',';
         }
+        if (has_spectra) text += std::string(",") + (p.spectrum ? name_of(*p.spectrum) : "");
         text += '\n';
     }
     return text;

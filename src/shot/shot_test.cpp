@@ -242,7 +242,7 @@ TEST_F(Shots, LightReachesAsFarAsItsLargestRadius) {
 TEST_F(Shots, LightsComeBackAsTheyWereWritten) {
     std::vector<LightPoint> points(2);
     points[0] = {1.25f, 2.5f, 0.1f, 0.2f, 0.3f, 4.4f};
-    points[1] = {-7, 1e-8f, 1e20f, 0, 3, std::numeric_limits<float>::infinity(), 0, 2};
+    points[1] = {-7, 1e-8f, 1e20f, 0, 3, std::numeric_limits<float>::infinity(), 0, 2, LightSpectrum::Led};
     write_bytes(folder / "lights.csv", lights_text(points, {"two", "of them"}));
     const auto read = read_lights(folder / "lights.csv", {});
     ASSERT_TRUE(read) << read.error().message;
@@ -252,7 +252,24 @@ TEST_F(Shots, LightsComeBackAsTheyWereWritten) {
         const LightPoint &a = points[i], &b = read->points[i];
         EXPECT_THAT((std::array{b.x, b.y, b.depth_m, b.r, b.g, b.b, b.diameter_px}),
                     ElementsAre(a.x, a.y, a.depth_m, a.r, a.g, a.b, a.diameter_px));
+        EXPECT_EQ(a.spectrum, b.spectrum);
     }
+}
+
+TEST_F(Shots, LightsSayWhatTheirLightIsMadeOf) {
+    write_bytes(folder / "lights.csv",
+                "x,y,coc,r,g,b,spectrum\n1,1,3,1,1,1,sodium\n1,1,3,1,1,1, neon \n1,1,3,1,1,1,\n");
+    const auto read = read_lights(folder / "lights.csv", {});
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->points.size(), 3u);
+    EXPECT_EQ(read->points[0].spectrum, LightSpectrum::Sodium);
+    EXPECT_EQ(read->points[1].spectrum, LightSpectrum::Neon);
+    EXPECT_EQ(read->points[2].spectrum, std::nullopt);
+    write_bytes(folder / "lights.csv", "x,y,coc,r,g,b,spectrum\n1,1,3,1,1,1,candle\n");
+    const auto unknown = read_lights(folder / "lights.csv", {});
+    ASSERT_FALSE(unknown);
+    EXPECT_THAT(unknown.error().message,
+                HasSubstr("lights.csv:2: 'candle' in column spectrum is not one of"));
 }
 
 TEST_F(Shots, LightsByDepthAndRadiiDoNotFit) {

@@ -44,7 +44,7 @@ class LensPsf(CommandLineTest):
         for flags in (["--defocus", "21"], ["--raw"], ["--size", "15"],
                       ["--spherical", "0"], ["--axial-colour", "-1"], ["--add-spherical", "20"],
                       ["--add-axial-colour", "-0.5"], ["--add-field-curvature", "-1"],
-                      ["--add-lateral-colour", "0.5"], ["--add-spherical", "20", "--add-at-fstop", "4"], ["--coma", "0.4"], ["--astigmatism", "0.4"],
+                      ["--add-lateral-colour", "0.5"], ["--add-spherical", "20", "--add-at-fstop", "4"], ["--light", "neon"], ["--coma", "0.4"], ["--astigmatism", "0.4"],
                       ["--distortion", "0.05"], ["--wavelengths", "3"], ["--wave"], ["--focus-mode", "paraxial"],
                       ["--focus-shift", "0.2"], ["--blades", "6"], ["--cats-eye", "0.5"], ["--squeeze", "1.5"],
                       ["--barrel", "11,15"], ["--barn-doors", "0.4,0,0,0"], ["--dust", "1"], ["--scratches", "1"],

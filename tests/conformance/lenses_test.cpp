@@ -39,6 +39,8 @@ TEST(Lenses, APointThroughScatterIsThatOfTheReference) {
     lenses.back().cats_eye = 0.7;
     lenses.push_back(named("uncorrected"));
     lenses.back().coma = 0.5, lenses.back().texture.dust = 0.7;
+    lenses.push_back(named("uncorrected"));
+    lenses.back().light = LightSpectrum::Mercury;
     for (const char* name : {"ideal", "double-gauss"}) {  // the defocus-control ring
         lenses.push_back(named(name));
         lenses.back().added = {.spherical_waves = 200,
@@ -93,6 +95,7 @@ TEST(Lenses, EveryFlagChangesThePictureInBothEnginesAndOffChangesNothing) {
         {"added axial colour", [](LensChoice& c) { c.added.axial_colour_mm = -1; }},
         {"added field curvature", [](LensChoice& c) { c.added.field_curvature_mm = -2; }},
         {"added lateral colour", [](LensChoice& c) { c.added.lateral_colour_percent = 2; }},
+        {"light", [](LensChoice& c) { c.light = LightSpectrum::Sodium; }},
         {"coma", [](LensChoice& c) { c.coma = 1; }},
         {"astigmatism", [](LensChoice& c) { c.astigmatism = 1; }},
         {"distortion", [](LensChoice& c) { c.distortion = 0.1; }},

@@ -70,6 +70,7 @@ std::vector<Choice> changes_of_all_else() {
             {"lens.coma", "3"},
             {"lens.astigmatism", "4"},
             {"lens.distortion", "0.2"},
+            {"lens.light", "sodium"},
             {"lens.wavelengths", "3"},
             {"lens.wave", "true"},
             {"gather.stage", "near-far"},

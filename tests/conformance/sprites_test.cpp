@@ -2,6 +2,8 @@
 #include "shots.h"
 
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace petzval::conformance {
 namespace {
@@ -75,6 +77,44 @@ TEST(Sprites, ALightInTheMiddleOfAPixelIsThatPixelThroughTheReference) {
         const double inside = 1000 / (0.757 * M_PI * double(coc * coc));
         EXPECT_LT(largest_difference(rendered(drawn), rendered(truth)), 0.12 * inside);
     }
+}
+
+// Lamps beside each other, each of its own light, through a lens of one glass.
+TEST(Sprites, ALampIsDrawnInItsOwnLight) {
+    const auto through = [](DefocusJob job, LightSpectrum light) {
+        job.lens.name = "uncorrected", job.lens.light = light;
+        job.camera = {50, 36, 2, 3};
+        return rendered(job);
+    };
+    const std::pair<float, std::optional<LightSpectrum>> lamps[] = {
+        {50.5f, std::nullopt}, {150.5f, LightSpectrum::Sodium}, {250.5f, LightSpectrum::Mercury}};
+    Lights together(301, 101, 18);
+    for (const auto& [x, spectrum] : lamps) {
+        together.add(x, 50.5f, 18, 1000);
+        together.points.back().spectrum = spectrum;
+    }
+    const Picture drawn = through(together.job(), LightSpectrum::Daylight);
+    for (const auto& [x, spectrum] : lamps) {
+        // As wide a picture, so that the lens is the same one in pixels.
+        Shot wide = flat(301, 101, {0, 0, 0, 1}, 18);
+        wide.colour(int(x), 50) = {1000, 1000, 1000, 1};
+        const Picture truth = through(wide.job("reference"), spectrum.value_or(LightSpectrum::Daylight));
+        double elsewhere = 0;
+        for (int v = 0; v < 101; ++v)
+            for (int u = int(x) - 50; u <= int(x) + 50; ++u)
+                elsewhere += std::abs(double(drawn(u, v).b) - double(truth(u, v).b)) / 2000;
+        EXPECT_LT(elsewhere, 0.03) << x;  // share of the light
+    }
+    // Without a word the picture's light is theirs: the same bits.
+    Lights silent(301, 101, 18), said(301, 101, 18);
+    silent.add(150.5f, 50.5f, 18, 1000), said.add(150.5f, 50.5f, 18, 1000);
+    said.points.back().spectrum = LightSpectrum::Neon;
+    EXPECT_EQ(largest_difference(through(silent.job(), LightSpectrum::Neon),
+                                 through(said.job(), LightSpectrum::Neon)),
+              0);
+    EXPECT_GT(largest_difference(through(silent.job(), LightSpectrum::Daylight),
+                                 through(said.job(), LightSpectrum::Daylight)),
+              0.05);
 }
 
 TEST(Sprites, DiscsChangeSteadilyOverTheFieldOfALens) {

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <span>
+#include <string>
 
 namespace petzval::engine {
 namespace {
@@ -108,13 +109,24 @@ std::size_t sprites_of(std::span<const LightPoint> points) {
     return count;
 }
 
-device::Work add_sprites(const Input& input, std::span<const Sprite> sprites, View<Rgba> out) {
+device::Work add_sprites(const Input& input, std::span<const Sprite> sprites, View<Rgba> out,
+                         const std::string& light = {}) {
+    if (sprites.empty()) return {};
     const SpriteGrid grid(input, sprites);
     const LightsPlan plan = plan_sprites(input, sprites, grid);
     const device::Control control{*input.workers, *input.progress};
-    const auto atlas = input.device->atlas(SpriteKernels(input, grid), plan.kernels, *input.memory, control);
+    const auto atlas =
+        input.device->atlas(SpriteKernels(input, grid, light), plan.kernels, *input.memory, control);
     if (input.progress->cancelled()) return {};
     return input.device->add_lights(plan, *atlas, out, control);
+}
+
+// Those of one light, each with its area.
+std::vector<Sprite> sprites_of(std::span<const LightPoint> points, LightSpectrum light) {
+    std::vector<Sprite> sprites;
+    for (const LightPoint& p : points)
+        if (p.spectrum == light) AreaOfLight(p).add_to(sprites, p);
+    return sprites;
 }
 
 }  // namespace
@@ -145,9 +157,19 @@ Result<Output> run_sprites(const Input& input) {
     if (!output) return output.error();
     const double drawn_background = seconds();
 
-    for (const LightPoint& p : input.points) AreaOfLight(p).add_to(parted.sprites, p);
-    device::Work work;
-    if (!parted.sprites.empty()) work = add_sprites(input, parted.sprites, output->image);
+    const auto is_of_lamp = [&](const LightPoint& p) {
+        return std::any_of(input.lamps.begin(), input.lamps.end(),
+                           [&](const LampLens& lamp) { return p.spectrum == lamp.light; });
+    };
+    for (const LightPoint& p : input.points)
+        if (!is_of_lamp(p)) AreaOfLight(p).add_to(parted.sprites, p);
+    device::Work work = add_sprites(input, parted.sprites, output->image);
+    for (const LampLens& lamp : input.lamps) {
+        Input lit = input;
+        lit.lens_levels = lamp.levels;
+        work += add_sprites(lit, sprites_of(input.points, lamp.light), output->image,
+                            " of lamp " + std::to_string(int(lamp.light)));
+    }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     output->stages = {{"background", drawn_background},
                       {"sprites", seconds() - drawn_background, work.bytes, work.multiply_adds}};

@@ -165,9 +165,10 @@ float SpriteGrid::reach_px(int level, float coc_px) const {
     return pixels_per_radius_ * std::abs(coc_px) * 1.02f + 4;
 }
 
-SpriteKernels::SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid)
-    : KernelSource("sprites in " + std::to_string(grid.columns()) + " x " + std::to_string(grid.rows()),
-                   device::KernelUse::Masked),
+SpriteKernels::SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid, const std::string& light)
+    : KernelSource(
+          "sprites in " + std::to_string(grid.columns()) + " x " + std::to_string(grid.rows()) + light,
+          device::KernelUse::Masked),
       lens_(lens.from(lens.frame.x0, lens.frame.y0)),
       grid_(grid) {}
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace petzval::engine {
@@ -55,7 +56,8 @@ private:
 
 class SpriteKernels final : public device::KernelSource {
 public:
-    SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid);
+    // light: what tells this lens from the picture's, where it is that of a lamp.
+    SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid, const std::string& light = {});
     std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
 
 private:

@@ -104,6 +104,12 @@ struct LensOnPicture : PixelField {
     }
 };
 
+// A lens as the light of a lamp sees it: lens_levels.
+struct LampLens {
+    LightSpectrum light = LightSpectrum::Daylight;
+    std::vector<std::unique_ptr<const kernel::LensModel>> levels;
+};
+
 class PlanReader;  // engine/scatter/plan.h
 
 struct Input : LensOnPicture {
@@ -150,6 +156,7 @@ struct Input : LensOnPicture {
     GaussianOptions gaussian;
     SpriteOptions sprites;
     std::span<const LightPoint> points;  // checked; coc_px holds the radius of each
+    std::span<const LampLens> lamps;     // for points whose spectrum is none of the picture's
     View<const float> depth_m;           // planar, may hold misses; empty where radii were given
     double focus_distance_m = 0;         // 0: unknown
     float radius_at_infinity_px = 0;     // 0: unknown

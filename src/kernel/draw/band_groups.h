@@ -27,10 +27,13 @@ inline double say_of(const colour::SpectralBand& b) {
 // `count` groups over the spectrum, of `wavelengths` bands or more together; of one band each where that is
 // what is asked for. Groups are narrow where the eye sees much: as many per nanometre as the cube root of
 // what is said there, which is best for a mean square error (P. F. Panter, W. Dite, 1951).
-inline std::vector<BandGroup> band_groups(int count, int wavelengths = kLeastWavelengths) {
+// Lines of a lamp are a group each, whatever `count`.
+inline std::vector<BandGroup> band_groups(int count, int wavelengths = kLeastWavelengths,
+                                          LightSpectrum light = LightSpectrum::Daylight) {
     constexpr int kLeastEach = 4;
     const int each = wavelengths <= count ? 1 : std::max(kLeastEach, (wavelengths + count - 1) / count);
-    const auto bands = colour::spectral_bands(count * each);
+    const auto bands = colour::spectral_bands(count * each, light);
+    if (colour::has_lines(light)) count = int(bands.size());
     double all = 0;
     for (const colour::SpectralBand& b : bands) all += std::cbrt(say_of(b));
     std::vector<BandGroup> groups(static_cast<std::size_t>(count));

@@ -72,11 +72,12 @@ CurveLens::CurveLens(const AberrationCurves& curves, const LensChoice& choice, c
       added_(choice, mount, focal_length_px(mount)) {
     const auto add_rung = [&](int count) {
         ladder_.emplace_back();
-        for (const BandGroup& group : band_groups(count, choice.wavelengths > 0 ? count : kLeastWavelengths))
+        const int wavelengths = choice.wavelengths > 0 ? count : kLeastWavelengths;
+        for (const BandGroup& group : band_groups(count, wavelengths, choice.light))
             ladder_.back().push_back(band_of(group));
     };
-    if (choice.wavelengths > 0)
-        add_rung(choice.wavelengths);
+    if (choice.wavelengths > 0 || colour::has_lines(choice.light))
+        add_rung(std::max(1, choice.wavelengths));
     else
         for (const int count : kLadder) add_rung(count);
     measure_curves();

@@ -161,7 +161,7 @@ std::string key_of(const LensChoice& c, const lens_files::LensFile& file) {
     const AddedAberrations& added = c.added;
     hash.add(added.spherical_waves).add(added.at_f_number).add(added.axial_colour_mm);
     hash.add(added.field_curvature_mm).add(added.lateral_colour_percent);
-    hash.add(c.coma).add(c.astigmatism).add(c.distortion).add(c.wavelengths).add(c.wave);
+    hash.add(c.coma).add(c.astigmatism).add(c.distortion).add(c.wavelengths).add(c.light).add(c.wave);
     return hash.text();
 }
 

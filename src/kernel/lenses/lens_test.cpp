@@ -145,6 +145,7 @@ constexpr Change kChanges[] = {
     [](LensChoice& c, Mount&) { c.astigmatism = 0.1; },
     [](LensChoice& c, Mount&) { c.distortion = 0.1; },
     [](LensChoice& c, Mount&) { c.wavelengths = 40; },
+    [](LensChoice& c, Mount&) { c.light = LightSpectrum::Neon; },
     [](LensChoice& c, Mount&) { c.wave = true; },
     [](LensChoice&, Mount& m) { m.camera.focal_length_mm = 51; },
     [](LensChoice&, Mount& m) { m.camera.sensor_width_mm = 35; },

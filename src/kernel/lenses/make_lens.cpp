@@ -59,7 +59,8 @@ Result<Model> make_lens(const Lens& lens, const Mount& mount) {
         if (const Status status = check_camera(mount); !status) return status.error();
     auto model = ray_model(lens, mount);
     if (!model) return model.error();
-    if (choice.wave) return Model(std::make_unique<WaveLens>(std::move(*model), mount, choice.wavelengths));
+    if (choice.wave)
+        return Model(std::make_unique<WaveLens>(std::move(*model), mount, choice.wavelengths, choice.light));
     return Model(std::move(*model));
 }
 

@@ -413,7 +413,8 @@ PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition fi
             return pupil_.transmission(axis.from_axis(p), half_width);
         };
     std::vector<MeshBand> bands;
-    const auto groups = band_groups(fine.bands, choice_.wavelengths > 0 ? fine.bands : kLeastWavelengths);
+    const int wavelengths = choice_.wavelengths > 0 ? fine.bands : kLeastWavelengths;
+    const auto groups = band_groups(fine.bands, wavelengths, choice_.light);
     for (const BandGroup& group : groups) {
         Displacement px;
         for (std::size_t i = 0; i < group.bands.size(); ++i)
@@ -440,7 +441,7 @@ PointSpread TracedModel::point_spread(double coc_radius_px, FieldPosition field)
 std::vector<PupilRay> TracedModel::rays(int count, FieldPosition field, std::uint64_t seed) const {
     const FieldAxis axis(field);
     const Node node = at(axis.size);
-    const auto bands = colour::spectral_bands(wavelength_nm_.size() < 3 ? 1 : kRayBands);
+    const auto bands = colour::spectral_bands(wavelength_nm_.size() < 3 ? 1 : kRayBands, choice_.light);
     std::vector<RayMap> maps;
     for (const colour::SpectralBand& band : bands) maps.push_back(map_at(node, band.wavelength_nm));
     const auto picture = [&](Point p) {

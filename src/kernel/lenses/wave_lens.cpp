@@ -169,12 +169,14 @@ PointSpread convolved(const PointSpread& a, const PointSpread& b) {
 
 }  // namespace
 
-WaveLens::WaveLens(std::unique_ptr<const GeometricLens> lens, const Mount& mount, int wavelengths)
+WaveLens::WaveLens(std::unique_ptr<const GeometricLens> lens, const Mount& mount, int wavelengths,
+                   LightSpectrum light)
     : lens_(std::move(lens)),
       f_number_(mount.camera.f_number),
       pixel_mm_(mount.camera.sensor_width_mm / mount.display_width_px),
       pixel_aspect_(mount.pixel_aspect),
-      wavelengths_(wavelengths > 0 ? wavelengths : 21) {}
+      wavelengths_(wavelengths > 0 ? wavelengths : 21),
+      light_(light) {}
 
 // Two per wavelength x N, which holds all detail of an intensity.
 int WaveLens::samples_per_pixel() const {
@@ -248,7 +250,7 @@ PointSpread WaveLens::transformed(double wavelength_nm, FieldPosition field, con
 PointSpread WaveLens::sum_of_bands(const Rect& extent,
                                    const std::function<PointSpread(double)>& one_band) const {
     PointSpread sum{extent, Image<Rgba>(extent.width(), extent.height()), false};
-    for (const colour::SpectralBand& band : colour::spectral_bands(wavelengths_)) {
+    for (const colour::SpectralBand& band : colour::spectral_bands(wavelengths_, light_)) {
         const PointSpread one = one_band(band.wavelength_nm);
         const Rgba weight{float(band.r), float(band.g), float(band.b), 0};
         for (std::size_t i = 0; i < sum.weights.size(); ++i)

@@ -25,7 +25,8 @@ public:
     static constexpr int kLargestGrid = 1024;
 
     // wavelengths: bands of the spectrum; 0: 21.
-    WaveLens(std::unique_ptr<const GeometricLens> lens, const Mount& mount, int wavelengths = 0);
+    WaveLens(std::unique_ptr<const GeometricLens> lens, const Mount& mount, int wavelengths = 0,
+             LightSpectrum light = LightSpectrum::Daylight);
 
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
     PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override;
@@ -60,6 +61,7 @@ private:
     std::unique_ptr<const GeometricLens> lens_;
     double f_number_, pixel_mm_, pixel_aspect_;
     int wavelengths_;
+    LightSpectrum light_;
 
     mutable std::mutex figures_mutex_;
     mutable std::map<std::pair<int, int>, std::shared_ptr<const PointSpread>> figures_;

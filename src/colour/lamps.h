@@ -1,0 +1,20 @@
+// Light of lamps: lines, or power over wavelengths.
+#pragma once
+
+#include "petzval/light_spectrum.h"
+
+#include <span>
+#include <vector>
+
+namespace petzval::colour {
+
+struct LampLine {
+    double wavelength_nm = 0, power = 0;  // of any unit
+};
+
+// Rising; empty for light that is no set of lines.
+std::vector<LampLine> lines_of(LightSpectrum light);
+// Of a white diode, of any unit.
+double led_power(double wavelength_nm);
+
+}  // namespace petzval::colour
