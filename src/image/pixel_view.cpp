@@ -1,5 +1,7 @@
 #include "petzval/pixel_view.h"
 
+#include "base/bits.h"
+
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -61,8 +63,7 @@ std::uint16_t to_half(float value) {
     if (size < kLeastNormal) return std::uint16_t(sign | std::uint16_t(std::nearbyint(size * (1 << 24))));
     // The 13 bits that a half lacks are rounded away, ties to even; a carry goes into the exponent. The bias
     // of a float is 127, that of a half 15.
-    std::uint32_t bits = 0;  // no bit_cast in the libc++ of Debian 12, which builds for browsers
-    std::memcpy(&bits, &size, sizeof bits);
+    auto bits = bits_as<std::uint32_t>(size);
     bits += 0xfffu + ((bits >> 13) & 1u);
     return std::uint16_t(sign | ((bits >> 13) - ((127u - 15u) << 10)));
 }

@@ -1,7 +1,8 @@
 #include "engine/gather/gather_rings.h"
 
+#include "base/bits.h"
+
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -110,7 +111,7 @@ RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
 }
 
 device::KernelAsk RingKernels::ask(int ring, int zone) const {
-    return {.level = sizes_.level(ring), .zone = zone, .step = std::bit_cast<int>(sizes_.radius_px(ring))};
+    return {.level = sizes_.level(ring), .zone = zone, .step = bits_as<int>(sizes_.radius_px(ring))};
 }
 
 std::vector<device::KernelSource::Made> RingKernels::make(std::span<const device::KernelAsk> asks) const {
@@ -119,7 +120,7 @@ std::vector<device::KernelSource::Made> RingKernels::make(std::span<const device
         const int column = ask.zone % zones_.columns, row = ask.zone / zones_.columns;
         const double x = (column + 0.5) * lens_.frame.width() / zones_.columns - 0.5;
         const double y = (row + 0.5) * lens_.frame.height() / zones_.rows - 0.5;
-        const double radius = radius_in_cells(double(std::bit_cast<float>(ask.step)), ask.level);
+        const double radius = radius_in_cells(double(bits_as<float>(ask.step)), ask.level);
         made.push_back({std::make_shared<const kernel::PointSpread>(
             lens_.lens(ask.level).point_spread(radius, lens_.field_at(x, y)))});
     }

@@ -9,8 +9,6 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kOwnRadius = 0.01f;
-
 // Alpha takes no part.
 Rgba ratio(Rgba of, Rgba to) {
     const auto divide = [](float a, float b) { return b != 0 ? a / b : 0.0f; };
