@@ -77,7 +77,7 @@ void check_temporal(const DefocusFlags& flags, bool from_many) {
 
 // What the frames around each frame see of what it hides. Errors: those of listing the files.
 Result<std::shared_ptr<Neighbours>> neighbours_of(const DefocusFlags& flags,
-                                                  std::function<Result<DefocusFlags>(int)> of_frame) {
+                                                  const std::function<Result<DefocusFlags>(int)>& of_frame) {
     const auto pattern = FramePattern::find(flags.input.path);
     if (!pattern) return pattern.error();
     auto frames = (*pattern)->frames_there();

@@ -29,10 +29,9 @@ constexpr std::array kFormats{
 Status check_asked(const InputFile& file, const std::string& a_format, const ReadOptions& options,
                    bool pixels) {
     const std::string path = printable(file.path(), 4096);
-    for (const std::string* asked : {&options.layer, &options.view_name})
-        if (!asked->empty())
-            return Error{ErrorCode::InvalidArgument,
-                         path + ": " + a_format + " has no layer or view '" + printable(*asked) + "'"};
+    if (const std::string& asked = options.layer.empty() ? options.view_name : options.layer; !asked.empty())
+        return Error{ErrorCode::InvalidArgument,
+                     path + ": " + a_format + " has no layer or view '" + printable(asked) + "'"};
     if (!options.layers.empty())
         return Error{ErrorCode::InvalidArgument, "read.layers is for EXR; " + path + " is " + a_format,
                      "read.layers"};

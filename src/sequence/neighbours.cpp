@@ -28,21 +28,21 @@ struct Neighbours::Kept {
     std::mutex mutex;
     std::map<int, std::shared_future<SharedShot>> shots;
 
-    SharedShot get(int frame, int farthest, std::size_t most, const Read& read) {
+    SharedShot get(int number, int around, std::size_t most, const Read& read) {
         std::promise<SharedShot> own;
         std::shared_future<SharedShot> wanted;
         {
             const std::lock_guard lock(mutex);
-            const auto found = shots.find(frame);
+            const auto found = shots.find(number);
             if (found != shots.end()) {
                 wanted = found->second;
             } else {
-                while (shots.size() >= most) shots.erase(farthest_from(farthest));
-                shots.emplace(frame, own.get_future().share());
+                while (shots.size() >= most) shots.erase(farthest_from(around));
+                shots.emplace(number, own.get_future().share());
             }
         }
         if (wanted.valid()) return wanted.get();
-        auto shot = std::make_shared<const Result<Shot>>(read(frame));
+        auto shot = std::make_shared<const Result<Shot>>(read(number));
         own.set_value(shot);
         return shot;
     }
