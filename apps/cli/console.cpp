@@ -6,13 +6,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <unistd.h>
-#include <utility>
 
 namespace petzval::cli {
 namespace {
 
 Verbosity g_verbosity = Verbosity::Normal;
-thread_local bool t_silent = false;
 
 // Bytes of the UTF-8 character that begins at `i`; 0 if none does. Overlong forms are let through.
 std::size_t utf8_length(const std::string& text, std::size_t i) {
@@ -35,14 +33,9 @@ void line_to_stderr(const std::string& prefix, const char* colour, const std::st
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-bool is_heard(Verbosity least) { return !t_silent && g_verbosity >= least; }
-
 }  // namespace
 
 void set_verbosity(Verbosity verbosity) { g_verbosity = verbosity; }
-
-Silence::Silence(bool wanted) : before_(std::exchange(t_silent, t_silent || wanted)) {}
-Silence::~Silence() { t_silent = before_; }
 
 bool colour_wanted() {
     const char* no_color = std::getenv("NO_COLOR");
@@ -50,15 +43,15 @@ bool colour_wanted() {
 }
 
 void note(const std::string& line) {
-    if (is_heard(Verbosity::Normal)) line_to_stderr("", "", in_flags(line));
+    if (g_verbosity != Verbosity::Quiet) line_to_stderr("", "", in_flags(line));
 }
 
 void detail(const std::string& line) {
-    if (is_heard(Verbosity::Verbose)) line_to_stderr("", "", in_flags(line));
+    if (g_verbosity == Verbosity::Verbose) line_to_stderr("", "", in_flags(line));
 }
 
 void warning(const std::string& line) {
-    if (is_heard(Verbosity::Normal)) line_to_stderr("petzval: warning: ", "\x1b[33m", in_flags(line));
+    if (g_verbosity != Verbosity::Quiet) line_to_stderr("petzval: warning: ", "\x1b[33m", in_flags(line));
 }
 
 void failure(const std::string& line, Words words) {

@@ -11,18 +11,6 @@ enum class Verbosity { Quiet, Normal, Verbose };
 // Set once, when the flags have been read.
 void set_verbosity(Verbosity verbosity);
 
-// While it lives, this thread says nothing but failures, if that is wanted.
-class Silence {
-public:
-    explicit Silence(bool wanted);
-    ~Silence();
-    Silence(const Silence&) = delete;
-    Silence& operator=(const Silence&) = delete;
-
-private:
-    bool before_;
-};
-
 // True if standard error is a terminal and NO_COLOR is not set (no-color.org).
 bool colour_wanted();
 

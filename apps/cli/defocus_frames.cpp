@@ -167,7 +167,6 @@ Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
         for (int frame = (*track)->first(); frame <= (*track)->last(); ++frame)
             work.otherwise.push_back(frame);
     work.keeps_what_is_there = flags.overwrite.no_clobber || flags.overwrite.update;
-    work.overlaps = flags.max_memory_bytes == 0;  // two frames take twice the memory
     work.files = [&](int frame) -> Result<FrameWork::Files> {
         const auto of = of_frame(frame);
         if (!of) return of.error();

@@ -11,10 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <filesystem>
 #include <fstream>
-#include <future>
 #include <set>
 #include <utility>
 
@@ -93,7 +91,10 @@ public:
              frames_text(frames_));
         if (run_.progress != ProgressMode::Auto)  // a line a frame says as much
             progress_.emplace(run_.progress, run_.quiet, "frames");
-        if (Status done = make_all(); !done) return done;
+        for (std::size_t i = 0; i < frames_.size(); ++i) {
+            if (Status done = make(frames_[i], i); !done) return done;
+            if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
+        }
         if (work_.finish)
             if (Status done = work_.finish(); !done) return done;
         if (failed_.empty()) return Done{};
@@ -163,38 +164,14 @@ private:
         return records_.open(flags_.report, all);
     }
 
-    struct Made {
-        FrameWork::Files files;
-        Result<Json> record;
-    };
-
-    // The first alone: what it makes for the lens, the others find.
-    Status make_all() {
-        std::deque<std::future<Made>> in_work;
-        const bool overlaps = work_.overlaps && run_.threads != 1;
-        for (std::size_t begun = 0, told = 0; told < frames_.size(); ++told) {
-            const std::size_t ahead = told > 0 && overlaps ? 2 : 1;
-            for (; begun < std::min(told + ahead, frames_.size()); ++begun)
-                in_work.push_back(
-                    std::async(std::launch::async, [this, begun] { return made(frames_[begun]); }));
-            Made made = in_work.front().get();
-            in_work.pop_front();
-            if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
-            if (Status done = tell(frames_[told], told, made); !done) return done;
-        }
-        return Done{};
-    }
-
-    Made made(int frame) const {
+    Status make(int frame, std::size_t number) {
+        const Stopwatch watch;
         const auto files = work_.files(frame);
-        if (!files) return {{}, files.error()};
-        return {*files, contains(black_, frame) ? black(frame, *files) : quietly(frame, *files)};
-    }
-
-    Status tell(int frame, std::size_t number, const Made& of) {
-        const auto& [files, made] = of;
+        if (!files) return files.error();
+        const Result<Json> made = contains(black_, frame) ? black(frame, *files) : quietly(frame, *files);
+        if (interrupted_by() != 0) return Done{};
         // What all frames are written to can be written for none of them.
-        if (!made && files.outputs.empty() && made.error().code == ErrorCode::OutputFailed)
+        if (!made && files->outputs.empty() && made.error().code == ErrorCode::OutputFailed)
             return made.error();
         Json record = {{"frame", frame}};
         if (made) {
@@ -202,17 +179,16 @@ private:
         } else {
             failed_.push_back(frame);
             failure("frame " + std::to_string(frame) + ": " + made.error().message);
-            if (!files.inputs.empty()) record["input"] = files.inputs.front();
-            if (!files.outputs.empty()) record["output"] = files.outputs.front();
+            if (!files->inputs.empty()) record["input"] = files->inputs.front();
+            if (!files->outputs.empty()) record["output"] = files->outputs.front();
             record["error"] = made.error().message;
         }
-        warn_once(made);
-        tell_line(frame, number, files, made ? &*made : nullptr);
+        tell(frame, number, *files, made ? &*made : nullptr, watch.seconds());
         if (progress_) (*progress_)(double(number + 1) / double(frames_.size()));
         return records_.add(record);
     }
 
-    Result<Json> black(int frame, const FrameWork::Files& files) const {
+    Result<Json> black(int frame, const FrameWork::Files& files) {
         const int like =
             *std::find_if(frames_.begin(), frames_.end(), [&](int f) { return !contains(black_, f); });
         if (Status done = work_.black(frame, like); !done) return done.error();
@@ -221,9 +197,9 @@ private:
         return record;
     }
 
-    void tell_line(int frame, std::size_t number, const FrameWork::Files& files, const Json* made) {
+    void tell(int frame, std::size_t number, const FrameWork::Files& files, const Json* made,
+              double seconds) {
         const bool skipped = made && made->contains("skipped");
-        const double seconds = std::exchange(watch_, {}).seconds();
         if (made && !skipped) made_s_ += seconds, ++made_count_;
         const std::size_t left = frames_.size() - number - 1;
         const std::string state = !made ? "failed" : skipped ? "left as it is" : plain(seconds, 3) + " s";
@@ -243,22 +219,20 @@ private:
     }
 
     // A frame says nothing itself; what it warns of is said once.
-    Result<Json> quietly(int frame, const FrameWork::Files& files) const {
+    Result<Json> quietly(int frame, const FrameWork::Files& files) {
         const bool again = is_there(files) && !is_whole(files.outputs.front());
         if (again) warning(files.outputs.front() + ": damaged or cut off; made again");
-        const Silence silence(!run_.verbose);
+        if (!run_.verbose) set_verbosity(Verbosity::Quiet);
         Result<Json> made = work_.make(frame, again);
+        if (!run_.verbose) set_verbosity(run_.quiet ? Verbosity::Quiet : Verbosity::Normal);
         if (!made && made.error().code == ErrorCode::OutputFailed && is_there(files) &&
             is_whole(files.outputs.front()))
             return Json{{"output", files.outputs.front()}, {"skipped", "another run made it meanwhile"}};
+        if (made)
+            for (const Json& line : made->value("warnings", Json::array()))
+                if (warned_.insert(line.get<std::string>()).second && !run_.verbose)
+                    warning(line.get<std::string>());
         return made;
-    }
-
-    void warn_once(const Result<Json>& made) {
-        if (!made) return;
-        for (const Json& line : made->value("warnings", Json::array()))
-            if (warned_.insert(line.get<std::string>()).second && !run_.verbose)
-                warning(line.get<std::string>());
     }
 
     const FrameFlags& flags_;
@@ -268,7 +242,6 @@ private:
     std::vector<int> frames_, black_, failed_;
     Records records_;
     std::optional<ProgressLine> progress_;
-    Stopwatch watch_;  // since the frame before
     double made_s_ = 0;
     std::size_t made_count_ = 0;
 };

@@ -55,18 +55,14 @@ struct FrameWork {
     std::function<Result<Files>(int frame)> files;
     // Makes one frame and returns its report. `again`: what is there does not count.
     std::function<Result<Json>(int frame, bool again)> make;
-    // Two frames are made at once, so that one is read or written while the other is computed; `make` is
-    // called by two threads.
-    bool overlaps = false;
     // Makes a frame without light, of the size of another. Empty: the verb cannot.
     std::function<Status(int frame, int like)> black = {};
     // Once all frames are done, failed ones among them.
     std::function<Status()> finish = {};
 };
 
-// Makes all of them and tells of them in their order; one that fails does not keep the others from being
-// made. Errors: those of the list and of files that lack, before any frame is made; Cancelled. Throws
-// FramesFailed.
+// Makes all of them, one after the other; one that fails does not keep the others from being made. Errors:
+// those of the list and of files that lack, before any frame is made; Cancelled. Throws FramesFailed.
 Status make_frames(const FrameFlags& frames, const RunFlags& run, const FrameWork& work);
 
 }  // namespace petzval::cli
