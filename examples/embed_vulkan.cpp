@@ -35,7 +35,6 @@ void must(petzval_status status) { must(status == PETZVAL_OK, petzval_error_text
 void must(VkResult result, const char* what) { must(result == VK_SUCCESS, what); }
 
 // ---- The host's device
-// -----------------------------------------------------------------------------------------
 
 struct Host {
     VkInstance instance = VK_NULL_HANDLE;
@@ -129,7 +128,6 @@ void destroy(const Host& host, const Image& image) {
 }
 
 // ---- The host's renderer: one compute program that writes colour and depth
-// ------------------------------------
 
 struct Renderer {
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
@@ -198,7 +196,6 @@ void destroy(const Host& host, const Renderer& r) {
 }
 
 // ---- A frame
-// ---------------------------------------------------------------------------------------------------
 
 // What an image was last used for, and what for next: a barrier of Vulkan.
 void barrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to,
@@ -276,7 +273,6 @@ void record_frame(VkCommandBuffer commands, const Renderer& r, const Frame& f, p
 }
 
 // ---- A shot
-// ----------------------------------------------------------------------------------------------------
 
 // Frames with the focus pulled from the nearest ball to the second, kSlots of them in flight.
 void render_shot(const Host& host, const Renderer& renderer, const Frame& frame, petzval_pass* pass) {

@@ -22,10 +22,6 @@ class Shots(CommandLineTest):
         write_exr(self.path("in.%04d.exr" % frame),
                   picture(40, 28, lambda x, y: (x * 31 + y * 17 + frame) % 13 / 20, lambda x, y: 1.2 if x < 15 else 5.0))
 
-    def bytes_of(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def defocus(self, *flags):
         return self.succeed("defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, *flags)
 
@@ -38,7 +34,7 @@ class Shots(CommandLineTest):
         self.assertIn("no --frames", outcome.err)
         self.assertEqual(self.outputs(), ["out.%04d.exr" % n for n in (1, 2, 3, 5)])
         self.succeed("defocus", "in.0002.exr", "-o", "one.exr", *CAMERA, "--lens", "doublet")
-        self.assertEqual(self.bytes_of("one.exr"), self.bytes_of("out.0002.exr"))
+        self.assertEqual(self.content("one.exr"), self.content("out.0002.exr"))
 
     def test_a_list_chooses_and_printf_names_work(self):
         self.succeed("defocus", "in.%04d.exr", "-o", "out.##.exr", *CAMERA, "--frames", "1-5x2")
@@ -50,10 +46,10 @@ class Shots(CommandLineTest):
         without_focus = [word for word in CAMERA if word not in ("--focus", "2m")]
         self.succeed("defocus", "in.####.exr", "-o", "out.####.exr", *without_focus, "--frames", "1-3", "--track", "t.csv")
         self.succeed("defocus", "in.0002.exr", "-o", "one.exr", *without_focus, "--focus", "2m", "--blades", "5")
-        self.assertEqual(self.bytes_of("one.exr"), self.bytes_of("out.0002.exr"))
+        self.assertEqual(self.content("one.exr"), self.content("out.0002.exr"))
         # One picture, focus pulled through it: the track says which frames.
         self.succeed("defocus", "in.0001.exr", "-o", "still.####.exr", *without_focus, "--track", "t.csv")
-        self.assertNotEqual(self.bytes_of("still.0001.exr"), self.bytes_of("still.0003.exr"))
+        self.assertNotEqual(self.content("still.0001.exr"), self.content("still.0003.exr"))
 
     def test_missing_frames_are_named_before_the_work_begins(self):
         self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--frames", "1-5",
@@ -79,14 +75,14 @@ class Shots(CommandLineTest):
 
     def test_what_is_whole_is_left_and_what_is_cut_off_made_again(self):
         self.defocus()
-        before = {name: self.bytes_of(name) for name in self.outputs()}
+        before = {name: self.content(name) for name in self.outputs()}
         with open(self.path("out.0003.exr"), "wb") as file:
             file.write(before["out.0003.exr"][:700])
         os.remove(self.path("out.0001.exr"))
         times = {name: os.stat(self.path(name)).st_mtime_ns for name in ("out.0002.exr", "out.0005.exr")}
         outcome = self.defocus("--no-clobber")
         self.assertIn("cut off", outcome.err)
-        self.assertEqual({name: self.bytes_of(name) for name in self.outputs()}, before)
+        self.assertEqual({name: self.content(name) for name in self.outputs()}, before)
         self.assertEqual({name: os.stat(self.path(name)).st_mtime_ns for name in times}, times)
 
     def test_a_signal_leaves_whole_frames_alone(self):
@@ -162,7 +158,7 @@ class Shots(CommandLineTest):
         for frame in range(6, 20):
             self.make(frame)
         self.defocus("--lens", "doublet")
-        truth = {name: self.bytes_of(name) for name in self.outputs()}
+        truth = {name: self.content(name) for name in self.outputs()}
         for name in truth:
             os.remove(self.path(name))
         line = [PETZVAL, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--lens", "doublet", "--no-clobber", "-q",
@@ -170,15 +166,15 @@ class Shots(CommandLineTest):
         runs = [subprocess.Popen(line, cwd=self.folder, stderr=subprocess.PIPE) for _ in range(2)]
         said = [run.communicate(timeout=60)[1].decode() for run in runs]
         self.assertEqual([run.returncode for run in runs], [0, 0], said)
-        self.assertEqual({name: self.bytes_of(name) for name in self.outputs()}, truth)
+        self.assertEqual({name: self.content(name) for name in self.outputs()}, truth)
         self.no_leftovers()
 
     def test_records_replace_neither_what_frames_read_nor_what_they_write(self):
-        before = self.bytes_of("in.0003.exr")
+        before = self.content("in.0003.exr")
         for name in ("in.0003.exr", "./in.0001.exr", "out.0002.exr"):
             self.refuse(2, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--frames", "1-3", "--report", name,
                         says=["would replace"])
-        self.assertEqual(self.bytes_of("in.0003.exr"), before)
+        self.assertEqual(self.content("in.0003.exr"), before)
 
     def test_wrong_words_are_refused(self):
         for flags, said in ((["--frames", "1-4:2"], "1-4x2"), (["--frames", "a"], "frame number"),
@@ -218,10 +214,10 @@ class Shots(CommandLineTest):
         self.refuse(3, "compare", "in.####.exr", "out.####.exr", "--frames", "1-4", says=["1 of 4 frames"])
         self.succeed("develop", "out.####.exr", "-o", "out.####.png")
         self.succeed("develop", "out.0003.exr", "-o", "one.png")
-        self.assertEqual(self.bytes_of("one.png"), self.bytes_of("out.0003.png"))
+        self.assertEqual(self.content("one.png"), self.content("out.0003.png"))
         os.truncate(self.path("out.0003.png"), 300)
         self.assertIn("cut off", self.succeed("develop", "out.####.exr", "-o", "out.####.png", "--no-clobber").err)
-        self.assertEqual(self.bytes_of("one.png"), self.bytes_of("out.0003.png"))
+        self.assertEqual(self.content("one.png"), self.content("out.0003.png"))
         self.refuse(2, "develop", "out.####.exr", "-o", "one.png", says=["####"])
         self.refuse(2, "develop", "out.0001.exr", "-o", "one.####.png", says=["no frames"])
         self.refuse(2, "inspect", "in.0001.exr", "--frames", "1-3", says=["--frames"])
@@ -231,7 +227,7 @@ class Shots(CommandLineTest):
         self.succeed("focus-track", "in.####.exr", "-o", "t.csv", "--at", "1:3,14", "5:30,14", "--smooth", "0", "--plot", "t.svg")
         with open(self.path("t.csv")) as file:  # 1.2 m on the left of column 15, 5 m beyond
             self.assertEqual(file.read().split(), ["frame,focus", "1,1.20000005", "2,1.20000005", "3,5", "5,5"])
-        self.assertIn(b"</svg>", self.bytes_of("t.svg"))
+        self.assertIn(b"</svg>", self.content("t.svg"))
         self.succeed("focus-track", "in.####.exr", "-o", "s.csv", "--at", "1:3,14", "5:30,14", "--frames", "1-3", "--smooth", "2")
         with open(self.path("s.csv")) as file:
             distances = [float(line.split(",")[1]) for line in file.read().split()[1:]]

@@ -25,10 +25,6 @@ class Outputs(CommandLineTest):
         write_exr(self.path("in.exr"), picture(24, 16, depth=lambda x, y: 1 + x / 10),
                   attributes=camera_attributes(50, 36, 1.4, 2))
 
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def test_a_report_never_replaces_an_input(self):
         before = self.content("in.exr")
         os.symlink("in.exr", self.path("link.exr"))

@@ -15,10 +15,6 @@ class Pipes(CommandLineTest):
         write_exr(self.path("in.exr"), picture(24, 16, depth=lambda x, y: 1 + x / 10),
                   attributes=camera_attributes(50, 36, 1.4, 2))
 
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def piped(self, *args, given=b""):
         return subprocess.run([PETZVAL, *args], cwd=self.folder, input=given, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, timeout=60, env={**os.environ, "PETZVAL_KERNEL_CACHE": "off"})

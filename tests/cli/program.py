@@ -29,6 +29,10 @@ class CommandLineTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def content(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
     def run_program(self, *args, limits=None, stdout=subprocess.PIPE, env=None):
         """limits: called in the child before the program starts."""
         def before():
