@@ -65,7 +65,7 @@ std::uint64_t unpacked_bytes(Bytes& packed, std::uint64_t promised, Imf::Compres
 class Chunks {
 public:
     Chunks(const ExrFile& exr, std::size_t part)
-        : window_(exr.layout.parts[part].data_window), input_(*exr.parts, int(part)) {
+        : exr_(exr), window_(exr.layout.parts[part].data_window), input_(*exr.parts, int(part)) {
         const Imf::Header& header = exr.parts->header(int(part));
         const Imf::ChannelList& list = header.channels();
         for (auto c = list.begin(); c != list.end(); ++c) channels_.push_back(c.channel());
@@ -101,13 +101,27 @@ public:
             return bytes;
         }
         const std::lock_guard lock(mutex_);  // of the buffer that OpenEXR reads into
+        if (exr_.layout.parts.size() == 1) seek(chunk);
         int x = column(chunk), y = row(chunk), level_x = 0, level_y = 0;
         const char* bytes = nullptr;
         input_.rawTileData(x, y, level_x, level_y, bytes, size);
+        if (x != column(chunk) || y != row(chunk) || level_x != 0 || level_y != 0)
+            throw Iex::InputExc("its table of chunks leads to the wrong tile");
         return {bytes, bytes + size};
     }
 
 private:
+    // Of a file of one part OpenEXR's rawTileData reads whatever tile comes next, and tiles may stand in any
+    // order. The first level's are the first of the table, row by row.
+    void seek(int chunk) {
+        std::array<unsigned char, 8> entry{};
+        if (!exr_.file->read_at(exr_.headers_end + entry.size() * std::uint64_t(chunk), entry.data(),
+                                entry.size()))
+            throw Iex::InputExc("its table of chunks cannot be read");
+        std::uint64_t place = 0;
+        for (std::size_t i = 0; i < entry.size(); ++i) place |= std::uint64_t(entry[i]) << (8 * i);
+        exr_.stream->seekg(place);
+    }
     int columns() const { return (window_.width() + width_ - 1) / width_; }
     int column(int chunk) const { return chunk % columns(); }
     int row(int chunk) const { return chunk / columns(); }
@@ -117,6 +131,7 @@ private:
         return std::uint64_t(below(b) - below(a));
     }
 
+    const ExrFile& exr_;
     Rect window_;
     Imf::InputPart input_;  // also of tiles: OpenEXR opens a part as one thing only
     std::vector<Imf::Channel> channels_;

@@ -162,8 +162,9 @@ int exr_threads(const Workers& workers) {
 Result<ExrFile> ExrFile::open(std::shared_ptr<const InputFile> file, std::size_t max_pixels,
                               Workers& workers) {
     const std::string path = file->path();
-    if (const auto reason = refuse_exr(*file, max_pixels)) return invalid_file(path, *reason);
     ExrFile exr;
+    if (const auto reason = refuse_exr(*file, max_pixels, exr.headers_end))
+        return invalid_file(path, *reason);
     exr.workers = &workers;
     exr.file = file;
     const Status opened = guarded(path, [&]() -> Status {

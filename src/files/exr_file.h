@@ -8,6 +8,7 @@
 #include "files/exr_stream.h"
 #include "files/layout.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -20,7 +21,8 @@ struct ExrFile {
     std::unique_ptr<ExrInputStream> stream;
     std::unique_ptr<Imf::MultiPartInputFile> parts;
     Layout layout;
-    Workers* workers = nullptr;  // for what is done with its pixels; outlive the file
+    std::uint64_t headers_end = 0;  // where the tables of chunks begin, in bytes
+    Workers* workers = nullptr;     // for what is done with its pixels; outlive the file
 
     // Errors: InvalidFile for anything that is not a sound header.
     static Result<ExrFile> open(std::shared_ptr<const InputFile> file, std::size_t max_pixels,

@@ -150,7 +150,8 @@ void look_at_chunk_tables(Cursor& in, std::uint64_t file_bytes, std::int64_t chu
 
 }  // namespace
 
-std::optional<std::string> refuse_exr(const InputFile& file, std::size_t max_pixels) {
+std::optional<std::string> refuse_exr(const InputFile& file, std::size_t max_pixels,
+                                      std::uint64_t& headers_end) {
     try {
         Cursor in(file);
         in.int32();  // magic number
@@ -160,11 +161,13 @@ std::optional<std::string> refuse_exr(const InputFile& file, std::size_t max_pix
         std::int64_t chunks = 0;
         if (!(version & kMultiPart)) {
             if (!look_at_header(in, file.bytes(), max_pixels, chunks)) return "has no header";
+            headers_end = in.position();
             return std::nullopt;
         }
         int parts = 0;
         while (look_at_header(in, file.bytes(), max_pixels, chunks))
             if (++parts > kMostParts) return "has more than " + std::to_string(kMostParts) + " parts";
+        headers_end = in.position();
         look_at_chunk_tables(in, file.bytes(), chunks);
         return std::nullopt;
     } catch (const Damaged& damaged) {

@@ -328,6 +328,26 @@ TEST(WriteExr, OfMipLevelsTheFirstIsReadAndWrittenBack) {
     }
 }
 
+// Tiles may stand in any order in a file, and the levels of one part among each other.
+TEST(WriteExr, TilesFromTheBottomUpAreRead) {
+    const TemporaryFolder folder;
+    for (const Imf::LevelMode levels : {Imf::ONE_LEVEL, Imf::MIPMAP_LEVELS, Imf::RIPMAP_LEVELS}) {
+        QuickPart part = quick_rgbaz({0, 0, 64, 40});
+        part.tile = 16;
+        write_quick_exr(folder / "down.exr", kWindow, {part});
+        part.with = [levels](Imf::Header& h) {
+            h.setTileDescription(Imf::TileDescription(16, 16, levels));
+            h.lineOrder() = Imf::DECREASING_Y;
+        };
+        write_quick_exr(folder / "up.exr", kWindow, {part});
+        const Result<Frame> down = read_frame(folder / "down.exr"), up = read_frame(folder / "up.exr");
+        ASSERT_TRUE(down) << down.error().message;
+        ASSERT_TRUE(up) << up.error().message;
+        for (std::size_t i = 0; i < down->colour.size(); ++i)
+            ASSERT_EQ(down->depth.pixels()[i], up->depth.pixels()[i]);
+    }
+}
+
 TEST(WriteExr, ManyWideLayersPassThroughInNarrowBands) {
     const TemporaryFolder folder;
     QuickPart part = quick_rgbaz({0, 0, 6000, 70});

@@ -156,8 +156,10 @@ inline void write_quick_part(Imf::MultiPartOutputFile& file, int n, const QuickP
     }
     Imf::TiledOutputPart out(file, n);
     out.setFrameBuffer(buffer);
-    for (int l = 0; l < out.numLevels(); ++l)
-        out.writeTiles(0, out.numXTiles(l) - 1, 0, out.numYTiles(l) - 1, l);
+    for (int y = 0; y < out.numYLevels(); ++y)
+        for (int x = 0; x < out.numXLevels(); ++x)
+            if (out.isValidLevel(x, y))
+                out.writeTiles(0, out.numXTiles(x) - 1, 0, out.numYTiles(y) - 1, x, y);
 }
 
 inline void write_quick_exr(const std::string& path, const Rect& display,
