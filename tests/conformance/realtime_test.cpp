@@ -138,6 +138,107 @@ TEST_F(Realtime, IsSteadyUnderACameraThatMovesByATenthOfAPixel) {
     }
 }
 
+// Light and middle of what a picture has more than its ground.
+struct Spot {
+    double light = 0, x = 0, y = 0;
+};
+Spot spot_of(const Picture& p, double ground) {
+    Spot spot;
+    for (int y = 0; y < p.height(); ++y)
+        for (int x = 0; x < p.width(); ++x) {
+            const double more = double(p(x, y).g) - ground;
+            spot.light += more, spot.x += more * x, spot.y += more * y;
+        }
+    spot.x /= spot.light, spot.y /= spot.light;
+    return spot;
+}
+
+// Whatever pixel of a cell and of a tile it is in, beside the border of a tile as well (16 pixels).
+TEST_F(Realtime, ALampKeepsItsLightAndItsPlace) {
+    constexpr double kGround = 0.01, kLamp = 800;
+    for (Session& session : sessions_)
+        for (const float coc_px : {-20.0f, -3.3f, 0.3f, 0.8f, 1.4f, 5.0f, 21.0f, 50.0f})
+            for (const int at : {79, 80, 82}) {
+                Shot shot = flat(160, 160, {0.01f, 0.01f, 0.01f, 1}, coc_px);
+                shot.colour(at, at - 1) = {float(kLamp), float(kLamp), float(kLamp), 1};
+                const Spot spot = spot_of(drawn(session, shot), kGround);
+                EXPECT_NEAR(spot.light / kLamp, 1, 0.02) << coc_px;
+                EXPECT_NEAR(spot.x, at, 0.03) << coc_px;
+                EXPECT_NEAR(spot.y, at - 1, 0.03) << coc_px;
+            }
+}
+
+TEST_F(Realtime, ALampHasTheShapeThatFinalFramesHave) {
+    Shot shot = flat(120, 100, {0.01f, 0.01f, 0.01f, 1}, 14);
+    shot.colour(31, 33) = {500, 400, 300, 1}, shot.colour(96, 31) = {300, 400, 500, 1};
+    shot.colour(64, 70) = {400, 400, 400, 1};
+    const auto final = defocus(shot.job("scatter"));
+    ASSERT_TRUE(final) << final.error().message;
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        double different = 0;
+        for (std::size_t i = 0; i < made.size(); ++i)
+            different += double(std::abs(made.pixels()[i].g - final->image.pixels()[i].g));
+        EXPECT_LT(different / sum_of(final->image), 0.02);
+        EXPECT_EQ(largest_difference(made, drawn(session, shot)), 0) << "not twice the same bits";
+    }
+}
+
+// A lamp between four pixels, moved by a tenth of one: its disc moves as far, and is no other disc.
+TEST_F(Realtime, ALampIsSteadyUnderACameraThatMovesByATenthOfAPixel) {
+    const auto scene = [](float shift) {
+        Shot shot = flat(100, 60, {0.01f, 0.01f, 0.01f, 1}, 12);
+        const float x = 47.5f + shift, share = x - std::floor(x);
+        for (int i = 0; i < 4; ++i) {
+            const float light = 200 * (i % 2 ? share : 1 - share);
+            shot.colour(int(x) + i % 2, 30 + i / 2) = {light, light, light, 1};
+        }
+        return shot;
+    };
+    constexpr float kDisc = 400 / (3.14159f * 144);
+    for (Session& session : sessions_) {
+        Picture before = drawn(session, scene(0));
+        for (int i = 1; i <= 10; ++i) {
+            Picture after = drawn(session, scene(0.1f * float(i)));
+            const Spot from = spot_of(before, 0.01), to = spot_of(after, 0.01);
+            EXPECT_NEAR(to.x - from.x, 0.1, 0.02) << i;
+            EXPECT_NEAR(to.light / from.light, 1, 0.01) << i;
+            EXPECT_LT(largest_difference(before, after), 0.15f * kDisc) << i;
+            before = std::move(after);
+        }
+    }
+}
+
+// A lamp behind a bar in focus, and behind one that is half as blurred: its light falls beside them alone.
+TEST_F(Realtime, ALampDoesNotShineThroughWhatIsNearer) {
+    for (Session& session : sessions_)
+        for (const float bar_px : {0.0f, 12.0f}) {
+            Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 24);
+            shot.colour(50, 40) = {900, 900, 900, 1};
+            const Picture open = drawn(session, shot);
+            for (int y = 0; y < 80; ++y)
+                for (int x = 56; x < 75; ++x) shot.coc_px(x, y) = bar_px;
+            const Picture made = drawn(session, shot);
+            EXPECT_GT(open(66, 40).g, 0.3);
+            EXPECT_LT(made(66, 40).g, 0.1 * open(66, 40).g) << bar_px;
+            EXPECT_NEAR(made(38, 40).g / open(38, 40).g, 1, 0.02) << bar_px;
+        }
+}
+
+// No more of them than can be told apart: light that is everywhere is no lamp, and is not lost.
+TEST_F(Realtime, GlitterKeepsItsLight) {
+    Shot shot = flat(128, 96, {}, 9);
+    paint_noise(shot.colour, 5);
+    for (std::size_t i = 0; i < shot.colour.size(); i += 3) {
+        Rgba& p = shot.colour.pixels()[i];
+        p = {40 * p.r, 40 * p.g, 40 * p.b, 1};
+    }
+    const auto gather = defocus(shot.job("gather"));
+    ASSERT_TRUE(gather) << gather.error().message;
+    for (Session& session : sessions_)
+        EXPECT_NEAR(sum_of(drawn(session, shot)) / sum_of(gather->image), 1, 0.02);
+}
+
 TEST_F(Realtime, IsTheSameBitsTwiceAndNearWhatGatherDraws) {
     Shot shot = flat(150, 90, {}, 6);
     paint_rectangles(shot.colour, 3);

@@ -26,13 +26,16 @@ static_assert(sizeof(Push) == 36, "as shaders/realtime.glsl has it");
 std::vector<VkDescriptorType> bindings_of(int step) {
     switch (step) {
         case 0:
-            return {kSampled, kSampled, kStored, kStored, kStored, kStored, kBuffer};
+            return {kSampled, kBuffer};
         case 1:
-            return {kBuffer, kBuffer};
+            return {kSampled, kSampled, kStored, kStored, kStored, kStored, kBuffer, kBuffer, kBuffer};
         case 2:
+            return {kBuffer, kBuffer, kBuffer, kBuffer};
+        case 3:
             return {kSampled, kBuffer, kBuffer, kBuffer, kStored};
         default:
-            return {kSampled, kSampled, kSampled, kSampled, kStored};
+            return {kSampled, kSampled, kSampled, kSampled, kStored,
+                    kSampled, kBuffer,  kBuffer,  kBuffer,  kBuffer};
     }
 }
 
@@ -60,17 +63,20 @@ void RealtimePass::make() {
     ImageKind kind;
     kind.width = tiles_x() * kGroup, kind.height = tiles_y() * kGroup, kind.is_array = true;
     kind.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    kind.layers = 4, kind.levels = kLevels;
+    kind.layers = 6, kind.levels = kLevels;
     cells_ = DeviceImage(opened_, memory_, kind);
     kind.layers = 3, kind.levels = 1;
     gathered_ = DeviceImage(opened_, memory_, kind);
     const std::size_t tiles = std::size_t(tiles_x()) * tiles_y();
+    surroundings_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
     tiles_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
+    lamps_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
     reach_ = heap_.allocate(Kind::OnDevice, tiles * sizeof(float));
+    boxes_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::int32_t));
     lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
     make_sampler(VK_FILTER_NEAREST, nearest_);
     make_sampler(VK_FILTER_LINEAR, linear_);
-    for (const Step step : {kSplit, kReach, kGather, kCombine}) make_program(step);
+    for (int step = 0; step < kSteps; ++step) make_program(Step(step));
     make_sets();
 }
 
@@ -103,16 +109,18 @@ void RealtimePass::make_program(Step step) {
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &push;
     check(vk_.vkCreatePipelineLayout(opened_.device, &layout, nullptr, &program.layout), opened_.name, what);
     const std::array shaders{
-        Shader::RealtimeSplit, Shader::RealtimeReach, Shader::RealtimeGather,
+        Shader::RealtimeMeasure, Shader::RealtimeSplit, Shader::RealtimeReach, Shader::RealtimeGather,
         settings_.has_float_result ? Shader::RealtimeCombine32 : Shader::RealtimeCombine16};
     program.pipeline = make_pipeline(opened_, words_of(shaders[step]).spirv, program.layout, 0);
 }
 
 void RealtimePass::make_sets() {
     const std::uint32_t slots = settings_.slots;
-    // Of all four dispatches together.
-    const std::array<VkDescriptorPoolSize, 3> sizes{
-        {{kSampled, 7 * slots}, {kStored, 6 * slots}, {kBuffer, 6 * slots}}};
+    std::array<VkDescriptorPoolSize, 3> sizes{{{kSampled, 0}, {kStored, 0}, {kBuffer, 0}}};
+    for (int step = 0; step < kSteps; ++step)
+        for (const VkDescriptorType type : bindings_of(step))
+            for (VkDescriptorPoolSize& size : sizes)
+                if (size.type == type) size.descriptorCount += slots;
     VkDescriptorPoolCreateInfo pool = {};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = kSteps * slots;
@@ -162,23 +170,34 @@ void RealtimePass::write_buffer(VkDescriptorSet set, std::uint32_t binding, cons
 
 void RealtimePass::write_own(const Slot& slot) const {
     constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_GENERAL;
+    write_buffer(slot.sets[kMeasure], 1, surroundings_);
     for (std::uint32_t level = 0; level < kLevels; ++level)
         write_image(slot.sets[kSplit], 2 + level, kStored, {VK_NULL_HANDLE, cells_.level(level), kLayout});
     write_buffer(slot.sets[kSplit], 6, tiles_);
+    for (const Step step : {kSplit, kCombine}) {
+        write_buffer(slot.sets[step], 7, surroundings_);
+        write_buffer(slot.sets[step], 8, lamps_);
+    }
     write_buffer(slot.sets[kReach], 0, tiles_);
     write_buffer(slot.sets[kReach], 1, reach_);
+    write_buffer(slot.sets[kReach], 2, lamps_);
+    write_buffer(slot.sets[kReach], 3, boxes_);
     write_image(slot.sets[kGather], 0, kSampled, {linear_, cells_.view(), kLayout});
     write_buffer(slot.sets[kGather], 1, lens_);
     write_buffer(slot.sets[kGather], 2, tiles_);
     write_buffer(slot.sets[kGather], 3, reach_);
     write_image(slot.sets[kGather], 4, kStored, {VK_NULL_HANDLE, gathered_.view(), kLayout});
     write_image(slot.sets[kCombine], 3, kSampled, {linear_, gathered_.view(), kLayout});
+    write_image(slot.sets[kCombine], 5, kSampled, {nearest_, cells_.view(), kLayout});
+    write_buffer(slot.sets[kCombine], 6, lens_);
+    write_buffer(slot.sets[kCombine], 9, boxes_);
 }
 
 void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) const {
     const auto sampled = [this](const RealtimeImages::Input& input) {
         return VkDescriptorImageInfo{nearest_, input.view, input.layout};
     };
+    write_image(slot.sets[kMeasure], 0, kSampled, sampled(images.colour));
     for (const Step step : {kSplit, kCombine}) {
         write_image(slot.sets[step], 0, kSampled, sampled(images.colour));
         write_image(slot.sets[step], 1, kSampled, sampled(images.depth));
@@ -247,6 +266,7 @@ void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const Re
     const auto up = [](std::uint32_t count, std::uint32_t of) { return (count + of - 1) / of; };
     const std::array<std::array<std::uint32_t, 2>, kSteps> groups{
         {{tiles_x(), tiles_y()},
+         {tiles_x(), tiles_y()},
          {up(tiles_x() * tiles_y(), 64), 1},
          {tiles_x(), tiles_y()},
          {up(settings_.width, kGroup), up(settings_.height, kGroup)}}};

@@ -52,7 +52,7 @@ public:
                 const RealtimeOptics& optics, bool plant = false);
 
 private:
-    enum Step { kSplit, kReach, kGather, kCombine, kSteps };
+    enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
     struct Program {
         VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
         VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -86,7 +86,7 @@ private:
     const RealtimeSettings settings_;
     Heap heap_;
     DeviceImage cells_, gathered_;
-    Piece tiles_, reach_, lens_;
+    Piece surroundings_, tiles_, lamps_, reach_, boxes_, lens_;
     VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
     std::array<Program, kSteps> programs_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;

@@ -33,6 +33,9 @@ constexpr std::uint32_t kBlurCells[] =
 constexpr std::uint32_t kMixBlurs[] =
 #include "mix_blurs.comp.inc"
     ;
+constexpr std::uint32_t kRealtimeMeasure[] =
+#include "realtime_measure.comp.inc"
+    ;
 constexpr std::uint32_t kRealtimeSplit[] =
 #include "realtime_split.comp.inc"
     ;
@@ -73,6 +76,8 @@ ShaderWords words_of(Shader shader) {
             return {kBlurCells, 5, 84};
         case Shader::MixBlurs:
             return {kMixBlurs, 6, 84};
+        case Shader::RealtimeMeasure:
+            return {kRealtimeMeasure, 0, 36};
         case Shader::RealtimeSplit:
             return {kRealtimeSplit, 0, 36};
         case Shader::RealtimeReach:

@@ -17,6 +17,7 @@ enum class Shader {
     SpreadCells,
     BlurCells,
     MixBlurs,
+    RealtimeMeasure,
     RealtimeSplit,
     RealtimeReach,
     RealtimeGather,

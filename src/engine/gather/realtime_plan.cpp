@@ -41,7 +41,34 @@ void add_shape(const PointSpread& spread, double radius_px, std::vector<Rgba>& f
     const auto scale = float(std::numbers::pi * radius_px * radius_px);
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x)
-            fours.push_back(mean_weight(spread, (x - kSide / 2) * cell, (y - kSide / 2) * cell, cell, scale));
+            fours.push_back(
+                mean_weight(spread, (x - 0.5 * kSide) * cell, (y - 0.5 * kSide) * cell, cell, scale));
+}
+
+// A kernel of its own radius made into those of lamps' radii.
+void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t begins,
+                      std::vector<Rgba>& fours) {
+    double lamp_px = LampKernels::kFirstPx;
+    for (int i = 0; i < LampKernels::kSteps; ++i, lamp_px *= std::numbers::sqrt2) {
+        const int half = LampKernels::half_side(lamp_px);
+        const double cell = radius_px / lamp_px;
+        fours[begins + std::size_t(i)] = {float(fours.size()), float(half), float(lamp_px), 0};
+        const std::size_t first = fours.size();
+        Rgba sum;
+        for (int y = -half; y <= half; ++y)
+            for (int x = -half; x <= half; ++x) {
+                const bool is_rim = std::max(std::abs(x), std::abs(y)) == half;
+                fours.push_back(is_rim ? Rgba{}
+                                       : mean_weight(spread, (x - 0.5) * cell, (y - 0.5) * cell, cell,
+                                                     float(cell * cell)));
+                sum += fours.back();
+            }
+        // What a shape throws farther than its square stays in it.
+        for (std::size_t k = first; k < fours.size(); ++k) {
+            Rgba& f = fours[k];
+            f = {f.r / sum.r, f.g / sum.g, f.b / sum.b, f.a / sum.a};
+        }
+    }
 }
 
 // What a tap counts of something blurred by a share of the disc's radius. Of the smallest only a few taps
@@ -81,8 +108,14 @@ RealtimeLens realtime_lens(const kernel::LensModel& lens, kernel::FieldPosition 
     const std::size_t near = fours.size(), far = near + std::size_t(kSide) * kSide;
     const double near_px = std::clamp(near_radius_px, kLeastPx, kMostPx),
                  far_px = std::clamp(far_radius_px, kLeastPx, kMostPx);
-    add_shape(lens.point_spread(-near_px, field), near_px, fours);
-    add_shape(lens.point_spread(far_px, field), far_px, fours);
+    const PointSpread near_spread = lens.point_spread(-near_px, field),
+                      far_spread = lens.point_spread(far_px, field);
+    add_shape(near_spread, near_px, fours);
+    add_shape(far_spread, far_px, fours);
+    const std::size_t lamps = fours.size();
+    fours.resize(lamps + 2 * std::size_t(LampKernels::kSteps));
+    add_lamp_kernels(near_spread, near_px, lamps, fours);
+    add_lamp_kernels(far_spread, far_px, lamps + LampKernels::kSteps, fours);
     for (int i = 0; i < RealtimeLens::kNorms; ++i) {
         const float share = std::max(float(i) / (RealtimeLens::kNorms - 1), 1e-3f);
         fours[norms + std::size_t(i)] = {1 / std::max(counted(fours, near, share), 0.05f),

@@ -9,8 +9,11 @@ layout(push_constant) uniform Push {
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
+const int kLampLight = 4, kLampPlace = 5;  // of the finest alone: a quarter of its light; place in the cell, signed radius
 const int kGatheredBack = 0, kGatheredNear = 1, kGatheredArea = 2;            // of what is gathered
 
+vec4 light_of(vec4 colour) { return clamp(colour, vec4(0), vec4(kMostLight)); }
+float brightness(vec4 light) { return light.r + light.g + light.b; }
 float radius_of(float depth) {
     const float radius = at.add_px + at.per_depth_px * depth;
     return radius == radius ? clamp(radius, -at.most_px, at.most_px) : 0.0;

@@ -34,7 +34,6 @@ vec2 norm(float share) {
 vec3 place_of(vec2 middle, vec2 tap, float radius_px, int layer) {
     return vec3((middle + 0.5 * radius_px * vec2(tap.x, tap.y * at.aspect)) / vec2(8 * at.tiles), layer);
 }
-float brightness(vec4 light) { return light.r + light.g + light.b; }
 float level_of(float radius_px) { return max(0.0, log2(radius_px / (2 * kTapsAcross))); }
 
 vec4 back_of(vec2 middle, vec4 own_light, vec2 own, float hides_px, out float is_known) {

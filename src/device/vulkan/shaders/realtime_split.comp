@@ -10,22 +10,65 @@ layout(binding = 3, rgba16f) writeonly uniform image2DArray cells_2;  // means o
 layout(binding = 4, rgba16f) writeonly uniform image2DArray cells_4;
 layout(binding = 5, rgba16f) writeonly uniform image2DArray cells_8;
 layout(std430, binding = 6) writeonly buffer Tiles { vec2 tiles[]; };  // smallest and largest signed radius
+layout(std430, binding = 8) writeonly buffer Lamps { uvec4 lamps[]; };  // by tile: which cells have one, the largest radius
 #include "realtime.glsl"
+#include "realtime_lamps.glsl"
 
 shared vec4 part[kLayers][64];
 shared vec2 radii[64];
+shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
+
+// A pixel on the rim of a lamp shows lamp and surroundings, and its depth may be that of these: a lamp stands where the
+// brightest pixel in and around its cell does.
+float radius_of_lamp(ivec2 cell) {
+    float most = -1, radius = 0;
+    for (int i = 0; i < 16; ++i) {
+        const ivec2 pixel = clamp(2 * cell - 1 + ivec2(i % 4, i / 4), ivec2(0), at.size - 1);
+        const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
+        if (light > most) most = light, radius = radius_of(texelFetch(depths, pixel, 0).r);
+    }
+    return radius < 0 ? min(radius, -0.5) : max(radius, 0.5);
+}
+
+// The lamp of a cell: its light; where it is, times its brightness.
+void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
+    const uint own = gl_LocalInvocationIndex;
+    if (own < 2u) lamp_cells[own] = 0u;
+    if (own == 2u) lamp_px = 0u;
+    barrier();
+    const float bright = brightness(light);
+    if (bright > 0) {
+        const float radius = radius_of_lamp(cell);
+        imageStore(cells_1, ivec3(cell, kLampLight), 0.25 * light);
+        imageStore(cells_1, ivec3(cell, kLampPlace), vec4(place / bright, radius, 0));
+        atomicOr(lamp_cells[own / 32u], 1u << (own % 32u));
+        atomicMax(lamp_px, floatBitsToUint(abs(radius)));
+    }
+    barrier();
+    if (own == 0u) {
+        const ivec2 tile = ivec2(gl_WorkGroupID.xy);
+        lamps[tile.y * at.tiles.x + tile.x] = uvec4(lamp_cells[0], lamp_cells[1], lamp_px, 0u);
+    }
+}
 
 void main() {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
     vec4 near_light = vec4(0), back_light = vec4(0);
     float near_area = 0, near_radius = 0, back_area = 0, back_weight = 0, back_radius = 0;
-    vec2 range = vec2(1e9, -1e9);
+    vec2 range = vec2(1e9, -1e9), lamp_place = vec2(0);
+    vec4 lamp = vec4(0);
     for (int i = 0; i < 4; ++i) {
         // Beyond the picture its border goes on.
-        const ivec2 pixel = min(2 * cell + ivec2(i & 1, i >> 1), at.size - 1);
-        const vec4 light = clamp(texelFetch(colours, pixel, 0), vec4(0), vec4(kMostLight));
+        const ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(2 * cell + corner, at.size - 1);
+        vec4 light = light_of(texelFetch(colours, pixel, 0));
         const float radius = radius_of(texelFetch(depths, pixel, 0).r);
+        const vec4 bright = lamp_of(pixel, light, radius);
+        light -= bright;
+        if (pixel == 2 * cell + corner) {
+            const vec4 taken = blurred_share(abs(radius)) * bright;
+            lamp += taken, lamp_place += brightness(taken) * (vec2(corner) + 0.5);
+        }
         range = vec2(min(range.x, radius), max(range.y, radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
         near_light += near * light, near_area += near, near_radius -= near * radius;
@@ -35,6 +78,7 @@ void main() {
         back_radius += weight * max(radius, 0.0);
     }
     const float per_weight = back_weight > 0 ? back_area / back_weight : 0.0;
+    keep_lamp(cell, lamp, lamp_place);
     part[kBackLight][own] = per_weight * back_light;
     part[kBack][own] = vec4(back_area, per_weight * back_radius, 0, 0);
     part[kNearLight][own] = near_light;

@@ -1,0 +1,30 @@
+// How bright the surroundings of a lamp are: means over a tile of 16 x 16 pixels; a group is a tile.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler2D colours;
+layout(std430, binding = 1) writeonly buffer Surroundings { vec2 surroundings[]; };
+#include "realtime.glsl"
+
+shared vec2 sums[64];
+
+void main() {
+    const uint own = gl_LocalInvocationIndex;
+    vec2 sum = vec2(0);
+    for (int i = 0; i < 4; ++i) {
+        const ivec2 pixel = min(2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(i & 1, i >> 1), at.size - 1);
+        const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
+        sum += vec2(sqrt(light), light);
+    }
+    sums[own] = sum;
+    for (uint half_way = 32u; half_way > 0u; half_way /= 2u) {
+        barrier();
+        if (own < half_way) sums[own] += sums[own + half_way];
+    }
+    // Of roots, squared: lamps hardly raise it, surfaces do.
+    if (own == 0u) {
+        const vec2 mean = sums[0] / 256;
+        surroundings[gl_WorkGroupID.y * uint(at.tiles.x) + gl_WorkGroupID.x] = vec2(mean.x * mean.x, mean.y);
+    }
+}
