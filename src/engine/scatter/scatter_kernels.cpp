@@ -19,12 +19,19 @@ constexpr float kCoreEnd = 1.5f;       // times the radius a level is made for
 constexpr float kTrace = 0.004f;       // share of light outside that is not worth a skirt
 constexpr float kNegligible = 0.001f;  // share of light in all that is cut away from a piece
 
+// A kernel that reaches farther than this in focus, in cells, is nowhere narrow: its rims are as far apart
+// from step to step as its rays, and blend.
+constexpr int kBlurredCells = 8;
+constexpr float kBlurredSteps = 4;
+
 // Of a radius >= 0, on the scale of steps; and back.
-float place_of(float radius) {
+float place_of(float radius, bool blurred) {
+    if (blurred) return radius * kBlurredSteps;
     return radius < kNarrowCells ? radius * kNarrowSteps
                                  : kNarrowCells * kNarrowSteps + (radius - kNarrowCells) * kStepsPerCell;
 }
-float radius_at(float place) {
+float radius_at(float place, bool blurred) {
+    if (blurred) return place / kBlurredSteps;
     constexpr float kFine = kNarrowCells * kNarrowSteps;
     return place < kFine ? place / kNarrowSteps : kNarrowCells + (place - kFine) / kStepsPerCell;
 }
@@ -88,7 +95,7 @@ ScatterKernels::ScatterKernels(const LensOnPicture& lens, const LevelRule& rule)
     : KernelSource("scatter", device::KernelUse::Stamped),
       lens_(lens.from(lens.frame.x0, lens.frame.y0)),
       levels_(int(lens.lens_levels.size())),
-      steps_(int(std::ceil(place_of(rule.largest_radius()))) + 2),
+      steps_(int(std::ceil(place_of(rule.largest_radius(), false))) + 2),
       inner_sectors_(rule.inner_sectors),
       outer_sectors_(rule.outer_sectors),
       core_begin_(rule.largest_cells),
@@ -98,10 +105,12 @@ ScatterKernels::ScatterKernels(const LensOnPicture& lens, const LevelRule& rule)
     for (int l = 0; l < levels_; ++l) {
         const int reach = int(std::ceil(lens.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
         has_skirts_ = has_skirts_ || reach > longest;
+        const bool blurred = lens.lens(l).reach_px(0) > kBlurredCells;
+        blurred_.push_back(blurred);
         reach_.push_back(std::min(reach, longest));
         int farthest = reach;
         for (int step = 0; step < steps_; ++step) {
-            const double radius = double(radius_at(float(step) + 0.5f));
+            const double radius = double(radius_at(float(step) + 0.5f, blurred));
             const int own = int(std::ceil(lens.lens(l).reach_px(radius) + 0.5));
             reach_of_radius_.push_back(short(std::min(own, reach_.back())));
             farthest = std::max(farthest, own);
@@ -142,12 +151,13 @@ std::array<ScatterKernels::ZoneShare, 4> ScatterKernels::zones_for(const Rect& f
     return {{{zone(py + even(0.8191725134, 0.6710436067), px + even(0.7548776662, 0.5698402910)), 1}}};
 }
 
-int ScatterKernels::step_of(float radius) const {
-    return std::min(int(place_of(std::abs(radius)) + 0.5f), steps_ - 1);
+int ScatterKernels::step_of(int level, float radius) const {
+    return std::min(int(place_of(std::abs(radius), blurred_[std::size_t(level)]) + 0.5f), steps_ - 1);
 }
 
 int ScatterKernels::reach(int level, float radius) const {
-    return reach_of_radius_[std::size_t(std::min(level, levels_ - 1) * steps_ + step_of(radius))];
+    level = std::min(level, levels_ - 1);
+    return reach_of_radius_[std::size_t(level * steps_ + step_of(level, radius))];
 }
 
 device::KernelAsk ScatterKernels::ask_of(std::size_t number) const {
@@ -165,8 +175,9 @@ device::KernelAsk ScatterKernels::ask_of(std::size_t number) const {
     return ask;
 }
 
-float ScatterKernels::radius_of(int step) const {
-    return step < 0 ? -radius_at(float(~step)) : radius_at(float(step));
+float ScatterKernels::radius_of(const Place& place) const {
+    const bool blurred = blurred_[std::size_t(place.level)];
+    return place.step < 0 ? -radius_at(float(~place.step), blurred) : radius_at(float(place.step), blurred);
 }
 
 kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
@@ -175,7 +186,7 @@ kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
     const double y = (row + 0.5) * lens_.frame.height() / zones_y_ - 0.5;
     const kernel::LensModel& lens = lens_.lens(at_place.level);
     const auto made = [&](float r) { return lens.point_spread(double(r), lens_.field_at(x, y)); };
-    const float asked = radius_of(at_place.step), side = at_place.step < 0 ? -1 : 1;
+    const float asked = radius_of(at_place), side = at_place.step < 0 ? -1 : 1;
     const float place = std::abs(asked) * kMadePerCell, first = std::floor(place);
     if (lens.is_quick() || place == first) return made(asked);
     // What takes long is made at some radii and mixed between them.
@@ -188,7 +199,7 @@ kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
 
 kernel::PointSpread ScatterKernels::core(const kernel::PointSpread& whole, const Place& place) const {
     const int longest = int(std::ceil(core_end_));
-    if (skirt_levels(place.level, radius_of(place.step)) > 0)
+    if (skirt_levels(place.level, radius_of(place)) > 0)
         return cut(whole, longest, [&](float distance) { return fade(distance, core_begin_, core_end_); });
     // What little is cut away is made up for.
     kernel::PointSpread rest = cut(whole, longest, [](float) { return 1.0f; });
@@ -216,7 +227,7 @@ kernel::PointSpread ScatterKernels::skirt(const kernel::PointSpread& whole, cons
         return 1 - fade(distance, core_begin_ * share, core_end_ * share);
     });
     const int finer = place.level - skirt_of;
-    const float radius = radius_in_cells(radius_in_pixels(radius_of(place.step), place.level), finer);
+    const float radius = radius_in_cells(radius_in_pixels(radius_of(place), place.level), finer);
     const Rgba in_core = light_of_core({finer, place.zone, ask(finer, 0, radius, 0, false).step});
     const Rgba sum = sum_of(cut_out);
     const auto factor = [](float has, float asked) {

@@ -21,9 +21,9 @@
 
 namespace petzval::engine {
 
-// Radii are stepped by 1/16 cell, narrow ones more finely. Lenses that vary over the field have one set of
-// kernels for each of 9 x 6 zones of the display window. Safe to use from many threads: which thread makes a
-// kernel does not change it.
+// Radii are stepped by 1/16 cell, narrow ones more finely, and by 1/4 where aberrations alone spread light
+// over many cells. Lenses that vary over the field have one set of kernels for each of 9 x 6 zones of the
+// display window. Safe to use from many threads: which thread makes a kernel does not change it.
 class ScatterKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
     ScatterKernels(const LensOnPicture& lens, const LevelRule& rule);
@@ -41,8 +41,9 @@ public:
     // The kernel for a signed radius in cells of `level`. skirt_of 0: the whole kernel, or its core if it has
     // a skirt; n: the skirt of the kernel n levels finer.
     device::KernelAsk ask(int level, int zone, float radius, int skirt_of, bool by_sector) const {
-        const int step = step_of(radius);
-        return {std::min(level, levels_ - 1), zone, radius < 0 ? ~step : step, skirt_of, by_sector};
+        level = std::min(level, levels_ - 1);
+        const int step = step_of(level, radius);
+        return {level, zone, radius < 0 ? ~step : step, skirt_of, by_sector};
     }
     // Asks that there can be are numbered, in their order.
     std::size_t number_of(const device::KernelAsk& ask) const {
@@ -71,13 +72,13 @@ public:
 
 private:
     int pieces() const { return has_skirts_ ? 1 + kMostSkirtLevels : 1; }
-    int step_of(float radius) const;
+    int step_of(int level, float radius) const;
     // Of a level, a zone and a signed step (steps in front of focus are ~n).
     struct Place {
         int level = 0, zone = 0, step = 0;
         friend auto operator<=>(const Place&, const Place&) = default;  // NOLINT(modernize-use-nullptr)
     };
-    float radius_of(int step) const;  // signed, in cells
+    float radius_of(const Place& place) const;  // signed, in cells
     kernel::PointSpread whole(const Place& place) const;
     kernel::PointSpread core(const kernel::PointSpread& whole, const Place& place) const;
     kernel::PointSpread skirt(const kernel::PointSpread& whole, const Place& place, int skirt_of) const;
@@ -92,7 +93,8 @@ private:
     bool has_skirts_ = false;
     std::vector<int> most_skirt_levels_;  // of any kernel of a level
     std::vector<int> reach_;
-    std::vector<short> reach_of_radius_;                    // per level and step
+    std::vector<bool> blurred_;           // per level: its kernels are wide also at radius 0
+    std::vector<short> reach_of_radius_;  // per level and step
     mutable std::vector<std::atomic<short>> skirt_levels_;  // per level and signed step; -1: not known yet
     mutable std::mutex mutex_;                              // of what follows
     mutable std::map<Place, Rgba> light_of_core_;

@@ -80,9 +80,9 @@ TEST(ScatterKernels, TheFirstToAskForAKernelDoesNotShapeIt) {
             const int coarser = one.skirt_levels(level, radius);
             if (coarser == 0) continue;
             ++skirts;
-            // Half a step of radius apart, less a trace: one kernel stands for both.
+            // Half a sixteenth apart, less a trace, about a whole step: one kernel stands for both.
             const float at = radius_in_cells(radius_in_pixels(radius, level), level + coarser);
-            const float middle = std::round(at * 16) / 16;
+            const float middle = std::round(at * 4) / 4;
             const auto made = [&](const ScatterKernels& kernels, float off) {
                 const device::KernelAsk ask = kernels.ask(level + coarser, 0, middle + off, coarser, false);
                 return kernels.make({&ask, 1})[0][0];
