@@ -39,11 +39,15 @@ public:
 
     // The row of the pictures that lies at y in the frame.
     void render(Rgba* colour, float* depth_m) {
+        std::vector<Vec3> seen;  // of the pixels that are traced together
         for (int x = pass_.area.x0; x < pass_.area.x1; ++x) {
-            trace_pixel(x);
-            Vec3 sum;
-            for (const PeeledHit& hit : first_hits_) sum += hit.radiance;
-            sum = sum / float(rays());
+            const std::size_t pixel = std::size_t(x - pass_.area.x0) % std::size_t(together());
+            if (pixel == 0) {
+                trace_pixels(x);
+                seen.assign(std::size_t(together()), {});
+                for (const PeeledHit& hit : first_hits_) seen[std::size_t(hit.ray / rays())] += hit.radiance;
+            }
+            Vec3 sum = seen[pixel] / float(rays());
             const std::size_t before = samples.size();
             if (layers_ > 1) collect_surfaces();
             for (const LampImage* lamp : lamps_)
@@ -68,10 +72,12 @@ private:
     };
 
     int rays() const { return tools_.points.count(); }
+    // So many pixels fill a packet where each has few rays, and no layers are collected.
+    int together() const { return layers_ > 1 ? 1 : std::max(1, kPacket / rays()); }
     std::uint32_t pixel_seed(int x) const {
         return hash(hash(pass_.seed, std::uint32_t(x)), std::uint32_t(y_));
     }
-    void trace_pixel(int x);
+    void trace_pixels(int x);
     void follow(Packet& packet, int first_ray, int lanes);
     bool note_hit(const Packet& packet, int lane, int ray, bool is_first);
     void collect_surfaces();
@@ -83,21 +89,22 @@ private:
     const Tools& tools_;
     int y_, layers_;
     std::vector<const LampImage*> lamps_;
-    // Of one pixel: every surface that each ray meets, and the first thing that it meets, lamps (black)
-    // included.
+    // Of the pixels that are traced together, their rays numbered one pixel after the other: every surface
+    // that each ray meets, and the first thing that it meets, lamps (black) included.
     std::vector<PeeledHit> hits_, first_hits_;
 };
 
-void Row::trace_pixel(int x) {
+void Row::trace_pixels(int x) {
     hits_.clear(), first_hits_.clear();
     const SobolPoints& points = tools_.points;
-    const std::uint32_t seed = pixel_seed(x);
-    for (int i = 0; i < points.count(); i += kPacket) {
+    const int pixels = std::min(together(), pass_.area.x1 - x), all = pixels * rays();
+    for (int i = 0; i < all; i += kPacket) {
         Packet packet(pass_.world);
-        const int lanes = std::min(kPacket, points.count() - i);
+        const int lanes = std::min(kPacket, all - i);
         for (int lane = 0; lane < lanes; ++lane) {
-            const Point4 p = points.at(i + lane, seed);
-            packet.set(lane, pass_.lens.through(float(x) + p[0], float(y_) + p[1], {}));
+            const int u = x + (i + lane) / rays();
+            const Point4 p = points.at((i + lane) % rays(), pixel_seed(u));
+            packet.set(lane, pass_.lens.through(float(u) + p[0], float(y_) + p[1], {}));
         }
         follow(packet, i, lanes);
     }

@@ -47,6 +47,20 @@ TEST(BuiltInScenes, AreTheSameBitsForAnyThreadCount) {
     EXPECT_FALSE(same_bits(*one, *render_scene("bars", s)));
 }
 
+// With layers every pixel is traced by itself, without them as many together as fill a packet.
+TEST(BuiltInScenes, PixelsThatAreTracedTogetherAreAsThoseTracedAlone) {
+    for (const int samples : {1, 3, 16}) {
+        SceneSettings s;
+        s.width = 67, s.height = 20, s.samples = samples;
+        const RenderedScene together = render_scene("hexadrive", s).value();
+        s.want_layers = true;
+        const RenderedScene alone = render_scene("hexadrive", s).value();
+        EXPECT_TRUE(std::equal(together.colour.pixels(), together.colour.pixels() + together.colour.size(),
+                               alone.colour.pixels()))
+            << samples;
+    }
+}
+
 TEST(BuiltInScenes, OneThatStaysBuiltShowsTheSameFromEverywhere) {
     for (const char* name : {"hexadrive", "lanterns"}) {
         SceneSettings s;

@@ -27,16 +27,23 @@ Vec3 matt(const World& world, const Daylight& light, const SurfacePoint& at, Vec
 }
 
 Vec3 gloss(const World& world, const SurfacePoint& at, float exponent) {
+    constexpr float kFaintest = 1e-6f;
+    const float most = (exponent + 8) / (8 * kPi);
+    // Most lamps lie far off the highlight: they are left before the power is taken, at a hair less than the
+    // cosine below which it is too faint.
+    const float least_half = 0.999f * std::pow(kFaintest / most, 1 / exponent);
     const Vec3 normal = facing_eye(at);
     Vec3 sum;
     for (const Lamp& lamp : world.lamps()) {
         const Vec3 towards = lamp.centre - at.position;
+        if (dot(normal, towards) <= 0) continue;
         const float distance2 = std::max(dot(towards, towards), 1e-4f);
-        const Vec3 to_lamp = towards / std::sqrt(distance2);
-        const float cosine = dot(normal, to_lamp), half = dot(normal, normalised(to_lamp - at.direction));
-        if (cosine <= 0 || half <= 0) continue;
-        const float lobe = (exponent + 8) / (8 * kPi) * std::pow(half, exponent) * cosine;
-        if (lobe < 1e-6f) continue;
+        const Vec3 to_lamp = towards / std::sqrt(distance2), middle = to_lamp - at.direction;
+        const float off = dot(normal, middle);
+        if (off <= 0 || off * off < least_half * least_half * dot(middle, middle)) continue;
+        const float cosine = dot(normal, to_lamp), half = dot(normal, normalised(middle));
+        const float lobe = most * std::pow(half, exponent) * cosine;
+        if (lobe < kFaintest) continue;
         sum += lobe * (kPi * lamp.radius_m * lamp.radius_m / distance2) * lamp.radiance;
     }
     return sum;
