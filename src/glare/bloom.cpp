@@ -72,10 +72,11 @@ Picture blurred(const Picture& in, double sigma_x, double sigma_y, Workers& work
     const std::vector<float> wx = gaussian(sigma_x), wy = gaussian(sigma_y);
     const int rx = int(wx.size()) / 2, ry = int(wy.size()) / 2;
     parallel_for(in.height(), workers, [&](int y) {
+        std::vector<Rgba> row(std::size_t(in.width() + 2 * rx));
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = in(mirrored(int(i) - rx, in.width()), y);
         for (int x = 0; x < in.width(); ++x) {
             Rgba sum;
-            for (int k = -rx; k <= rx; ++k)
-                sum += wx[std::size_t(k + rx)] * in(mirrored(x + k, in.width()), y);
+            for (std::size_t k = 0; k < wx.size(); ++k) sum += wx[k] * row[std::size_t(x) + k];
             across(x, y) = sum;
         }
     });
