@@ -173,7 +173,9 @@ void App::read_again() {
     Reading reading{source(), false, setup_.focus_point};
     if (is_live()) {
         reading.scene = scene_wish();
-        if (coarse_) reading.scene->settings.samples = 1;
+        if (coarse_)
+            reading.scene->is_moving = true, reading.scene->settings.samples = 1,
+            reading.scene->coarse = coarse_by();
     }
     maker_.read(std::move(reading));
     if (setup_.against.empty() || (is_live() && against_)) return;
@@ -243,6 +245,20 @@ void App::turn_to(const Orbit& orbit) {
 }
 
 bool App::is_coarse() const { return is_live() && coarse_ && !state.timeline.playing; }
+
+// A frame of a moving scene is to be there in 80 ms: it is made of as many pixels as that allows.
+int App::coarse_by() const {
+    constexpr double kWanted_s = 0.080;
+    constexpr int kCoarsest = 4;
+    return std::clamp(int(std::ceil(std::sqrt(draft_s_ / kWanted_s))), 1, kCoarsest);
+}
+
+void App::time_draft(const MadeFrame& made) {
+    if (!shot_ || !shot_->is_live || made.step != 0) return;
+    const double pixels = shot_->coarse * shot_->coarse;
+    const double now = (shot_->render_s / shot_->samples + made.seconds) * pixels;
+    draft_s_ = draft_s_ > 0 ? 0.5 * (draft_s_ + now) : now;
+}
 
 // Once the camera rests and its picture stands, the scene is looked at with more rays.
 void App::refine_scene() {
@@ -355,6 +371,7 @@ void App::take_frame(MadeFrame made) {
     frames.complete = made.last;
     trouble = made.error ? made.error->message : "";
     if (made.error) return;
+    if (made.side == 0) time_draft(made);
     if (made.radii) frames.radii = made.radii;
     if (made.picture) {
         const bool is_part = made.is_part;
@@ -383,7 +400,7 @@ void App::take_print(Print print) {
                                     (picture == left.detail && !left.detail_is_old));
     if (changed_ && is_new) {
         const double ms = std::chrono::duration<double, std::milli>(Clock::now() - *changed_).count();
-        slowest.first_picture = std::max(slowest.first_picture, ms);
+        slowest.first_picture = std::max(slowest.first_picture, ms), slowest.last_picture = ms;
         changed_.reset();
     }
 }

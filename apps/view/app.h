@@ -60,6 +60,7 @@ struct Mapping {
 struct Slowest {
     double tick = 0;           // work of the window's thread between two events
     double first_picture = 0;  // from a change to the first picture of it on the screen
+    double last_picture = 0;   // the same, of the last change alone
 };
 
 class App {
@@ -131,6 +132,8 @@ private:
     void take_pushed();
     void refine_scene();
     bool is_coarse() const;  // a scene whose camera moved a moment ago
+    int coarse_by() const;
+    void time_draft(const MadeFrame& made);
     void take_shot(ReadShot read);
     void take_frame(MadeFrame made);
     void take_print(Print print);
@@ -153,6 +156,7 @@ private:
     bool reading_ = false;
     std::optional<FoundCamera> home_;  // of a scene: its own view
     bool coarse_ = false;              // it is to be seen with few rays, as it moves
+    double draft_s_ = 0;               // what such a frame takes at full size, as the last ones say
     std::chrono::steady_clock::time_point moved_;
     std::chrono::steady_clock::time_point shown_since_;  // the frame, while it is played
     LensMade lens_made_;

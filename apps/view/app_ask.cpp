@@ -106,6 +106,7 @@ void App::ask_prints(int index, const Side& side) {
         whole.plane = frames.numbers, whole.numbers = Numbers::Radii;
     } else if (is_made(side.shown) && frames.whole) {
         whole.picture = frames.whole, whole.area = frames.whole_area, whole.panels = frames.panels;
+        whole.reduce = frames.last.coarse;
     } else {
         whole.picture = borrowed(shot_, shot_->shot.colour);
     }
@@ -156,7 +157,7 @@ void App::ask_print(int target, Negative negative) {
     const Rect seen = mapping.seen();
     const Rect wanted = seen.intersected(negative.area);
     if (wanted.empty()) return clear_print(target);
-    negative.reduce = std::max(1, int(std::floor(1 / scale)));
+    negative.reduce = std::max(negative.reduce, int(std::floor(1 / scale)));
     negative.part = seen.grown(std::max(seen.width(), seen.height()) / 4 + 1).intersected(negative.area);
     negative.permissible_radius_px = setup_.permissible_radius_px;
     negative.develop = state.choice.develop;

@@ -164,6 +164,7 @@ std::vector<Field> facts() {
              }),
         fact("lens.disc_px", [](const App& app) { return std::to_string(app.lens_made().disc.width); }),
         fact("slowest.tick_ms", [](const App& app) { return text_of(app.slowest.tick, 4); }),
+        fact("last.picture_ms", [](const App& app) { return text_of(app.slowest.last_picture, 4); }),
         fact("slowest.picture_ms", [](const App& app) { return text_of(app.slowest.first_picture, 4); }),
     };
 }

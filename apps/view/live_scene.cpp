@@ -1,6 +1,7 @@
 #include "live_scene.h"
 
 #include "fields.h"
+#include "thinning.h"
 #include "view.h"
 
 #include <algorithm>
@@ -137,8 +138,16 @@ Result<LiveScene::Seen> LiveScene::look(const SceneWish& wish, const std::functi
         standing_ = std::move(*built), name_ = wish.name, frame_ = settings.frame;
     }
     const double build_s = seconds_since(start);
+    const int by = wish.coarse;
+    settings.width = (wish.settings.width + by - 1) / by;
+    settings.height = (wish.settings.height + by - 1) / by;
     auto scene = standing_->render(settings);
     if (!scene) return scene.error();
+    settings = wish.settings;
+    if (by > 1) {
+        scene->colour = enlarged<Rgba>(scene->colour, by, settings.width, settings.height);
+        scene->depth_m = enlarged<float>(scene->depth_m, by, settings.width, settings.height);
+    }
     Seen seen;
     seen.build_s = build_s, seen.render_s = seconds_since(start) - build_s;
     Shot& shot = seen.shot;

@@ -47,6 +47,8 @@ Stand orbited(const Stand& own, const Orbit& orbit);
 struct SceneWish {
     std::string name;
     SceneSettings settings;
+    bool is_moving = false;
+    int coarse = 1;  // so many by so many pixels are seen by the rays of one
 };
 
 // A scene that stays built while only its camera moves. For one thread at a time.

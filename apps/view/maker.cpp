@@ -2,6 +2,8 @@
 
 #include "petzval/names.h"
 
+#include "thinning.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -30,6 +32,7 @@ Look look_of_step(const Wish& wish, int step) {
     const bool slow = look.engine == "scatter" || look.engine == "reference";
     now.quality = step == 0 ? Quality::Draft : step == 1 ? Quality::Standard : Quality::Final;
     if (step == 0 && slow && wish.shown == "result") now.engine = wish.shot->is_live ? "sprites" : "gather";
+    if (step == 0) now.glare.star_quality = StarQuality::Draft;
     if (look.engine == "reference")
         now.pupil_points = std::min(look.pupil_points, step == 1 ? 64 : look.pupil_points);
     return now;
@@ -109,23 +112,8 @@ std::shared_ptr<const Picture> flat(const DeepPicture& deep) {
 // A first look is of no more pixels than can be drawn at once: of every n-th.
 constexpr double kFirstPixels = 4e5;
 
-int thinning_of(const Shot& shot) {
-    return std::max(1, int(std::ceil(std::sqrt(double(shot.colour.size()) / kFirstPixels))));
-}
-
-template <typename T>
-Image<T> thinned(View<const T> from, int by) {
-    Image<T> few((from.width() + by - 1) / by, (from.height() + by - 1) / by);
-    for (int y = 0; y < few.height(); ++y)
-        for (int x = 0; x < few.width(); ++x) few(x, y) = from(x * by, y * by);
-    return few;
-}
-
-Picture enlarged(const Picture& few, int by, int width, int height) {
-    Picture all = Picture::uninitialised(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) all(x, y) = few(x / by, y / by);
-    return all;
+int thinning_of(const OpenShot& open) {
+    return std::max(open.coarse, int(std::ceil(std::sqrt(double(open.shot.colour.size()) / kFirstPixels))));
 }
 
 // What is seen alone, on a sensor of fewer pixels.
@@ -147,7 +135,7 @@ Result<Picture> first_look(Session& session, const DefocusJob& rendered, Look lo
     auto done = session.take(job, look, control);
     if (!done) return done.error();
     report = std::move(*done);
-    return enlarged(report.image, by, rendered.colour.width(), rendered.colour.height());
+    return enlarged<Rgba>(report.image, by, rendered.colour.width(), rendered.colour.height());
 }
 
 }  // namespace
@@ -277,6 +265,7 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
         auto seen = scene_.look(*reading.scene, [this] { return interrupt_.load(); });
         if (!seen) return seen.error();
         open.is_live = true, open.samples = reading.scene->settings.samples;
+        open.coarse = reading.scene->coarse, open.is_moving = reading.scene->is_moving;
         open.subject_m = seen->subject_m, open.build_s = seen->build_s, open.render_s = seen->render_s;
         open.shot = std::move(seen->shot);
     } else if (reading.pushed) {
@@ -347,7 +336,8 @@ void Maker::do_step(int side, const Order& order) {
     frame.wish = order.number;
     frame.step = order.step;
     frame.seconds = seconds_since(start);
-    frame.last = frame.error || frame.last || order.step >= (order.wish.final_quality ? 2 : 1);
+    const int last_step = order.wish.shot->is_moving ? 0 : order.wish.final_quality ? 2 : 1;
+    frame.last = frame.error || frame.last || order.step >= last_step;
     tell(std::move(frame));
 }
 
@@ -394,7 +384,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     Look look = look_of_step(wish, order.step);
     if (Status done = read_lens_images(look); !done) return done.error();
     Result<DefocusReport> done = Error{ErrorCode::InvalidArgument, ""};
-    const int by = order.step == 0 ? thinning_of(wish.shot->shot) : 1;
+    const int by = order.step == 0 ? thinning_of(*wish.shot) : 1;
     if (wish.shown == "result" && by > 1) {
         DefocusReport report;
         auto look_at_it = first_look(*session_, rendered, look, by, control, report);
@@ -407,6 +397,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     if (!done) return done.error();
     if (is_view(wish.shown)) frame.last = order.step > 0 || done->engine == "gaussian";
     frame.is_part = control.region.has_value();
+    if (wish.shown == "result" && order.step == 0) frame.coarse = wish.shot->coarse;
     if (frame.is_part) frame.area = *control.region;
     if (is_buffer(wish.shown)) frame.area = done->image.rect();
     if (look.engine == "gather" && look.gather.stage == GatherStage::Coc && wish.shown == "result")

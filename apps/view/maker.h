@@ -41,8 +41,8 @@ struct OpenShot {
     // What the picture hides and what stays sharp, one sample over the other; null: there is none.
     std::shared_ptr<const Picture> hidden, holdout;
     // Of a scene:
-    bool is_live = false;
-    int samples = 0;
+    bool is_live = false, is_moving = false;  // moving: its drafts alone are made
+    int samples = 0, coarse = 1;              // rays a pixel; so many by so many pixels are one
     std::optional<double> subject_m;
     double build_s = 0, render_s = 0;
 };
@@ -69,6 +69,7 @@ struct MadeFrame {
     std::optional<Error> error;
     Rect area;             // where its pixels lie
     bool is_part = false;  // they are those of the wish's region
+    int coarse = 1;        // so many by so many of them are one
     std::shared_ptr<const Picture> picture;
     std::shared_ptr<const Plane>
         numbers;                         // signed radii in place of the picture, where that is what it holds

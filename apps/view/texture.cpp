@@ -7,6 +7,21 @@
 #endif
 
 namespace petzval::view {
+namespace {
+
+std::uint64_t all_loads = 0;  // of the window's thread alone
+
+}  // namespace
+
+std::uint64_t Texture::loads() { return all_loads; }
+
+void Texture::enlarge_smoothly(bool smoothly) const {
+    if (name_ == 0 || smoothly == is_smooth_) return;
+    is_smooth_ = smoothly;
+    glBindTexture(GL_TEXTURE_2D, name_);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smoothly ? GL_LINEAR : GL_NEAREST);
+    ++all_loads;
+}
 
 Texture::~Texture() {
     if (name_ != 0) glDeleteTextures(1, &name_);
@@ -16,9 +31,10 @@ void Texture::load(int width, int height, const std::vector<std::uint8_t>& rgba)
     // A new one: the old may still be drawn from, and loading it would wait for that.
     if (name_ != 0) glDeleteTextures(1, &name_);
     glGenTextures(1, &name_);
+    ++all_loads;
     glBindTexture(GL_TEXTURE_2D, name_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, is_smooth_ ? GL_LINEAR : GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

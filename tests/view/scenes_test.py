@@ -46,6 +46,21 @@ class SceneTest(window.WindowTest):
                                   capture_output=True, text=True)
         self.assertIn("inf", compared.stdout + compared.stderr)
 
+    def test_a_camera_that_moves_is_seen_in_drafts_and_fine_once_it_rests(self):
+        out, _ = self.do("""
+            wait
+            expect scene.samples 4
+            orbit 1 0
+            until scene.samples 1
+            until frame.quality draft
+            wait
+            expect scene.samples 4
+            expect frame.quality standard
+            expect no error
+            say last.picture_ms
+        """, "--scene", "hexadrive", "--scene-size", "160x90")
+        self.assertGreater(float(out), 0)
+
     def buffers_of(self, scene, buffers, before=""):
         """Shows every buffer of an article; all are different pictures."""
         self.do("wait\nexpect no error\nkey tab\n" + before + "".join(
