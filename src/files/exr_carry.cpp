@@ -2,6 +2,7 @@
 
 #include "files/carried.h"
 #include "files/exr_bands.h"
+#include "files/exr_chunks.h"
 #include "files/exr_file.h"
 #include "files/exr_header.h"
 #include "files/exr_output.h"
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <Imath/half.h>
@@ -69,8 +71,8 @@ class CarriedSource {
 public:
     CarriedSource(const ExrFile& exr, std::size_t part, const std::vector<Channel>& channels, const Rect& out,
                   std::set<std::string> depths)
-        : path_(exr.file->path()),
-          input_(*exr.parts, int(part)),
+        : exr_(exr),
+          part_(part),
           in_(exr.layout.parts[part].data_window),
           out_(out),
           depths_(std::move(depths)) {
@@ -95,14 +97,29 @@ public:
 private:
     void read(int y0, int y1) {
         resize_band(staged_, in_.width(), y1 - y0);
-        Imf::FrameBuffer buffer;
-        for (const BandChannel& c : staged_) buffer.insert(c.channel.name, slice_of(c, in_.x0, y0));
-        const Status read = guarded(path_, [&]() -> Status {
-            input_.setFrameBuffer(buffer);
-            input_.readPixels(y0, y1 - 1);
-            return Done{};
+        const Status read = guarded(exr_.file->path(), [&] {
+            if (!chunks_ && !input_) chunks_.emplace(exr_, part_);
+            if (chunks_ && chunks_->can_be_unpacked()) return read_unpacked(y0, y1);
+            if (chunks_) chunks_.reset(), input_.emplace(*exr_.parts, int(part_));
+            return read_by_openexr(y0, y1);
         });
         if (!read) throw Failure(read.error());
+    }
+    Status read_unpacked(int y0, int y1) {
+        std::vector<std::string> names;
+        for (const BandChannel& c : staged_) names.push_back(c.channel.name);
+        return chunks_->for_pixels(names, y0, y1, [&](std::size_t n, const FlatChunks::Row& row) {
+            const std::size_t size = staged_[n].sample_bytes();
+            std::memcpy(staged_[n].row(row.y - y0) + size * std::size_t(row.x - in_.x0), row.samples,
+                        size * std::size_t(row.width));
+        });
+    }
+    Status read_by_openexr(int y0, int y1) {
+        Imf::FrameBuffer buffer;
+        for (const BandChannel& c : staged_) buffer.insert(c.channel.name, slice_of(c, in_.x0, y0));
+        input_->setFrameBuffer(buffer);
+        input_->readPixels(y0, y1 - 1);
+        return Done{};
     }
 
     void paste(BandChannel& from, BandChannel& to, int y0, int y1, int band_y0) const {
@@ -124,8 +141,10 @@ private:
                         std::numeric_limits<float>::infinity());
     }
 
-    std::string path_;
-    Imf::InputPart input_;
+    const ExrFile& exr_;
+    std::size_t part_;
+    std::optional<FlatChunks> chunks_;  // or OpenEXR's part: it opens one only as one thing
+    std::optional<Imf::InputPart> input_;
     Rect in_, out_;
     std::set<std::string> depths_;
     std::vector<BandChannel> staged_;

@@ -1,18 +1,66 @@
-// Whether the chunks of an EXR part unpack to all the pixels that they stand for.
+// The chunks of EXR parts: what they hold, and whether that is all that they stand for.
+//
+// OpenEXR 3.1 does not ask of flat parts with no compression, RLE, ZIPS or ZIP, nor of an empty chunk of any:
+// the pixels that are missing are whatever its buffers held before. Those it does not mind are unpacked here.
 #pragma once
 
 #include "files/exr_file.h"
+#include "files/exr_packing.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <vector>
+
+#include <OpenEXR/ImfInputPart.h>
 
 namespace petzval {
 
-// OpenEXR 3.1 does not ask of flat parts with no compression, RLE, ZIPS or ZIP, nor of an empty chunk of any:
-// the pixels that are missing are whatever its buffers held before. So those are unpacked once more, without
-// keeping anything. Nothing is done for deep parts. Errors: InvalidFile, naming part and rows.
-Status check_chunks(const ExrFile& exr, std::size_t part);
+// The chunks of a flat part: some lines of one, or the tiles of its first level. `exr` outlives it. Methods
+// throw what OpenEXR throws.
+class FlatChunks {
+public:
+    FlatChunks(const ExrFile& exr, std::size_t part);
+
+    // Whether for_pixels() can be asked; else OpenEXR must be, after check().
+    bool can_be_unpacked() const { return is_plain_packing(compression_) && !is_subsampled_; }
+
+    // The samples of one channel in a row of a chunk, as they stand in the file.
+    struct Row {
+        const unsigned char* samples = nullptr;
+        int x = 0, y = 0, width = 0;  // where, in the frame
+    };
+    // Calls take(n, row) for channel names[n] and every row of the chunks that hold any of rows y0 … y1 - 1,
+    // from many threads. Errors: InvalidFile by its rows for the first chunk that is not whole. Requires:
+    // can_be_unpacked(); the part has those channels.
+    Status for_pixels(const std::vector<std::string>& names, int y0, int y1,
+                      FunctionRef<void(std::size_t, const Row&)> take);
+
+    // Errors: InvalidFile, naming part and rows, if a chunk is not whole as far as OpenEXR would not mind.
+    Status check();
+
+private:
+    int columns() const { return (window_.width() + width_ - 1) / width_; }
+    int rows() const { return (window_.height() + height_ - 1) / height_; }
+    int column(int chunk) const { return chunk % columns(); }
+    int row(int chunk) const { return chunk / columns(); }
+    Rect pixels_of(int chunk) const;
+    std::uint64_t promised_bytes(const Rect& r) const;
+    RawBytes packed(int chunk, std::uint64_t promised);
+    void seek(int chunk);
+    // All of a chunk's lines, of each all channels in the order of the part's; nothing of what cannot be
+    // unpacked here.
+    Result<RawBytes> unpacked(int chunk);
+
+    const ExrFile& exr_;
+    const std::size_t part_;
+    const Rect window_;
+    Imf::InputPart input_;  // also of tiles: OpenEXR opens a part as one thing only
+    Imf::Compression compression_ = Imf::NO_COMPRESSION;
+    bool is_tiled_ = false, is_subsampled_ = false;
+    int width_ = 0, height_ = 0;  // of a chunk, in pixels
+    std::mutex mutex_;            // of the buffer that OpenEXR reads tiles into
+};
 
 // A chunk of a deep part as it stands in the file.
 struct DeepChunk {
@@ -21,8 +69,8 @@ struct DeepChunk {
     std::vector<unsigned char> counts, samples;  // counts: of the samples of each pixel
 };
 
-// The same of one of these, once its counts were read: it has `samples` of them. Errors: those of
-// check_chunks().
-Status check_deep_chunk(const ExrFile& exr, std::size_t part, DeepChunk chunk, std::uint64_t samples);
+// Whether it is whole, once its counts were read: it has `samples` of them. Errors: InvalidFile, naming part
+// and rows.
+Status check_deep_chunk(const ExrFile& exr, std::size_t part, const DeepChunk& chunk, std::uint64_t samples);
 
 }  // namespace petzval

@@ -155,14 +155,13 @@ private:
     Status check_chunks() {
         for (int i = 0; i < part_.chunks(); ++i) {
             check_cancelled(*exr_.workers);
-            DeepChunk chunk = part_.chunk(i, exr_.file->bytes());
+            const DeepChunk chunk = part_.chunk(i, exr_.file->bytes());
             std::uint64_t samples = 0;
             const Rect r = chunk.pixels.moved(-window_.x0, -window_.y0);
             for (int y = r.y0; y < r.y1; ++y)
                 for (int x = r.x0; x < r.x1; ++x)
                     samples += counts_[std::size_t(y) * width_ + std::size_t(x)];
-            if (Status sound = check_deep_chunk(exr_, part_number_, std::move(chunk), samples); !sound)
-                return sound;
+            if (Status sound = check_deep_chunk(exr_, part_number_, chunk, samples); !sound) return sound;
         }
         return Done{};
     }

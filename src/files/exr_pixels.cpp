@@ -5,9 +5,12 @@
 #include "files/wording.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include <Imath/ImathMatrix.h>
+#include <Imath/half.h>
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -25,8 +28,8 @@ Status read_luminance_chroma(const ExrFile& exr, const ColourChoice& choice, Pic
                      printable(exr.file->path(), 4096) +
                          ": luminance and chroma (Y RY BY) can be read from the first part "
                          "only; convert it to RGB"};
-    if (Status s = check_chunks(exr, 0); !s) return s;
     return guarded(exr.file->path(), [&]() -> Status {
+        if (Status s = FlatChunks(exr, 0).check(); !s) return s;
         ExrInputStream stream(exr.file, *exr.workers);
         const std::string& y = choice.luminance;
         const std::string layer = y.size() > 2 ? y.substr(0, y.size() - 2) : "";
@@ -58,13 +61,44 @@ Plane depth_of_positions(const std::array<Plane, 3>& position, const Imath::M44f
     return depth;
 }
 
+template <typename Sample>
+void copy_samples(const unsigned char* from, int count, float* to, std::ptrdiff_t step) {
+    for (int x = 0; x < count; ++x, from += sizeof(Sample), to += step) {
+        Sample sample;
+        std::memcpy(&sample, from, sizeof sample);
+        *to = float(sample);
+    }
+}
+
+Status unpacked_floats(const Part& part, FlatChunks& chunks, const std::vector<FloatTarget>& targets) {
+    std::vector<std::string> names;
+    std::vector<SampleType> types;
+    for (const FloatTarget& t : targets)
+        names.push_back(t.channel), types.push_back(part.find(t.channel)->type);
+    const Rect window = part.data_window;
+    return chunks.for_pixels(names, window.y0, window.y1, [&](std::size_t n, const FlatChunks::Row& row) {
+        const FloatTarget& t = targets[n];
+        float* const to = t.first + (row.y - window.y0) * t.row_step + (row.x - window.x0) * t.pixel_step;
+        if (types[n] == SampleType::Half)
+            copy_samples<Imath::half>(row.samples, row.width, to, t.pixel_step);
+        else if (types[n] == SampleType::Float)
+            copy_samples<float>(row.samples, row.width, to, t.pixel_step);
+        else
+            copy_samples<std::uint32_t>(row.samples, row.width, to, t.pixel_step);
+    });
+}
+
 }  // namespace
 
 Status read_floats(const ExrFile& exr, std::size_t part, const std::vector<FloatTarget>& targets) {
     if (Status s = exr.check_complete(part); !s) return s;
-    if (Status s = check_chunks(exr, part); !s) return s;
     return guarded(exr.file->path(), [&]() -> Status {
         const Rect window = exr.layout.parts[part].data_window;
+        {
+            FlatChunks chunks(exr, part);
+            if (chunks.can_be_unpacked()) return unpacked_floats(exr.layout.parts[part], chunks, targets);
+            if (Status s = chunks.check(); !s) return s;
+        }
         Imf::InputPart input(*exr.parts, int(part));
         Imf::FrameBuffer buffer;
         for (const FloatTarget& t : targets) {

@@ -23,8 +23,4 @@ bool is_zip_of_lines(const Imf::Header& header, const std::vector<Channel>& chan
 void write_zip_file(Imf::OStream& stream, const Imf::Header& header, const std::vector<Channel>& channels,
                     const FillBand& fill, Workers& workers);
 
-// Bytes as OpenEXR's ZIP compression hands them to deflate: even ones, then odd ones, each as its difference
-// to the one before, plus 128 (OpenEXR, "Technical Introduction": predictor). `to` has their size.
-void prepare_for_zip(const std::vector<unsigned char>& from, std::vector<unsigned char>& to);
-
 }  // namespace petzval

@@ -123,11 +123,5 @@ TEST(ExrZip, WhatItCannotWriteIsLeftToOpenExr) {
     EXPECT_FALSE(is_zip_of_lines(subsampled.header, subsampled.channels));
 }
 
-TEST(ExrZip, BytesAreSplitAndToldAsDifferences) {
-    std::vector<unsigned char> to(5);
-    prepare_for_zip({1, 2, 3, 4, 5}, to);
-    EXPECT_EQ(to, (std::vector<unsigned char>{1, 130, 130, 125, 130}));
-}
-
 }  // namespace
 }  // namespace petzval

@@ -1,0 +1,42 @@
+// Bytes of EXR chunks, packed and unpacked by the formats that lose nothing and are not OpenEXR's own: none,
+// RLE, ZIPS and ZIP ("OpenEXR Technical Introduction"; zlib's format is RFC 1950). With libdeflate, in a
+// third of the time of zlib.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <OpenEXR/ImfCompression.h>
+
+namespace petzval {
+
+// Bytes that are about to be written: not cleared.
+class RawBytes {
+public:
+    explicit RawBytes(std::size_t size) : bytes_(new unsigned char[size]), size_(size) {}
+    unsigned char* data() const { return bytes_.get(); }
+    std::span<unsigned char> bytes() const { return {bytes_.get(), size_}; }
+    void shorten(std::size_t size) { size_ = std::min(size_, size); }
+
+private:
+    std::unique_ptr<unsigned char[]> bytes_;
+    std::size_t size_;
+};
+
+// Whether unpacked() knows the format.
+inline bool is_plain_packing(Imf::Compression compression) { return compression <= Imf::ZIP_COMPRESSION; }
+
+// Packed as ZIP, or as they are where that is not smaller: readers know it by the size.
+std::vector<unsigned char> zipped(std::vector<unsigned char> raw);
+
+// Unpacks into `to`, which is as large as it should become: how many bytes it became, to.size() + 1 if more
+// than fit, nothing if the stream is damaged. What is as large as it should be is not packed. Requires:
+// is_plain_packing().
+std::optional<std::size_t> unpack(std::span<const unsigned char> packed, Imf::Compression compression,
+                                  std::span<unsigned char> to);
+
+}  // namespace petzval

@@ -1,0 +1,66 @@
+// What is packed unpacks to the same bytes, by us and by OpenEXR; what is damaged never writes beyond its
+// end.
+#include "files/exr_packing.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace petzval {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+Bytes smooth(std::size_t size) {
+    Bytes bytes(size);
+    for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<unsigned char>(i / 7 + i % 2 * 90);
+    return bytes;
+}
+
+TEST(ExrPacking, ZipComesBack) {
+    for (const std::size_t size : {400, 401, 65537}) {
+        const Bytes raw = smooth(size), packed = zipped(raw);
+        EXPECT_LT(packed.size(), size);
+        Bytes back(size);
+        EXPECT_EQ(unpack(packed, Imf::ZIP_COMPRESSION, back), size);
+        EXPECT_EQ(back, raw);
+    }
+}
+
+TEST(ExrPacking, WhatIsNotSmallerStaysAsItIs) {
+    const Bytes raw{9, 3, 200, 17};
+    EXPECT_EQ(zipped(raw), raw);
+    Bytes back(raw.size());
+    EXPECT_EQ(unpack(raw, Imf::ZIPS_COMPRESSION, back), raw.size());
+    EXPECT_EQ(back, raw);
+}
+
+TEST(ExrPacking, RunsAreRunsAndBytes) {
+    Bytes back(6);
+    EXPECT_EQ(unpack(Bytes{1, 130, 253, 131, 128}, Imf::RLE_COMPRESSION, back), 4u) << "cut off";
+    EXPECT_EQ(unpack(Bytes{100, 130}, Imf::RLE_COMPRESSION, back), 7u) << "more than fits";
+    EXPECT_EQ(unpack(Bytes{}, Imf::RLE_COMPRESSION, back), 0u);
+    // Five times a step of 2, then three steps as they are; of eight bytes the even ones come first.
+    back.assign(8, 0);
+    EXPECT_EQ(unpack(Bytes{4, 130, 253, 131, 128, 127}, Imf::RLE_COMPRESSION, back), 8u);
+    EXPECT_EQ(back, (Bytes{130, 138, 132, 141, 134, 141, 136, 140}));
+}
+
+TEST(ExrPacking, DamagedStreamsStayInBounds) {
+    const Bytes raw = smooth(4000), packed = zipped(raw);
+    std::mt19937 random(7);
+    int damaged = 0;
+    for (int i = 0; i < 500; ++i) {
+        Bytes broken = packed;
+        broken[random() % broken.size()] ^= static_cast<unsigned char>(1 + random() % 255);
+        broken.resize(broken.size() - random() % 3);
+        Bytes back(raw.size());
+        if (unpack(broken, Imf::ZIP_COMPRESSION, back) != raw.size()) ++damaged;
+    }
+    EXPECT_EQ(damaged, 500) << "the checksum tells";
+    Bytes less(raw.size() - 100);
+    EXPECT_EQ(unpack(packed, Imf::ZIP_COMPRESSION, less), less.size() + 1);
+}
+
+}  // namespace
+}  // namespace petzval
