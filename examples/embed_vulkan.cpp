@@ -4,7 +4,10 @@
 //     embed_vulkan picture.png
 //
 // What a host must do for the pass is marked with (1) … (6); all else is the usual Vulkan of any renderer.
+// The pass needs Vulkan 1.2 and a queue that computes; no extension, no feature.
 #include "petzval/vulkan.h"
+
+#include "vulkan_host.h"
 
 #include <algorithm>
 #include <array>
@@ -19,113 +22,15 @@
 namespace {
 
 constexpr std::uint32_t kWidth = 640, kHeight = 360, kFrames = 4, kSlots = 2;  // kSlots: frames in flight
+constexpr VkExtent2D kSize = {kWidth, kHeight};
 constexpr float kNearM = 0.1f, kSensorMm = 36, kFocalMm = 50;
 
 constexpr std::uint32_t kScene[] =
 #include "embed_vulkan.comp.inc"
     ;
 
-// Everything below either works or ends the program: this is an example.
-void must(bool went_well, const char* what) {
-    if (went_well) return;
-    std::fprintf(stderr, "embed_vulkan: %s\n", what);
-    std::exit(1);
-}
+using ::must;
 void must(petzval_status status) { must(status == PETZVAL_OK, petzval_error_text()); }
-void must(VkResult result, const char* what) { must(result == VK_SUCCESS, what); }
-
-// ---- The host's device
-
-struct Host {
-    VkInstance instance = VK_NULL_HANDLE;
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    VkCommandPool pool = VK_NULL_HANDLE;
-};
-
-// The pass needs Vulkan 1.2 and a queue that computes; no extension, no feature.
-Host open_host() {
-    Host host;
-    VkApplicationInfo application = {};
-    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, application.apiVersion = VK_API_VERSION_1_2;
-    VkInstanceCreateInfo instance = {};
-    instance.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, instance.pApplicationInfo = &application;
-    // For the test: the layer that checks every call, and what overlaps in time, prints what it finds.
-    const VkValidationFeatureEnableEXT checks = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-    VkValidationFeaturesEXT features = {};
-    features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-    features.enabledValidationFeatureCount = 1, features.pEnabledValidationFeatures = &checks;
-    const char* const layer = "VK_LAYER_KHRONOS_validation";
-    if (std::getenv("EMBED_VALIDATES"))
-        instance.pNext = &features, instance.enabledLayerCount = 1, instance.ppEnabledLayerNames = &layer;
-    if (vkCreateInstance(&instance, nullptr, &host.instance) != VK_SUCCESS) {
-        instance.pNext = nullptr, instance.enabledLayerCount = 0;  // the layer is not installed
-        if (vkCreateInstance(&instance, nullptr, &host.instance) != VK_SUCCESS) std::exit(77);
-    }
-    std::uint32_t count = 1;
-    vkEnumeratePhysicalDevices(host.instance, &count, &host.physical);
-    if (count == 0) std::exit(77);  // no driver
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue = {};
-    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueCount = 1,
-    queue.pQueuePriorities = &priority;  // family 0: it computes on every driver there is
-    VkDeviceCreateInfo device = {};
-    device.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    device.queueCreateInfoCount = 1, device.pQueueCreateInfos = &queue;
-    must(vkCreateDevice(host.physical, &device, nullptr, &host.device), "the device does not start");
-    vkGetDeviceQueue(host.device, 0, 0, &host.queue);
-    VkCommandPoolCreateInfo pool = {};
-    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    must(vkCreateCommandPool(host.device, &pool, nullptr, &host.pool), "command pool");
-    return host;
-}
-
-std::uint32_t memory_type(const Host& host, std::uint32_t allowed, VkMemoryPropertyFlags wanted) {
-    VkPhysicalDeviceMemoryProperties memory = {};
-    vkGetPhysicalDeviceMemoryProperties(host.physical, &memory);
-    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-        if ((allowed & (1u << i)) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
-    must(false, "no such memory");
-    return 0;
-}
-
-struct Image {
-    VkImage image = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-};
-
-Image make_image(const Host& host, VkFormat format, VkImageUsageFlags usage) {
-    Image made;
-    VkImageCreateInfo info = {};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO, info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = format, info.extent = {kWidth, kHeight, 1}, info.mipLevels = info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT, info.usage = usage;
-    must(vkCreateImage(host.device, &info, nullptr, &made.image), "image");
-    VkMemoryRequirements needed = {};
-    vkGetImageMemoryRequirements(host.device, made.image, &needed);
-    VkMemoryAllocateInfo allocation = {};
-    allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, allocation.allocationSize = needed.size;
-    allocation.memoryTypeIndex =
-        memory_type(host, needed.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    must(vkAllocateMemory(host.device, &allocation, nullptr, &made.memory), "memory of an image");
-    must(vkBindImageMemory(host.device, made.image, made.memory, 0), "memory of an image");
-    VkImageViewCreateInfo view = {};
-    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, view.image = made.image;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D, view.format = format;
-    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    must(vkCreateImageView(host.device, &view, nullptr, &made.view), "image view");
-    return made;
-}
-
-void destroy(const Host& host, const Image& image) {
-    vkDestroyImageView(host.device, image.view, nullptr);
-    vkDestroyImage(host.device, image.image, nullptr);
-    vkFreeMemory(host.device, image.memory, nullptr);
-}
 
 // ---- The host's renderer: one compute program that writes colour and depth
 
@@ -144,20 +49,17 @@ void make_pipeline(const Host& host, Renderer& made) {
     layout.setLayoutCount = 1, layout.pSetLayouts = &made.set_layout;
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &push;
     must(vkCreatePipelineLayout(host.device, &layout, nullptr, &made.layout), "pipeline layout");
-    VkShaderModuleCreateInfo code = {};
-    code.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, code.codeSize = sizeof kScene,
-    code.pCode = kScene;
     VkComputePipelineCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, info.layout = made.layout;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT, info.stage.pName = "main";
-    must(vkCreateShaderModule(host.device, &code, nullptr, &info.stage.module), "shader");
+    info.stage.module = make_shader(host, kScene, sizeof kScene);
     must(vkCreateComputePipelines(host.device, VK_NULL_HANDLE, 1, &info, nullptr, &made.pipeline),
          "pipeline");
     vkDestroyShaderModule(host.device, info.stage.module, nullptr);
 }
 
-Renderer make_renderer(const Host& host, const Image& colour, const Image& depth) {
+Renderer make_renderer(const Host& host, const GpuImage& colour, const GpuImage& depth) {
     Renderer made;
     std::array<VkDescriptorSetLayoutBinding, 2> bindings = {};
     for (std::uint32_t i = 0; i < 2; ++i)
@@ -197,20 +99,8 @@ void destroy(const Host& host, const Renderer& r) {
 
 // ---- A frame
 
-// What an image was last used for, and what for next: a barrier of Vulkan.
-void barrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to,
-             VkAccessFlags done, VkAccessFlags next, VkPipelineStageFlags done_at,
-             VkPipelineStageFlags next_at) {
-    VkImageMemoryBarrier b = {};
-    b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER, b.image = image;
-    b.oldLayout = from, b.newLayout = to, b.srcAccessMask = done, b.dstAccessMask = next;
-    b.srcQueueFamilyIndex = b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    b.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdPipelineBarrier(commands, done_at, next_at, 0, 0, nullptr, 0, nullptr, 1, &b);
-}
-
 struct Frame {
-    Image colour, depth, result;
+    GpuImage colour, depth, result;
     VkBuffer pixels = VK_NULL_HANDLE;  // where the result is read from in the end
 };
 
@@ -348,39 +238,23 @@ int main(int count, char** words) {
     const Host host = open_host();
     Frame frame;
     constexpr VkImageUsageFlags kRendered = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    frame.colour = make_image(host, VK_FORMAT_R16G16B16A16_SFLOAT, kRendered);
-    frame.depth = make_image(host, VK_FORMAT_R32_SFLOAT, kRendered);
+    frame.colour = make_image(host, VK_FORMAT_R16G16B16A16_SFLOAT, kRendered, kSize);
+    frame.depth = make_image(host, VK_FORMAT_R32_SFLOAT, kRendered, kSize);
     frame.result = make_image(host, VK_FORMAT_R32G32B32A32_SFLOAT,
-                              VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    VkBufferCreateInfo buffer = {};
-    buffer.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, buffer.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    buffer.size = std::uint64_t(kWidth) * kHeight * 4 * sizeof(float);
-    must(vkCreateBuffer(host.device, &buffer, nullptr, &frame.pixels), "buffer");
-    VkMemoryRequirements needed = {};
-    vkGetBufferMemoryRequirements(host.device, frame.pixels, &needed);
-    VkMemoryAllocateInfo allocation = {};
-    allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, allocation.allocationSize = needed.size;
-    allocation.memoryTypeIndex =
-        memory_type(host, needed.memoryTypeBits,
-                    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    must(vkAllocateMemory(host.device, &allocation, nullptr, &memory), "memory");
-    must(vkBindBufferMemory(host.device, frame.pixels, memory, 0), "memory");
+                              VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, kSize);
+    const Buffer pixels = make_buffer(host, std::uint64_t(kWidth) * kHeight * 4 * sizeof(float),
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    frame.pixels = pixels.buffer;
 
     const Renderer renderer = make_renderer(host, frame.colour, frame.depth);
     petzval_pass* const pass = open_pass(host);
     render_shot(host, renderer, frame, pass);
-    void* pixels = nullptr;
-    must(vkMapMemory(host.device, memory, 0, VK_WHOLE_SIZE, 0, &pixels), "memory");
-    write_png(words[1], static_cast<const float*>(pixels));
+    write_png(words[1], static_cast<const float*>(pixels.mapped));
 
     petzval_pass_close(pass);  // (6) before the device goes, when nothing of it is under way
     destroy(host, renderer);
-    for (const Image& image : {frame.colour, frame.depth, frame.result}) destroy(host, image);
-    vkDestroyBuffer(host.device, frame.pixels, nullptr);
-    vkFreeMemory(host.device, memory, nullptr);
-    vkDestroyCommandPool(host.device, host.pool, nullptr);
-    vkDestroyDevice(host.device, nullptr);
-    vkDestroyInstance(host.instance, nullptr);
+    for (const GpuImage& image : {frame.colour, frame.depth, frame.result}) destroy(host, image);
+    destroy(host, pixels);
+    close_host(host);
     return 0;
 }
