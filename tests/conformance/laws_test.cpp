@@ -166,6 +166,28 @@ TEST_P(Law, AtAnEdgeInFrontTheLensSeesAsMuchOfEachAsLiesBeforeIt) {
     expect_as_much_as_the_lens_sees(picture(shot), allows().near_edge);
 }
 
+// Whatever rings, levels or layers the two share.
+TEST_P(Law, AnOpaqueSheetHidesWhatIsStatedBehindIt) {
+    const float pairs[][2] = {{-20, -17.5f}, {-7, -6}, {-6.5f, -2}, {2, 2.3f}, {5.5f, 7}, {16, 20}};
+    for (const auto& [sheet, hidden] : pairs) {
+        if (traces() && std::abs(sheet) > 7) continue;
+        Shot shot = flat(48, 40, {0.2f, 0.2f, 0.2f, 1}, sheet);
+        // Radii beside these two decide where rings lie.
+        shot.coc_px(0, 0) = 1.3f * sheet;
+        put_behind(
+            shot,
+            [](int, int) {
+                return Rgba{1, 1, 1, 1};
+            },
+            [hidden](int, int) { return hidden; });
+        DefocusJob behind = job(shot);
+        behind.pupil_points = 64;
+        const Picture image = drawn(behind);
+        for (const int x : {20, 24, 30})
+            EXPECT_NEAR(image(x, 20).g, 0.2, 1e-3) << sheet << " before " << hidden;
+    }
+}
+
 TEST_P(Law, EmptinessStaysEmptyAndCoverageIsBlurredAsColourIs) {
     for (const float coc : {-8.0f, 6.0f, 20.0f}) {
         if (traces() && coc == 20) continue;

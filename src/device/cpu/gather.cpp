@@ -19,7 +19,6 @@ using engine::GatherPlan;
 using engine::kGatherGroup;
 using engine::kGatherRows;
 using engine::OpenEdges;
-using engine::RingSizes;
 
 constexpr int kPlanes = 6;
 enum PlaneName { kRed, kGreen, kBlue, kCovered, kAlpha, kBeyond };
@@ -47,7 +46,7 @@ private:
     std::vector<float> floats_;
 };
 
-// Light of one ring that may reach the tile, at its place in the window.
+// Light of one turn that may reach the tile, at its place in the window.
 struct Arrival {
     int x, y;
     int zone;
@@ -67,9 +66,9 @@ struct Combined {
 };
 
 struct Workspace {
-    std::vector<std::vector<Arrival>> arrivals;  // by ring
+    std::vector<std::vector<Arrival>> arrivals;  // by turn
     std::vector<std::ptrdiff_t> offsets;
-    std::vector<int> zones;  // of a ring's arrivals, each once
+    std::vector<int> zones;  // of a turn's arrivals, each once
     Planes window, gathered, of_zone;
     Combined cells, tile;
 };
@@ -82,18 +81,19 @@ public:
 
     void run(View<Rgba> out) {
         w_.tile.reset(tile_.width(), tile_.height());
-        const int rings = plan_.sizes.count();
-        for (int begin = 0; begin < rings;) {
+        const int turns = int(plan_.sizes.turns().size());
+        for (int begin = 0; begin < turns;) {
+            const int level = plan_.sizes.level_of_turn(begin);
             int end = begin;
-            while (end < rings && plan_.sizes.level(end) == plan_.sizes.level(begin)) ++end;
-            group(begin, end, plan_.sizes.level(begin));
+            while (end < turns && plan_.sizes.level_of_turn(end) == level) ++end;
+            group(begin, end, level);
             begin = end;
         }
         write(out);
     }
 
 private:
-    // Rings begin…end-1, all of one level.
+    // Turns begin…end-1, all of one level.
     void group(int begin, int end, int level) {
         target_ = GatherPlan::cells_of(tile_, level);
         window_ = target_.grown(plan_.reach[std::size_t(level)]);
@@ -104,9 +104,9 @@ private:
             return;
         Combined& into = level == 0 ? w_.tile : w_.cells;
         if (level > 0) into.reset(target_.width(), target_.height());
-        for (int ring = begin; ring < end; ++ring) {
-            if (w_.arrivals[std::size_t(ring)].empty()) continue;
-            gather_ring(ring);
+        for (int turn = begin; turn < end; ++turn) {
+            if (w_.arrivals[std::size_t(turn)].empty()) continue;
+            gather_turn(turn);
             take(into);
         }
         if (level > 0) enlarge(level);
@@ -128,17 +128,17 @@ private:
     }
 
     void find_arrivals(int begin, int end, int level) {
-        w_.arrivals.resize(std::size_t(plan_.sizes.count()));
-        for (int ring = begin; ring < end; ++ring) w_.arrivals[std::size_t(ring)].clear();
+        w_.arrivals.resize(plan_.sizes.turns().size());
+        for (int turn = begin; turn < end; ++turn) w_.arrivals[std::size_t(turn)].clear();
         has_beyond_ = false;
         level == 0 ? find_in_picture(begin, end) : find_in_cells(begin, end, level);
     }
 
-    void arrive(int ring, int x, int y, Rgba colour, float covered, float beyond) {
+    void arrive(int turn, int x, int y, Rgba colour, float covered, float beyond) {
         has_beyond_ = has_beyond_ || beyond > 0;
         x -= window_.x0, y -= window_.y0;
         const int zone = zone_row_[std::size_t(y)] + zone_column_[std::size_t(x)];
-        w_.arrivals[std::size_t(ring)].push_back({x, y, zone, colour, covered, beyond});
+        w_.arrivals[std::size_t(turn)].push_back({x, y, zone, colour, covered, beyond});
     }
 
     // Whether what lies outside at (x, y) goes on as the nearest cell inside; else there is emptiness.
@@ -154,17 +154,15 @@ private:
             for (int x = window_.x0; x < window_.x1; ++x) {
                 const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
                 const bool outside = u != x || v != y, on = !outside || goes_on(x, y, width, height);
-                engine::for_each_sample(
-                    plan_.strip, plan_.fill, u, v, [&](Rgba colour, float coc_px, float covered) {
-                        const RingSizes::Mix mix = plan_.sizes.mix(coc_px);
-                        const auto add = [&](int ring, float share) {
-                            if (share <= 0 || ring < begin || ring >= end) return;
-                            arrive(ring, x, y, outside ? Rgba{} : share * colour,
-                                   outside && on ? 0 : share * covered, outside && on ? share * covered : 0);
-                        };
-                        add(mix.inner, 1 - mix.outer_share);
-                        add(mix.outer, mix.outer_share);
-                    });
+                engine::for_each_sample(plan_.strip, plan_.fill, u, v,
+                                        [&](Rgba colour, float coc_px, float covered, bool hidden) {
+                                            plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
+                                                if (turn < begin || turn >= end) return;
+                                                arrive(turn, x, y, outside ? Rgba{} : share * colour,
+                                                       outside && on ? 0 : share * covered,
+                                                       outside && on ? share * covered : 0);
+                                            });
+                                        });
             }
     }
 
@@ -178,20 +176,21 @@ private:
                 const bool outside = u != x || v != y;
                 const bool on = outside && goes_on(x, y, cells.width(), cells.height());
                 for (const CellLight& light : cells.at(u, v)) {
-                    if (light.ring < begin || light.ring >= end) continue;
+                    if (light.turn < begin || light.turn >= end) continue;
                     const float all = light.covered + light.beyond;
                     if (!outside)
-                        arrive(light.ring, x, y, light.colour, light.covered, light.beyond);
+                        arrive(light.turn, x, y, light.colour, light.covered, light.beyond);
                     else
-                        arrive(light.ring, x, y, {}, on ? 0 : all, on ? all : 0);
+                        arrive(light.turn, x, y, {}, on ? 0 : all, on ? all : 0);
                 }
             }
         }
     }
 
-    // The light of one ring, at every cell of its reach within the target: from each zone by its own kernel.
-    void gather_ring(int ring) {
-        const std::vector<Arrival>& arrivals = w_.arrivals[std::size_t(ring)];
+    // The light of one turn, at every cell of its reach within the target: from each zone by its own kernel.
+    void gather_turn(int turn) {
+        const std::vector<Arrival>& arrivals = w_.arrivals[std::size_t(turn)];
+        const int ring = plan_.sizes.turns()[std::size_t(turn)].ring;
         w_.zones.clear();
         for (const Arrival& a : arrivals)
             if (std::find(w_.zones.begin(), w_.zones.end(), a.zone) == w_.zones.end())
@@ -270,7 +269,7 @@ private:
         }
     }
 
-    // Of each cell's lens, the area that the ring arrives with, or what is left.
+    // Of each cell's lens, the area that the turn's light arrives with, or what is left.
     void take(Combined& into) {
         for (int y = reached_.y0; y < reached_.y1; ++y) {
             const float *covered = w_.gathered.row(kCovered, y), *beyond = w_.gathered.row(kBeyond, y);
@@ -350,7 +349,7 @@ private:
     Rect tile_;
     Workspace& w_;
     Rect target_, window_;  // cells of the level: where light is wanted, where it may come from
-    Rect reached_;          // cells of the target that the ring reaches
+    Rect reached_;          // cells of the target that the turn's light reaches
     bool has_beyond_ = false;
     int planes_ = kPlanes;                     // that are gathered
     std::vector<int> zone_column_, zone_row_;  // of the window's cells: a zone is their sum

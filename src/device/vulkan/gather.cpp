@@ -15,7 +15,6 @@ namespace {
 using engine::CellLevel;
 using engine::CellLight;
 using engine::GatherPlan;
-using engine::RingSizes;
 
 constexpr int kTile = GatherPlan::kTile;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
@@ -27,12 +26,12 @@ static_assert(kTile == 128 && GatherPlan::kTentBorder == 1, "as gather.comp has 
 std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 struct Push {
-    std::uint32_t tiles = 0, levels = 0, rings = 0, places = 0;
-    std::uint32_t ring_count = 0, records = 0, is_opaque = 0, open_edges = 0;
+    std::uint32_t tiles = 0, levels = 0, turns = 0, places = 0;
+    std::uint32_t turn_count = 0, ring_count = 0, records = 0, is_opaque = 0, open_edges = 0;
 };
-static_assert(sizeof(Push) == 32);
+static_assert(sizeof(Push) == 36);
 
-// Cells of one level, rows begin…end - 1: their light by ring.
+// Cells of one level, rows begin…end - 1: their light by turn.
 struct Cells {
     int width = 0, height = 0, begin = 0, end = 0;
     std::vector<std::uint32_t> first;
@@ -78,23 +77,23 @@ private:
         for (const Rect& r : tiles)
             words.insert(words.end(), {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1),
                                        std::uint32_t(r.y1)});
-        push.rings = here(), push.ring_count = std::uint32_t(plan_.sizes.count());
-        for (int ring = 0; ring < plan_.sizes.count(); ++ring)
-            words.push_back(std::uint32_t(plan_.sizes.level(ring)));
-        push.places = here();
+        push.places = here(), push.ring_count = std::uint32_t(plan_.sizes.count());
         words.insert(words.end(), plan_.places.begin(), plan_.places.end());
         push.levels = here();
         constexpr std::size_t kLevelWords = 8;
         words.resize(words.size() + std::size_t(plan_.sizes.levels()) * kLevelWords);
+        std::vector<bool> has_light(plan_.sizes.turns().size());
         for (int level = 0; level < plan_.sizes.levels(); ++level) {
             const Cells cells = cells_for(tiles, level);
             const std::uint32_t first = here();
             words.insert(words.end(), cells.first.begin(), cells.first.end());
             const std::uint32_t lights = here();
-            for (const CellLight& l : cells.lights)
+            for (const CellLight& l : cells.lights) {
                 words.insert(words.end(), {bits_of(l.colour.r), bits_of(l.colour.g), bits_of(l.colour.b),
                                            bits_of(l.colour.a), bits_of(l.covered), bits_of(l.beyond),
-                                           std::uint32_t(l.ring)});
+                                           std::uint32_t(l.turn)});
+                has_light[std::size_t(l.turn)] = true;
+            }
             const auto middle = [&](int cell) { return std::ldexp(cell + 0.5, level) - 0.5; };
             const std::uint32_t columns = here();
             for (int x = 0; x < cells.width; ++x)
@@ -113,6 +112,13 @@ private:
                 std::uint32_t(plan_.reach[std::size_t(level)])};
             std::copy(header.begin(), header.end(),
                       words.begin() + std::ptrdiff_t(push.levels + std::size_t(level) * kLevelWords));
+        }
+        push.turns = here();
+        for (std::uint32_t turn = 0; turn < has_light.size(); ++turn) {
+            const auto [ring, hidden] = plan_.sizes.turns()[turn];
+            if (hidden && !has_light[turn]) continue;
+            words.insert(words.end(), {turn, std::uint32_t(ring), std::uint32_t(plan_.sizes.level(ring))});
+            ++push.turn_count;
         }
         const engine::OpenEdges& open = plan_.strip.open_edges;
         push.open_edges =
@@ -164,21 +170,19 @@ private:
         return cells;
     }
 
-    // The light of a pixel for each ring of level 0, once.
+    // The light of a pixel for each turn of level 0, once.
     void add_pixel(int x, int y, std::vector<CellLight>& lights) const {
         const std::size_t begin = lights.size();
-        const auto add = [&](int ring, float share, Rgba colour, float covered) {
-            if (share <= 0 || plan_.sizes.level(ring) != 0) return;
-            auto known = std::find_if(lights.begin() + std::ptrdiff_t(begin), lights.end(),
-                                      [ring](const CellLight& l) { return l.ring == ring; });
-            if (known == lights.end()) known = lights.insert(known, CellLight()), known->ring = ring;
-            known->colour += share * colour, known->covered += share * covered;
-        };
-        engine::for_each_sample(plan_.strip, plan_.fill, x, y, [&](Rgba colour, float coc_px, float covered) {
-            const RingSizes::Mix mix = plan_.sizes.mix(coc_px);
-            add(mix.inner, 1 - mix.outer_share, colour, covered);
-            add(mix.outer, mix.outer_share, colour, covered);
-        });
+        engine::for_each_sample(
+            plan_.strip, plan_.fill, x, y, [&](Rgba colour, float coc_px, float covered, bool hidden) {
+                plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
+                    if (plan_.sizes.level_of_turn(turn) != 0) return;
+                    auto known = std::find_if(lights.begin() + std::ptrdiff_t(begin), lights.end(),
+                                              [turn](const CellLight& l) { return l.turn == turn; });
+                    if (known == lights.end()) known = lights.insert(known, CellLight()), known->turn = turn;
+                    known->colour += share * colour, known->covered += share * covered;
+                });
+            });
     }
 
     Context& context_;

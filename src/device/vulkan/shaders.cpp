@@ -69,7 +69,7 @@ ShaderWords words_of(Shader shader) {
         case Shader::AddCells:
             return {kAddCells, 3, 8};
         case Shader::Gather:
-            return {kGather, 4, 32};
+            return {kGather, 4, 36};
         case Shader::SpreadCells:
             return {kSpreadCells, 5, 84};
         case Shader::BlurCells:

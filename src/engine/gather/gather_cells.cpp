@@ -8,11 +8,11 @@
 namespace petzval::engine {
 namespace {
 
-CellLight& of_ring(std::vector<CellLight>& lights, std::size_t begin, int ring) {
+CellLight& of_turn(std::vector<CellLight>& lights, std::size_t begin, int turn) {
     for (std::size_t i = begin; i < lights.size(); ++i)
-        if (lights[i].ring == ring) return lights[i];
+        if (lights[i].turn == turn) return lights[i];
     lights.push_back({});
-    lights.back().ring = ring;
+    lights.back().turn = turn;
     return lights.back();
 }
 
@@ -37,7 +37,7 @@ public:
             for (int x = across_.begin(cx); x < across_.end(cx); ++x) {
                 const float share = across_.share(x, cx);
                 for (std::size_t i = first_[std::size_t(x)]; i < first_[std::size_t(x) + 1]; ++i) {
-                    CellLight& light = of_ring(lights, begin, lights_[i].ring);
+                    CellLight& light = of_turn(lights, begin, lights_[i].turn);
                     light.colour += share * lights_[i].colour;
                     light.covered += share * lights_[i].covered, light.beyond += share * lights_[i].beyond;
                 }
@@ -61,17 +61,14 @@ private:
         const int u = std::min(x, input_.width() - 1), v = std::min(y, input_.height() - 1);
         const bool outside_x = u != x, outside_y = v != y, outside = outside_x || outside_y;
         const bool open = (!outside_x || input_.open_edges.right) && (!outside_y || input_.open_edges.bottom);
-        for_each_sample(input_, fill_, u, v, [&](Rgba colour, float coc_px, float covered) {
+        for_each_sample(input_, fill_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
             if (!may_hold_.contains(coc_px)) return;
-            const RingSizes::Mix mix = sizes_.mix(coc_px);
-            const auto add = [&](int ring, float share) {
-                if (share <= 0 || sizes_.level(ring) != across_.level()) return;
-                CellLight& light = of_ring(lights_, begin, ring);
+            sizes_.hand_out(coc_px, hidden, [&](int turn, float share) {
+                if (sizes_.level_of_turn(turn) != across_.level()) return;
+                CellLight& light = of_turn(lights_, begin, turn);
                 if (!outside) light.colour += share * weight * colour;
                 (outside && open ? light.beyond : light.covered) += share * weight * covered;
-            };
-            add(mix.inner, 1 - mix.outer_share);
-            add(mix.outer, mix.outer_share);
+            });
         });
     }
 

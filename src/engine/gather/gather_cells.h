@@ -1,7 +1,7 @@
 // The prefilter: the picture's light on grids of cells 2, 4, … pixels wide, kept apart by ring.
 //
-// A cell holds one entry for each ring that light in its pixels belongs to, so a cell on a silhouette keeps
-// both radii, and neither surface's darkness bleeds into the other. Pixels are shared between the cells
+// A cell holds one entry for each turn (RingSizes) that light in its pixels has, so a cell on a silhouette
+// keeps both radii, and neither surface's darkness bleeds into the other. Pixels are shared between the cells
 // around their middle, so that discs lie where their light does.
 #pragma once
 
@@ -14,20 +14,20 @@
 
 namespace petzval::engine {
 
-// Light of one ring in one cell: sums over its pixels' shares, divided by the cell's size.
+// Light of one turn in one cell: sums over its pixels' shares, divided by the cell's size.
 struct CellLight {
     Rgba colour;
     float covered = 0;  // share of the cell's lens area it takes up
     float beyond = 0;   // the same for the part of the cell outside the picture: the surface goes on, its
                         // colour is not known
-    int ring = 0;
+    int turn = 0;       // of RingSizes::turns()
 };
 
 // Of a deep pixel, each sample dimmed by what is in front of it: a translucent one always, an opaque one
 // where so little farther away that no ray comes past what is in front. What a straight ray is left with is
 // emptiness.
 template <typename Emit>
-void for_each_deep_sample(const Input& input, int x, int y, const Emit& emit) {
+void for_each_deep_sample(const Input& input, int x, int y, Emit& emit) {
     constexpr float kNoRoomPx = 1, kOpaque = 1 - 1e-3f;
     float open = 1, last_px = input.coc_px(x, y), front_px = -1e30f;
     for (const CocSample& s : input.deep.at(x, y)) {
@@ -39,18 +39,49 @@ void for_each_deep_sample(const Input& input, int x, int y, const Emit& emit) {
     if (open > 0) emit(Rgba{}, last_px, open);
 }
 
-// The samples that a gather takes from one pixel, as emit(colour, coc_px, covered).
+// Rays that pass an edge see of what lies behind it what the pinhole sees, before anything that is hidden.
+// But between near and far they cross in focus, and see either.
+inline bool is_hidden(float in_front_px, float coc_px) { return coc_px <= 0 || in_front_px >= 0; }
+
+// The samples of a pixel, from the nearest, as a gather takes them: what a straight ray sees of one first,
+// then what others in front of it hide. Right behind an opaque one no ray to speak of comes past: within two
+// rings, whose light is mixed, that would be seen through what hides it.
+template <typename Emit>
+class SeenFirst {
+public:
+    explicit SeenFirst(const Emit& emit) : emit_(emit) {}
+    void operator()(Rgba colour, float coc_px, float covered) {
+        constexpr float kOpaque = 1 - 1e-3f;
+        const float seen = std::min(covered, open_), share = covered > 0 ? seen / covered : 1;
+        if (share > 0) emit_(share * colour, coc_px, seen, false);
+        if (share < 1 && coc_px - opaque_px_ >= no_room_px(coc_px))
+            emit_((1 - share) * colour, coc_px, covered - seen, is_hidden(in_front_px_, coc_px));
+        open_ -= seen;
+        if (covered > kOpaque) opaque_px_ = coc_px;
+        if (covered > 0) in_front_px_ = coc_px;
+    }
+
+private:
+    static float no_room_px(float coc_px) { return std::max(1.0f, 0.3f * std::abs(coc_px)); }
+
+    const Emit& emit_;
+    float open_ = 1, opaque_px_ = -1e30f, in_front_px_ = -1e30f;
+};
+
+// The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
 template <typename Emit>
 void for_each_sample(const Input& input, const BlockFill& fill, int x, int y, const Emit& emit) {
+    SeenFirst take(emit);
     if (input.deep.empty()) {
         const float coc = input.coc_px(x, y);
-        emit(input.colour(x, y), coc, 1.0f);
-        if (const auto hidden = fill.behind(x, y, coc)) emit(hidden->colour, hidden->coc_px, 1.0f);
+        emit(input.colour(x, y), coc, 1.0f, false);
+        if (const auto hidden = fill.behind(x, y, coc))
+            emit(hidden->colour, hidden->coc_px, 1.0f, is_hidden(coc, hidden->coc_px));
         return;
     }
-    if (input.deep_dims_itself) return for_each_deep_sample(input, x, y, emit);
+    if (input.deep_dims_itself) return for_each_deep_sample(input, x, y, take);
     for (const CocSample& s : input.deep.at(x, y))
-        emit(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
+        take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
 }
 
 class CellLevel {

@@ -57,6 +57,7 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
             level = std::max(1, int(std::ceil(std::log2(r / rule.largest_cells) - 1e-4f)));
         levels_.push_back(level);
     }
+    put_in_order();
     const auto squared = [&](int ring) {
         const float r = std::max(std::abs(radius_px(ring)), kWithinPixelPx);
         return r * r;
@@ -75,6 +76,22 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
         const float start = radii_px_.front() + width_px * (float(i) - 0.01f) / kSteps;
         starts_.push_back(
             std::uint16_t(std::lower_bound(radii_px_.begin(), radii_px_.end(), start) - radii_px_.begin()));
+    }
+}
+
+void RingSizes::put_in_order() {
+    turn_of_.resize(2 * std::size_t(count()));
+    const auto put = [&](int ring, bool hidden) {
+        turn_of_[std::size_t(2 * ring + (hidden ? 1 : 0))] = int(turns_.size());
+        turns_.push_back({ring, hidden});
+    };
+    const auto goes_on = [&](int ring, int beside) {
+        return beside >= 0 && beside < count() && level(beside) == level(ring);
+    };
+    for (int ring = 0; ring < count(); ++ring) {
+        put(ring, false);
+        if (goes_on(ring, ring - 1)) put(ring - 1, true);
+        if (!goes_on(ring, ring + 1)) put(ring, true);
     }
 }
 

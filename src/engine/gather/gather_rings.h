@@ -57,7 +57,32 @@ public:
                 std::clamp((coc_px * coc_px - between.low) * between.scale, 0.0f, 1.0f)};
     }
 
+    // The order in which rings are gathered: from the nearest to the farthest; of one ring first what the
+    // pinhole sees. What other things of its own pixel hide from it waits until the ring beyond has had its
+    // turn, if that is of the same level: what is in front may be shared between the same two rings.
+    struct Turn {
+        int ring;
+        bool hidden;
+    };
+    std::span<const Turn> turns() const { return turns_; }
+    int level_of_turn(int turn) const { return level(turns_[std::size_t(turn)].ring); }
+
+    // What a source hands to rings, as emit(turn, share). Hidden light between two levels goes to the farther
+    // ring alone, since it cannot wait for that.
+    template <typename Emit>
+    void hand_out(float coc_px, bool hidden, const Emit& emit) const {
+        Mix to = mix(coc_px);
+        if (hidden && level(to.inner) != level(to.outer)) to.outer_share = to.outer > to.inner ? 1.0f : 0.0f;
+        const auto give = [&](int ring, float share) {
+            if (share > 0) emit(turn_of_[std::size_t(2 * ring + (hidden ? 1 : 0))], share);
+        };
+        give(to.inner, 1 - to.outer_share);
+        give(to.outer, to.outer_share);
+    }
+
 private:
+    void put_in_order();
+
     // What is handed out between two radii, with the smaller one's c^2 and 1 / (outer^2 - inner^2). What a
     // pixel holds anyway is not blurred: no c^2 counts as less than that of a disc within its pixel.
     struct Interval {
@@ -66,6 +91,8 @@ private:
     };
     std::vector<float> radii_px_;
     std::vector<int> levels_;
+    std::vector<Turn> turns_;
+    std::vector<int> turn_of_;         // visible and hidden, ring by ring
     std::vector<Interval> intervals_;  // [i]: up to radii_px_[i]; the last: beyond all
     // The first radius not below the start of each of many equal steps from the first radius to the last:
     // millions of pixels ask.

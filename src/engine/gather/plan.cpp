@@ -62,7 +62,8 @@ void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
         for (int y = 0; y < cells.height(); ++y) {
             if (!cells.has_any(y)) continue;
             for (int x = 0; x < cells.width(); ++x)
-                for (const CellLight& light : cells.at(x, y)) ask(light.ring, zones(x, y));
+                for (const CellLight& light : cells.at(x, y))
+                    ask(plan.sizes.turns()[std::size_t(light.turn)].ring, zones(x, y));
         }
     }
     struct Asked {

@@ -15,8 +15,9 @@
 
 namespace petzval::engine {
 
-// Rings are taken from the nearest to the farthest. Each takes of every pixel's lens the area it arrives
-// with, or what is left: what is near hides what is far, whatever its colour. What nothing took goes to what
+// Rings are taken from the nearest to the farthest, in the order of RingSizes::turns(). Each takes of every
+// pixel's lens the area it arrives with, or what is left: what is near hides what is far, whatever its
+// colour. What nothing took goes to what
 // was seen, in proportion. Rings of one level that follow each other are combined on that level's grid and
 // enlarged together (bilinear, the tent).
 struct GatherPlan {

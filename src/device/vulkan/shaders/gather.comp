@@ -1,4 +1,4 @@
-// Gathers 16 x 16 pixels of a tile: rings from the nearest to the farthest, each from the light around that
+// Gathers 16 x 16 pixels of a tile: turn by turn (RingSizes::turns()), each from the light around that
 // belongs to it. Formulas are device/cpu/gather.cpp's; the words are those that gather.cpp beside this writes.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -9,16 +9,16 @@ layout(std430, binding = 1) readonly buffer KernelWords { uint kernels[]; };
 layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
 layout(std430, binding = 3) writeonly buffer Result { vec4 result[]; };  // by tile, 128 x 128 pixels each
 layout(push_constant) uniform Push {
-    uint tiles, levels, rings, places;  // where these begin in `words`
-    uint ring_count, records;
+    uint tiles, levels, turns, places;  // where these begin in `words`
+    uint turn_count, ring_count, records;
     uint is_opaque;   // alpha is coverage
     uint open_edges;  // bits: left, top, right, bottom
 } at;
 
 // A tile: its rectangle. A level: cells across and down, the first row that is here, where the first lights of
 // its cells, the lights, zones of columns and zones of rows begin, and how far kernels reach. A light: colour,
-// covered, beyond, ring. A ring: its level. Places: kernels by zone and ring.
-const uint kTileWords = 4, kLevelWords = 8, kLightWords = 7, kNowhere = 0xffffffffu;
+// covered, beyond, turn. A turn: its number, ring and level. Places: kernels by zone and ring.
+const uint kTileWords = 4, kLevelWords = 8, kLightWords = 7, kTurnWords = 3, kNowhere = 0xffffffffu;
 const int kChunk = 256, kBorder = 1;
 const float kLeastArea = 1e-6;
 
@@ -38,8 +38,8 @@ float number(uint word) { return uintBitsToFloat(words[word]); }
 
 #include "kernels.glsl"
 
-// Which lights of a ring, of those of cell number `index` of the window, touch the box; returns how many.
-uint find_hits(uint ring, uint level, Box window, Box box, int index) {
+// Which lights of a turn, of those of cell number `index` of the window, touch the box; returns how many.
+uint find_hits(uint turn, uint level, Box window, Box box, int index) {
     const uint own = gl_LocalInvocationIndex;
     if (own < kChunk / 32) hit_words[own] = 0u;
     barrier();
@@ -53,12 +53,12 @@ uint find_hits(uint ring, uint level, Box window, Box box, int index) {
         const uint first = words[level + 3u] + uint((cell.y - int(words[level + 2u])) * size.x + cell.x);
         for (uint i = words[first]; i < words[first + 1u] && !hits; ++i) {
             light = words[level + 4u] + kLightWords * i;
-            hits = words[light + 6u] == ring;
+            hits = words[light + 6u] == words[turn];
         }
     }
     if (hits) {
         const uint zone = words[words[level + 5u] + uint(cell.x)] + words[words[level + 6u] + uint(cell.y)];
-        const uint kernel = words[at.places + zone * at.ring_count + ring];
+        const uint kernel = words[at.places + zone * at.ring_count + words[turn + 1u]];
         hits = kernel != kNowhere;
         if (hits) {
             record = at.records + 3u * kernels[kernel];
@@ -96,15 +96,15 @@ uint find_hits(uint ring, uint level, Box window, Box box, int index) {
     return all_hits;
 }
 
-// What arrives at a cell from one ring: from every hit whose number is `slice` of `slices`.
-Sums gathered(uint ring, uint level, Box box, ivec2 cell, bool wanted, uint slice, uint slices) {
+// What arrives at a cell in one turn: from every hit whose number is `slice` of `slices`.
+Sums gathered(uint turn, uint level, Box box, ivec2 cell, bool wanted, uint slice, uint slices) {
     const int reach = int(words[level + 7u]);
     const Box window = Box(box.low - reach, box.high + reach);
     const ivec2 wide = window.high - window.low;
     Sums sums = Sums(vec4(0), vec2(0));
     for (int first = 0; first < wide.x * wide.y; first += kChunk) {
         const uint hits =
-            find_hits(ring, level, window, box, first + int(gl_LocalInvocationIndex));
+            find_hits(turn, level, window, box, first + int(gl_LocalInvocationIndex));
         if (wanted)
             for (uint k = slice; k < hits; k += slices) {
                 const ivec2 d = cell - ivec2(hit_x[k], hit_y[k]) - halves(hit_corner[k]), size = halves(hit_size[k]);
@@ -118,7 +118,7 @@ Sums gathered(uint ring, uint level, Box box, ivec2 cell, bool wanted, uint slic
     return sums;
 }
 
-// Of the lens, the area that a ring arrives with, or what is left.
+// Of the lens, the area that a turn arrives with, or what is left.
 void take(Sums ring, inout vec4 sum, inout float free) {
     const bool covers = ring.area.x > kLeastArea;
     const float taken = covers ? min(ring.area.x + ring.area.y, free) : 0.0;
@@ -141,11 +141,12 @@ void main() {
 
     vec4 sum = vec4(0);
     float free = 1;
-    for (uint ring = 0u; ring < at.ring_count;) {
-        const uint number_of_level = words[at.rings + ring], level = at.levels + kLevelWords * number_of_level;
+    const uint last = at.turns + kTurnWords * at.turn_count;
+    for (uint turn = at.turns; turn < last;) {
+        const uint number_of_level = words[turn + 2u], level = at.levels + kLevelWords * number_of_level;
         if (number_of_level == 0u) {
-            take(gathered(ring, level, box, pixel, inside, 0u, 1u), sum, free);
-            ++ring;
+            take(gathered(turn, level, box, pixel, inside, 0u, 1u), sum, free);
+            turn += kTurnWords;
             continue;
         }
         // Rings of one level are combined on its grid and enlarged together.
@@ -156,8 +157,8 @@ void main() {
         const ivec2 cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
         vec4 cell_sum = vec4(0);
         float cell_free = 1;
-        for (; ring < at.ring_count && words[at.rings + ring] == number_of_level; ++ring) {
-            const Sums slice = gathered(ring, level, cells, cell, own < slices * count, own / count, slices);
+        for (; turn < last && words[turn + 2u] == number_of_level; turn += kTurnWords) {
+            const Sums slice = gathered(turn, level, cells, cell, own < slices * count, own / count, slices);
             hit_colour[own] = slice.colour, hit_area[own] = slice.area;
             barrier();
             Sums whole = Sums(vec4(0), vec2(0));
