@@ -2,11 +2,11 @@
 
 #include "base/parallel.h"
 #include "device/vulkan/holdout.h"
+#include "device/vulkan/words.h"
 #include "engine/lights/shadow_plan.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -23,8 +23,6 @@ constexpr int kTile = 64;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
 constexpr std::uint32_t kGroupsPerTile = 16;
 constexpr int kBlock = 16;  // cells of a pupil that a group covers
-
-std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 // Lights begin…end - 1 of a plan, with the viewpoints that they have.
 struct Batch {
@@ -119,12 +117,10 @@ private:
             const int x = rows.x0 + int(t) % columns * kTile, y = rows.y0 + int(t) / columns * kTile;
             const Rect tile = Rect{x, y, x + kTile, y + kTile}.intersected(rows);
             tiles_.push_back(tile);
-            words_.insert(words_.end(),
-                          {std::uint32_t(tile.x0), std::uint32_t(tile.y0), std::uint32_t(tile.x1),
-                           std::uint32_t(tile.y1), std::uint32_t(order.size())});
+            add_rect(words_, tile, order.size());
             order.insert(order.end(), lights[t].begin(), lights[t].end());
         }
-        words_.insert(words_.end(), {0, 0, 0, 0, std::uint32_t(order.size())});
+        add_rect(words_, {}, order.size());
         push_.order = std::uint32_t(words_.size());
         words_.insert(words_.end(), order.begin(), order.end());
     }
@@ -136,11 +132,8 @@ private:
             const engine::Highlight& h = light.highlight;
             const Rgba colour = h.colour * float(h.size * h.size);
             const std::uint32_t number = batch.number_of[light.viewpoint];
-            words_.insert(words_.end(),
-                          {std::uint32_t(h.x), std::uint32_t(h.y), bits_of(colour.r), bits_of(colour.g),
-                           bits_of(colour.b), bits_of(colour.a), bits_of(h.coc_px), light.kernel,
-                           casters[number - 1].empty() ? 0 : number,
-                           std::uint32_t(plan_.viewpoints[light.viewpoint].first_tap())});
+            add_light(words_, light, colour, h.coc_px, casters[number - 1].empty() ? 0 : number,
+                      std::uint32_t(plan_.viewpoints[light.viewpoint].first_tap()));
         }
     }
 
@@ -211,13 +204,8 @@ private:
                        push, {std::uint32_t(count) * kGroupsPerTile});
         const auto* pixels = reinterpret_cast<const Rgba*>(recording.downloaded(result, bytes));
         recording.run();
-        for (std::size_t t = first; t < first + count; ++t, pixels += kTilePixels) {
-            const Rect& tile = tiles_[t];
-            for (int y = 0; y < tile.height(); ++y) {
-                Rgba* const to = out.row(plan_.first_row + tile.y0 + y) + tile.x0;
-                for (int x = 0; x < tile.width(); ++x) to[x] += pixels[y * kTile + x];
-            }
-        }
+        for (std::size_t t = first; t < first + count; ++t, pixels += kTilePixels)
+            add_tile(pixels, kTile, tiles_[t], plan_.first_row, out);
     }
 
     Context& context_;

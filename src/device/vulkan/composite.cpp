@@ -1,9 +1,9 @@
 #include "device/vulkan/composite.h"
 
 #include "device/vulkan/holdout.h"
+#include "device/vulkan/words.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -32,8 +32,6 @@ struct Push {
     std::uint32_t held_row = 0, held_width = 0, held_samples = 0;
 };
 static_assert(sizeof(Push) == 48);
-
-std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 // Tiles begin…end - 1 of a plan.
 struct Batch {

@@ -1,10 +1,10 @@
 #include "device/vulkan/gather.h"
 
 #include "base/parallel.h"
+#include "device/vulkan/words.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -22,8 +22,6 @@ constexpr std::uint32_t kGroupsPerTile = 64;
 constexpr std::size_t kMostTiles = 16;  // of one submission, so that none is long
 
 static_assert(kTile == 128 && GatherPlan::kTentBorder == 1, "as gather.comp has it");
-
-std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 struct Push {
     std::uint32_t tiles = 0, levels = 0, turns = 0, places = 0;

@@ -1,11 +1,11 @@
 #include "device/vulkan/mix.h"
 
 #include "device/device.h"
+#include "device/vulkan/words.h"
 #include "engine/waist/cells.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -17,8 +17,6 @@ using engine::GaussianPlan;
 
 constexpr std::uint32_t kMostGroups = 65535;
 constexpr int kWideLevel = 3;  // cells from which on a group fills each
-
-std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 struct Push {
     std::uint32_t blur = 0, axis = 0;

@@ -1,10 +1,10 @@
 #include "device/vulkan/stamp_lights.h"
 
 #include "device/vulkan/add_lights.h"
+#include "device/vulkan/words.h"
 #include "engine/waist/cells.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -22,8 +22,6 @@ constexpr int kBlock = 64;  // cells of a level, along a side
 constexpr std::size_t kBlockCells = std::size_t(kBlock) * kBlock;
 constexpr std::uint32_t kGroupsPerBlock = 16, kGroupsPerTile = 256;
 constexpr int kBorder = 1;  // cells around a tile that enlarging reads
-
-std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 // Of a tile, lights begin…end - 1 of the plan's order.
 struct TilePart {
@@ -93,11 +91,7 @@ public:
         const auto* pixels = reinterpret_cast<const Rgba*>(recording.downloaded(result, bytes));
         recording.run();
         for (const TilePart& part : parts) {
-            const Rect& tile = plan_.tiles[part.tile].pixels;
-            for (int y = 0; y < tile.height(); ++y) {
-                Rgba* const to = out.row(plan_.first_row + tile.y0 + y) + tile.x0;
-                for (int x = 0; x < tile.width(); ++x) to[x] += pixels[y * kTile + x];
-            }
+            add_tile(pixels, kTile, plan_.tiles[part.tile].pixels, plan_.first_row, out);
             pixels += kTilePixels;
         }
         return taps_;
@@ -120,10 +114,7 @@ private:
     std::uint32_t list_tiles(const std::vector<TilePart>& parts) {
         std::vector<std::uint32_t> levels;
         constexpr std::size_t kLevelWords = 5;
-        const auto add_tile = [&](const Rect& r) {
-            words_.insert(words_.end(), {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1),
-                                         std::uint32_t(r.y1), std::uint32_t(levels.size() / kLevelWords)});
-        };
+        const auto add_tile = [&](const Rect& r) { add_rect(words_, r, levels.size() / kLevelWords); };
         for (const TilePart& part : parts) {
             add_tile(plan_.tiles[part.tile].pixels);
             for (std::size_t i = part.begin; i < part.end;) {
@@ -164,10 +155,8 @@ private:
                     blocks_.lights[first_block + std::size_t(y * across + x)].push_back(
                         std::uint32_t(lights_.size() / kLightWords));
             const std::uint64_t seen = mask(i).seen;
-            lights_.insert(lights_.end(),
-                           {std::uint32_t(h.x), std::uint32_t(h.y), bits_of(sum.r), bits_of(sum.g),
-                            bits_of(sum.b), bits_of(sum.a), bits_of(std::ldexp(h.coc_px, -level)),
-                            light(i).kernel, std::uint32_t(seen), std::uint32_t(seen >> 32)});
+            add_light(lights_, light(i), sum, std::ldexp(h.coc_px, -level), std::uint32_t(seen),
+                      std::uint32_t(seen >> 32));
         }
         return i;
     }
@@ -176,12 +165,10 @@ private:
         push.tiles = std::uint32_t(words_.size());
         std::vector<std::uint32_t> order;
         for (std::size_t b = 0; b < blocks_.cells.size(); ++b) {
-            const Rect& r = blocks_.cells[b];
-            words_.insert(words_.end(), {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1),
-                                         std::uint32_t(r.y1), std::uint32_t(order.size())});
+            add_rect(words_, blocks_.cells[b], order.size());
             order.insert(order.end(), blocks_.lights[b].begin(), blocks_.lights[b].end());
         }
-        words_.insert(words_.end(), {0, 0, 0, 0, std::uint32_t(order.size())});
+        add_rect(words_, {}, order.size());
         push.order = std::uint32_t(words_.size());
         words_.insert(words_.end(), order.begin(), order.end());
         push.lights = std::uint32_t(words_.size());
@@ -195,7 +182,6 @@ private:
         return atlas_.uploaded(std::vector<std::uint32_t>(kernels.begin(), kernels.end()), recording);
     }
 
-    static constexpr std::size_t kLightWords = 10;
     Context& context_;
     const LightsPlan& plan_;
     const PackedAtlas& atlas_;

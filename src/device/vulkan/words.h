@@ -1,0 +1,42 @@
+// What the host writes for programs of the device, and reads back: shared by those that list tiles and
+// lights.
+#pragma once
+
+#include "petzval/image.h"
+
+#include "engine/lights/plan.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace petzval::device::vulkan {
+
+inline std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+// A rectangle, and where what belongs to it begins; that of the next says where it ends.
+inline void add_rect(std::vector<std::uint32_t>& words, const Rect& r, std::size_t first) {
+    words.insert(words.end(), {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1),
+                               std::uint32_t(r.y1), std::uint32_t(first)});
+}
+
+// A light as shaders/add_lights.comp reads it; the last two say what it is seen through.
+constexpr std::size_t kLightWords = 10;
+inline void add_light(std::vector<std::uint32_t>& words, const engine::PlannedLight& light, Rgba colour,
+                      float coc_px, std::uint32_t seen, std::uint32_t more) {
+    const engine::Highlight& h = light.highlight;
+    words.insert(words.end(),
+                 {std::uint32_t(h.x), std::uint32_t(h.y), bits_of(colour.r), bits_of(colour.g),
+                  bits_of(colour.b), bits_of(colour.a), bits_of(coc_px), light.kernel, seen, more});
+}
+
+// Adds a tile of a square of `side` pixels, row by row, to its place below first_row.
+inline void add_tile(const Rgba* pixels, int side, const Rect& tile, int first_row, View<Rgba> out) {
+    for (int y = 0; y < tile.height(); ++y, pixels += side) {
+        Rgba* const to = out.row(first_row + tile.y0 + y) + tile.x0;
+        for (int x = 0; x < tile.width(); ++x) to[x] += pixels[x];
+    }
+}
+
+}  // namespace petzval::device::vulkan
