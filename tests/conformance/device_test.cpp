@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,6 +20,12 @@ std::vector<std::string> gpus() {
     for (const DeviceFacts& device : devices())
         if (device.name != "cpu" && device.lacks.empty()) names.push_back(device.name);
     return names;
+}
+
+std::string title_of(const std::string& name) {
+    for (const DeviceFacts& device : devices())
+        if (device.name == name) return device.title;
+    return {};
 }
 
 Session session_on(const std::string& device) {
@@ -276,6 +283,31 @@ TEST(Device, PutsPointsWhereTheCpuPutsThem) {
             EXPECT_NEAR(made[1], expected[1], 0.02);
             EXPECT_NEAR(made[2], expected[2], 0.02);
         }
+    }
+}
+
+// Two drivers in one list are two devices, each by its number, and may draw at once.
+TEST(TwoDevices, DrawSideBySideByTheirNumbers) {
+    const std::vector<std::string> names = gpus();
+    if (names.size() < 2)
+        GTEST_SKIP() << "one device of Vulkan or none; docs/gpu.md says how to list two drivers";
+    const Shot shot = small_shot();
+    for (const char* engine : {"scatter", "realtime"}) {
+        DefocusJob job = shot.job(engine);
+        job.behind = nullptr;
+        std::array<Picture, 2> made, again;
+        std::array<std::thread, 2> threads;
+        for (std::size_t i = 0; i < 2; ++i)
+            threads[i] = std::thread([&, i] {
+                Session session = session_on(names[i]);
+                made[i] = drawn(session, job, names[i] + " " + title_of(names[i]));
+                again[i] = drawn(session, job, names[i]);
+            });
+        for (std::thread& thread : threads) thread.join();
+        EXPECT_NE(title_of(names[0]), title_of(names[1]));
+        EXPECT_GE(psnr(made[0], made[1]), engine[0] == 's' ? 80 : 45) << engine;
+        for (std::size_t i = 0; i < 2; ++i)
+            EXPECT_EQ(largest_difference(made[i], again[i]), 0) << engine << " on " << names[i];
     }
 }
 
