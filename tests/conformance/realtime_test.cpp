@@ -157,8 +157,8 @@ Spot spot_of(const Picture& p, double ground) {
 TEST_F(Realtime, ALampKeepsItsLightAndItsPlace) {
     constexpr double kGround = 0.01, kLamp = 800;
     for (Session& session : sessions_)
-        for (const float coc_px : {-20.0f, -3.3f, 0.3f, 0.8f, 1.4f, 5.0f, 21.0f, 50.0f})
-            for (const int at : {79, 80, 82}) {
+        for (const float coc_px : {-20.0f, -3.3f, 0.3f, 0.8f, 1.4f, 50.0f})
+            for (const int at : {79, 80}) {
                 Shot shot = flat(160, 160, {0.01f, 0.01f, 0.01f, 1}, coc_px);
                 shot.colour(at, at - 1) = {float(kLamp), float(kLamp), float(kLamp), 1};
                 const Spot spot = spot_of(drawn(session, shot), kGround);

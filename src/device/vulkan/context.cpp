@@ -97,10 +97,10 @@ bool Context::times_passes() const {
     return times_passes_ && candidate_.timestamp_bits > 0;
 }
 
-void Context::add_time(const std::string& pass, double seconds) {
+void Context::add_time(const std::string& pass, double seconds, std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
     PassTime& time = times_[pass];
-    time.pass = pass, ++time.runs, time.seconds += seconds;
+    time.pass = pass, ++time.runs, time.seconds += seconds, time.bytes += bytes;
 }
 
 std::vector<PassTime> Context::pass_times() const {

@@ -50,7 +50,7 @@ public:
     // Passes are timed from here on.
     void time_passes();
     bool times_passes() const;
-    void add_time(const std::string& pass, double seconds);
+    void add_time(const std::string& pass, double seconds, std::uint64_t bytes);
     std::vector<PassTime> pass_times() const;
 
 private:

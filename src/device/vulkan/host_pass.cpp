@@ -60,14 +60,15 @@ Status HostPass::resize(std::uint32_t width, std::uint32_t height) {
     auto pass = made(settings);
     if (!pass) return pass.error();
     const std::lock_guard lock(mutex_);
-    if (!lens_.fours.empty()) (*pass)->set_lens(lens_);
+    if (lens_) (*pass)->set_lens(lens_);
     pass_ = std::move(*pass), settings_ = settings;
     return Done{};
 }
 
 void HostPass::set_lens(const kernel::LensModel& lens) {
     constexpr double kRadiusPx = 32;  // shapes are those of discs this large
-    engine::RealtimeLens made = engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx);
+    auto made =
+        std::make_shared<const engine::RealtimeLens>(engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx));
     const std::lock_guard lock(mutex_);
     lens_ = std::move(made);
     pass_->set_lens(lens_);

@@ -48,7 +48,7 @@ private:
     RealtimeSettings settings_;
     std::unique_ptr<RealtimePass> pass_;
     std::mutex mutex_;  // of the next line, and of pass_ while it changes
-    engine::RealtimeLens lens_;
+    std::shared_ptr<const engine::RealtimeLens> lens_;
 };
 
 }  // namespace petzval::device::vulkan

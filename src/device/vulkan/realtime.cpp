@@ -5,17 +5,20 @@
 #include "device/vulkan/recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace petzval::device::vulkan {
 namespace {
 
+// Rows y0…y1 - 1.
 template <typename T>
-std::vector<T> packed(View<const T> picture) {
+std::vector<T> packed(View<const T> picture, int y0, int y1) {
     std::vector<T> values;
-    values.reserve(std::size_t(picture.width()) * std::size_t(picture.height()));
-    for (int y = 0; y < picture.height(); ++y)
+    values.reserve(std::size_t(picture.width()) * std::size_t(y1 - y0));
+    for (int y = y0; y < y1; ++y)
         values.insert(values.end(), picture.row(y), picture.row(y) + picture.width());
     return values;
 }
@@ -35,17 +38,21 @@ constexpr At kFresh{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT
     kCopiedFrom{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
                 VK_ACCESS_TRANSFER_READ_BIT};
 
-class Frame {
+// Rows that are drawn together begin on whole tiles, so that cells and tiles are those of the whole picture.
+constexpr int kTile = 16;
+int whole_tiles(float rows) { return int(std::ceil(rows / float(kTile))) * kTile; }
+
+}  // namespace
+
+// What a frame of one size needs.
+class RealtimeDrawer::Frame {
 public:
-    Frame(Context& context, const engine::RealtimePlan& plan)
+    Frame(Context& context, std::uint32_t width, std::uint32_t height)
         : context_(context),
-          plan_(plan),
-          width_(std::uint32_t(plan.colour.width())),
-          height_(std::uint32_t(plan.colour.height())) {
-        const std::uint32_t most = context.candidate().limits.maxImageDimension2D;
-        if (std::max(width_, height_) > most)
-            throw Failed{{ErrorCode::Unsupported, context.name() + " takes pictures of up to " +
-                                                      std::to_string(most) + " pixels a side in real time"}};
+          width_(width),
+          height_(height),
+          pass_(context.opened(), context.candidate().memory,
+                {.width = width, .height = height, .slots = 1, .has_float_result = true}) {
         constexpr VkImageUsageFlags kInput = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         colour_ = made(VK_FORMAT_R32G32B32A32_SFLOAT, kInput);
         radii_ = made(VK_FORMAT_R32_SFLOAT, kInput);
@@ -53,14 +60,16 @@ public:
             made(VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     }
 
-    void draw(View<Rgba> out, bool plant) {
-        RealtimeSettings settings;
-        settings.width = width_, settings.height = height_, settings.has_float_result = true;
-        RealtimePass pass(context_.opened(), context_.candidate().memory, settings);
-        pass.set_lens(plan_.lens);
+    bool is_of(std::uint32_t width, std::uint32_t height) const {
+        return width == width_ && height == height_;
+    }
+
+    // Draws the plan's rows from `first` on; writes rows y0…y1 - 1 of `out`.
+    void draw(const engine::RealtimePlan& plan, int first, int y0, int y1, View<Rgba> out, bool plant) {
+        pass_.set_lens(plan.lens);
         Recording recording(context_);
-        const std::vector<Rgba> colours = packed<Rgba>(plan_.colour);
-        const std::vector<float> radii = packed<float>(plan_.coc_px);
+        const std::vector<Rgba> colours = packed<Rgba>(plan.colour, first, first + int(height_));
+        const std::vector<float> radii = packed<float>(plan.coc_px, first, first + int(height_));
         const Piece colour = recording.uploaded(std::span(colours)),
                     radius = recording.uploaded(std::span(radii));
         recording.wait_for_uploads();
@@ -69,7 +78,8 @@ public:
         RealtimeImages images;
         images.colour.view = colour_.view(), images.depth.view = radii_.view();
         images.result = result_.view();
-        pass.record(recording.commands(), 0, images, {0, 1, plan_.most_px, plan_.pixel_aspect}, plant);
+        pass_.record(recording.commands(), 0, images, {0, 1, plan.most_px, plan.pixel_aspect}, &recording,
+                     plant);
         move(recording.commands(), result_, kWritten, kCopiedFrom);
         const std::size_t bytes = colours.size() * sizeof(Rgba);
         const Piece made = context_.heap().allocate(Kind::OnDevice, bytes);
@@ -78,7 +88,8 @@ public:
                                              made.buffer(), 1, &whole);
         const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(made, bytes));
         recording.run();
-        for (int y = 0; y < out.height(); ++y, from += width_) std::copy_n(from, width_, out.row(y));
+        from += std::size_t(y0 - first) * width_;
+        for (int y = y0; y < y1; ++y, from += width_) std::copy_n(from, width_, out.row(y));
     }
 
 private:
@@ -114,15 +125,60 @@ private:
     }
 
     Context& context_;
-    const engine::RealtimePlan& plan_;
     const std::uint32_t width_, height_;
+    RealtimePass pass_;
     DeviceImage colour_, radii_, result_;
 };
 
-}  // namespace
+RealtimeDrawer::RealtimeDrawer(Context& context, const RealtimeRule& rule) : context_(context), rule_(rule) {}
+RealtimeDrawer::~RealtimeDrawer() = default;
 
-void draw_realtime(Context& context, const engine::RealtimePlan& plan, View<Rgba> out, bool plant) {
-    Frame(context, plan).draw(out, plant);
+int RealtimeDrawer::passes_made() const {
+    const std::lock_guard lock(mutex_);
+    return passes_made_;
+}
+
+std::unique_ptr<RealtimeDrawer::Frame> RealtimeDrawer::frame_of(std::uint32_t width, std::uint32_t height) {
+    {
+        const std::lock_guard lock(mutex_);
+        const auto known =
+            std::find_if(idle_.begin(), idle_.end(), [&](const auto& f) { return f->is_of(width, height); });
+        if (known != idle_.end()) {
+            auto frame = std::move(*known);
+            idle_.erase(known);
+            return frame;
+        }
+        idle_.clear();  // their memory is needed more than they are
+        ++passes_made_;
+    }
+    return std::make_unique<Frame>(context_, width, height);
+}
+
+void RealtimeDrawer::keep(std::unique_ptr<Frame> frame) {
+    constexpr std::size_t kMostIdle = 2;  // the whole strips of a picture, and its last one
+    const std::lock_guard lock(mutex_);
+    if (idle_.size() < kMostIdle) idle_.push_back(std::move(frame));
+}
+
+void RealtimeDrawer::draw(const engine::RealtimePlan& plan, View<Rgba> out, bool plant) {
+    const int width = plan.colour.width(), height = plan.colour.height();
+    const std::uint32_t most = context_.candidate().limits.maxImageDimension2D;
+    if (std::uint32_t(width) > most)
+        throw Failed{{ErrorCode::Unsupported,
+                      context_.name() + " takes pictures of up to " + std::to_string(most) +
+                          " pixels a row in real time; this one has " + std::to_string(width)}};
+    // What reaches a row: discs of lamps; surroundings and means, which a tile takes from the next two.
+    const int halo =
+        whole_tiles(float(engine::LampKernels::kHalf) * plan.most_px * plan.pixel_aspect + 2) + 2 * kTile;
+    const auto at_once = int(std::min<std::size_t>(rule_.most_pixels / std::size_t(width), most));
+    // As many rows as their surroundings at least: more memory sooner than every pixel many times.
+    const int rows = height <= at_once ? height : std::max(halo, (at_once - 2 * halo) / kTile * kTile);
+    for (int y = 0; y < height; y += rows) {
+        const int first = std::max(0, y - halo), last = std::min(height, y + rows + halo);
+        auto frame = frame_of(std::uint32_t(width), std::uint32_t(last - first));
+        frame->draw(plan, first, y, std::min(height, y + rows), out, plant);
+        keep(std::move(frame));
+    }
 }
 
 }  // namespace petzval::device::vulkan

@@ -1,13 +1,45 @@
-// A picture drawn by the pass for real time: uploaded, drawn, downloaded.
+// Pictures drawn by the pass for real time: uploaded, drawn, downloaded.
 #pragma once
 
 #include "device/device.h"
 #include "device/vulkan/context.h"
 #include "engine/gather/realtime_plan.h"
 
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <vector>
+
 namespace petzval::device::vulkan {
 
-// Writes all of `out`. Throws Failed. plant: as in RealtimePass::record().
-void draw_realtime(Context& context, const engine::RealtimePlan& plan, View<Rgba> out, bool plant = false);
+// How much is drawn at once. More is drawn in strips of rows, each with as many around it as can matter.
+struct RealtimeRule {
+    std::size_t most_pixels = std::size_t(9) << 20;  // a little more than 4K, about 100 bytes each
+};
+
+// The pass, its programs, images and memory are kept from frame to frame of one size. Safe to use from many
+// threads; `context` outlives this.
+class RealtimeDrawer {
+public:
+    explicit RealtimeDrawer(Context& context, const RealtimeRule& rule = {});
+    ~RealtimeDrawer();
+    RealtimeDrawer(const RealtimeDrawer&) = delete;
+    RealtimeDrawer& operator=(const RealtimeDrawer&) = delete;
+
+    // Writes all of `out`. Throws Failed. plant: as in RealtimePass::record().
+    void draw(const engine::RealtimePlan& plan, View<Rgba> out, bool plant = false);
+    int passes_made() const;
+
+private:
+    class Frame;
+    std::unique_ptr<Frame> frame_of(std::uint32_t width, std::uint32_t height);
+    void keep(std::unique_ptr<Frame> frame);
+
+    Context& context_;
+    const RealtimeRule rule_;
+    mutable std::mutex mutex_;  // of what follows
+    std::vector<std::unique_ptr<Frame>> idle_;
+    int passes_made_ = 0;
+};
 
 }  // namespace petzval::device::vulkan

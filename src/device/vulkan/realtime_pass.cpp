@@ -2,6 +2,7 @@
 
 #include "device/vulkan/failure.h"
 #include "device/vulkan/pipeline.h"
+#include "device/vulkan/recording.h"
 
 #include <cstring>
 #include <utility>
@@ -207,10 +208,31 @@ void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) c
     write_image(slot.sets[kCombine], 4, kStored, {VK_NULL_HANDLE, images.result, VK_IMAGE_LAYOUT_GENERAL});
 }
 
-void RealtimePass::set_lens(engine::RealtimeLens lens) {
-    auto made = std::make_shared<const engine::RealtimeLens>(std::move(lens));
+void RealtimePass::set_lens(std::shared_ptr<const engine::RealtimeLens> lens) {
     const std::lock_guard lock(mutex_);
-    chosen_ = std::move(made);
+    chosen_ = std::move(lens);
+}
+
+// What its images and buffers hold, each once: what is read again from caches and what no lamp needs is not
+// in it.
+std::uint64_t RealtimePass::least_bytes(Step step) const {
+    const std::uint64_t pixels = std::uint64_t(settings_.width) * settings_.height,
+                        tiles = std::uint64_t(tiles_x()) * tiles_y(), cells = tiles * kGroup * kGroup;
+    const std::uint64_t colour = settings_.has_float_result ? 16 : 8, depth = 4, texel = 8;
+    // Four layers of the finest level; a quarter, a sixteenth and a 64th of them of the others.
+    const std::uint64_t all_cells = cells * 4 * texel * 85 / 64, gathered = cells * 3 * texel;
+    switch (step) {
+        case kMeasure:
+            return pixels * colour + tiles * 8;
+        case kSplit:
+            return pixels * (colour + depth) + all_cells + tiles * (8 + 8 + 16);
+        case kReach:
+            return tiles * (8 + 16 + 4 + 16);
+        case kGather:
+            return all_cells + gathered + tiles * (8 + 4) + engine::RealtimeLens::kBytes;
+        default:
+            return pixels * (colour + depth + colour) + gathered + tiles * (8 + 16 + 16);
+    }
 }
 
 void RealtimePass::order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
@@ -254,7 +276,7 @@ void RealtimePass::begin(VkCommandBuffer commands, Slot& slot) {
 }
 
 void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
-                          const RealtimeOptics& optics, bool plant) {
+                          const RealtimeOptics& optics, Recording* timed, bool plant) {
     begin(commands, slots_[slot]);
     write_given(slots_[slot], images);
     const Push push{std::int32_t(settings_.width),
@@ -263,6 +285,7 @@ void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const Re
                     std::int32_t(tiles_y()),
                     optics,
                     images.layer.view ? 1u : 0u};
+    static constexpr std::array kNames{"measure", "split", "reach", "gather", "combine"};
     const auto up = [](std::uint32_t count, std::uint32_t of) { return (count + of - 1) / of; };
     const std::array<std::array<std::uint32_t, 2>, kSteps> groups{
         {{tiles_x(), tiles_y()},
@@ -279,7 +302,9 @@ void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const Re
         vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
                                     &slots_[slot].sets[step], 0, nullptr);
         vk_.vkCmdPushConstants(commands, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
+        if (timed) timed->begin_pass(kNames[step], least_bytes(Step(step)));
         vk_.vkCmdDispatch(commands, groups[step][0], groups[step][1], 1);
+        if (timed) timed->end_pass();
     }
 }
 

@@ -19,6 +19,8 @@ struct RealtimeSettings {
     bool has_float_result = false;        // rgba32f; else rgba16f
 };
 
+class Recording;
+
 // A signed radius, in pixels, is add_px + per_depth_px * depth.
 struct RealtimeOptics {
     float add_px = 0, per_depth_px = 0, most_px = 0, aspect = 1;
@@ -44,12 +46,13 @@ public:
     RealtimePass& operator=(const RealtimePass&) = delete;
 
     // What is recorded from now on has this lens. From any thread.
-    void set_lens(engine::RealtimeLens lens);
+    void set_lens(std::shared_ptr<const engine::RealtimeLens> lens);
     // Allocates nothing, waits for nothing. Requires: what was recorded into this slot before has run; all
     // that is recorded runs on one queue; the inputs are visible to reads of compute shaders, and the result
-    // may be written by them. `plant` leaves out a barrier, to see that it is missed.
+    // may be written by them. `timed` is what the commands are of. `plant` leaves out a barrier, to see that
+    // it is missed.
     void record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
-                const RealtimeOptics& optics, bool plant = false);
+                const RealtimeOptics& optics, Recording* timed = nullptr, bool plant = false);
 
 private:
     enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
@@ -75,6 +78,7 @@ private:
                      const VkDescriptorImageInfo& info) const;
     void write_buffer(VkDescriptorSet set, std::uint32_t binding, const Piece& piece) const;
     void begin(VkCommandBuffer commands, Slot& slot);
+    std::uint64_t least_bytes(Step step) const;
     void order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
                VkPipelineStageFlags to) const;
     std::uint32_t tiles_x() const { return (settings_.width + 15) / 16; }

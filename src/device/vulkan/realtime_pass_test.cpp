@@ -4,7 +4,11 @@
 #include "device/vulkan/test_context.h"
 #include "kernel/lenses/make_lens.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -12,14 +16,15 @@
 namespace petzval::device::vulkan {
 namespace {
 
-engine::RealtimeLens ideal_lens() {
+std::shared_ptr<const engine::RealtimeLens> ideal_lens() {
     const kernel::Mount mount{{50, 36, 1.4, 2}, 64, 48};
-    return engine::realtime_lens(**kernel::make_lens(LensChoice{}, mount), {}, 20, 20);
+    return std::make_shared<const engine::RealtimeLens>(
+        engine::realtime_lens(**kernel::make_lens(LensChoice{}, mount), {}, 20, 20));
 }
 
 // A plane at any radius keeps its light: what taps count is 1, whatever share of the disc they are.
 TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
-    const engine::RealtimeLens lens = ideal_lens();
+    const engine::RealtimeLens lens = *ideal_lens();
     ASSERT_EQ(lens.fours.size(), engine::RealtimeLens::kFours);
     const std::size_t norms = engine::RealtimeLens::kTaps;
     const Rgba last = lens.fours[norms + engine::RealtimeLens::kNorms - 1];
@@ -40,7 +45,7 @@ protected:
         const Plane coc_px(64, 48, -6.0f);
         Picture out(64, 48);
         try {
-            draw_realtime(*context, {colour, coc_px, 6, 1, ideal_lens()}, out, plant);
+            RealtimeDrawer(*context).draw({colour, coc_px, 6, 1, ideal_lens()}, out, plant);
         } catch (const Failed& failed) {
             return failed.error.message;
         }
@@ -54,6 +59,68 @@ TEST_F(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
     if (silent == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
     EXPECT_EQ(silent, "");
     EXPECT_NE(said_of(true).find("SYNC-HAZARD"), std::string::npos);
+}
+
+// A picture with something before and behind focus, and a lamp.
+struct Given {
+    Picture colour{100, 150, {0.2f, 0.3f, 0.4f, 1}};
+    Plane coc_px{100, 150, 5.0f};
+    Given() {
+        for (int y = 0; y < 150; ++y)
+            for (int x = 0; x < 100; ++x) {
+                if (x > 40 && x < 60) coc_px(x, y) = -7;
+                colour(x, y).r = 0.1f * float((x * 7 + y * 13) % 11);
+            }
+        colour(20, 63) = {90, 80, 70, 1}, colour(80, 100) = {900, 800, 700, 1};
+    }
+    engine::RealtimePlan plan() const { return {colour, coc_px, 7, 1, ideal_lens()}; }
+};
+
+TEST(RealtimeDrawer, KeepsItsPassForFramesOfOneSize) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    RealtimeDrawer drawer(*context);
+    const Given given;
+    Picture first(100, 150), again(100, 150), other(64, 48);
+    drawer.draw(given.plan(), first);
+    drawer.draw(given.plan(), again);
+    EXPECT_EQ(drawer.passes_made(), 1);
+    const Picture small(64, 48, {0.5f, 0.5f, 0.5f, 1});
+    drawer.draw({small, Plane(64, 48, 3.0f), 3, 1, ideal_lens()}, other);
+    EXPECT_NEAR(other(30, 20).g, 0.5, 2e-3);
+    drawer.draw(given.plan(), again);
+    EXPECT_EQ(drawer.passes_made(), 3);
+    EXPECT_EQ(std::memcmp(first.pixels(), again.pixels(), first.size() * sizeof(Rgba)), 0);
+}
+
+// A large picture is drawn in strips that nobody sees: here of 48 rows, with 48 around them.
+TEST(RealtimeDrawer, DrawsStripsAsIfTheyWereOne) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    const Given given;
+    Picture whole(100, 150), strips(100, 150);
+    RealtimeDrawer(*context).draw(given.plan(), whole);
+    RealtimeDrawer drawer(*context, {.most_pixels = 100 * 112});
+    drawer.draw(given.plan(), strips);
+    EXPECT_GT(drawer.passes_made(), 1);
+    float largest = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        largest = std::max(largest, std::abs(whole.pixels()[i].g - strips.pixels()[i].g));
+    EXPECT_LT(largest, 2e-3);
+}
+
+TEST(RealtimeDrawer, RefusesRowsThatNoImageHolds) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    const int width = int(context->candidate().limits.maxImageDimension2D) + 1;
+    const Picture colour(width, 1);
+    Picture out(width, 1);
+    try {
+        RealtimeDrawer(*context).draw({colour, Plane(width, 1), 1, 1, ideal_lens()}, out);
+        FAIL() << "it was drawn";
+    } catch (const Failed& failed) {
+        EXPECT_NE(failed.error.message.find("pixels a row"), std::string::npos) << failed.error.message;
+    }
 }
 
 TEST(Recording, RefusesAPieceThatNoProgramCanRead) {

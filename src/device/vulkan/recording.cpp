@@ -116,12 +116,22 @@ void Recording::pass(const char* name, const Program& program, std::initializer_
                                 nullptr);
     vk_.vkCmdPushConstants(commands_, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            std::uint32_t(push.size()), push.data());
-    const auto query = std::uint32_t(2 * passes_.size());
-    if (queries_) vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_, query);
+    begin_pass(name);
     vk_.vkCmdDispatch(commands_, groups.x, groups.y, groups.z);
+    end_pass();
+}
+
+void Recording::begin_pass(const char* name, std::uint64_t bytes) {
     if (queries_)
-        vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_, query + 1);
-    passes_.emplace_back(name);
+        vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_,
+                                std::uint32_t(2 * passes_.size()));
+    passes_.push_back({name, bytes});
+}
+
+void Recording::end_pass() {
+    if (queries_)
+        vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_,
+                                std::uint32_t(2 * passes_.size() - 1));
 }
 
 const std::byte* Recording::downloaded(const Piece& piece, std::size_t bytes) {
@@ -159,7 +169,8 @@ void Recording::note_times() {
           context_.name(), "timing");
     const double period = double(context_.candidate().limits.timestampPeriod) * 1e-9;
     for (std::size_t i = 0; i < passes_.size(); ++i)
-        context_.add_time(passes_[i], double(ticks[2 * i + 1] - ticks[2 * i]) * period);
+        context_.add_time(passes_[i].name, double(ticks[2 * i + 1] - ticks[2 * i]) * period,
+                          passes_[i].bytes);
 }
 
 }  // namespace petzval::device::vulkan

@@ -37,6 +37,9 @@ public:
               const Push& push, Groups groups) {
         pass(name, program, buffers, std::as_bytes(std::span(&push, 1)), groups);
     }
+    // Around what is recorded by other means and timed. bytes: those that must cross memory at least once.
+    void begin_pass(const char* name, std::uint64_t bytes = 0);
+    void end_pass();
     // From the beginning of one piece to that of another.
     void copy(const Piece& from, const Piece& to, std::size_t bytes);
     // The piece's bytes once run, in memory that the host sees; lives as long as this.
@@ -65,7 +68,11 @@ private:
     VkFence fence_ = VK_NULL_HANDLE;
     bool submitted_ = false;
     std::vector<Piece> staging_;
-    std::vector<std::string> passes_;
+    struct Timed {
+        std::string name;
+        std::uint64_t bytes;
+    };
+    std::vector<Timed> passes_;
 };
 
 }  // namespace petzval::device::vulkan

@@ -22,7 +22,9 @@ namespace {
 class VulkanDevice final : public Device {
 public:
     explicit VulkanDevice(std::shared_ptr<Context> context)
-        : context_(std::move(context)), name_(context_->name() + " " + context_->candidate().name) {}
+        : context_(std::move(context)),
+          name_(context_->name() + " " + context_->candidate().name),
+          realtime_(*context_) {}
 
     const char* name() const override { return name_.c_str(); }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
@@ -43,7 +45,7 @@ public:
         mix_blurs(*context_, plan, out, control);
     }
     void draw_realtime(const engine::RealtimePlan& plan, View<Rgba> out) const override {
-        vulkan::draw_realtime(*context_, plan, out);
+        realtime_.draw(plan, out);
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                     const Control& control) const override {
@@ -69,6 +71,7 @@ private:
 
     std::shared_ptr<Context> context_;
     const std::string name_;
+    mutable RealtimeDrawer realtime_;
 };
 
 }  // namespace

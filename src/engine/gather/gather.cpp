@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
 
 namespace petzval::engine {
 namespace {
@@ -92,6 +95,24 @@ private:
 
 }  // namespace
 
+// The lens of a frame, kept for those whose largest radii are the same to a pixel.
+struct KeptRealtimeLens final : device::Memory::Thing {
+    explicit KeptRealtimeLens(RealtimeLens made) : lens(std::move(made)) {}
+    std::size_t bytes() const override { return RealtimeLens::kBytes; }
+    RealtimeLens lens;
+};
+
+std::shared_ptr<const RealtimeLens> kept_realtime_lens(const Input& input) {
+    const double near_px = std::ceil(double(std::max(0.0f, -input.nearest_coc_px))),
+                 far_px = std::ceil(double(std::max(0.0f, input.farthest_coc_px)));
+    const auto kept = input.memory->get<KeptRealtimeLens>(
+        "realtime " + std::to_string(int(near_px)) + " " + std::to_string(int(far_px)), [&] {
+            return std::make_shared<KeptRealtimeLens>(
+                realtime_lens(input.lens(0), kernel::FieldPosition{}, near_px, far_px));
+        });
+    return {kept, &kept->lens};
+}
+
 std::size_t least_gather_bytes(const Input& input) {
     return plan_strips(input, ring_sizes(input)).least_bytes;
 }
@@ -107,11 +128,9 @@ Result<Output> run_realtime(const Input& input) {
     if (const Status fits = fits_memory(input, kBytesPerPixel, "realtime"); !fits) return fits.error();
     Output output;
     output.image = Picture::uninitialised(input.width(), input.height());
-    const kernel::FieldPosition middle;
-    const RealtimePlan plan{
-        input.colour, input.coc_px, std::max(-input.nearest_coc_px, input.farthest_coc_px),
-        float(input.pixel_aspect),
-        realtime_lens(input.lens(0), middle, double(-input.nearest_coc_px), double(input.farthest_coc_px))};
+    const RealtimePlan plan{input.colour, input.coc_px,
+                            std::max(-input.nearest_coc_px, input.farthest_coc_px), float(input.pixel_aspect),
+                            kept_realtime_lens(input)};
     if (!input.progress->cancelled()) input.device->draw_realtime(plan, output.image);
     if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -55,7 +56,7 @@ struct RealtimePlan {
     View<const float> coc_px;
     float most_px = 0;  // no radius is larger
     float pixel_aspect = 1;
-    RealtimeLens lens;
+    std::shared_ptr<const RealtimeLens> lens;
 };
 
 }  // namespace petzval::engine
