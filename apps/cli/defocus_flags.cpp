@@ -142,8 +142,7 @@ void DefocusFlags::check_coc_input() const {
                          " cannot be used with --depth-kind coc-px: blur radii are given, not depth");
 }
 
-void DefocusFlags::check_choices(const Verb& verb) {
-    require_argument(verb, input.path, "an input picture");
+void DefocusFlags::check_choices() {
     run.apply();
     input.read.threads = run.threads;
     input.read.max_memory_bytes = max_memory_bytes;
@@ -158,8 +157,8 @@ void DefocusFlags::check_choices(const Verb& verb) {
         throw UsageError("--expand-highlights cannot be used with --behind: a plate has no hidden layers");
 }
 
-void DefocusFlags::check_shown(const Verb& verb) {
-    check_choices(verb);
+void DefocusFlags::check_shown() {
+    check_choices();
     ocio.check(develop, input.transfer);
 }
 
@@ -167,7 +166,7 @@ void DefocusFlags::check(const Verb& verb) {
     require_argument(verb, input.path, "an input picture");
     require_argument(verb, output, "-o OUT");
     overwrite.check();
-    check_choices(verb);
+    check_choices();
     if (focus.permissible_radius_px && view != ViewKind::Focus && run.json.empty())
         throw UsageError("--permissible-radius has no effect without --view focus or --json");
     check_view();

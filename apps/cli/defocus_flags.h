@@ -55,8 +55,8 @@ struct DefocusFlags {
     void add_to(Verb& verb);
     // What a window knows of them: what is rendered, what is chosen, how it is shown.
     void add_shown_to(Verb& verb);
-    void check(const Verb& verb);        // throws UsageError for what is missing or contradicts
-    void check_shown(const Verb& verb);  // the same for those of add_shown_to()
+    void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
+    void check_shown();            // the same for those of add_shown_to()
     std::vector<std::string> input_files() const;
     static std::string default_kernel_cache();
     SessionSettings session() const;
@@ -68,7 +68,7 @@ struct DefocusFlags {
 private:
     void add_choices_to(Verb& verb);
     void add_session_to(Verb& verb);
-    void check_choices(const Verb& verb);
+    void check_choices();
     void add_engines_to(Verb& verb);
     void add_output_to(Verb& verb);
     Json engine_options_json() const;

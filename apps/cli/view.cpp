@@ -239,7 +239,8 @@ void add_view(Verb& program, Action& chosen) {
         .value(
             "--listen", "PORT",
             "take pictures that renderers push to the viewer tev, on this port of this machine (tev's own is "
-            "14158); with a channel Z in metres they are shown, without compared",
+            "14158); with a channel Z in metres they are shown, without compared; in place of IN: waits for "
+            "one",
             parse_port, flags->listen)
         .value("--script", "FILE", "do what the lines of a file say (docs/view.md), then close", parse_text,
                flags->script)
@@ -248,7 +249,9 @@ void add_view(Verb& program, Action& chosen) {
                parse_positive, flags->scale);
     when_typed(verb, [flags, &verb, &chosen] {
         check_scene(*flags);
-        flags->check_shown(verb);
+        if (!flags->listen)
+            require_argument(verb, flags->input.path, "an input picture, --scene or --listen");
+        flags->check_shown();
         std::vector<std::string> of_look;
         for (const LookRow& row : look_rows()) of_look.emplace_back(row.flag);
         flags->files = typed_words(verb, {"Input", "Engine sprites"}, of_look);

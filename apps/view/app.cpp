@@ -153,12 +153,17 @@ void App::take_pushed() {
     }
     for (auto& picture : news.pictures) {
         Reading reading;
-        reading.is_against = picture->depth_m.empty();
+        reading.is_against = picture->depth_m.empty() && !waits_for_pictures();
         reading.source.path = picture->name;
         reading.pushed = std::move(picture);
         if (!reading.is_against) reading_ = true;
         maker_.read(std::move(reading));
     }
+}
+
+// Without a file of its own the window shows whatever comes.
+bool App::waits_for_pictures() const {
+    return setup_.source.path.empty() && (!shot_ || shot_->shot.depth_plane().empty());
 }
 
 // On to the next frame when something of this one was to be seen, 24 a second at most.
@@ -169,6 +174,7 @@ void App::play() {
 }
 
 void App::read_again() {
+    if (setup_.source.path.empty()) return;  // nothing has been pushed yet
     reading_ = true;
     Reading reading{source(), false, setup_.focus_point};
     if (is_live()) {
@@ -268,17 +274,32 @@ void App::refine_scene() {
     read_again();
 }
 
+std::string App::waits_for() const {
+    if (!setup_.source.path.empty() || !listener_) return "reading " + setup_.source.path + " …";
+    return "waiting for a picture: a renderer that pushes to tev at 127.0.0.1:" +
+           std::to_string(setup_.listen_port) + " shows here; with a channel Z in metres it can be focused";
+}
+
 bool App::is_busy() const {
     return reading_ || is_coarse() || !maker_.is_idle() || !darkroom_.is_idle() || !bench_.is_idle() ||
            saving_.valid();
 }
 
 void App::save(const std::string& path) {
+    if (!shot_) return void(error = "nothing is open yet");
     if (is_live()) {
         const std::vector<Recorded> one{{scene_wish(), path}};
         return start_saving(
             path, [one, choice = state.choice, following = state.following, session = setup_.session] {
                 return record_results(one, choice, following, *session);
+            });
+    }
+    if (shot_ && shot_->is_pushed) {
+        const auto numbers = camera();
+        if (!numbers) return void(error = numbers.error().message);
+        return start_saving(
+            path, [=, shot = shot_, choice = state.choice, camera = *numbers, session = setup_.session] {
+                return save_result(shot->shot, camera, choice, *session, path);
             });
     }
     start_saving(path, [save = setup_.save, choice = state.choice, path] { return save(choice, path); });

@@ -104,7 +104,8 @@ public:
     void ask();
     // Something was done by hand: if a picture changes by it, it is timed from here.
     void note_action();
-    bool is_busy() const;  // something is being read, made, developed or saved
+    std::string waits_for() const;  // while nothing is open
+    bool is_busy() const;           // something is being read, made, developed or saved
     void read_again();
     void go_to(int frame);
     bool is_live() const { return !setup_.scene.empty(); }
@@ -130,6 +131,7 @@ private:
     void play();
     void take_track(int frame);
     void take_pushed();
+    bool waits_for_pictures() const;
     void refine_scene();
     bool is_coarse() const;  // a scene whose camera moved a moment ago
     int coarse_by() const;

@@ -62,6 +62,11 @@ void draw_label(const ImVec2& where, const std::string& text, bool to_the_left =
     list->AddText(from, IM_COL32(235, 235, 235, 255), text.c_str());
 }
 
+std::string radius_at_pick(const App& app) {
+    const auto radius = app.radius_at(*app.state.pick);
+    return radius ? ", radius " + pixels_text(double(*radius)) : "";
+}
+
 void draw_pick(const App& app) {
     if (!app.state.pick || is_buffer(app.state.left.shown)) return;
     const Rect frame = app.frame();
@@ -75,7 +80,7 @@ void draw_pick(const App& app) {
             list->AddLine({p.x, p.y + sign * 0.4f * arm}, {p.x, p.y + sign * 1.4f * arm}, colour, width);
         }
     if (const auto depth = app.depth_near(*app.state.pick))
-        draw_label({p.x + 2 * arm, p.y + arm}, text_of(*depth, 4) + " m");
+        draw_label({p.x + 2 * arm, p.y + arm}, text_of(*depth, 4) + " m" + radius_at_pick(app));
 }
 
 void draw_legend(const App& app) {
@@ -165,6 +170,18 @@ void take_mouse(App& app) {
         static_cast<void>(act(app, "pick " + pixel_words(app, io.MousePos)));
 }
 
+// In the middle of an empty window: what is waited for, or what is wrong.
+void draw_empty(const App& app, const ImVec2& min, const ImVec2& size) {
+    const std::string words = !app.trouble.empty() ? app.trouble : app.waits_for();
+    const float wide = std::max(1.0f, 0.8f * size.x);
+    const ImVec2 text = ImGui::CalcTextSize(words.c_str(), nullptr, false, wide);
+    ImGui::GetWindowDrawList()->AddText(
+        ImGui::GetFont(), ImGui::GetFontSize(),
+        {min.x + 0.5f * (size.x - text.x), min.y + 0.5f * (size.y - text.y)},
+        app.trouble.empty() ? IM_COL32(170, 170, 170, 255) : IM_COL32(255, 115, 90, 255), words.c_str(),
+        nullptr, wide);
+}
+
 }  // namespace
 
 std::string name_of_side(const App& app, const Side& side) {
@@ -181,7 +198,7 @@ void draw_canvas(App& app) {
     ImGui::InvisibleButton("canvas", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    if (!app.shot()) return;
+    if (!app.shot()) return draw_empty(app, min, size);
     take_mouse(app);
     app.mapping = mapping_of(app, min, size);
     ImDrawList* list = ImGui::GetWindowDrawList();

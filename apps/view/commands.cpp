@@ -202,10 +202,12 @@ Status pan(App& app, const Words& words) {
 }
 
 Status save(App& app, const Words& words) {
+    app.error.clear();
     app.save(words[0]);
-    return Done{};
+    return app.error.empty() ? Status(Done{}) : Status(invalid(app.error));
 }
 Status copy(App& app, const Words&) {
+    if (app.shot() && app.shot()->is_pushed) return invalid("what was pushed is no file; save it first");
     app.copied = app.setup().command_line(app.state.choice, "out.exr");
     if (app.is_live()) {
         std::string make;
@@ -292,6 +294,7 @@ Status forget_path(App& app, const Words&) {
 }
 Status record(App& app, const Words& words) {
     if (!app.is_live()) return no_scene();
+    app.error.clear();
     app.record(words[0]);
     return app.error.empty() ? Status(Done{}) : Status(invalid(app.error));
 }

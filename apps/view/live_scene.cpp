@@ -180,6 +180,18 @@ Status record(const std::vector<Recorded>& frames) {
     return Done{};
 }
 
+Status save_result(const Shot& shot, const Camera& camera, const Choice& choice, Session& session,
+                   const std::string& path) {
+    auto job = rendered(shot);
+    if (!job) return job.error();
+    job->camera = camera;
+    Look look = choice.look;
+    if (Status done = read_lens_images(look); !done) return done;
+    auto made = session.take(*job, look);
+    if (!made) return made.error();
+    return write_result(path, std::move(made->image), shot.place, choice.develop);
+}
+
 Status record_results(const std::vector<Recorded>& frames, const Choice& choice, bool follows_subject,
                       Session& session) {
     LiveScene scene;
@@ -188,17 +200,10 @@ Status record_results(const std::vector<Recorded>& frames, const Choice& choice,
         if (!seen) return seen.error();
         CameraChoice camera = choice.camera;
         if (follows_subject && seen->subject_m) camera.focus_distance_m = seen->subject_m;
-        Shot& shot = seen->shot;
-        shot.camera = merged_camera(shot.camera_of_file, camera);
-        shot.image_scale = camera.image_scale;
-        const auto job = rendered(shot);
-        if (!job) return job.error();
-        Look look = choice.look;
-        if (Status done = read_lens_images(look); !done) return done;
-        auto made = session.take(*job, look);
-        if (!made) return made.error();
-        if (Status done = write_result(one.path, std::move(made->image), shot.place, choice.develop); !done)
-            return done;
+        const Shot& shot = seen->shot;
+        const auto numbers = complete_camera(merged_camera(shot.camera_of_file, camera), camera.image_scale);
+        if (!numbers) return numbers.error();
+        if (Status done = save_result(shot, *numbers, choice, session, one.path); !done) return done;
     }
     return Done{};
 }

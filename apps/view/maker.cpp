@@ -75,6 +75,16 @@ std::optional<std::filesystem::file_time_type> time_of(const std::string& path) 
     return missing ? std::nullopt : std::optional(time);
 }
 
+// No camera numbers are pushed: those of a usual one, focused on the middle of the picture.
+FoundCamera assumed_camera(const Plane& depth_m) {
+    const auto number = [](double value) { return FoundNumber{value, "the window"}; };
+    FoundCamera camera;
+    camera.focal_length_mm = number(50), camera.sensor_width_mm = number(36), camera.f_number = number(2.8);
+    const float middle = depth_m.empty() ? 1 : depth_m(depth_m.width() / 2, depth_m.height() / 2);
+    camera.focus_distance_m = number(std::isfinite(middle) && middle > 0 ? double(middle) : 1);
+    return camera;
+}
+
 // The wish's numbers take the place of the shot's: where those are missing, any will do.
 void complete(FoundCamera& camera) {
     for (auto* number :
@@ -270,12 +280,17 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
         open.shot = std::move(seen->shot);
     } else if (reading.pushed) {
         const Pushed& pushed = *reading.pushed;
+        open.is_pushed = true;
+        open.shot.camera = open.shot.camera_of_file = assumed_camera(pushed.depth_m);
         open.shot.path = pushed.name;
         open.shot.place = Place::whole(pushed.colour.rect());
         open.shot.colour = pushed.colour.clone();
         open.shot.has_alpha = pushed.has_alpha;
         if (!pushed.depth_m.empty()) open.shot.depth = DepthMetres{pushed.depth_m.clone()};
         open.shot.detected = {"pushed by another program: " + pushed.name};
+        if (!pushed.depth_m.empty())
+            open.shot.warnings = {pushed.name +
+                                  ": no camera comes with it; 50 mm on 36 mm at f/2.8 are assumed"};
     } else {
         auto shot = read_shot(reading.source);
         if (!shot) return shot.error();

@@ -40,6 +40,7 @@ struct OpenShot {
     DepthHistogram histogram;
     // What the picture hides and what stays sharp, one sample over the other; null: there is none.
     std::shared_ptr<const Picture> hidden, holdout;
+    bool is_pushed = false;  // by another program: there is no file
     // Of a scene:
     bool is_live = false, is_moving = false;  // moving: its drafts alone are made
     int samples = 0, coarse = 1;              // rays a pixel; so many by so many pixels are one

@@ -134,6 +134,33 @@ class ToolsTest(window.WindowTest):
         self.assertEqual(window.returncode, 0, err)
         self.assertEqual(out.strip(), "40")
 
+    def test_without_a_file_it_waits_for_a_renderer_and_shows_what_is_pushed(self):
+        port = free_port()
+        with open(os.path.join(self.shared, "wait.txt"), "w") as file:
+            file.write("sleep 0.2\nshot waiting.png\nsay error\nsave early.exr\nexpect error\n"
+                       "until frame.width 24\nset exposure 0\nwait\nsay error\n"
+                       "until frame.engine gaussian\nwait\nexpect frame.width 40\nexpect focus 2\nexpect notice assum\n"
+                       "set fstop 1\nwait\nsave pushed.exr\nwait\nexpect notice wrote\ncopy\nexpect error pushed\n"
+                       "reload\nwait\nexpect frame.width 40\n")
+        window = self.start("--engine", "gaussian", "--listen", str(port), "--script", "wait.txt")
+        self.assertEqual(window.stdout.readline().strip(), "")
+        self.push(port, b"GET / HTTP/1.1\r\n\r\n")
+        self.push(port, packet(4, b"\1", "flat", 24, 6, 1, "R"),
+                  packet(3, b"\0", "flat", "R", 0, 0, 24, 6, struct.pack("<144f", *[0.25] * 144)))
+        time.sleep(1.5)
+        names = ("R", "G", "B", "Z")
+        offsets = struct.pack("<4q", 0, 1, 2, 3) + struct.pack("<4q", 4, 4, 4, 4)
+        self.push(port, packet(4, b"\1", "beauty", 40, 30, 4, *names),
+                  packet(6, b"\0", "beauty", 4, *names, 0, 0, 40, 30, offsets,
+                         struct.pack("<4f", 0.5, 0.4, 0.3, 2.0) * (40 * 30)))
+        out, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, 0, err)
+        self.assertIn("depth", out)
+        self.assertTrue(os.path.exists(os.path.join(self.shared, "pushed.exr")))
+        done = subprocess.run([PETZVAL, "view"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--listen", done.stderr)
+
     def test_what_is_made_is_pushed_to_a_viewer_that_listens(self):
         listener = socket.socket()
         listener.bind(("127.0.0.1", 0))
