@@ -5,6 +5,7 @@
 #include "app.h"
 #include "commands.h"
 #include "fields.h"
+#include "panels.h"
 #include "widgets.h"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ bool is_shown(const App& app, const ArticleBuffer& buffer) {
 void control(App& app, const ArticleControl& of) {
     if (of.least < of.most) return slider_widget(app, of.path, of.label, of.least, of.most);
     for (const FieldRow& row : app.setup().fields)
-        if (row.path == of.path) return row_widget(app, row);
+        if (row.path == of.path) return row_widget(app, row, of.label);
     switch_widget(app, of.path, of.label);
 }
 
@@ -97,9 +98,7 @@ void times(const App& app) {
     const MadeFrame& made = app.side(0).last;
     ImGui::Text("%8.1f ms  scene built", 1000 * open.build_s);
     ImGui::Text("%8.1f ms  rays, %d a pixel", 1000 * open.render_s, open.samples);
-    for (const StageTime& stage : made.stages)
-        ImGui::Text("%8.1f ms  %s", 1000 * stage.seconds, stage.stage.c_str());
-    ImGui::Text("%8.1f ms  %s, %s", 1000 * made.seconds, made.engine.c_str(), name_of(made.quality));
+    stage_times(made);
 }
 
 }  // namespace

@@ -60,13 +60,22 @@ LensCodes strip_of(const std::vector<LensDisc>& discs) {
 
 Status make_discs(const Lens& lens, LensMade& made) {
     const LensWish& wish = made.of;
-    const std::array<double, 3> radii{made.coc_px, -made.side_px, made.side_px};
+    const std::array<double, 2> radii{-made.side_px, made.side_px};
     const auto discs = lens_point_spreads(lens, wish.mount, radii, wish.field_x, wish.field_y);
     if (!discs) return discs.error();
-    made.disc = codes_of((*discs)[0].weights);
-    made.front = codes_of((*discs)[1].weights);
-    made.behind = codes_of((*discs)[2].weights);
+    made.front = codes_of((*discs)[0].weights);
+    made.behind = codes_of((*discs)[1].weights);
     made.words = (*discs)[0].lens;
+    // A small disc is shown as a sensor of smaller pixels would see it.
+    constexpr double kLarge_px = 48;
+    constexpr int kFinest = 16;
+    made.fine = std::clamp(int(kLarge_px / std::max(std::abs(made.coc_px), 1.0)), 1, kFinest);
+    LensMount fine = wish.mount;
+    fine.width_px *= made.fine, fine.height_px *= made.fine;
+    const std::array<double, 1> radius{made.fine * made.coc_px};
+    const auto disc = lens_point_spreads(lens, fine, radius, wish.field_x, wish.field_y);
+    if (!disc) return disc.error();
+    made.disc = codes_of((*disc)[0].weights);
     const auto strip = lens_point_spreads(lens, wish.mount, strip_radii());
     if (!strip) return strip.error();
     made.strip = strip_of(*strip);

@@ -39,6 +39,7 @@ struct LensMade {
     std::optional<Error> error;
     LensSection section;
     double coc_px = 0;              // of the pixel
+    int fine = 1;                   // so many by so many pixels of its disc are one of the picture
     double side_px = 0;             // of the discs in front and behind: their radius
     LensCodes disc, front, behind;  // of the pixel; at its place in front of focus, and behind
     LensCodes strip;                // on the axis, from -60 to +60 px

@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
 #include <utility>
@@ -138,6 +139,12 @@ std::vector<Field> facts() {
                  return std::to_string(wish->region.value_or(app.shot()->shot.place.data_window).width());
              }),
         fact("left.shown", [](const App& app) { return app.state.left.shown; }),
+    };
+}
+
+// Of scene, shot and lens, and how long they took.
+std::vector<Field> more_facts() {
+    return {
         fact("scene.subject_m",
              [](const App& app) { return or_unknown(app.shot() ? app.shot()->subject_m : std::nullopt); }),
         fact("scene.build_ms",
@@ -162,7 +169,11 @@ std::vector<Field> facts() {
              [](const App& app) {
                  return app.against() ? std::to_string(app.against()->shot.colour.width()) : std::string("0");
              }),
-        fact("lens.disc_px", [](const App& app) { return std::to_string(app.lens_made().disc.width); }),
+        fact("lens.disc_px",
+             [](const App& app) {
+                 const LensMade& made = app.lens_made();
+                 return std::to_string(std::lround(double(made.disc.width) / made.fine));
+             }),
         fact("slowest.tick_ms", [](const App& app) { return text_of(app.slowest.tick, 4); }),
         fact("last.picture_ms", [](const App& app) { return text_of(app.slowest.last_picture, 4); }),
         fact("slowest.picture_ms", [](const App& app) { return text_of(app.slowest.first_picture, 4); }),
@@ -210,6 +221,8 @@ std::vector<Field> choices() {
         toggle(
             "view.help", +[](State& s) -> bool& { return s.help; }),
         number(
+            "shot.focus_speed", +[](State& s) -> double& { return s.timeline.focus_speed; }, 0, 1000),
+        number(
             "view.wipe", +[](State& s) -> double& { return s.wipe; }, 0, 1),
         number(
             "view.zoom", +[](State& s) -> double& { return s.zoom; }, 0, 256),
@@ -224,6 +237,7 @@ const Field* find(const std::string& name) {
     static const std::vector<Field> all = [] {
         std::vector<Field> fields = choices();
         for (Field& one : facts()) fields.push_back(std::move(one));
+        for (Field& one : more_facts()) fields.push_back(std::move(one));
         return fields;
     }();
     for (const Field& field : all)
@@ -252,6 +266,12 @@ std::string text_of(double value, int digits) {
     char text[64];
     char* const end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
     return {text, end};
+}
+
+std::string pixels_text(double px) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f px", std::abs(px) < 0.005 ? 0 : px);
+    return text;
 }
 
 Result<double> number_of(const std::string& text) {

@@ -18,6 +18,8 @@ Status set_field(App& app, const std::string& name, const std::string& text);
 
 // A number with so many digits as say it again exactly, or with `digits`.
 std::string text_of(double value, int digits = 17);
+// "2.76 px": to a hundredth, as nobody sees less.
+std::string pixels_text(double px);
 // Errors: InvalidArgument.
 Result<double> number_of(const std::string& text);
 

@@ -106,7 +106,8 @@ void draw_section(const App& app, const Box& box) {
 // The disc fills the box, its middle in the middle; one of its pixels is `scale` wide.
 float draw_disc(const Box& box, const Texture& texture, const LensCodes& codes) {
     if (texture.empty() || codes.width == 0) return 1;
-    const float scale = std::min(box.width() / float(codes.width), box.height() / float(codes.height));
+    const float scale = std::min(
+        {box.width() / float(codes.width), box.height() / float(codes.height), 2 * ImGui::GetFontSize()});
     const ImVec2 middle{0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y)};
     const ImVec2 half{0.5f * scale * float(codes.width), 0.5f * scale * float(codes.height)};
     ImGui::GetWindowDrawList()->AddImage(id_of(texture), {middle.x - half.x, middle.y - half.y},
@@ -114,21 +115,30 @@ float draw_disc(const Box& box, const Texture& texture, const LensCodes& codes) 
     return scale;
 }
 
+// In the upper left corner, in as many lines as it takes.
 void note_in(const Box& box, const std::string& text) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    ImGui::GetWindowDrawList()->AddRectFilled(box.from, {box.from.x + size.x + 8, box.from.y + size.y + 4},
-                                              IM_COL32(0, 0, 0, 150));
-    ImGui::GetWindowDrawList()->AddText({box.from.x + 4, box.from.y + 2}, IM_COL32(235, 235, 235, 200),
-                                        text.c_str());
+    const float wide = std::max(1.0f, box.width() - 8);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wide);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->PushClipRect(box.from, box.to, true);
+    list->AddRectFilled(box.from, {box.from.x + size.x + 8, box.from.y + size.y + 4}, IM_COL32(0, 0, 0, 150));
+    list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {box.from.x + 4, box.from.y + 2},
+                  IM_COL32(235, 235, 235, 220), text.c_str(), nullptr, wide);
+    list->PopClipRect();
 }
 
 void picked_disc(App& app, float side) {
     const LensMade& made = app.lens_made();
     const Box box = box_of("disc", {side, side});
     is_field(app, "disc");
-    const float scale = draw_disc(box, app.lens_pictures()[0], made.disc);
-    note_in(box, "radius " + text_of(made.coc_px, 3) + " px");
+    // Of a pixel of the picture, on the screen.
+    const float scale = float(made.fine) * draw_disc(box, app.lens_pictures()[0], made.disc);
+    note_in(box, "radius " + pixels_text(made.coc_px));
     const ImVec2 middle{0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y)};
+    if (scale > 6 && scale < box.width())  // the pixel itself
+        ImGui::GetWindowDrawList()->AddRect({middle.x - 0.5f * scale, middle.y - 0.5f * scale},
+                                            {middle.x + 0.5f * scale, middle.y + 0.5f * scale},
+                                            IM_COL32(43, 143, 224, 255));
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (ImGui::IsItemActive() && ImGui::IsMouseDown(0)) {
         const double x = double((mouse.x - middle.x) / scale), y = double((mouse.y - middle.y) / scale);
@@ -138,6 +148,24 @@ void picked_disc(App& app, float side) {
         ImGui::GetWindowDrawList()->AddCircle(
             {middle.x + scale * float((*app.state.lit)[0]), middle.y + scale * float((*app.state.lit)[1])},
             0.3f * ImGui::GetFontSize(), kLit, 0, 2);
+}
+
+// On the axis, each with its radius in pixels.
+void draw_strip(const App& app, const Box& box) {
+    const LensCodes& strip = app.lens_made().strip;
+    const float scale = draw_disc(box, app.lens_pictures()[3], strip);
+    if (strip.width == 0) return;
+    const float cell = scale * float(strip.width) / float(kStripDiscs);
+    const float left = 0.5f * (box.from.x + box.to.x) - 0.5f * scale * float(strip.width);
+    for (int i = 0; i < kStripDiscs; ++i) {
+        const double radius = kStripReach_px * (2.0 * i / (kStripDiscs - 1) - 1);
+        const std::string words = (radius > 0 ? "+" : "") + text_of(radius, 3);
+        const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+        if (size.x > 0.9f * cell) continue;
+        ImGui::GetWindowDrawList()->AddText({left + (float(i) + 0.5f) * cell - 0.5f * size.x, box.to.y},
+                                            IM_COL32(200, 200, 200, 220), words.c_str());
+    }
+    ImGui::Dummy({1, ImGui::GetTextLineHeight()});
 }
 
 // Focus of the zones of the pupil, one curve a wavelength.
@@ -179,7 +207,7 @@ void draw_curves(App& app, const Box& box) {
                                 box.to.y - float(curves.zones[z]) * 0.95f * box.height()});
         list->AddPolyline(line.data(), int(line.size()), colour, 0, 1.5f);
     }
-    note_in(box, "zones, ± " + text_of(most, 2) + " mm");
+    note_in(box, "focus by zone, ± " + text_of(most, 2) + " mm");
 }
 
 }  // namespace
@@ -204,7 +232,7 @@ void draw_lens(App& app) {
     const ImVec2 all = ImGui::GetContentRegionAvail();
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float strip = std::min(0.22f * all.y, all.x / float(kStripDiscs));
-    const float high = std::max(8.0f, all.y - strip - 2 * ImGui::GetTextLineHeightWithSpacing());
+    const float high = std::max(8.0f, all.y - strip - 3.4f * ImGui::GetTextLineHeightWithSpacing());
     const float side = std::min(high, 0.3f * all.x), small = 0.5f * (high - gap);
     const Box section = box_of("section", {all.x - side - 2 * small - 3 * gap, high});
     draw_section(app, section);
@@ -221,10 +249,8 @@ void draw_lens(App& app) {
     ImGui::EndGroup();
     ImGui::SameLine();
     draw_curves(app, box_of("curves", {small, high}));
-    const Box strip_box = box_of("strip", {all.x, strip});
-    draw_disc(strip_box, app.lens_pictures()[3], made.strip);
-    note_in(strip_box, "-60 … +60 px, on the axis");
-    ImGui::TextUnformatted(made.words.c_str());
+    draw_strip(app, box_of("strip", {all.x, strip}));
+    ImGui::TextWrapped("%s", made.words.c_str());
 }
 
 }  // namespace petzval::view

@@ -46,64 +46,16 @@ void camera_panel(App& app) {
             say(app, std::string("set camera.") + number + " file");
 }
 
-void line_at(ImDrawList* list, const ImVec2& from, const ImVec2& to, double share, ImU32 colour) {
-    if (!(share >= 0 && share <= 1)) return;
-    const float x = from.x + float(share) * (to.x - from.x);
-    list->AddLine({x, from.y}, {x, to.y}, colour, 1.5f);
-}
-
-// Where the picture's pixels lie in depth; what is sharp of them is white. Drag to focus.
-void depth_panel(App& app) {
-    const DepthHistogram& all = app.shot()->histogram;
-    if (all.counts.empty()) return ImGui::TextWrapped("no depth in metres");
-    const ImVec2 from = ImGui::GetCursorScreenPos();
-    const ImVec2 size{ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()};
-    const ImVec2 to{from.x + size.x, from.y + size.y};
-    ImGui::InvisibleButton("depth", size);
-    is_field(app, "depth histogram");
-    const auto camera = app.camera();
-    const auto limits = camera ? focus_limits(*camera, app.shot()->shot.place.display_window.width(),
-                                              app.setup().permissible_radius_px)
-                               : Result<FocusLimits>(camera.error());
-    if (ImGui::IsItemActive()) {
-        const double share =
-            std::clamp(double(ImGui::GetIO().MousePos.x - from.x) / double(size.x), 0.0, 1.0);
-        const std::string metres = text_of(all.distance_at(share), 5);
-        if (const auto now = field_text(app, "focus"); !now || *now != metres)
-            say(app, "set focus " + metres);
-    }
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(from, to, IM_COL32(25, 25, 25, 255));
-    const double steps = double(all.counts.size());
-    for (std::size_t i = 0; i < all.counts.size(); ++i) {
-        const double z = all.distance_at((double(i) + 0.5) / steps);
-        const ImU32 colour = !limits || (z >= limits->near_m && z <= limits->far_m)
-                                 ? IM_COL32(235, 235, 235, 255)
-                             : z < limits->near_m ? IM_COL32(43, 143, 224, 255)
-                                                  : IM_COL32(243, 156, 18, 255);
-        const float x0 = from.x + float(double(i) / steps) * size.x,
-                    x1 = from.x + float(double(i + 1) / steps) * size.x;
-        list->AddRectFilled({x0, to.y - std::sqrt(all.counts[i]) * size.y}, {x1, to.y}, colour);
-    }
-    if (limits) {
-        line_at(list, from, to, all.share_of(limits->near_m), IM_COL32(43, 143, 224, 255));
-        line_at(list, from, to, all.share_of(limits->far_m), IM_COL32(243, 156, 18, 255));
-        line_at(list, from, to, all.share_of(camera->focus_distance_m), IM_COL32(255, 220, 90, 255));
-    }
-    ImGui::Text("%.4g m … %.4g m%s", all.nearest_m, all.farthest_m, all.has_misses ? ", and beyond" : "");
-    if (limits)
-        ImGui::TextWrapped("sharp (radius under %.3g px): %.4g m to %s m; hyperfocal %.4g m",
-                           app.setup().permissible_radius_px, limits->near_m,
-                           text_of(limits->far_m, 4).c_str(), limits->hyperfocal_m);
-}
-
 void shelf_panel(App& app) {
     static const std::vector<LensSummary> shelf = lens_list();
     const std::string& now = app.state.choice.look.lens.name;
     if (!ImGui::BeginListBox("##shelf", {-1, 9 * ImGui::GetTextLineHeightWithSpacing()})) return;
     for (const LensSummary& lens : shelf) {
         if (ImGui::Selectable(lens.name.c_str(), lens.name == now)) say(app, "set lens " + lens.name);
-        is_field(app, "lens " + lens.name, lens.title + (lens.year.empty() ? "" : ", " + lens.year));
+        const std::string title = lens.title + (lens.year.empty() ? "" : ", " + lens.year);
+        is_field(app, "lens " + lens.name, title);
+        ImGui::SameLine(11 * ImGui::GetFontSize());
+        ImGui::TextDisabled("%s", title.c_str());
     }
     ImGui::EndListBox();
 }
@@ -178,7 +130,7 @@ void compare_panel(App& app) {
 }
 
 void files_panel(App& app) {
-    static char frame[512] = "", look[512] = "look.json";
+    static char frame[512] = "", look[512] = "look.json", lens[512] = "lens.json";
     if (frame[0] == 0) {
         const std::string stem = std::filesystem::path(app.setup().source.path).stem().string();
         (stem + "_focus.exr").copy(frame, sizeof frame - 1);
@@ -190,6 +142,11 @@ void files_panel(App& app) {
     ImGui::InputText("##look", look, sizeof look);
     ImGui::SameLine();
     command_button(app, "save look", "save_look \"" + std::string(look) + "\"");
+    ImGui::InputText("##lens", lens, sizeof lens);
+    ImGui::SameLine();
+    command_button(app, app.bent() ? "save curves" : "save lens",
+                   (app.bent() ? "save_curves \"" : "save_lens \"") + std::string(lens) + "\"");
+    is_field(app, "save lens");
     if (app.is_live()) {
         static char recorded[512] = "";
         if (recorded[0] == 0) (app.setup().scene + "-####.exr").copy(recorded, sizeof recorded - 1);
@@ -197,13 +154,10 @@ void files_panel(App& app) {
         ImGui::SameLine();
         command_button(app, "record", "record \"" + std::string(recorded) + "\"");
     }
-    command_button(app, "to tev", "tev");
-    ImGui::SameLine();
     command_button(app, "copy command", "copy");
-    ImGui::SameLine();
-    command_button(app, "load look", "load_look \"" + std::string(look) + "\"");
-    ImGui::SameLine();
-    command_button(app, "read again", "reload");
+    if (flowing_button("load look")) say(app, "load_look \"" + std::string(look) + "\"");
+    if (flowing_button("read again")) say(app, "reload");
+    if (flowing_button("to tev")) say(app, "tev");
 }
 
 std::string words_for(const char* name, const Rgba& p) {
@@ -222,12 +176,50 @@ void samples_of(const char* title, const DeepPicture& deep, int x, int y) {
     for (const DeepSample& sample : samples) {
         covered += (1 - covered) * sample.colour.a;
         coverage.push_back(covered);
-        ImGui::Text("%9.5g m  alpha %.3f  %.4g %.4g %.4g", double(sample.depth_m), double(sample.colour.a),
+        ImGui::Text("%9.5g m  alpha %.3f   %.4g %.4g %.4g", double(sample.depth_m), double(sample.colour.a),
                     double(sample.colour.r), double(sample.colour.g), double(sample.colour.b));
     }
     if (coverage.size() > 1)
         ImGui::PlotHistogram("coverage", coverage.data(), int(coverage.size()), 0, nullptr, 0, 1,
                              {0, 4 * ImGui::GetFontSize()});
+}
+
+const Rgba* pixel_of(const Picture* picture, const Rect& area, int x, int y) {
+    return picture && area.contains(x, y) && picture->rect().contains(x - area.x0, y - area.y0)
+               ? &(*picture)(x - area.x0, y - area.y0)
+               : nullptr;
+}
+
+void colour_row(const std::string& name, const Rgba* p) {
+    if (!p) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name.c_str());
+    for (const float value : {p->r, p->g, p->b, p->a}) {
+        ImGui::TableNextColumn();
+        ImGui::Text("%.4g", double(value));
+    }
+}
+
+// Raw numbers of all that there is at a pixel of the data window.
+void colours_of(App& app, int x, int y) {
+    const Shot& shot = app.shot()->shot;
+    if (!ImGui::BeginTable("colours", 5, ImGuiTableFlags_RowBg)) return;
+    for (const char* name : {"", "R", "G", "B", "A"}) ImGui::TableSetupColumn(name);
+    ImGui::TableHeadersRow();
+    const Rect data = shot.place.data_window;
+    const SideFrames& frames = app.side(0);
+    const int u = x + data.x0, v = y + data.y0;
+    const Rgba* made = pixel_of(frames.detail.get(), frames.detail_area, u, v);
+    if (!made && !is_buffer(app.state.left.shown))
+        made = pixel_of(frames.whole.get(), frames.whole_area, u, v);
+    colour_row(app.state.left.shown, made);
+    colour_row("sharp", pixel_of(&shot.colour, data, u, v));
+    if (const auto& other = app.against())
+        colour_row("against", pixel_of(&other->shot.colour, other->shot.place.data_window, u, v));
+    for (const FrameLayer& layer : shot.layers)
+        colour_row(name_of(layer), pixel_of(&layer.colour, data, u, v));
+    ImGui::EndTable();
 }
 
 // All that the files say of the picked pixel.
@@ -239,10 +231,11 @@ void pixel_panel(App& app) {
     const int y = app.state.pick->y + shot.place.display_window.y0 - shot.place.data_window.y0;
     if (!shot.colour.rect().contains(x, y)) return ImGui::TextWrapped("outside of the picture");
     ImGui::Text("pixel %d, %d", app.state.pick->x, app.state.pick->y);
-    ImGui::TextUnformatted(words_for("sharp", shot.colour(x, y)).c_str());
     if (const auto* depth = std::get_if<DepthMetres>(&shot.depth))
         ImGui::Text("depth %.6g m", double(depth->plane(x, y)));
-    if (const auto radius = app.radius_at(*app.state.pick)) ImGui::Text("radius %.5g px", double(*radius));
+    if (const auto radius = app.radius_at(*app.state.pick))
+        ImGui::Text("radius %s", pixels_text(double(*radius)).c_str());
+    colours_of(app, x, y);
     samples_of("deep", shot.deep, x, y);
     samples_of("hidden", shot.behind, x, y);
     samples_of("holdout", shot.holdout, x, y);
@@ -251,11 +244,10 @@ void pixel_panel(App& app) {
 void frame_panel(App& app) {
     const MadeFrame& made = app.side(0).last;
     if (made.engine.empty()) return;
-    ImGui::TextWrapped("%s on %s, %s quality, %.0f ms", made.engine.c_str(), made.device.c_str(),
-                       name_of(made.quality), 1000 * made.seconds);
+    ImGui::TextWrapped("%s on %s, %s quality", made.engine.c_str(), made.device.c_str(),
+                       name_of(made.quality));
     ImGui::TextWrapped("%s", made.lens.c_str());
-    for (const StageTime& stage : made.stages)
-        ImGui::Text("%8.1f ms  %s", 1000 * stage.seconds, stage.stage.c_str());
+    stage_times(made);
     for (const std::string& line : made.warnings) ImGui::TextWrapped("%s", line.c_str());
     if (!app.shot()) return;
     for (const std::string& line : app.shot()->shot.detected) ImGui::TextWrapped("%s", line.c_str());
@@ -270,12 +262,6 @@ void section(App& app, const char* title, bool open, DrawPanel draw) {
     ImGui::PushID(title);
     draw(app);
     ImGui::PopID();
-}
-
-const Rgba* pixel_of(const Picture* picture, const Rect& area, int x, int y) {
-    return picture && area.contains(x, y) && picture->rect().contains(x - area.x0, y - area.y0)
-               ? &(*picture)(x - area.x0, y - area.y0)
-               : nullptr;
 }
 
 // The numbers under the pointer, raw.
@@ -300,11 +286,21 @@ std::string under_pointer(const App& app) {
             line += "   " + words_for("against", *p);
     const PixelPosition pixel{x - place.display_window.x0, y - place.display_window.y0};
     if (const auto depth = app.depth_near(pixel)) line += "   " + text_of(*depth, 5) + " m";
-    if (const auto radius = app.radius_at(pixel)) line += "   radius " + text_of(double(*radius), 4) + " px";
+    if (const auto radius = app.radius_at(pixel)) line += "   radius " + pixels_text(double(*radius));
     return line;
 }
 
 }  // namespace
+
+void stage_times(const MadeFrame& made) {
+    double rest = made.seconds;
+    for (const StageTime& stage : made.stages) {
+        ImGui::Text("%8.1f ms  %s", 1000 * stage.seconds, stage.stage.c_str());
+        rest -= stage.seconds;
+    }
+    if (rest > 0.0005) ImGui::Text("%8.1f ms  %s besides", 1000 * rest, made.engine.c_str());
+    ImGui::Text("%8.1f ms  this frame, %s", 1000 * made.seconds, name_of(made.quality));
+}
 
 void draw_panels(App& app) {
     ImGui::PushItemWidth(-11 * ImGui::GetFontSize());
@@ -331,7 +327,7 @@ void draw_status_line(App& app) {
     else
         ImGui::TextDisabled("H: help");
     const MadeFrame& made = app.side(0).last;
-    std::string state = !app.shot()           ? "reading …"
+    std::string state = !app.shot()           ? "nothing is open"
                         : made.engine.empty() ? "sharp"
                                               : made.engine + ", " + name_of(made.quality);
     if (app.is_busy()) state += " …";
@@ -339,27 +335,6 @@ void draw_status_line(App& app) {
     ImGui::SameLine(std::max(0.0f, ImGui::GetWindowWidth() - width - ImGui::GetFontSize()));
     ImGui::TextDisabled("%s", state.c_str());
     ImGui::TextUnformatted(under_pointer(app).c_str());
-}
-
-void draw_help(App& app) {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    bool open = true;
-    if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-        ImGui::TextUnformatted(
-            "click or drag: focus     right click: look at     wheel: zoom     middle or right drag: move");
-        if (ImGui::BeginTable("keys", 4)) {
-            for (const Binding& binding : bindings()) {
-                ImGui::TableNextColumn();
-                ImGui::TextColored({1, 0.86f, 0.35f, 1}, "%s", binding.key.c_str());
-                ImGui::TableNextColumn();
-                ImGui::TextUnformatted(binding.meaning.c_str());
-            }
-            ImGui::EndTable();
-        }
-    }
-    ImGui::End();
-    if (!open) say(app, "set view.help off");
 }
 
 }  // namespace petzval::view

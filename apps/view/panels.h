@@ -8,5 +8,9 @@ namespace petzval::view {
 void draw_panels(App& app);       // camera, depth, look, comparison, files
 void draw_status_line(App& app);  // what is under the pointer; what is wrong
 void draw_help(App& app);
+// Where the picture lies in depth; into the current window, as the next.
+void depth_panel(App& app);
+// What a frame took, pass by pass.
+void stage_times(const MadeFrame& made);
 
 }  // namespace petzval::view

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <imgui.h>
 #include <iterator>
 
@@ -24,8 +25,7 @@ int Timeline::stepped(int by) const {
     return played[std::size_t(to)];
 }
 
-std::optional<double> Timeline::focus_at(int at) const {
-    if (keys.empty()) return std::nullopt;
+double Timeline::wanted_at(int at) const {
     const auto after = keys.lower_bound(at);
     if (after == keys.end()) return keys.rbegin()->second;
     if (after == keys.begin() || after->first == at) return after->second;
@@ -35,14 +35,37 @@ std::optional<double> Timeline::focus_at(int at) const {
     return 1 / ((1 - share) / before->second + share / after->second);
 }
 
+std::map<int, double> Timeline::focus_over(int from, int to) const {
+    std::map<int, double> focus;
+    if (keys.empty()) return focus;
+    constexpr std::int64_t kMostFrames = 1'000'000;  // to look through for one
+    if (focus_speed <= 0 || std::int64_t(to) - keys.begin()->first > kMostFrames) {
+        for (int at = from; at <= to; ++at) focus[at] = wanted_at(at);
+        return focus;
+    }
+    const int first_key = keys.begin()->first;
+    double dioptres = 1 / keys.begin()->second;
+    for (int at = std::min(from, first_key); at <= to; ++at) {
+        if (at > first_key) dioptres += std::clamp(1 / wanted_at(at) - dioptres, -focus_speed, focus_speed);
+        if (at >= from) focus[at] = 1 / dioptres;
+    }
+    return focus;
+}
+
+std::optional<double> Timeline::focus_at(int at) const {
+    const std::map<int, double> focus = focus_over(at, at);
+    return focus.empty() ? std::nullopt : std::optional(focus.begin()->second);
+}
+
 std::string Timeline::as_track() const {
     std::string text = "frame,focus\n";
-    const auto line = [&](int at) { text += std::to_string(at) + "," + text_of(*focus_at(at)) + "\n"; };
     if (keys.empty()) return text;
-    if (easing)
-        for (int at = keys.begin()->first; at <= keys.rbegin()->first; ++at) line(at);
-    else
-        for (const auto& [at, metres] : keys) line(at);
+    const int first_key = keys.begin()->first, last_key = keys.rbegin()->first;
+    const int last_there = frames.empty() ? last_key : std::max(last_key, frames.back());
+    const bool is_every = easing || focus_speed > 0;
+    for (const auto& [at, metres] :
+         is_every ? focus_over(first_key, focus_speed > 0 ? last_there : last_key) : keys)
+        text += std::to_string(at) + "," + text_of(metres) + "\n";
     return text;
 }
 
@@ -50,30 +73,57 @@ namespace {
 
 void say(App& app, const std::string& line) { static_cast<void>(act(app, line)); }
 
+void flowing_switch(App& app, const char* label, const char* field) {
+    const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetFrameHeight();
+    if (ImGui::GetItemRectMax().x + width < ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x)
+        ImGui::SameLine();
+    switch_widget(app, field, label);
+}
+
 void draw_buttons(App& app) {
     const Timeline& line = app.state.timeline;
-    const auto button = [&](const char* label, const std::string& command) {
-        if (ImGui::Button(label)) say(app, command);
-        is_field(app, label);
-        ImGui::SameLine();
+    const auto button = [&](const char* label, const std::string& command, const char* help = "") {
+        if (flowing_button(label)) say(app, command);
+        is_field(app, label, help);
     };
-    button(line.playing ? "stop" : "play", "toggle shot.playing");
+    ImGui::Text("frame %d of %d … %d", line.frame, line.frames.front(), line.frames.back());
+    button(line.playing ? "stop" : "play", "toggle shot.playing",
+           "Shift-drag on the line below: what is played");
     button("set key", "key_focus");
     button("remove key", "remove_key");
-    bool keying = line.keying, easing = line.easing;
-    if (ImGui::Checkbox("keys by clicks", &keying)) say(app, "toggle shot.keying");
-    is_field(app, "shot.keying");
+    flowing_switch(app, "keys by clicks", "shot.keying");
+    flowing_switch(app, "eased", "shot.easing");
     ImGui::SameLine();
-    if (ImGui::Checkbox("eased", &easing)) say(app, "toggle shot.easing");
-    is_field(app, "shot.easing");
-    ImGui::SameLine();
-    button("save track", "save_track track.csv");
-    ImGui::Text("frame %d of %d … %d", line.frame, line.frames.front(), line.frames.back());
+    ImGui::SetNextItemWidth(4 * ImGui::GetFontSize());
+    number_widget(app, "shot.focus_speed", "dpt a frame", 0.002, false);
+    button("save track", "save_track track.csv", "track.csv, for defocus --track");
+    button("load track", "load_track track.csv", "track.csv");
+    if (!app.is_live()) return;
+    flowing_switch(app, "record camera", "scene.recording");
+    button("save path", "save_path path.csv", "where the camera went, path.csv");
+    button("load path", "load_path path.csv", "path.csv");
+}
+
+// Press or drag: that frame. With Shift: what is played; a click: all of it again.
+void take_frame(App& app, int near) {
+    static std::optional<int> range_from;
+    const Timeline& line = app.state.timeline;
+    if (ImGui::IsItemActivated()) range_from = ImGui::GetIO().KeyShift ? std::optional(near) : std::nullopt;
+    if (!ImGui::IsItemActive()) return;
+    if (!range_from) {
+        if (near != line.frame) say(app, "frame " + std::to_string(near));
+        return;
+    }
+    const bool all = *range_from == near;
+    const int first = all ? line.frames.front() : std::min(*range_from, near);
+    const int last = all ? line.frames.back() : std::max(*range_from, near);
+    if (first != line.first || last != line.last)
+        say(app, "range " + std::to_string(first) + " " + std::to_string(last));
 }
 
 }  // namespace
 
-// Focus over frames, near up, in dioptres; keys are diamonds. Press or drag: that frame.
+// Focus over frames, near up, in dioptres; keys are diamonds with their distances.
 void draw_timeline(App& app) {
     const Timeline& line = app.state.timeline;
     draw_buttons(app);
@@ -86,13 +136,10 @@ void draw_timeline(App& app) {
     const auto x_of = [&](double frame) {
         return from.x + float((frame - begin + 0.5) / (span + 1)) * size.x;
     };
-    if (ImGui::IsItemActive()) {
-        const double at =
-            (double(ImGui::GetIO().MousePos.x - from.x) / double(size.x)) * (span + 1) + begin - 0.5;
-        const int near = *std::min_element(line.frames.begin(), line.frames.end(),
-                                           [&](int a, int b) { return std::abs(a - at) < std::abs(b - at); });
-        if (near != line.frame) say(app, "frame " + std::to_string(near));
-    }
+    const double at =
+        (double(ImGui::GetIO().MousePos.x - from.x) / double(size.x)) * (span + 1) + begin - 0.5;
+    take_frame(app, *std::min_element(line.frames.begin(), line.frames.end(),
+                                      [&](int a, int b) { return std::abs(a - at) < std::abs(b - at); }));
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(from, {from.x + size.x, from.y + size.y}, IM_COL32(25, 25, 25, 255));
     list->AddRectFilled({x_of(line.first - 0.5), from.y}, {x_of(line.last + 0.5), from.y + size.y},
@@ -104,14 +151,17 @@ void draw_timeline(App& app) {
     for (const auto& [frame, metres] : line.keys) most = std::max(most, 1 / metres);
     const auto y_of = [&](double metres) { return from.y + size.y * float(0.8 - 0.65 / metres / most); };
     std::vector<ImVec2> curve;
-    for (const int frame : line.frames)
-        if (const auto metres = line.focus_at(frame)) curve.push_back({x_of(frame), y_of(*metres)});
+    constexpr double kMostDrawn = 20'000;
+    if (span < kMostDrawn)
+        for (const auto& [frame, metres] : line.focus_over(line.frames.front(), line.frames.back()))
+            curve.push_back({x_of(frame), y_of(metres)});
     list->AddPolyline(curve.data(), int(curve.size()), IM_COL32(255, 220, 90, 255), 0, 1.5f);
     const float half = 0.3f * ImGui::GetFontSize();
     for (const auto& [frame, metres] : line.keys) {
         const ImVec2 p{x_of(frame), y_of(metres)};
         list->AddQuadFilled({p.x - half, p.y}, {p.x, p.y - half}, {p.x + half, p.y}, {p.x, p.y + half},
                             IM_COL32(255, 220, 90, 255));
+        list->AddText({p.x, p.y + half}, IM_COL32(255, 220, 90, 200), (text_of(metres, 3) + " m").c_str());
     }
     list->AddLine({x_of(line.frame), from.y}, {x_of(line.frame), from.y + size.y},
                   IM_COL32(255, 255, 255, 255), 2);

@@ -16,16 +16,21 @@ struct Timeline {
     bool keying = false;         // a click sets a key
     bool easing = false;         // slow at keys, faster between
     bool playing = false;
+    double focus_speed = 0;  // at most, dioptres a frame; 0: whatever the keys ask for
 
     bool is_shot() const { return !frames.empty(); }
     // The frame that is so many steps on from the one shown, within what is played if that has it.
     int stepped(int by) const;
-    // Between keys evenly in dioptres, or eased there; before the first and behind the last as there. Nothing
-    // without keys.
+    // Between keys evenly in dioptres, or eased there; before the first and behind the last as there; late
+    // where it would move faster than focus_speed. Nothing without keys.
     std::optional<double> focus_at(int at) const;
-    // What `defocus --track` reads: the keys, or where they are eased every frame between the first and the
-    // last of them.
+    std::map<int, double> focus_over(int from, int to) const;  // the same of many frames
+    // What `defocus --track` reads: the keys, or where they are eased or slowed every frame from the first of
+    // them to the last, of a slowed one to the last frame there is.
     std::string as_track() const;
+
+private:
+    double wanted_at(int at) const;  // by the keys alone, of which there are some
 };
 
 class App;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <imgui.h>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -17,10 +18,15 @@ void say(App& app, const std::string& path, const std::string& value) {
     static_cast<void>(act(app, "set " + path + " \"" + value + "\""));
 }
 
+// The flag in words, with its unit.
 std::string label_of(const FieldRow& row) {
+    static const std::map<std::string, std::string> units{
+        {"DEG", "°"},       {"MM", "mm"},     {"M", "m"},        {"M,M", "m"},      {"PX", "px"},
+        {"WAVES", "waves"}, {"PERCENT", "%"}, {"NEAR,FAR", "m"}, {"STOPS", "stops"}};
     std::string label = row.flag.substr(2);
     std::replace(label.begin(), label.end(), '-', ' ');
-    return label;
+    const auto unit = units.find(row.placeholder);
+    return unit == units.end() ? label : label + ", " + unit->second;
 }
 
 std::vector<std::string> choices_of(const std::string& placeholder) {
@@ -30,8 +36,8 @@ std::vector<std::string> choices_of(const std::string& placeholder) {
     return words;
 }
 
-void choice_widget(App& app, const FieldRow& row, const std::string& now) {
-    if (ImGui::BeginCombo(label_of(row).c_str(), now.c_str())) {
+void choice_widget(App& app, const FieldRow& row, const std::string& label, const std::string& now) {
+    if (ImGui::BeginCombo(label.c_str(), now.c_str())) {
         for (const std::string& word : choices_of(row.placeholder))
             if (ImGui::Selectable(word.c_str(), word == now)) say(app, row.path, word);
         ImGui::EndCombo();
@@ -40,12 +46,29 @@ void choice_widget(App& app, const FieldRow& row, const std::string& now) {
 }
 
 // Text that is taken when the pointer or Enter leaves it.
-void text_widget(App& app, const FieldRow& row, const std::string& now) {
+void text_widget(App& app, const FieldRow& row, const std::string& label, const std::string& now) {
     char text[512] = {};
     std::strncpy(text, now.c_str(), sizeof text - 1);
-    ImGui::InputTextWithHint(label_of(row).c_str(), row.placeholder.c_str(), text, sizeof text);
+    ImGui::InputTextWithHint(label.c_str(), row.placeholder.c_str(), text, sizeof text);
     is_field(app, row.path, row.help);
     if (ImGui::IsItemDeactivatedAfterEdit()) say(app, row.path, text);
+}
+
+struct NumberNow {
+    double value = 0;
+    bool is_known = false;
+    std::string text;  // "file", "unknown", "?"
+};
+
+NumberNow number_now(const App& app, const std::string& path) {
+    const auto text = field_text(app, path);
+    const auto number = text ? number_of(*text) : Result<double>(text.error());
+    return {number ? *number : 0, bool(number), text ? *text : "?"};
+}
+
+void say_number(App& app, const std::string& path, bool changed, double value) {
+    is_field(app, path);
+    if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
 }
 
 }  // namespace
@@ -62,27 +85,27 @@ void is_field(App& app, const std::string& path, const std::string& help) {
 }
 
 void number_widget(App& app, const std::string& path, const std::string& label, double speed, bool is_scale) {
-    const auto text = field_text(app, path);
-    const auto known = text ? number_of(*text) : Result<double>(text.error());
-    double value = known ? *known : 0;
-    const double step = is_scale ? std::max(std::abs(value), 1e-3) * 0.005 : speed;
-    const bool changed =
-        ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, float(step), nullptr, nullptr,
-                          known  ? "%.5g"
-                          : text ? text->c_str()
-                                 : "?");
-    is_field(app, path);
-    if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
+    NumberNow now = number_now(app, path);
+    const double step = is_scale ? std::max(std::abs(now.value), 1e-3) * 0.005 : speed;
+    const bool changed = ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &now.value, float(step),
+                                           nullptr, nullptr, now.is_known ? "%.5g" : now.text.c_str());
+    say_number(app, path, changed, now.value);
 }
 
 void slider_widget(App& app, const std::string& path, const std::string& label, double least, double most) {
-    const auto text = field_text(app, path);
-    const auto known = text ? number_of(*text) : Result<double>(text.error());
-    double value = known ? *known : least;
-    const bool changed = ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &least, &most,
-                                             known ? "%.3g" : "auto");
-    is_field(app, path);
-    if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
+    NumberNow now = number_now(app, path);
+    if (!now.is_known) now.value = least;
+    const bool changed = ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &now.value, &least, &most,
+                                             now.is_known ? "%.3g" : "auto");
+    say_number(app, path, changed, now.value);
+}
+
+bool flowing_button(const char* label) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float width = ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x;
+    const float end = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
+    if (end < ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
+    return ImGui::Button(label);
 }
 
 void switch_widget(App& app, const std::string& path, const std::string& label) {
@@ -92,24 +115,25 @@ void switch_widget(App& app, const std::string& path, const std::string& label) 
     is_field(app, path);
 }
 
-void row_widget(App& app, const FieldRow& row) {
+void row_widget(App& app, const FieldRow& row, const std::string& called) {
     const auto now = field_text(app, row.path);
     if (!now) return;
+    const std::string label = called.empty() ? label_of(row) : called;
     if (row.placeholder.empty() || row.placeholder == "off|on") {
         bool on = *now == "true" || *now == "on";
         const char* words[] = {row.placeholder.empty() ? "false" : "off",
                                row.placeholder.empty() ? "true" : "on"};
-        if (ImGui::Checkbox(label_of(row).c_str(), &on)) say(app, row.path, words[on ? 1 : 0]);
+        if (ImGui::Checkbox(label.c_str(), &on)) say(app, row.path, words[on ? 1 : 0]);
         return is_field(app, row.path, row.help);
     }
-    if (row.placeholder.find('|') != std::string::npos) return choice_widget(app, row, *now);
+    if (row.placeholder.find('|') != std::string::npos) return choice_widget(app, row, label, *now);
     const auto number = number_of(*now);
-    if (!number || !std::isfinite(*number)) return text_widget(app, row, *now);
+    if (!number || !std::isfinite(*number)) return text_widget(app, row, label, *now);
     double value = *number;
     const bool whole = row.placeholder == "N" && value == std::round(value);
     const float speed = row.placeholder == "DEG" ? 0.5f : whole ? 0.05f : 0.005f;
-    const bool changed = ImGui::DragScalar(label_of(row).c_str(), ImGuiDataType_Double, &value, speed,
-                                           nullptr, nullptr, whole ? "%.0f" : "%.5g");
+    const bool changed = ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, speed, nullptr,
+                                           nullptr, whole ? "%.0f" : "%.5g");
     is_field(app, row.path, row.help);
     if (!changed) return;
     if (row.placeholder == "SHARE" && *number >= 0 && *number <= 1) value = std::clamp(value, 0.0, 1.0);

@@ -14,7 +14,10 @@ void slider_widget(App& app, const std::string& path, const std::string& label, 
 // On or off.
 void switch_widget(App& app, const std::string& path, const std::string& label);
 // A row of the table of look flags: switch, choice, number or text, as its placeholder says.
-void row_widget(App& app, const FieldRow& row);
+// `called`: its label; empty: its flag in words.
+void row_widget(App& app, const FieldRow& row, const std::string& called = "");
+// A button beside the last widget, or below it where that would be cut off.
+bool flowing_button(const char* label);
 // The last widget can be pointed at by this name in scripts, and says this when the pointer rests on it.
 void is_field(App& app, const std::string& path, const std::string& help = "");
 

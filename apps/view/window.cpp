@@ -117,7 +117,7 @@ public:
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-        const std::string title = setup.source.path + " - petzval";
+        const std::string title = setup.source.path.empty() ? "petzval" : setup.source.path + " - petzval";
         window_ = glfwCreateWindow(setup.width, setup.height, title.c_str(), nullptr, nullptr);
         if (!window_) return no_window("no OpenGL 3.2");
         glfwMakeContextCurrent(window_);
@@ -198,7 +198,8 @@ void draw(App& app) {
         ImGui::SetNextWindowSize({std::max(1.0f, width), std::max(1.0f, height)});
     };
     const float lens = app.state.lens ? 0.45f * size.y : 0;
-    const float frames = app.state.timeline.is_shot() ? std::min(6 * letter, 0.3f * size.y) : 0;
+    const float frames =
+        app.state.timeline.is_shot() ? std::min((app.is_live() ? 9.0f : 7.5f) * letter, 0.3f * size.y) : 0;
     place(0, 0, size.x - panel, size.y - status - lens - frames);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);

@@ -211,6 +211,9 @@ class ViewTest(window.WindowTest):
             say copied
             set shot.easing on
             save_track eased.csv
+            set shot.focus_speed 0.05
+            save_track slow.csv
+            set shot.focus_speed 0
             range 3 4
             frame first
             wait
@@ -237,6 +240,9 @@ class ViewTest(window.WindowTest):
         self.assertIn("inf", compared.stdout + compared.stderr)
         eased = next(self.contents("eased.csv")).decode()
         self.assertEqual(len(eased.splitlines()), 6)
+        slow = [1 / float(line.split(",")[1]) for line in next(self.contents("slow.csv")).decode().splitlines()[1:]]
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(slow, slow[1:])), 0.0500001)
+        self.assertAlmostEqual(slow[0], 1 / near, 6)
 
     def test_what_is_wrong_is_said_in_the_window_which_stays(self):
         shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gone.exr"))
