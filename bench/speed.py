@@ -5,7 +5,7 @@ Tables, in Markdown, on stdout:
             the making of kernels, the slowest radius against the fastest, peak memory, and the stages of each
   pixels    the same content from 0.23 to 33 Mpx, largest radius 32 px
   threads   one thread against two
-  command   a whole `petzval defocus` at 1080p, ZIP half EXR in and out
+  command   whole `petzval defocus` commands at 1080p and 4K, ZIP half EXR in and out, GEGL's lens-blur beside
   ceilings  memory bandwidth and multiply-adds of this machine, and how near each stage comes to them
 
 Usage: ./dev bench speed [--tables A,B] [--scenes A,B] [--widths W,W] [--radii R,R] [--lenses A,B] [--limit S]
@@ -18,10 +18,10 @@ import itertools
 import json
 import os
 import pathlib
-import resource
+import shutil
 import subprocess
 import sys
-import time
+import tempfile
 
 from quality import CACHE, PROGRAM, ROOT, machine, petzval, print_table, scene_state
 
@@ -119,25 +119,56 @@ def threads_table(given):
     print("\n`at most, by CPU`: the speed-up on an idle machine if no thread ever waited.")
 
 
+COMMANDS = [  # scene, width, flags: whole commands, as users give them
+    ("table", 1920, ["--lens", DOUBLET]),
+    ("night", 1920, ["--lens", DOUBLET]),
+    ("night", 3840, ["--lens", DOUBLET, "--fstop", "4.2", "--max-radius", "64"]),
+    ("night", 3840, ["--lens", DOUBLET, "--fstop", "1", "--max-radius", "64"]),
+]
+
+
+def whole(words):
+    """Wall, user and system seconds of a process, and its peak memory in MiB."""
+    with tempfile.NamedTemporaryFile("r") as seconds_of:
+        subprocess.run(["/usr/bin/env", "time", "-o", seconds_of.name, "-f", "%e %U %S %M", *map(str, words)], check=True,
+                       stdout=subprocess.DEVNULL)
+        wall, user, system, kib = map(float, seconds_of.read().split())
+    return wall, user, system, kib / 1024
+
+
+def gegl_lens_blur(source, flags, out):
+    """The words of GEGL's lens-blur with the same radii; they are made here, and not counted."""
+    radii, share = CACHE / "speed_coc.exr", CACHE / "speed_radius.exr"
+    petzval("defocus", source, "--view", "coc", "-o", radii, *flags[2:], "--overwrite", "-q")
+    largest = float(subprocess.check_output([BUILT / "petzval_bench_radius_map", source, radii, share], text=True))
+    return ["gegl", source, "-o", out, "--", "gegl:lens-blur", f"radius={largest}", "linear-mask=true", "aux=[",
+            "gegl:load", f"path={share}", "]"]
+
+
 def command_table(given):
+    """Commands in turn, so that a machine that others use treats them alike; the least CPU seconds of each count."""
+    out, ours, theirs = CACHE / "speed_out.exr", {}, {}
+    beside = shutil.which("gegl")
+    for scene, width, flags in COMMANDS:
+        source, name = picture(scene, width), f"{scene} {width}, {' '.join(flags)}"
+        runs = {"cold": [PROGRAM, "defocus", source, "-o", out, *flags, "--kernel-cache", "off", "--overwrite", "-q"]}
+        if beside and width == 3840:
+            runs["gegl"] = gegl_lens_blur(source, flags, out)
+        took = {}
+        for way, words in [*runs.items()] * given.repeat:
+            print(f"{name}: {way}", file=sys.stderr)
+            found = whole(words)
+            took[way] = min(took.get(way, found), found, key=lambda t: t[1] + t[2])
+        ours[name], theirs[name] = took["cold"], took.get("gegl")
     body = []
-    for scene in given.scenes:
-        source, out = picture(scene, 1920), CACHE / "speed_out.exr"
-        found = measure(source, given, radius=32, repeat=1)
-        if not found:
-            continue
-        words = [PROGRAM, "defocus", source, "-o", out, "--fstop", str(found["f_number"]), "--overwrite", "--json", "-",
-                 "-q"]
-        before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
-        result = subprocess.run(words, stdout=subprocess.PIPE, text=True)
-        wall, after = time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
-        cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        report = json.loads(result.stdout)
-        took = report["seconds"]
-        body.append([scene, seconds(wall), seconds(cpu), *[seconds(took[k]) for k in ("read", "compute", "write")],
-                     f"{report['peak_memory_bytes'] / 2**20:.0f}"])
-    print("\n### The whole command: petzval defocus, 1920x1080, ZIP half EXR in and out, largest radius 32 px\n")
-    print_table(["picture", "wall s", "CPU s", "read", "compute", "write", "peak MiB"], body)
+    for name, (wall, user, system, mib) in ours.items():
+        cpu, peer = user + system, theirs[name]
+        body.append([name, seconds(wall), seconds(user), seconds(system), f"{mib:.0f}",
+                     *([f"{peer[0]:.2f}", f"{peer[1] + peer[2]:.2f}", f"{cpu / (peer[1] + peer[2]):.2f}"] if peer else ["", "", ""])])
+    print("\n### Whole commands: petzval defocus, ZIP half EXR in and out, no kernels kept; GEGL's lens-blur beside\n")
+    print_table(["picture and flags", "wall s", "user s", "system s", "peak MiB", "GEGL wall s", "GEGL CPU s", "CPU, ours / GEGL"], body)
+    if not beside:
+        print("\nGEGL is not installed (Debian: gegl).")
 
 
 def ceilings_table(given):
