@@ -3,13 +3,14 @@
 #ifdef PETZVAL_JPEG
 
 #include "base/cancel.h"
-#include "files/raster.h"
+#include "files/raster_tags.h"
 #include "files/wording.h"
 
 #include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>
+#include <string_view>
 
 // It needs <cstdio> before it.
 #include <jerror.h>
@@ -17,6 +18,8 @@
 
 namespace petzval {
 namespace {
+
+constexpr int kExif = JPEG_APP0 + 1, kProfile = JPEG_APP0 + 2;
 
 struct Reading {
     const InputFile* file = nullptr;
@@ -100,6 +103,7 @@ bool read_header(Reading& r) {
     jpeg_create_decompress(&r.jpeg);
     r.jpeg.client_data = &r;  // which creating has cleared
     r.jpeg.src = &r.source, r.jpeg.progress = &r.progress;
+    for (const int marker : {kExif, kProfile}) jpeg_save_markers(&r.jpeg, marker, 0xffff);
     jpeg_read_header(&r.jpeg, TRUE);
     // A block of 8 x 8 pixels takes a bit at least.
     constexpr std::uint64_t kMostPixelsPerByte = 512;
@@ -129,6 +133,16 @@ bool read_rows(Reading& r, JSAMPLE* row, std::uint16_t* to) {
     return true;
 }
 
+void read_markers(const Reading& r, Raster& out) {
+    for (const jpeg_marker_struct* m = r.jpeg.marker_list; m; m = m->next) {
+        const TagBytes bytes(m->data, m->data_length);
+        if (m->marker == kExif && out.orientation == 1) out.orientation = orientation_of_exif(bytes);
+        constexpr std::string_view kName{"ICC_PROFILE\0", 12};
+        if (m->marker != kProfile || bytes.size() < 14 || bytes[12] != 1) continue;  // the first piece of one
+        if (std::equal(kName.begin(), kName.end(), bytes.begin())) add_note(out.note, note_of_profile(bytes));
+    }
+}
+
 Error error_of(const InputFile& file, const Reading& r) {
     if (r.cancelled) throw Cancelled{};
     return invalid_file(file.path(), "is damaged or not readable: " + printable(r.message.data()));
@@ -152,6 +166,7 @@ Result<Raster> read_jpeg(const InputFile& file, const ReadOptions& options, bool
     out.width = int(r.jpeg.image_width), out.height = int(r.jpeg.image_height);
     out.channels = r.jpeg.num_components;
     out.compression = "jpeg";
+    read_markers(r, out);
     // Scans one after the other: all coefficients are kept.
     if (jpeg_has_multiple_scans(&r.jpeg)) out.more_bytes_per_pixel = 2 * std::size_t(out.channels);
     if (!pixels) return out;

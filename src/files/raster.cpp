@@ -7,6 +7,7 @@
 #include "files/exr_prescan.h"
 #include "files/exr_read.h"
 #include "files/memory_limit.h"
+#include "files/raster_tags.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -121,18 +122,22 @@ Result<Raster> read_raster(const InputFile& file, const RasterFormat& format, co
         if (!header) return header;
         const std::size_t sample = header->is_float() ? sizeof(float) : sizeof(std::uint16_t);
         of_pixel += std::size_t(header->channels) * sample + header->more_bytes_per_pixel;
-        if (Status fits = fits_memory(file, header->rect(), of_pixel, options); !fits) return fits.error();
+        const std::size_t turned = header->orientation == 1 ? 0 : std::size_t(header->channels) * sample;
+        if (Status fits = fits_memory(file, header->rect(), of_pixel + turned, options); !fits)
+            return fits.error();
     }
-    return format.read(file, options, true);
+    Result<Raster> raster = format.read(file, options, true);
+    return raster ? upright(std::move(*raster)) : std::move(raster);
 }
 
 Result<Frame> read_raster_frame(const std::shared_ptr<const InputFile>& file, const RasterFormat& format,
                                 const ReadOptions& options, bool pixels) {
     if (Status fine = check_asked(*file, std::string("a ") + format.name, options, pixels); !fine)
         return fine.error();
-    const Result<Raster> raster =
+    Result<Raster> raster =
         pixels ? read_raster(*file, format, options, sizeof(Rgba)) : format.read(*file, options, false);
     if (!raster) return raster.error();
+    if (!pixels) *raster = upright(std::move(*raster));
     Frame frame = header_of(format, *raster, options.transfer);
     if (!pixels) return frame;
     frame.colour = raster->is_float() ? light_of_floats(*raster, frame.non_finite_colour)

@@ -18,6 +18,7 @@ struct Raster {
     int channels = 0;  // 1, 3 or 4: grey, RGB, RGBA
     int bits = 8;      // 8 or 16: whole numbers; 32: floats
     bool premultiplied = false;
+    int orientation = 1;  // where its first row and column are, as EXIF counts; read_raster() turns it
     std::string compression, note;         // note: what of the file is not read; may be empty
     std::size_t more_bytes_per_pixel = 0;  // while it is read
     std::vector<std::uint16_t> codes;      // one of the two; both empty where the header alone was read

@@ -55,6 +55,7 @@ void expect_damage_to_be_survived(const std::string& path) {
 struct Jpeg {
     int width = 40, height = 24, channels = 3;
     bool progressive = false;
+    std::string exif, profile;
     std::vector<JSAMPLE> samples = std::vector<JSAMPLE>(std::size_t(width * height * channels), 0);
     J_COLOR_SPACE space() const { return channels == 1 ? JCS_GRAYSCALE : channels == 3 ? JCS_RGB : JCS_CMYK; }
 };
@@ -72,6 +73,12 @@ void write_jpeg(const std::string& path, Jpeg jpeg) {
     jpeg_set_quality(&c, 100, TRUE);
     if (jpeg.progressive) jpeg_simple_progression(&c);
     jpeg_start_compress(&c, TRUE);
+    const auto write_marker = [&](int marker, const std::string& bytes) {
+        if (bytes.empty()) return;
+        jpeg_write_marker(&c, marker, reinterpret_cast<const JOCTET*>(bytes.data()), unsigned(bytes.size()));
+    };
+    write_marker(JPEG_APP0 + 1, jpeg.exif);
+    write_marker(JPEG_APP0 + 2, jpeg.profile);
     for (int y = 0; y < jpeg.height; ++y) {
         JSAMPLE* row = jpeg.samples.data() + y * jpeg.width * jpeg.channels;
         jpeg_write_scanlines(&c, &row, 1);
@@ -110,6 +117,72 @@ TEST(Jpeg, GreyAndColourAreDecodedThroughTheTransferCurve) {
             EXPECT_NEAR(double(right.b), srgb_decode((channels == 1 ? 120 : 200) / 255.0), 0.015);
             EXPECT_THAT(frame->detected.front(), HasSubstr("JPEG, 8 bit"));
         }
+}
+
+// The orientation alone, in a directory of one entry.
+std::string exif_of(int orientation, bool big_endian) {
+    const auto number = [big_endian](unsigned value, std::size_t size) {
+        std::string bytes(size, '\0');
+        for (std::size_t i = 0; i < size; ++i, value >>= 8)
+            bytes[big_endian ? size - 1 - i : i] = char(value);
+        return bytes;
+    };
+    const std::string value = number(unsigned(orientation), 2) + number(0, 2);
+    return std::string("Exif\0\0", 6) + (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) +
+           number(1, 2) + number(0x0112, 2) + number(3, 2) + number(1, 4) + value + number(0, 4);
+}
+
+// EXIF's table: the sides of the picture at which the first row and the first column stand.
+constexpr const char* kSides[] = {"top left", "top right", "bottom right", "bottom left",
+                                  "left top", "right top", "right bottom", "left bottom"};
+
+TEST(Jpeg, IsTurnedUpright) {
+    const TemporaryFolder folder;
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+        const std::string sides = kSides[orientation - 1], rows = sides.substr(0, sides.find(' ')),
+                          columns = sides.substr(sides.find(' ') + 1);
+        const bool lies = rows == "left" || rows == "right";
+        Jpeg jpeg;
+        jpeg.channels = 1, jpeg.samples.clear();
+        jpeg.exif = exif_of(orientation, orientation % 2 == 0);
+        const int width = lies ? jpeg.height : jpeg.width, height = lies ? jpeg.width : jpeg.height;
+        for (int row = 0; row < jpeg.height; ++row)
+            for (int column = 0; column < jpeg.width; ++column) {
+                int x = 0, y = 0;
+                for (const auto& [side, at] : {std::pair(rows, row), {columns, column}}) {
+                    if (side == "top") y = at;
+                    if (side == "bottom") y = height - 1 - at;
+                    if (side == "left") x = at;
+                    if (side == "right") x = width - 1 - at;
+                }
+                jpeg.samples.push_back(JSAMPLE(40 + 2 * x + 3 * y));
+            }
+        write_jpeg(folder / "a.jpg", jpeg);
+        const auto frame = read_frame(folder / "a.jpg", without_depth());
+        ASSERT_TRUE(frame) << frame.error().message;
+        ASSERT_EQ(frame->place.display_window, (Rect{0, 0, width, height})) << sides;
+        for (const auto& [x, y] : {std::pair(2, 3), {width - 2, 5}, {4, height - 3}})
+            EXPECT_NEAR(double(frame->colour(x, y).r), srgb_decode((40 + 2 * x + 3 * y) / 255.0), 0.01)
+                << sides;
+        const bool told = testing::Value(frame->detected, testing::Contains(HasSubstr("turned upright")));
+        EXPECT_EQ(told, orientation != 1);
+        const auto inspected = read_frame_header(folder / "a.jpg", without_depth());
+        ASSERT_TRUE(inspected);
+        EXPECT_EQ(inspected->place.display_window, frame->place.display_window);
+    }
+}
+
+TEST(Jpeg, AProfileThatIsNotUsedIsNamed) {
+    const TemporaryFolder folder;
+    const auto said = [&](const std::string& name) {
+        Jpeg jpeg = halves(3);
+        jpeg.profile = std::string("ICC_PROFILE\0", 12) + "\1\1" + std::string(128, 'x') + name;
+        write_jpeg(folder / "a.jpg", jpeg);
+        const auto frame = read_frame(folder / "a.jpg", without_depth());
+        return frame ? frame->detected : std::vector<std::string>{};
+    };
+    EXPECT_THAT(said("Display P3"), testing::Contains(HasSubstr("colour profile is not used")));
+    EXPECT_THAT(said("sRGB IEC61966-2.1"), testing::Not(testing::Contains(HasSubstr("profile"))));
 }
 
 TEST(Jpeg, IsDepthInSharesOfFullScale) {
@@ -168,7 +241,7 @@ struct Tiff {
     int channels = 3, bits = 8, compression = COMPRESSION_NONE, tile = 0;
     bool floats = false, apart = false, big_endian = false;
     int alpha = -1;  // an EXTRASAMPLE_
-    int photometric = PHOTOMETRIC_RGB;
+    int photometric = PHOTOMETRIC_RGB, orientation = ORIENTATION_TOPLEFT;
 };
 
 void put_sample(const Tiff& t, unsigned char* to, int step) {
@@ -208,6 +281,7 @@ void write_tiff(const std::string& path, const Tiff& t) {
     TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, t.bits);
     TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, t.floats ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
     TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, t.channels < 3 ? PHOTOMETRIC_MINISBLACK : t.photometric);
+    TIFFSetField(tiff, TIFFTAG_ORIENTATION, t.orientation);
     TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, t.apart ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG);
     TIFFSetField(tiff, TIFFTAG_COMPRESSION, t.compression);
     if (const auto kind = std::uint16_t(t.alpha); t.alpha >= 0)
@@ -273,6 +347,19 @@ TEST(Tiff, WholeNumbersAndFloatsAreReadHoweverTheyLie) {
         EXPECT_EQ(frame->display_referred, !kind.floats);
         expect_values(*frame, kind);
     }
+}
+
+TEST(Tiff, IsTurnedUpright) {
+    const TemporaryFolder folder;
+    write_tiff(folder / "a.tif", {});
+    const auto flat = read_frame(folder / "a.tif", without_depth());
+    Tiff lying;
+    lying.orientation = ORIENTATION_RIGHTTOP;
+    write_tiff(folder / "a.tif", lying);
+    const auto turned = read_frame(folder / "a.tif", without_depth());
+    ASSERT_TRUE(flat && turned);
+    ASSERT_EQ(turned->place.display_window, (Rect{0, 0, kHeight, kWidth}));
+    EXPECT_EQ(turned->colour(kHeight - 1 - 5, 9), flat->colour(9, 5));
 }
 
 TEST(Tiff, FloatsAreDepthInMetresAndWholeNumbersShares) {

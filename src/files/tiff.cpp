@@ -1,7 +1,7 @@
 #ifdef PETZVAL_TIFF
 
 #include "base/cancel.h"
-#include "files/raster.h"
+#include "files/raster_tags.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -151,8 +151,6 @@ std::string refusal_of_size(TIFF* tiff, Layout& layout, const InputFile& file, s
     if (pixels == 0) return "has no pixels";
     if (layout.width > kLongestSide || layout.height > kLongestSide || pixels > max_pixels)
         return "has more pixels than allowed";
-    if (tag(tiff, TIFFTAG_ORIENTATION) != ORIENTATION_TOPLEFT)
-        return "begins at another corner than the top left; turn it first";
     const std::uint64_t bytes = pixels * unsigned(layout.samples) * unsigned(layout.bits / 8);
     if (bytes > kDensest * file.bytes())
         return "is cut off: its header promises more pixels than the file can hold";
@@ -258,9 +256,13 @@ Raster raster_of(TIFF* tiff, const Layout& layout) {
     out.compression = compression_of(tiff);
     const int unread = layout.samples - layout.colours - (layout.alpha ? 1 : 0);
     if (unread > 0) out.note = "TIFF: " + std::to_string(unread) + " more sample(s) of a pixel are not read";
-    if (TIFFNumberOfDirectories(tiff) > 1)
-        out.note +=
-            (out.note.empty() ? "" : "; ") + std::string("TIFF: the first of several pictures is read");
+    if (TIFFNumberOfDirectories(tiff) > 1) add_note(out.note, "TIFF: the first of several pictures is read");
+    const int orientation = tag(tiff, TIFFTAG_ORIENTATION);  // EXIF took its numbers from here
+    if (orientation > 1 && orientation <= 8) out.orientation = orientation;
+    std::uint32_t profile_bytes = 0;
+    void* profile = nullptr;
+    if (TIFFGetField(tiff, TIFFTAG_ICCPROFILE, &profile_bytes, &profile) && profile)
+        add_note(out.note, note_of_profile({static_cast<const unsigned char*>(profile), profile_bytes}));
     out.more_bytes_per_pixel =
         std::size_t(layout.block_bytes / (std::uint64_t(layout.width) * layout.height) + 1);
     return out;
