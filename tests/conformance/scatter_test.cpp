@@ -22,6 +22,27 @@ TEST(Scatter, ASlopeThroughFocusHidesWhatIsKnownToBeBehindIt) {
     }
 }
 
+// Where no ray comes past the slope, what is behind takes no part at all, however finely the pupil is taken.
+TEST(Scatter, WhatNoRayReachesBehindASlopeDoesNotMatter) {
+    Shot shot = flat(100, 90, {}, 0);
+    paint_rectangles(shot.colour, 3);
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 100; ++x) shot.coc_px(x, y) = 0.14f * float(x - 50) + 0.03f * float(y - 45);
+    for (const Quality quality : {Quality::Standard, Quality::Final}) {
+        const auto before = [&](float light) {
+            shot.behind = DeepPicture::made_of(100, 90, [&](int, int, std::vector<DeepSample>& samples) {
+                for (const float coc : {9.0f, 10.0f}) samples.push_back({{light, light, light, 1}, coc, coc});
+            });
+            DefocusJob job = shot.job("scatter");
+            job.quality = quality;
+            return rendered(job);
+        };
+        const Picture dark = before(0), bright = before(0.8f);
+        for (int y = 35; y < 55; ++y)
+            for (int x = 40; x < 60; ++x) EXPECT_EQ(dark(x, y), bright(x, y)) << x << ", " << y;
+    }
+}
+
 // A near curtain of upright threads, a farther one of threads across it, a white wall behind both: the shares
 // of the lens that each leaves open multiply, for neither knows of the other's threads.
 TEST(Scatter, WhatOneSurfaceLeavesOpenIsSharedByThoseBehindIt) {

@@ -49,6 +49,32 @@ TEST(OutOfSight, WhatRaysReachPastTheEndOfTheWallStays) {
     EXPECT_EQ(samples_at(wide, 12, 15), 2U) << "aberrations spread light wider";
 }
 
+// Much the same radius in all pixels around is not what makes a wall one.
+TEST(OutOfSight, AWallThatLeansHidesAsMuch) {
+    CocSamples all = wall();
+    for (std::size_t k = 0; k < all.samples.size(); k += 2)
+        all.samples[k].coc_px = all.samples[k].coc_back_px = kWallPx - 0.2f * (float(k / 2 % kWidth) - 20);
+    drop_out_of_sight(all, 1, one_thread());
+    for (int x = 12; x < 30; ++x) EXPECT_EQ(samples_at(all, x, 15), 1U) << x;
+    EXPECT_EQ(samples_at(all, 37, 15), 2U) << "who knows where the wall ends";
+}
+
+// The wall before the light stands behind a post, which ends.
+TEST(OutOfSight, AWallBehindSomethingElseHidesAsMuch) {
+    const CocSamples bare = wall();
+    CocSamples all;
+    all.width = kWidth;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            all.first.push_back(all.samples.size());
+            if (x == 20) all.samples.push_back({{0.1f, 0.1f, 0.1f, 1}, -9, -9});
+            for (const CocSample& s : CocSamplesView(bare).at(x, y)) all.samples.push_back(s);
+        }
+    all.first.push_back(all.samples.size());
+    drop_out_of_sight(all, 1, one_thread());
+    for (int x = 18; x < 23; ++x) EXPECT_EQ(samples_at(all, x, 15), x == 20 ? 2U : 1U) << x;
+}
+
 TEST(OutOfSight, AThinWallHidesNothing) {
     CocSamples all = wall();
     for (CocSample& s : all.samples)
