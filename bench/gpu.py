@@ -1,6 +1,6 @@
 """What a GPU takes for each pass of an engine, and what it should take by the numbers of its data sheet.
 
-Usage: ./dev bench gpu [--device gpu:N] [--widths W,W] [--radii R,R] [--scenes A,B] [--repeat N]
+Usage: ./dev bench gpu [--device gpu:N] [--engines A,B] [--widths W,W] [--radii R,R] [--scenes A,B] [--repeat N]
 One unattended command: on a machine with a GPU it measures 1080p and 4K and writes Markdown to
 bench/results/gpu_NAME.md, beside the model. Milliseconds are the device's own, by timestamps, after a frame that
 warms it up. A software driver is measured on small pictures only, and its times are not shown: they say nothing
@@ -9,6 +9,9 @@ about a GPU; bytes and operations do not depend on the driver.
 The model of the pass `composite`: the larger of the bytes that must cross memory at least once (sources, arrivals, sums of
 one sector, the result), divided by the bandwidth, and its multiply-adds, divided by the rate; both as published, so
 that no pass can be faster. What a frame at 1080p needs is counted by drawing it on the CPU; 4K is four times that.
+Of engine `realtime` all passes: the bytes that its images and buffers hold, each once for each pass that reads or writes
+it, as the pass itself counts them (src/device/vulkan/realtime_pass.cpp); hosts have colours of 16 bits and save 8 bytes a
+pixel for each of the four times that these cross memory.
 Not in it: what is looked at and not hit, waiting, copies from and to the host. How near a GPU comes is not known yet.
 """
 import argparse
@@ -42,8 +45,8 @@ def picture(scene, width):
     return path
 
 
-def measure(path, given, device, radius):
-    words = ["--device", device, "--radius", radius, "--repeat", given.repeat, "--engine", given.engine]
+def measure(path, given, device, engine, radius):
+    words = ["--device", device, "--radius", radius, "--repeat", given.repeat, "--engine", engine]
     result = subprocess.run([BENCH, path, *map(str, words)], stdout=subprocess.PIPE, text=True)
     if result.returncode:
         sys.exit(result.returncode)
@@ -62,7 +65,7 @@ def chosen_device(name):
 STAGE_OF = {"composite": "spread", "add sectors": None, "cover pupils": None, "open pupils": None, "add lights": "highlights"}
 
 
-def model(scene, radius):
+def composite_model(scene, radius):
     """Rows of what composite would take at least, by data sheet."""
     words = [SPEED, picture(scene, 1920), "--radius", str(radius)]
     spread = json.loads(subprocess.run(words, stdout=subprocess.PIPE, check=True).stdout)["stages"]["spread"]
@@ -75,48 +78,83 @@ def model(scene, radius):
             f"{1e3 * size * max(moved / bandwidth, madds / rate):.2f}" for bandwidth, rate in DATA_SHEETS.values()]
 
 
+REALTIME_PASSES = ["measure", "split", "reach", "gather", "combine"]
+SAVED_BY_HALVES = {"measure": 8, "split": 8, "combine": 16}  # bytes a pixel
+
+
+def realtime_model(bytes_per_pixel):
+    """Rows of what each pass would take at least, by data sheet: as the program draws files, and as hosts have it."""
+    hosts = {name: count - SAVED_BY_HALVES.get(name, 0) for name, count in bytes_per_pixel.items()}
+    rows = [(name, count) for name, count in bytes_per_pixel.items()]
+    rows += [("all", sum(bytes_per_pixel.values())), ("all, of a host", sum(hosts.values()))]
+    for name, count in rows:
+        yield [name, f"{count:.1f}"] + [f"{1e3 * size * count / bandwidth:.3f}" for size in (1920 * 1080, 3840 * 2160)
+                                       for bandwidth, _ in DATA_SHEETS.values()]
+
+
+def rows_of(engine, given, device, counted):
+    """Of every pass of an engine; notes in `counted` the bytes a pixel of those that count them."""
+    software = device["software"]
+    for scene in given.scenes:
+        for width in given.widths or ([320] if software else [1920, 3840]):
+            for radius in given.radii:
+                scaled = radius * width / 1920 if software else radius
+                found = measure(picture(scene, width), given, device["name"], engine, scaled)
+                given.copied = found["copied_bytes_per_s"]
+                pixels = found["width"] * found["height"]
+                passes = found["passes"]
+                for name in sorted(passes, key=lambda n: REALTIME_PASSES.index(n) if n in REALTIME_PASSES else -1):
+                    p = passes[name]
+                    stage = found["stages"].get(STAGE_OF.get(name) or "", {})
+                    madds, seconds = stage.get("multiply_adds", 0), p["ms"] / 1e3
+                    if p["bytes"]:
+                        counted[name] = p["bytes"] / pixels
+                    yield [engine, scene, found["width"], f"{scaled:.3g}", name, "–" if software else f"{p['ms']:.3f}",
+                           f"{p['runs']:g}", f"{madds / pixels:.0f}" if madds else "–",
+                           "–" if software or not madds else f"{madds / seconds / 1e9:.0f}",
+                           f"{p['bytes'] / pixels:.1f}" if p["bytes"] else "–",
+                           "–" if software or not p["bytes"] else f"{p['bytes'] / seconds / 1e9:.0f}"]
+
+
+def page(given, device):
+    software, counted = device["software"], {}
+    rows = [row for engine in given.engines for row in rows_of(engine, given, device, counted)]
+    text = []
+    say = text.append
+    say(f"# {device['name']}, {device['title']}\n")
+    say(f"{machine()}; `./dev bench gpu`." + (" A software driver: no milliseconds." if software else
+        f" Its memory copies {given.copied / 1e9:.0f} GB/s, reads and writes counted.") + "\n")
+    say(table(["engine", "scene", "width", "radius", "pass", "ms", "submissions", "multiply-adds/px", "G multiply-adds/s",
+               "bytes/px", "GB/s"], rows))
+    if "scatter" in given.engines:
+        say("\nThe model: no faster than this, by published bandwidth and rate; ms for the pass `composite`.\n")
+        say(table(["scene", "radius", "size", "multiply-adds/px", "bytes/px", *DATA_SHEETS],
+                  [row for scene in given.scenes for radius in given.radii for row in composite_model(scene, radius)]))
+    if counted:
+        say("\nThe model of `realtime`: no faster than this, by published bandwidth; ms.\n")
+        say(table(["pass", "bytes/px", *(f"{name}, {size}" for size in ("1080p", "4K") for name in DATA_SHEETS)],
+                  realtime_model(counted)))
+    return "\n".join(text) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--device")
-    parser.add_argument("--engine", default="scatter")
+    parser.add_argument("--engines", "--engine", type=lambda s: s.split(","), default=["scatter", "realtime"])
     parser.add_argument("--widths", type=lambda s: [int(w) for w in s.split(",")])
     parser.add_argument("--radii", type=lambda s: [float(r) for r in s.split(",")], default=[16, 64])
     parser.add_argument("--scenes", type=lambda s: s.split(","), default=["night", "table"])
     parser.add_argument("--repeat", type=int, default=3)
     given = parser.parse_args()
     device = chosen_device(given.device)
-    software = device["software"]
-    widths = given.widths or ([320] if software else [1920, 3840])
-    if software:
+    if device["software"]:
         given.repeat = 1
-    rows = []
-    for scene in given.scenes:
-        for width in widths:
-            for radius in given.radii:
-                scaled = radius * width / 1920 if software else radius
-                found = measure(picture(scene, width), given, device["name"], scaled)
-                pixels = found["width"] * found["height"]
-                for name, p in found["passes"].items():
-                    stage = found["stages"].get(STAGE_OF.get(name) or "", {})
-                    madds = stage.get("multiply_adds", 0)
-                    rows.append([scene, found["width"], f"{scaled:.3g}", name, "–" if software else f"{p['ms']:.3f}", f"{p['runs']:g}",
-                                 f"{madds / pixels:.0f}" if madds else "–",
-                                 "–" if software or not madds else f"{madds / (p['ms'] / 1e3) / 1e9:.0f}"])
-    text = []
-    say = text.append
-    say(f"# {given.engine} on {device['name']}, {device['title']}\n")
-    say(f"{machine()}; `./dev bench gpu`." + (" A software driver: no milliseconds." if software else
-        f" Its memory copies {found['copied_bytes_per_s'] / 1e9:.0f} GB/s, reads and writes counted.") + "\n")
-    say(table(["scene", "width", "radius", "pass", "ms", "submissions", "multiply-adds/px", "G multiply-adds/s"], rows))
-    say("\nThe model: no faster than this, by published bandwidth and rate; ms for the pass `composite`.\n")
-    say(table(["scene", "radius", "size", "multiply-adds/px", "bytes/px", *DATA_SHEETS],
-              [row for scene in given.scenes for radius in given.radii for row in model(scene, radius)]))
-    page = "\n".join(text) + "\n"
-    print(page)
-    if not software:
+    made = page(given, device)
+    print(made)
+    if not device["software"]:
         folder = ROOT / "bench/results"
         folder.mkdir(exist_ok=True)
-        (folder / f"gpu_{re.sub('[^A-Za-z0-9]+', '_', device['title']).strip('_')}.md").write_text(page)
+        (folder / f"gpu_{re.sub('[^A-Za-z0-9]+', '_', device['title']).strip('_')}.md").write_text(made)
 
 
 def table(head, rows):

@@ -4,10 +4,9 @@
 // The picture is read first and does not count. The f-number is set so that the largest radius is --radius.
 // Of --repeat runs each time is the least, stage by stage: what others do on the machine only adds to it. All
 // but the first find their kernels made; what the first takes longer is kernels_s.
-#include "petzval/defocus.h"
-#include "petzval/files.h"
-#include "petzval/names.h"
 #include "petzval/session.h"
+
+#include "job.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,54 +22,28 @@
 namespace {
 
 using namespace petzval;
+using bench::fail;
 
-struct Options {
-    std::string file;
-    std::string engine = "scatter", lens = "ideal";
-    Quality quality = Quality::Standard;
-    double radius_px = 32, limit_s = 60;
-    int threads = 0, repeat = 1, mirror = 1, pupil_points = 64;
+struct Options : bench::Asked {
+    double limit_s = 60;
+    int threads = 0, mirror = 1, pupil_points = 64;
 };
 
-[[noreturn]] void fail(const std::string& message) {
-    std::fprintf(stderr, "petzval_bench_speed: %s\n", message.c_str());
-    std::exit(2);
-}
-
-Quality quality_of(const std::string& name) {
-    const Result<Quality> quality = petzval::parse<Quality>(name);
-    if (!quality) fail("--quality " + name + ": " + quality.error().message);
-    return *quality;
-}
-
 Options parse(int count, char** words) {
-    if (count < 2)
-        fail("FILE.exr [--engine|--quality|--lens|--radius|--threads|--repeat|--mirror|--limit VALUE]…");
     Options options;
-    options.file = words[1];
-    for (int i = 2; i + 1 < count; i += 2) {
-        const std::string flag = words[i], value = words[i + 1];
-        if (flag == "--engine")
-            options.engine = value;
-        else if (flag == "--quality")
-            options.quality = quality_of(value);
-        else if (flag == "--lens")
-            options.lens = value;
-        else if (flag == "--radius")
-            options.radius_px = std::stod(value);
-        else if (flag == "--limit")
+    bench::read_words(count, words, options, [&](const std::string& flag, const std::string& value) {
+        if (flag == "--limit")
             options.limit_s = std::stod(value);
         else if (flag == "--threads")
             options.threads = std::stoi(value);
-        else if (flag == "--repeat")
-            options.repeat = std::stoi(value);
         else if (flag == "--mirror")
             options.mirror = std::stoi(value);
         else if (flag == "--pupil-points")
             options.pupil_points = std::stoi(value);
         else
-            fail("unknown flag " + flag);
-    }
+            return false;
+        return true;
+    });
     return options;
 }
 
@@ -82,18 +55,6 @@ Image<T> mirrored(const Image<T>& one, int times) {
     for (int y = 0; y < all.height(); ++y)
         for (int x = 0; x < all.width(); ++x) all(x, y) = one(fold(x, one.width()), fold(y, one.height()));
     return all;
-}
-
-Camera camera_of(const FoundCamera& found) {
-    if (!found.focal_length_mm || !found.sensor_width_mm || !found.focus_distance_m)
-        fail("the picture lacks camera numbers; make it with `petzval scene make`");
-    return {found.focal_length_mm->value, found.sensor_width_mm->value, 1, found.focus_distance_m->value};
-}
-
-float largest(const Plane& radii) {
-    float most = 0;
-    for (std::size_t i = 0; i < radii.size(); ++i) most = std::max(most, std::abs(radii.pixels()[i]));
-    return most;
 }
 
 double cpu_seconds() {
@@ -133,15 +94,9 @@ struct Measured {
                     height, radius_px, f_number);
         std::printf("\"wall_s\": %.4f, \"cpu_s\": %.4f, \"kernels_s\": %.4f, ", wall_s, cpu_s,
                     std::max(0.0, first_wall_s - wall_s));
-        std::printf("\"peak_mib\": %.0f, \"stages\": {", peak_memory_mib());
-        const char* separator = "";
-        for (const StageTime& stage : stages) {
-            std::printf("%s\"%s\": {\"seconds\": %.4f, \"bytes\": %llu, \"multiply_adds\": %llu}", separator,
-                        stage.stage.c_str(), stage.seconds, static_cast<unsigned long long>(stage.bytes),
-                        static_cast<unsigned long long>(stage.multiply_adds));
-            separator = ", ";
-        }
-        std::printf("}}\n");
+        std::printf("\"peak_mib\": %.0f, ", peak_memory_mib());
+        bench::print_stages(stages);
+        std::printf("}\n");
     }
 };
 
@@ -154,19 +109,9 @@ int main(int count, char** words) {
     const Picture colour = mirrored(frame->colour, options.mirror);
     const Plane depth_m = mirrored(frame->depth, options.mirror);
 
-    DefocusJob job;
-    job.colour = colour;
-    job.depth_m = depth_m;
-    job.place = Place::whole(colour.rect());
-    job.camera = camera_of(frame->camera);
-    job.lens.name = options.lens;
-    job.engine = options.engine;
-    job.quality = options.quality;
+    DefocusJob job = bench::job_of(colour, depth_m, frame->camera, options);
     job.pupil_points = options.pupil_points;
     *frame = Frame{};
-    const Result<Plane> at_f1 = circle_of_confusion(job);
-    if (!at_f1) fail(at_f1.error().message);
-    job.camera.f_number = largest(*at_f1) / options.radius_px;  // radii go with 1/f-number
 
     Session session({.threads = options.threads});
     Measured measured;

@@ -66,7 +66,7 @@ Status HostPass::resize(std::uint32_t width, std::uint32_t height) {
 }
 
 void HostPass::set_lens(const kernel::LensModel& lens) {
-    constexpr double kRadiusPx = 32;  // shapes are those of discs this large
+    constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
     auto made =
         std::make_shared<const engine::RealtimeLens>(engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx));
     const std::lock_guard lock(mutex_);

@@ -213,8 +213,8 @@ void RealtimePass::set_lens(std::shared_ptr<const engine::RealtimeLens> lens) {
     chosen_ = std::move(lens);
 }
 
-// What its images and buffers hold, each once: what is read again from caches and what no lamp needs is not
-// in it.
+// What its images and buffers hold, each once: what is read again from caches, the lens's shapes among it,
+// and what no lamp needs is not in it.
 std::uint64_t RealtimePass::least_bytes(Step step) const {
     const std::uint64_t pixels = std::uint64_t(settings_.width) * settings_.height,
                         tiles = std::uint64_t(tiles_x()) * tiles_y(), cells = tiles * kGroup * kGroup;
@@ -229,7 +229,7 @@ std::uint64_t RealtimePass::least_bytes(Step step) const {
         case kReach:
             return tiles * (8 + 16 + 4 + 16);
         case kGather:
-            return all_cells + gathered + tiles * (8 + 4) + engine::RealtimeLens::kBytes;
+            return all_cells + gathered + tiles * (8 + 4);
         default:
             return pixels * (colour + depth + colour) + gathered + tiles * (8 + 16 + 16);
     }
