@@ -87,6 +87,7 @@ PUBLIC = {
     "look_check": "look",
     "look_file": "shot",
     "look_json": "look",
+    "motion": "image",
     "names": "names",
     "ocio": "ocio",
     "output": "files",

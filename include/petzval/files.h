@@ -6,6 +6,7 @@
 #include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/motion.h"
 #include "petzval/output.h"
 #include "petzval/place.h"
 #include "petzval/result.h"
@@ -29,8 +30,9 @@ struct ReadOptions {
     // What is blurred beside the colour: "all", and names of layers, parts or single channels; "-NAME" after
     // "all" leaves one out. Empty: nothing. EXR only.
     std::vector<std::string> layers;
-    bool need_colour = true;  // false: alpha and depth are enough, as of a matte; colour is 0 then
-    bool need_depth = true;   // false: a file without depth is fine, depth stays empty
+    bool need_colour = true;    // false: alpha and depth are enough, as of a matte; colour is 0 then
+    bool need_depth = true;     // false: a file without depth is fine, depth stays empty
+    MotionReading motion = {};  // EXR only; not of deep parts
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
     // What the pixels of a frame may take: more is refused before it is taken, deep samples as soon as they
     // are counted. 0: no limit.
@@ -91,6 +93,7 @@ struct Frame {
     // Size of the data window, values as stored (see depth_to_planar_metres), +infinity where a depth of
     // another window covers nothing; may be empty.
     Plane depth;
+    MotionVectors motion;         // of the data window, as ReadOptions::motion asks
     bool depth_is_share = false;  // read from whole numbers: shares of full scale, 0…1
     // All samples of a deep input with depths as stored (see deep_to_planar_metres), else empty. colour and
     // depth are then what it looks like from the front: samples one over the other, and the depth at which
@@ -150,8 +153,9 @@ struct WriteOptions {
 
 // Replaces colour (and alpha when has_alpha) of the carried part by frame.colour and the channels of its
 // layers by those, keeps every other channel, part and attribute, and writes a flat EXR. If frame.depth is
-// not empty and nothing is carried, it is written as float Z. Written beside `path`, synced, renamed: `path`
-// is either complete or untouched.
+// not empty and nothing is carried, it is written as float Z, and its motion as forward.u, forward.v,
+// backward.u and backward.v, y upwards. Written beside `path`, synced, renamed: `path` is either complete or
+// untouched.
 //
 // Carried channels are copied bit for bit from the input, which must still be what was read; where
 // the frame's data window is larger than the input's they are 0 there (depth: +infinity). Colour goes back to

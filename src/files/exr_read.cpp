@@ -5,6 +5,7 @@
 #include "files/exr_deep.h"
 #include "files/exr_header.h"
 #include "files/exr_layers.h"
+#include "files/exr_motion.h"
 #include "files/exr_pixels.h"
 #include "files/exr_prescan.h"
 #include "files/memory_limit.h"
@@ -212,7 +213,9 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
         frame.depth = window == frame.place.data_window ? std::move(*depth)
                                                         : pasted(*depth, window, frame.place.data_window);
     }
-    return options.depth_file.empty() ? Status(Done{}) : read_depth_file(options, frame);
+    if (!options.depth_file.empty())
+        if (Status s = read_depth_file(options, frame); !s) return s;
+    return read_motion(exr, choices.colour, options, frame);
 }
 
 // Whose picture it is, and what was done to it.

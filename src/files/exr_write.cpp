@@ -29,6 +29,10 @@ Status check_size(const Frame& frame) {
     if (!frame.depth.empty() && !fits(frame.depth.width(), frame.depth.height()))
         return Error{ErrorCode::InvalidArgument,
                      "the depth of a frame must have the size of its data window"};
+    for (const Image<PixelMove>* moves : {&frame.motion.to_next, &frame.motion.to_previous})
+        if (!moves->empty() && !fits(moves->width(), moves->height()))
+            return Error{ErrorCode::InvalidArgument,
+                         "the motion of a frame must have the size of its data window"};
     return Done{};
 }
 
@@ -37,12 +41,41 @@ void copy_floats(BandChannel& to, View<const float> plane, int first_row) {
     for (int y = 0; y < rows; ++y) std::memcpy(to.row(y), plane.row(first_row + y), to.row_bytes);
 }
 
+// A component of the vectors to one frame around, y upwards as others have it.
+struct MotionChannel {
+    std::string name;
+    const Image<PixelMove>* moves;
+    bool is_x;
+};
+
+std::vector<MotionChannel> motion_channels(const MotionVectors& motion) {
+    std::vector<MotionChannel> channels;
+    for (const auto& [name, moves] :
+         {std::pair{"forward", &motion.to_next}, {"backward", &motion.to_previous}})
+        if (!moves->empty())
+            for (const bool is_x : {true, false})
+                channels.push_back({std::string(name) + (is_x ? ".u" : ".v"), moves, is_x});
+    return channels;
+}
+
+void copy_moves(BandChannel& to, const MotionChannel& from, int first_row) {
+    const int rows = int(to.bytes.size() / to.row_bytes), width = from.moves->width();
+    std::vector<float> values(std::size_t(width), 0.f);
+    for (int y = 0; y < rows; ++y) {
+        const PixelMove* moves = from.moves->row(first_row + y);
+        for (int x = 0; x < width; ++x) values[std::size_t(x)] = from.is_x ? moves[x].x : -moves[x].y;
+        std::memcpy(to.row(y), values.data(), to.row_bytes);
+    }
+}
+
 Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& options, Workers& workers) {
     const SampleType type = options.type == PixelType::Float ? SampleType::Float : SampleType::Half;
     std::vector<Channel> channels;
     for (const char* name : {"R", "G", "B"}) channels.push_back(plain_channel(name, type));
     if (frame.has_alpha) channels.push_back(plain_channel("A", type));
     if (!frame.depth.empty()) channels.push_back(plain_channel("Z", SampleType::Float));
+    const std::vector<MotionChannel> motion = motion_channels(frame.motion);
+    for (const MotionChannel& m : motion) channels.push_back(plain_channel(m.name, SampleType::Float));
     Imf::Header header = new_header(frame.place, channels);
     if (Status s = apply(options, frame.place.display_window, header); !s) return s;
     Painter painter(workers);
@@ -51,7 +84,10 @@ Status write_new(Imf::OStream& stream, const Frame& frame, const WriteOptions& o
         for (int c = 0; c < colours; ++c)
             painter.fill(band[std::size_t(c)], {channels[std::size_t(c)], &frame.colour, c},
                          frame.place.data_window.y0, y0, y1);
-        if (!frame.depth.empty()) copy_floats(band.back(), frame.depth, y0 - frame.place.data_window.y0);
+        std::size_t next = std::size_t(colours);
+        const int first_row = y0 - frame.place.data_window.y0;
+        if (!frame.depth.empty()) copy_floats(band[next++], frame.depth, first_row);
+        for (const MotionChannel& m : motion) copy_moves(band[next++], m, first_row);
     };
     write_one_part(stream, header, channels, fill, workers);
     if (options.report) *options.report = painter.report();

@@ -1,0 +1,17 @@
+// Motion vectors of an EXR.
+#pragma once
+
+#include "petzval/files.h"
+#include "petzval/motion.h"
+#include "petzval/result.h"
+
+#include "files/channel_choice.h"
+#include "files/exr_file.h"
+
+namespace petzval {
+
+// Into frame.motion, what was taken into frame.detected; nothing where it is not wanted or the file has none.
+// Errors: those of choose_motion() and of reading; OutOfMemory beyond options.max_memory_bytes.
+Status read_motion(const ExrFile& exr, const ColourChoice& colour, const ReadOptions& options, Frame& frame);
+
+}  // namespace petzval
