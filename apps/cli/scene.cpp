@@ -20,6 +20,7 @@ namespace {
 
 struct MakeFlags {
     std::string name, output, truth, layers;
+    bool motion = false;
     std::optional<int> width, height;
     std::optional<WorldPoint> camera_at, look_at;
     SceneSettings scene;
@@ -81,6 +82,11 @@ void MakeFlags::add_to(Verb& verb) {
         .value("--truth", "FILE.exr", "also what the lens of the same camera records", parse_text, truth)
         .value("--layers", "FILE.exr", "also the hidden surfaces, as a deep EXR for defocus --behind",
                parse_text, layers);
+    FlagGroup(verb, "Output")
+        .on("--motion",
+            "also motion vectors in the sharp picture, of a moving scene: forward.u, forward.v to the next "
+            "frame, backward.u, backward.v to the previous one, in pixels, y upwards",
+            motion);
     run.add_json_to(verb);
     overwrite.add_to(verb, false);
     run.add_threads_to(verb);
@@ -127,6 +133,9 @@ void MakeFlags::check(const Verb& verb) {
     if (look_at) scene.look_at = ScenePoint{look_at->x, look_at->y, look_at->z};
     scene.want_truth = !truth.empty();
     scene.want_layers = !layers.empty();
+    scene.want_motion = motion;
+    if (const SceneSummary* known = find_scene(name); motion && (!known || known->frames == 1))
+        throw UsageError("--motion has no effect: " + name + " does not move");
     scene.threads = run.threads;
 }
 
@@ -156,6 +165,7 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
     const Place place{display, scene.data_window};
     Frame sharp = frame_of(place, std::move(scene.colour));
     sharp.depth = std::move(scene.depth_m);
+    sharp.motion = std::move(scene.motion);
     if (Status done = write_exr(flags.output, sharp, options); !done) return done;
     if (!flags.truth.empty())
         if (Status done =

@@ -7,6 +7,7 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/light_point.h"
+#include "petzval/motion.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
@@ -49,6 +50,7 @@ struct SceneSettings {
     double depth_blur_px = 0;
     int depth_bits = 0;
     bool want_truth = false, want_layers = false;
+    bool want_motion = false;  // of a scene that moves
     int threads = 0;                       // 0: all
     Workers* workers = nullptr;            // those of a host, in place of `threads`; null: our own
     std::function<bool(double)> progress;  // share done; false cancels
@@ -62,7 +64,8 @@ struct RenderedScene {
     Rect data_window;  // of all but the truth; the frame is {0, 0, width, height}
     Picture colour;    // pinhole, box-filtered
     Plane depth_m;     // planar, one unfiltered sample at the pixel centre; +infinity for a miss
-    Picture truth;     // through the lens, when asked for
+    MotionVectors motion;  // when asked for: of what lies at the pixel's centre; NaN beyond the near plane
+    Picture truth;         // through the lens, when asked for
     // Depth-peeled samples when asked for: every surface hidden behind the visible one, each with its own
     // coverage; in pixels where several surfaces show, also the visible ones with their own coverage. So the
     // visible picture comes first where the first sample lies behind depth_m, and is contained in the samples

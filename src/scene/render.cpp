@@ -76,6 +76,9 @@ Error unknown(const std::string& name) {
     return {ErrorCode::InvalidArgument, text};
 }
 
+// 0 at the first frame, 1 at the last.
+float time_of(int frame, int frames) { return frames > 1 ? float(frame) / float(frames - 1) : 0; }
+
 Vec3 single(const ScenePoint& p) { return {float(p.x), float(p.y), float(p.z)}; }
 
 // The scene's own view, moved and turned as asked for. Upright, so it cannot look straight up or down.
@@ -103,8 +106,8 @@ std::array<double, 16> camera_from_world(const Viewpoint& view) {
 
 }  // namespace
 
-Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings,
-                             Workers& workers) {
+Result<RenderedScene> render(const World& world, const WorldsAround& around, const Camera& camera,
+                             const SceneSettings& settings, Workers& workers) {
     // Refuses camera numbers that mean nothing.
     if (const auto coc = CircleOfConfusion::make(camera, settings.width); !coc) return coc.error();
     Progress progress(settings.progress);
@@ -125,6 +128,8 @@ Result<RenderedScene> render(const World& world, const Camera& camera, const Sce
     result.data_window = pass.area;
     if (!render_pinhole(pass, result.colour, result.depth_m, settings.want_layers ? &result.layers : nullptr))
         return cancelled;
+    if (around.before) result.motion.to_previous = render_motion(pass, *around.before);
+    if (around.after) result.motion.to_next = render_motion(pass, *around.after);
     soften_depth(result.depth_m, settings.depth_blur_px, settings.depth_bits);
     if (settings.want_truth) {
         pass.area = {0, 0, settings.width, settings.height};
@@ -148,7 +153,9 @@ const std::vector<SceneSummary>& scene_list() {
 struct StandingScene::Contents {
     explicit Contents(bool one_thread) : world(one_thread) {}
     Status fill(const std::string& name, const SceneSettings& settings);
+    Result<scene::WorldsAround> around(const SceneSettings& settings) const;
     scene::World world;
+    const scene::BuiltInScene* built_in = nullptr;  // null: a file
     scene::Viewpoint own;
     Camera camera;
     int frame = 0, frames = 1;
@@ -170,14 +177,33 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
     if (!found) return scene::unknown(name);
     frames = found->summary.frames;
     if (const Status status = scene::check(settings, frames); !status) return status;
-    const float time = frames > 1 ? float(settings.frame) / float(frames - 1) : 0;
+    const float time = scene::time_of(settings.frame, frames);
     found->build(world, time);
+    built_in = found;
     camera = found->summary.camera;
     frame = settings.frame;
     if (!found->subject) return Done{};
     const scene::Vec3 at = found->subject(time);
     subject = ScenePoint{double(at.x), double(at.y), double(at.z)};
     return Done{};
+}
+
+// Of the first and the last frame also what would lie beyond, so that each has its vectors both ways.
+Result<scene::WorldsAround> StandingScene::Contents::around(const SceneSettings& settings) const {
+    scene::WorldsAround worlds;
+    if (!settings.want_motion) return worlds;
+    if (frames == 1)
+        return Error{ErrorCode::InvalidArgument,
+                     "this scene does not move, so it has no motion vectors (scene.want_motion)"};
+    for (const auto& [later, place] : {std::pair{-1, &worlds.before}, {1, &worlds.after}}) {
+        auto at_that_time = std::make_unique<scene::World>(true);
+        built_in->build(*at_that_time, scene::time_of(frame + later, frames));
+        const auto view = scene::moved(at_that_time->view, settings);
+        if (!view) return view.error();
+        at_that_time->view = *view;
+        *place = std::move(at_that_time);
+    }
+    return worlds;
 }
 
 Result<StandingScene> StandingScene::build(const std::string& name, const SceneSettings& settings) {
@@ -201,8 +227,11 @@ Result<RenderedScene> StandingScene::render(const SceneSettings& settings) {
     const auto view = scene::moved(contents_->own, settings);
     if (!view) return view.error();
     if (const Status status = contents_->world.look_from(*view); !status) return status.error();
+    const auto around = contents_->around(settings);
+    if (!around) return around.error();
     const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
-    return scene::render(contents_->world, settings.camera.value_or(contents_->camera), settings, *workers);
+    return scene::render(contents_->world, *around, settings.camera.value_or(contents_->camera), settings,
+                         *workers);
 }
 
 Result<RenderedScene> render_scene(const std::string& name, const SceneSettings& settings) {

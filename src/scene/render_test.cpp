@@ -27,7 +27,7 @@ Mesh facing_sheet(float x0, float x1, float y0, float y1, float z) {
 RenderedScene rendered(World& world, const SceneSettings& s, const Camera& camera = kCamera) {
     const std::shared_ptr<Workers> workers = own_workers(2);
     EXPECT_TRUE(world.commit(*workers));
-    return render(world, camera, s, *workers).value();
+    return render(world, {}, camera, s, *workers).value();
 }
 
 SceneSettings settings(int width, int height) {

@@ -198,6 +198,40 @@ TEST(BuiltInScenes, SoftDepthChangesTheDepthAlone) {
     EXPECT_LE(farthest(soft->depth_m), farthest(exact->depth_m) * 1.001f);
 }
 
+// The share of pixels that lie, by their vectors, where the other frame has their depth.
+double share_that_lands(const RenderedScene& from, const Image<PixelMove>& moves, const RenderedScene& to) {
+    int land = 0, all = 0;
+    for (int y = 0; y < moves.height(); ++y)
+        for (int x = 0; x < moves.width(); ++x) {
+            const int u = int(std::floor(float(x) + 0.5f + moves(x, y).x)),
+                      v = int(std::floor(float(y) + 0.5f + moves(x, y).y));
+            if (!moves.rect().contains(u, v) || std::isinf(from.depth_m(x, y))) continue;
+            ++all, land += std::abs(to.depth_m(u, v) / from.depth_m(x, y) - 1) < 0.03f;
+        }
+    return all > 0 ? double(land) / all : 0;
+}
+
+TEST(BuiltInScenes, MotionVectorsSayWhereThingsLieInTheFramesAround) {
+    SceneSettings s = small();
+    s.want_motion = true, s.frame = 20;
+    const auto post = render_scene("post", s);  // its camera moves to the right by 0.17 m in 47 steps
+    const Camera& camera = post->camera;
+    const float step = 0.17f / 47 * float(s.width * camera.focal_length_mm / camera.sensor_width_mm);
+    for (int x = 0; x < s.width; ++x) {
+        const float expected = std::isinf(post->depth_m(x, 20)) ? 0 : step / post->depth_m(x, 20);
+        EXPECT_NEAR(post->motion.to_next(x, 20).x, -expected, 1e-3) << x;
+        EXPECT_NEAR(post->motion.to_previous(x, 20).x, expected, 1e-3) << x;
+        EXPECT_NEAR(post->motion.to_next(x, 20).y, 0, 1e-3) << x;
+    }
+    const auto tori = render_scene("tori", s);  // they turn
+    s.frame = 21;
+    const auto later = render_scene("tori", s);
+    EXPECT_GT(share_that_lands(*tori, tori->motion.to_next, *later), 0.9);
+    EXPECT_GT(share_that_lands(*later, later->motion.to_previous, *tori), 0.9);
+    s.frame = 0;
+    EXPECT_FALSE(render_scene("bars", s));  // does not move
+}
+
 bool is_light(const Picture& p) {
     for (int y = 0; y < p.height(); ++y)
         for (int x = 0; x < p.width(); ++x)

@@ -6,6 +6,8 @@
 
 #include "scene/world.h"
 
+#include <memory>
+
 namespace petzval::scene {
 
 struct BuiltInScene {
@@ -35,8 +37,12 @@ BuiltInScene hexadrive();
 BuiltInScene wgld();
 BuiltInScene unity();
 
-// The three passes over a world that was committed.
-Result<RenderedScene> render(const World& world, const Camera& camera, const SceneSettings& settings,
-                             Workers& workers);
+// The same things a frame before and after, not committed; null: no motion is wanted.
+struct WorldsAround {
+    std::unique_ptr<World> before, after;
+};
+// The passes over a world that was committed.
+Result<RenderedScene> render(const World& world, const WorldsAround& around, const Camera& camera,
+                             const SceneSettings& settings, Workers& workers);
 
 }  // namespace petzval::scene

@@ -3,6 +3,7 @@
 
 #include "petzval/deep.h"
 #include "petzval/image.h"
+#include "petzval/motion.h"
 #include "petzval/workers.h"
 
 #include "base/progress.h"
@@ -55,5 +56,8 @@ struct Pass {
 // Pinhole colour and depth, and the layers (see RenderedScene) when `layers` is not null.
 bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPicture* layers);
 bool render_truth(const Pass& pass, Picture& truth);
+// From where what is seen lies to where it lies in `other`: the same things at another time, seen by its
+// view.
+Image<PixelMove> render_motion(const Pass& pass, const World& other);
 
 }  // namespace petzval::scene

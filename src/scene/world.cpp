@@ -45,7 +45,8 @@ Arrival arrival(const Light& light, Vec3 position) {
 }  // namespace
 
 struct World::Object {
-    Mesh mesh;  // empty for tubes
+    Mesh mesh;    // empty for tubes
+    Tubes tubes;  // empty for meshes
     std::vector<Vec3> irradiance;
     Paint paint;
     Sides sides = Sides::Solid;
@@ -113,7 +114,7 @@ void World::add(Mesh mesh, Paint paint, Sides sides, Cutout cutout) {
         buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
     std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
     auto object =
-        std::make_unique<Object>(Object{std::move(mesh), {}, std::move(paint), sides, std::move(cutout)});
+        std::make_unique<Object>(Object{std::move(mesh), {}, {}, std::move(paint), sides, std::move(cutout)});
     if (object->cutout) {
         rtcSetGeometryUserData(geometry, object.get());
         rtcSetGeometryIntersectFilterFunction(geometry, open_holes);
@@ -132,7 +133,8 @@ void World::add(Tubes tubes, Paint paint) {
         buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, 4, tubes.segments.size()));
     std::copy(tubes.segments.begin(), tubes.segments.end(), segments);
     PETZVAL_CHECK(attach(geometry) == objects_.size());
-    objects_.push_back(std::make_unique<Object>(Object{{}, {}, std::move(paint), Sides::Solid, {}}));
+    objects_.push_back(
+        std::make_unique<Object>(Object{{}, std::move(tubes), {}, std::move(paint), Sides::Solid, {}}));
 }
 
 void World::add_lamp(Vec3 centre, float radius_m, Vec3 radiance) {
@@ -270,6 +272,27 @@ Vec3 World::tube_irradiance(Vec3 position, Vec3 normal) const {
         sum += std::max(0.0f, dot(normal, normalised(a.towards))) * a.facing;
     }
     return sum;
+}
+
+std::optional<Vec3> World::moved_in(const World& other, const Hit& hit) const {
+    if (hit.object == kSky) return Vec3{};
+    if (is_lamp(hit.object)) {
+        if (other.lamps_.size() != lamps_.size()) return std::nullopt;
+        return other.lamps_[hit.primitive].centre - lamps_[hit.primitive].centre;
+    }
+    if (other.objects_.size() != objects_.size()) return std::nullopt;
+    const Object &own = *objects_[hit.object], &theirs = *other.objects_[hit.object];
+    const auto &a = own.mesh.positions, &b = theirs.mesh.positions;
+    const auto &p = own.tubes.points, &q = theirs.tubes.points;
+    if (a.size() != b.size() || p.size() != q.size()) return std::nullopt;
+    if (!a.empty()) {
+        const auto& t = own.mesh.triangles[hit.primitive];
+        return (1 - hit.u - hit.v) * (b[t[0]] - a[t[0]]) + hit.u * (b[t[1]] - a[t[1]]) +
+               hit.v * (b[t[2]] - a[t[2]]);
+    }
+    const std::size_t first = own.tubes.segments[hit.primitive];
+    return (1 - hit.u) * (q[first].position - p[first].position) +
+           hit.u * (q[first + 1].position - p[first + 1].position);
 }
 
 bool World::is_inside(const Hit& hit) const {

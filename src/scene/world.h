@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -111,6 +112,9 @@ public:
     RTCScene rays() const { return rays_; }
     const std::vector<Lamp>& lamps() const { return lamps_; }
     bool is_lamp(std::uint32_t object) const { return object == lamp_object_ && object != kSky; }
+    // How far that point of a surface stands in another world of the same things; empty where that has other
+    // ones.
+    std::optional<Vec3> moved_in(const World& other, const Hit& hit) const;
     // A surface that can never be seen from this side.
     bool is_inside(const Hit& hit) const;
     Vec3 radiance(const Hit& hit) const;
