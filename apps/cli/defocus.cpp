@@ -74,6 +74,7 @@ private:
     ViewSource view_;                // what compute() made and write() needs
     struct OtherView;                // of a stereo file
     std::vector<std::unique_ptr<OtherView>> others_;
+    std::size_t held_bytes_ = 0;  // by frames around
 };
 
 // Another view in a run of its own, but for its writing.
@@ -209,6 +210,7 @@ Status Run::look_around() {
     if (flags_.around) {
         auto seen = flags_.around(shot_);
         if (!seen) return seen.error();
+        held_bytes_ = seen->kept_bytes;
         take_behind(std::move(*seen));
         return Done{};
     }
@@ -223,7 +225,8 @@ Status Run::look_around() {
 
 void Run::take_behind(SeenElsewhere seen) {
     note("seen elsewhere: what lies behind " + std::to_string(seen.pixels) + " pixels");
-    report_["seen_elsewhere"] = {{"pixels", seen.pixels}, {"left_out", seen.left_out}};
+    report_["seen_elsewhere"] = {
+        {"pixels", seen.pixels}, {"by_motion", seen.by_motion}, {"left_out", seen.left_out}};
     warn(seen.left_out);
     shot_.behind = std::move(seen.behind);
 }
@@ -291,6 +294,7 @@ Status Run::compute() {
     if (!sharp) return sharp.error();
     DefocusJob job = flags_.job(std::move(*sharp));
     job.opened_lens = lens_;
+    job.held_bytes = held_bytes_;
     report_["look"] = look_json(look());
     report_["lens"] = lens_json(look(), "");
     report_["parameters"] = flags_.parameters_json(job);

@@ -68,7 +68,6 @@ void check_temporal(const DefocusFlags& flags, bool from_many) {
         {!flags.input.behind.empty(), "--behind"},
         {!flags.input.merge.empty(), "--merge"},
         {flags.input.depth_is_coc(), "--depth-kind coc-px"},
-        {flags.max_memory_bytes > 0, "--max-memory"},
         {flags.look.look().expand_highlights, "--expand-highlights"},
         {flags.view == ViewKind::Depth, "--view depth"}};
     for (const auto& [given, name] : others)
@@ -83,14 +82,17 @@ Result<std::shared_ptr<Neighbours>> neighbours_of(const DefocusFlags& flags,
     auto frames = (*pattern)->frames_there();
     if (!frames) return frames.error();
     return std::make_shared<Neighbours>(
-        std::move(*frames), flags.track.temporal, [of_frame](int frame) -> Result<Shot> {
+        std::move(*frames), flags.track.temporal,
+        [of_frame](int frame) -> Result<Shot> {
             const auto of = of_frame(frame);
             if (!of) return of.error();
             ShotSource source = of->input.source(of->camera);
             if (source.read.view_name == kAllViews) source.read.view_name.clear();
             source.holdout.clear(), source.lights.clear(), source.read.layers.clear();
+            source.read.motion = of->track.motion_reading();
             return load_shot(source);
-        });
+        },
+        flags.max_memory_bytes);
 }
 
 Result<std::optional<Track>> read_track(const TrackFlags& flags) {
@@ -121,8 +123,17 @@ void TrackFlags::add_to(Verb& verb) {
         .value(
             "--temporal", "N",
             "what silhouettes hide is taken from up to N frames before and N after, where these see it, by "
-            "worldToCamera and depth (default 0: each frame by itself)",
-            parse_index, temporal);
+            "motion vectors, or worldToCamera and depth (default 0: each frame by itself)",
+            parse_index, temporal)
+        .value(
+            "--motion", "LAYER",
+            "motion vectors for --temporal, as Vector or forward; off: by the cameras alone (default: found "
+            "by name)",
+            parse_text, motion)
+        .value("--motion-scale", "S[,SY]",
+               "vectors are multiplied by it to be pixels per frame, +x right and +y up: 2 for a shutter of "
+               "half a frame, -1 for the other direction (default 1)",
+               parse_motion_scale, motion_scale);
 }
 
 std::vector<std::string> TrackFlags::given() const {
@@ -130,7 +141,17 @@ std::vector<std::string> TrackFlags::given() const {
     if (!file.empty()) names.emplace_back("--track");
     if (focus_speed) names.emplace_back("--focus-speed");
     if (temporal > 0) names.emplace_back("--temporal");
+    if (!motion.empty()) names.emplace_back("--motion");
+    if (motion_scale) names.emplace_back("--motion-scale");
     return names;
+}
+
+MotionReading TrackFlags::motion_reading() const {
+    const MotionScale scale = motion_scale.value_or(MotionScale{});
+    return {.wanted = motion != "off",
+            .layer = motion == "off" ? "" : motion,
+            .scale_x = scale.x,
+            .scale_y = scale.y};
 }
 
 bool is_sequence(const DefocusFlags& flags) {
@@ -146,6 +167,12 @@ bool is_sequence(const DefocusFlags& flags) {
     if (flags.track.focus_speed && flags.track.file.empty())
         throw UsageError("--focus-speed has no effect without --track");
     if (flags.track.temporal > 0) check_temporal(flags, from_many);
+    for (const auto& [given, name] : {std::pair{!flags.track.motion.empty(), "--motion"},
+                                      {flags.track.motion_scale.has_value(), "--motion-scale"}})
+        if (given && flags.track.temporal == 0)
+            throw UsageError(std::string(name) + " has no effect without --temporal");
+    if (flags.track.motion == "off" && flags.track.motion_scale)
+        throw UsageError("--motion-scale has no effect with --motion off");
     if (flags.frames.missing == Missing::Black && flags.view != ViewKind::Beauty)
         throw UsageError("--missing black is for --view beauty");
     return true;

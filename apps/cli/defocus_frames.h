@@ -1,6 +1,7 @@
 // The frames of a shot for `defocus`: what a track changes over them.
 #pragma once
 
+#include "petzval/motion.h"
 #include "petzval/track.h"
 
 #include "frames.h"
@@ -18,9 +19,12 @@ struct TrackFlags {
     std::string file;
     std::optional<double> focus_speed;  // dioptres per frame
     int temporal = 0;                   // frames on each side
+    std::string motion;                 // a layer, or "off"
+    std::optional<MotionScale> motion_scale;
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
+    MotionReading motion_reading() const;
 };
 
 // Their files for that frame: no name has a place for a number any more.

@@ -42,6 +42,8 @@ const Rows& other_flags() {
         {"read.depth_file", "--depth"},
         {"read.layer", "--layer"},
         {"read.layers", "--layers"},
+        {"read.motion.layer", "--motion"},
+        {"read.motion.scale", "--motion-scale"},
         {"read.max_memory_bytes", "--max-memory"},
         {"read.view_name", "--view-name"},
         {"scene.camera_at", "--camera-at"},

@@ -172,7 +172,9 @@ struct Inspected {
 Result<Inspected> look_into(const InspectFlags& flags) {
     const Stopwatch watch;
     if (Status fine = check_outputs({flags.run.json}, flags.input.files()); !fine) return fine.error();
-    auto shot = load_shot(flags.input.source(flags.camera));
+    ShotSource source = flags.input.source(flags.camera);
+    source.read.motion.wanted = true;  // to say which there are
+    auto shot = load_shot(source);
     if (!shot) return shot.error();
     const DynamicRange range = measure_dynamic_range(shot->colour.view(), shot->display_referred);
     Json report = report_of(*shot, flags, range);

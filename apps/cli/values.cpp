@@ -143,6 +143,16 @@ Result<Interval> parse_range(const std::string& text) {
     return Interval{*low, *high};
 }
 
+Result<MotionScale> parse_motion_scale(const std::string& text) {
+    const auto parts = split_at_comma(text);
+    const auto x = whole_number(parts ? parts->first : text);
+    const auto y = parts ? whole_number(parts->second) : x;
+    const auto is_scale = [](const std::optional<double>& n) { return n && std::isfinite(*n) && *n != 0; };
+    if (!is_scale(x) || !is_scale(y))
+        return no("must be a number that is not 0, or two with a comma between");
+    return MotionScale{*x, *y};
+}
+
 Result<Interval> parse_range_m(const std::string& text) {
     const auto parts = split_at_comma(text);
     if (!parts) return no("must be two distances with a comma between, as 1.8m,3m");

@@ -36,6 +36,11 @@ Result<double> parse_length_mm(const std::string& text);
 Result<double> parse_length_m(const std::string& text);
 
 // "0.1,100": two numbers, in either order.
+// "2" for both, or "2,-2": neither is 0.
+struct MotionScale {
+    double x = 1, y = 1;
+};
+Result<MotionScale> parse_motion_scale(const std::string& text);
 Result<Interval> parse_range(const std::string& text);
 // "1.5m,3m": two lengths, the nearer first.
 Result<Interval> parse_range_m(const std::string& text);

@@ -75,6 +75,7 @@ struct DefocusJob {
     int threads = 0;                   // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;        // those of a host, in place of `threads`; null: our own
     std::size_t max_memory_bytes = 0;  // 0: no limit
+    std::size_t held_bytes = 0;        // what its caller holds beside, as frames around it; counts against it
     std::uint64_t seed = 1;
     // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those
     // not used longest go first; empty: none. The result never depends on it.

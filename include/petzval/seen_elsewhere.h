@@ -17,19 +17,33 @@ namespace petzval {
 struct SeenElsewhere {
     DeepPicture behind;  // of the shot's data window: at most one sample a pixel; empty if nothing was found
     std::size_t pixels = 0;
-    std::vector<std::string> left_out;  // pictures that could not be used, and why; one line each
+    int by_motion = 0;                  // pictures that were moved by their motion vectors
+    std::size_t kept_bytes = 0;         // by Neighbours: pictures for the frames that follow
+    std::vector<std::string> left_out;  // pictures, or their vectors, that could not be used; a line each
 };
 
-// Moves what each of `others` shows to where `shot` would see it, by both cameras (worldToCamera, focal
-// length, sensor width) and depths, and keeps what lies there behind the shot's own surface; of several
-// pictures the first that knows a pixel. Cameras may look along +z or -z and have x to either side: taken is
-// how most of the picture fits.
+// One more picture of what a shot shows.
+struct OtherPicture {
+    const Shot* shot = nullptr;
+    int frames_later = 0;  // than the shot; 0: of the same moment, as the other eye
+};
+
+// Moves what each of `others` shows to where `shot` would see it and keeps what lies there behind the shot's
+// own surface; of several pictures the first that knows a pixel. Of another moment, and with motion vectors:
+// by these, from frame to frame through those of `others` that lie between, evenly on where one of them hides
+// it. Else by both cameras (worldToCamera, focal length, sensor width) and depths; these may look along +z or
+// -z and have x to either side: taken is how most of the picture fits.
 //
-// What moves by itself is found by its surface (pixels that touch and lie at one depth): where that is seen
-// by both, at least nine in ten of its pixels have to lie at one depth, else all of it is left out. Pixels
-// beside a nearer surface hold some of its light and are left out, and so is what is not opaque.
-// Takes about 60 bytes a pixel beside the pictures. Errors: InvalidArgument without depth in metres, a
-// camera or its matrix in `shot` itself.
+// What moves otherwise is found by its surface (pixels that touch and lie at one depth): where that is seen
+// by both, at least nine in ten of its pixels have to lie at one depth, else all of it is left out. With
+// vectors it may have come nearer or gone away as a whole. Vectors by which less of the picture looks the
+// same than by cameras, or less than half of it, are left out with a line that says so. Pixels beside a
+// nearer surface hold some of its light and are left out, and so is what is not opaque. Takes about 70 bytes
+// a pixel beside the pictures. Errors: InvalidArgument without depth in metres in `shot` itself, and without
+// a camera or its matrix where there are no vectors.
+PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
+                                                 Workers& workers);
+// The same of one moment.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* const> others,
                                                  Workers& workers);
 

@@ -16,6 +16,7 @@
 #include "petzval/image.h"
 #include "petzval/light_point.h"
 #include "petzval/look.h"
+#include "petzval/motion.h"
 #include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/session.h"
@@ -78,7 +79,8 @@ struct Shot {
     DeepPicture deep;  // all samples of a deep input or of several files, else empty
     // Hidden layers, and a matte; empty where there are none. All three know depth in the unit of `depth`.
     DeepPicture behind, holdout;
-    Plane mask;  // of the frame and the data window, whose union mask_window is; empty: everywhere
+    MotionVectors motion;  // as source.read.motion asks
+    Plane mask;            // of the frame and the data window, whose union mask_window is; empty: everywhere
     Rect mask_window;
     // More of what the colour shows, as source.read.layers asks, and what stays as it is.
     std::vector<FrameLayer> layers;

@@ -134,6 +134,7 @@ DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, Workers& wor
     job.threads = s.threads;
     job.workers = &workers;
     job.max_memory_bytes = s.max_memory_bytes;
+    if (job.max_memory_bytes > 0) job.max_memory_bytes -= std::min(job.max_memory_bytes - 1, job.held_bytes);
     job.kernel_cache_folder = s.kernel_cache_folder;
     job.kernel_cache_bytes = s.kernel_cache_bytes;
     return job;

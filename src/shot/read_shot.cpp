@@ -23,6 +23,7 @@ Shot shot_of(Frame& frame, const ShotSource& source) {
     shot.colour = std::move(frame.colour);
     shot.has_alpha = frame.has_alpha;
     shot.deep = std::move(frame.deep);
+    shot.motion = std::move(frame.motion);
     shot.layers = std::move(frame.layers);
     shot.layers_carried = std::move(frame.layers_carried);
     shot.camera_of_file = frame.camera;

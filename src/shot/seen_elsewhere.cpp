@@ -1,6 +1,6 @@
 #include "petzval/seen_elsewhere.h"
 
-#include "base/parallel.h"
+#include "shot/landing.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -16,155 +17,11 @@
 namespace petzval {
 namespace {
 
-constexpr float kOneDepth = 1.02f;   // of one surface, seen from two places
-constexpr float kOneSurface = 1.1f;  // from pixel to pixel
-constexpr float kSilhouette = 1.3f;  // within 3 x 3 pixels
+using namespace shot;
+
 constexpr float kOpaque = 0.99f;
-constexpr double kShareThatAgrees = 0.9;  // of a surface that stands still
-constexpr double kShareThatFits = 0.5;    // of two pictures of the same things
+constexpr double kShareThatAgrees = 0.9;  // of a surface that stands still, or moves as it says
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
-
-// Row vectors times matrices, as OpenEXR has them.
-using Matrix = std::array<double, 16>;
-
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix c{};
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j)
-            for (std::size_t k = 0; k < 4; ++k) c[4 * i + j] += a[4 * i + k] * b[4 * k + j];
-    return c;
-}
-
-// Of a matrix that turns and moves (and may mirror and scale): its 3 x 3 part by Cramer's rule.
-std::optional<Matrix> inverse(const Matrix& m) {
-    const auto at = [&](std::size_t i, std::size_t j) { return m[4 * (i % 3) + j % 3]; };
-    const auto minor = [&](std::size_t i, std::size_t j) {
-        return at(i + 1, j + 1) * at(i + 2, j + 2) - at(i + 1, j + 2) * at(i + 2, j + 1);
-    };
-    const double determinant = at(0, 0) * minor(0, 0) + at(0, 1) * minor(0, 1) + at(0, 2) * minor(0, 2);
-    if (!(std::abs(determinant) > 0) || !std::isfinite(determinant)) return std::nullopt;
-    Matrix inverted{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) inverted[4 * i + j] = minor(j, i) / determinant;
-    for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t k = 0; k < 3; ++k) inverted[12 + j] -= m[12 + k] * inverted[4 * k + j];
-    inverted[15] = 1;
-    return inverted;
-}
-
-// Which way a camera's x and z point.
-struct Axes {
-    double x = 1, z = 1;
-};
-
-// How a camera sees: pixels of the display window per tangent, and the middle of the picture.
-struct Eye {
-    Matrix camera_from_world;
-    double across = 0, down = 0, middle_x = 0, middle_y = 0, unit_m = 1;
-};
-
-Result<Eye> eye_of(const Shot& shot) {
-    const auto lacks = [&](const char* what) {
-        return Error{ErrorCode::InvalidArgument, shot.path + ": " + what};
-    };
-    if (!std::holds_alternative<DepthMetres>(shot.depth)) return lacks("no depth in metres");
-    const FoundCamera& found = shot.camera;
-    if (!found.camera_from_world) return lacks("no worldToCamera");
-    if (!found.focal_length_mm || !found.sensor_width_mm) return lacks("no focal length or no sensor width");
-    Eye eye{.camera_from_world = *found.camera_from_world, .unit_m = shot.unit_scale_m};
-    const Rect& window = shot.place.display_window;
-    eye.across = window.width() * found.focal_length_mm->value / found.sensor_width_mm->value;
-    if (shot.image_scale == ImageScale::ThinLens && found.focus_distance_m)
-        eye.across /= 1 - found.focal_length_mm->value / (1000 * found.focus_distance_m->value);
-    eye.down = eye.across * shot.place.pixel_aspect;
-    eye.middle_x = window.x0 + 0.5 * window.width(), eye.middle_y = window.y0 + 0.5 * window.height();
-    return eye;
-}
-
-// Where a pixel of one picture lies in another.
-struct Landing {
-    float x = 0, y = 0, depth_m = 0;  // in pixels of the data window; depth_m <= 0: behind the camera
-};
-
-class Way {
-public:
-    Way(const Shot& from, const Eye& from_eye, const Shot& to, const Eye& to_eye, const Matrix& turn,
-        Axes axes)
-        : from_(from_eye),
-          to_(to_eye),
-          turn_(turn),
-          axes_(axes),
-          from_window_(from.place.data_window),
-          to_window_(to.place.data_window) {}
-
-    Landing operator()(int x, int y, float depth_m) const {
-        // A miss lies in a direction: it turns with the camera and does not move.
-        const bool far = std::isinf(depth_m);
-        const double z = far ? 1 : double(depth_m);
-        const double px = axes_.x * (from_window_.x0 + x + 0.5 - from_.middle_x) / from_.across * z;
-        const double py = -(from_window_.y0 + y + 0.5 - from_.middle_y) / from_.down * z;
-        const double pz = axes_.z * z, unit = far ? 0 : from_.unit_m;
-        const auto column = [&](std::size_t k) {
-            return px * turn_[k] + py * turn_[4 + k] + pz * turn_[8 + k] + unit * turn_[12 + k];
-        };
-        const double depth = axes_.z * column(2);
-        if (!(depth > 0)) return {};
-        return {float(to_.middle_x + axes_.x * column(0) / depth * to_.across - to_window_.x0),
-                float(to_.middle_y - column(1) / depth * to_.down - to_window_.y0),
-                far ? std::numeric_limits<float>::infinity() : float(depth)};
-    }
-
-private:
-    const Eye &from_, &to_;
-    Matrix turn_;
-    Axes axes_;
-    Rect from_window_, to_window_;
-};
-
-// Between which depths a pixel's own surface lies: inside a surface those around it, at a silhouette its own.
-struct Bounds {
-    Plane nearest, farthest;
-};
-
-template <typename Body>
-void for_rows(int rows, Workers& workers, const Body& body) {
-    constexpr int kRows = 16;
-    parallel_for((rows + kRows - 1) / kRows, workers, [&](int block) {
-        for (int y = block * kRows; y < std::min(rows, (block + 1) * kRows); ++y) body(y);
-    });
-}
-
-Bounds bounds_of(View<const float> depth, Workers& workers) {
-    Bounds bounds{Plane(depth.width(), depth.height()), Plane(depth.width(), depth.height())};
-    for_rows(depth.height(), workers, [&](int y) {
-        for (int x = 0; x < depth.width(); ++x) {
-            float nearest = depth(x, y), farthest = nearest;
-            for (int v = std::max(0, y - 1); v <= std::min(depth.height() - 1, y + 1); ++v)
-                for (int u = std::max(0, x - 1); u <= std::min(depth.width() - 1, x + 1); ++u)
-                    nearest = std::min(nearest, depth(u, v)), farthest = std::max(farthest, depth(u, v));
-            if (!(farthest <= kSilhouette * nearest)) nearest = farthest = depth(x, y);
-            bounds.nearest(x, y) = nearest / kOneDepth, bounds.farthest(x, y) = farthest * kOneDepth;
-        }
-    });
-    return bounds;
-}
-
-enum class Verdict : std::uint8_t { Unknown, Agrees, InFront, Hidden };
-
-Verdict verdict_of(const Landing& at, const Bounds& bounds) {
-    if (!(at.depth_m > 0)) return Verdict::Unknown;
-    const float u = std::floor(at.x), v = std::floor(at.y);
-    if (!(u >= 0 && v >= 0 && u < float(bounds.nearest.width()) && v < float(bounds.nearest.height())))
-        return Verdict::Unknown;
-    const int x = int(u), y = int(v);
-    if (at.depth_m > bounds.farthest(x, y)) return Verdict::Hidden;
-    if (at.depth_m >= bounds.nearest(x, y)) return Verdict::Agrees;
-    // Beside a silhouette half a pixel decides.
-    for (int j = std::max(0, y - 1); j <= std::min(bounds.nearest.height() - 1, y + 1); ++j)
-        for (int i = std::max(0, x - 1); i <= std::min(bounds.nearest.width() - 1, x + 1); ++i)
-            if (at.depth_m >= bounds.nearest(i, j)) return Verdict::Unknown;
-    return Verdict::InFront;
-}
 
 // Surfaces of a picture: pixels that touch and lie at one depth, by union and find.
 class Surfaces {
@@ -252,18 +109,19 @@ float depth_at(const Square& s, const std::array<float, 4>& shares) {
 // One other picture on its way to where the shot sees it.
 class Other {
 public:
-    Other(const Shot& other, const Way& way, const Bounds& bounds, Workers& workers)
+    Other(const Shot& other, const View<const float>& shots_depth, Landings landings, const Bounds& bounds,
+          Workers& workers)
         : other_(other),
           depth_(other.depth_plane()),
-          way_(way),
+          shots_depth_(shots_depth),
+          landings_(std::move(landings.of_pixels)),
           bounds_(bounds),
           workers_(workers),
           surfaces_(other),
           verdicts_(depth_.width(), depth_.height()) {
-        for_rows(depth_.height(), workers_, [&](int y) {
-            for (int x = 0; x < depth_.width(); ++x)
-                if (surfaces_.usable(x, y)) verdicts_(x, y) = verdict_of(landing(x, y), bounds_);
-        });
+        find_what_stands();
+        if (!landings.by_motion) return;
+        follow_depths();
         find_what_stands();
     }
 
@@ -285,12 +143,16 @@ public:
 private:
     int width() const { return bounds_.nearest.width(); }
     int height() const { return bounds_.nearest.height(); }
-    Landing landing(int x, int y) const { return way_(x, y, depth_(x, y)); }
+    const Landing& landing(int x, int y) const { return landings_(x, y); }
     Square square(int x, int y) const {
         return {{landing(x, y), landing(x + 1, y), landing(x, y + 1), landing(x + 1, y + 1)}};
     }
 
     void find_what_stands() {
+        for_rows(depth_.height(), workers_, [&](int y) {
+            for (int x = 0; x < depth_.width(); ++x)
+                if (surfaces_.usable(x, y)) verdicts_(x, y) = verdict_of(landing(x, y), bounds_);
+        });
         std::vector<std::array<std::uint32_t, 2>> counts(verdicts_.size());  // agrees, in front
         stands_ = Image<std::uint8_t>(depth_.width(), depth_.height());
         for (int y = 0; y < depth_.height(); ++y)
@@ -303,6 +165,37 @@ private:
                 const auto& [agree, in_front] = counts[surfaces_.of(x, y)];
                 stands_(x, y) = double(agree) >= kShareThatAgrees * double(agree + in_front);
             }
+    }
+
+    // What moves may come nearer or go away too: where the depths of most of a surface do not agree, by the
+    // middle of their ratios.
+    void follow_depths() {
+        struct Ratios {
+            std::vector<float> all;
+            std::size_t agree = 0;
+        };
+        std::map<std::uint32_t, Ratios> of_surface;
+        for (int y = 0; y < depth_.height(); ++y)
+            for (int x = 0; x < depth_.width(); ++x) {
+                const Landing& at = landing(x, y);
+                if (!surfaces_.usable(x, y) || !(at.depth_m > 0) || std::isinf(at.depth_m)) continue;
+                const float u = std::floor(at.x), v = std::floor(at.y);
+                if (!(u >= 0 && v >= 0 && u < float(width()) && v < float(height()))) continue;
+                const float ratio = shots_depth_(int(u), int(v)) / at.depth_m;
+                if (!(ratio > 1 / kSilhouette && ratio < kSilhouette)) continue;
+                Ratios& ratios = of_surface[surfaces_.of(x, y)];
+                ratios.all.push_back(ratio), ratios.agree += verdicts_(x, y) == Verdict::Agrees;
+            }
+        std::erase_if(of_surface, [](const auto& s) { return 2 * s.second.agree >= s.second.all.size(); });
+        for (auto& [surface, ratios] : of_surface) {
+            const auto middle = ratios.all.begin() + std::ptrdiff_t(ratios.all.size() / 2);
+            std::nth_element(ratios.all.begin(), middle, ratios.all.end());
+            ratios.all.assign(1, *middle);
+        }
+        for (int y = 0; y < depth_.height(); ++y)
+            for (int x = 0; x < depth_.width(); ++x)
+                if (const auto found = of_surface.find(surfaces_.of(x, y)); found != of_surface.end())
+                    landings_(x, y).depth_m *= found->second.all.front();
     }
 
     bool shows_hidden(int x, int y) const {
@@ -358,8 +251,8 @@ private:
     }
 
     const Shot& other_;
-    View<const float> depth_;
-    const Way& way_;
+    View<const float> depth_, shots_depth_;
+    Image<Landing> landings_;
     const Bounds& bounds_;
     Workers& workers_;
     Surfaces surfaces_;
@@ -367,55 +260,27 @@ private:
     Image<std::uint8_t> stands_;
 };
 
-// The share of some pixels of `other` that land on the shot's own surface.
-double fit_of(const Shot& other, const Way& way, const Bounds& bounds) {
-    constexpr int kStep = 7;
-    const View<const float> depth = other.depth_plane();
-    int agree = 0, all = 0;
-    for (int y = kStep / 2; y < depth.height(); y += kStep)
-        for (int x = kStep / 2; x < depth.width(); x += kStep) {
-            const Verdict verdict = verdict_of(way(x, y, depth(x, y)), bounds);
-            if (verdict == Verdict::Unknown || std::isinf(depth(x, y))) continue;
-            ++all, agree += verdict == Verdict::Agrees;
-        }
-    return all > 0 ? double(agree) / all : 0;
-}
-
 }  // namespace
 
-Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* const> others,
+Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
                                      Workers& workers) {
-    const auto eye = eye_of(shot);
-    if (!eye) return eye.error();
+    const bool by_motion = std::any_of(others.begin(), others.end(), [](const OtherPicture& o) {
+        return o.frames_later != 0 && !o.shot->motion.empty();
+    });
+    if (Status fine = by_motion ? check_depth(shot) : check_eye(shot); !fine) return fine.error();
     const View<const float> depth = shot.depth_plane();
     const Bounds bounds = bounds_of(depth, workers);
     std::vector<DeepSample> known(std::size_t(depth.width()) * std::size_t(depth.height()));
     SeenElsewhere found;
-    for (const Shot* other : others) {
-        const auto theirs = eye_of(*other);
-        if (!theirs) {
-            found.left_out.push_back(theirs.error().message);
+    for (const OtherPicture& other : others) {
+        auto landings = landings_of(other, others, shot, bounds, workers);
+        if (!landings) {
+            found.left_out.push_back(landings.error().message);
             continue;
         }
-        const auto world_from_theirs = inverse(theirs->camera_from_world);
-        if (!world_from_theirs) {
-            found.left_out.push_back(other->path + ": its worldToCamera has no inverse");
-            continue;
-        }
-        const Matrix turn = product(*world_from_theirs, eye->camera_from_world);
-        Axes best;
-        double fit = -1;
-        for (const Axes axes : {Axes{1, 1}, Axes{1, -1}, Axes{-1, 1}, Axes{-1, -1}})
-            if (const double share = fit_of(*other, Way(*other, *theirs, shot, *eye, turn, axes), bounds);
-                share > fit)
-                fit = share, best = axes;
-        if (fit < kShareThatFits) {
-            found.left_out.push_back(other->path +
-                                     ": by its camera and depth it does not show the same things");
-            continue;
-        }
-        const Way way(*other, *theirs, shot, *eye, turn, best);
-        Other(*other, way, bounds, workers).add_to(known);
+        found.by_motion += landings->by_motion;
+        if (!landings->warning.empty()) found.left_out.push_back(landings->warning);
+        Other(*other.shot, depth, std::move(*landings), bounds, workers).add_to(known);
     }
     for (const DeepSample& s : known) found.pixels += s.colour.a > 0;
     if (found.pixels > 0)
@@ -424,6 +289,13 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* con
             if (s.colour.a > 0) samples.push_back(s);
         });
     return found;
+}
+
+Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* const> others,
+                                     Workers& workers) {
+    std::vector<OtherPicture> pictures;
+    for (const Shot* other : others) pictures.push_back({other});
+    return seen_elsewhere(shot, pictures, workers);
 }
 
 std::vector<SeenElsewhere> seen_by_each_other(std::span<const Shot* const> views, Workers& workers) {

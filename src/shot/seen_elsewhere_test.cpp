@@ -125,7 +125,7 @@ TEST(SeenElsewhere, PicturesOfOtherThingsAreLeftOutByName) {
     ASSERT_EQ(found.left_out.size(), 2u);
     EXPECT_NE(found.left_out[0].find("far.exr"), std::string::npos);
     EXPECT_NE(found.left_out[1].find("blind.exr: no worldToCamera"), std::string::npos);
-    EXPECT_FALSE(seen_elsewhere(blind, {}, *own_workers(1)));
+    EXPECT_FALSE(seen_elsewhere(blind, std::span<const Shot* const>{}, *own_workers(1)));
 }
 
 TEST(SeenElsewhere, IsTheSameForAnyNumberOfThreads) {
