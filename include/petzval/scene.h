@@ -50,7 +50,7 @@ struct SceneSettings {
     double depth_blur_px = 0;
     int depth_bits = 0;
     bool want_truth = false, want_layers = false;
-    bool want_motion = false;  // of a scene that moves
+    bool want_motion = false;              // of a scene that moves
     int threads = 0;                       // 0: all
     Workers* workers = nullptr;            // those of a host, in place of `threads`; null: our own
     std::function<bool(double)> progress;  // share done; false cancels
@@ -61,9 +61,9 @@ struct RenderedScene {
     // From the world to the camera, rows one after the other, for points as row vectors (x, y, z, 1), as
     // OpenEXR's worldToCamera; the camera looks along its +z, +x is right and +y up in the picture.
     std::array<double, 16> camera_from_world{};
-    Rect data_window;  // of all but the truth; the frame is {0, 0, width, height}
-    Picture colour;    // pinhole, box-filtered
-    Plane depth_m;     // planar, one unfiltered sample at the pixel centre; +infinity for a miss
+    Rect data_window;      // of all but the truth; the frame is {0, 0, width, height}
+    Picture colour;        // pinhole, box-filtered
+    Plane depth_m;         // planar, one unfiltered sample at the pixel centre; +infinity for a miss
     MotionVectors motion;  // when asked for: of what lies at the pixel's centre; NaN beyond the near plane
     Picture truth;         // through the lens, when asked for
     // Depth-peeled samples when asked for: every surface hidden behind the visible one, each with its own
