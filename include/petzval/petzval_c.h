@@ -108,7 +108,7 @@ typedef struct petzval_look petzval_look;
 PETZVAL_C_API petzval_status petzval_look_new(petzval_look** look); /* the defaults */
 /* A look as `petzval defocus --save-look` writes it. */
 PETZVAL_C_API petzval_status petzval_look_from_json(const char* json, petzval_look** look);
-/* Sets one field, as in the JSON: petzval_look_set(look, "engine", "gather"), (look, "lens.aperture.blades",
+/* Sets one field, as in the JSON: petzval_look_set(look, "engine", "gather"), (look, "lens.blades",
  * "5"). The value is JSON, or a plain word where a name is wanted. The look is unchanged if it is refused. */
 PETZVAL_C_API petzval_status petzval_look_set(petzval_look* look, const char* field, const char* value);
 /* Lives until the look is changed or closed. */
@@ -188,6 +188,9 @@ typedef struct petzval_shot {
     const petzval_deep* holdout; /* a matte that is not blurred and dims what lies behind it */
     const petzval_light* lights;
     uint64_t light_count;
+    /* Where the effect is wanted, of the picture's size: 1 as blurred, 0 as given, a share mixes; null:
+     * everywhere. */
+    const petzval_plane* mask;
 } petzval_shot;
 
 /* --- A frame

@@ -28,19 +28,24 @@ SampleType type_of(petzval_sample sample) {
 
 Rect rect_of(const petzval_rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
+Status take_plane(const petzval_plane* given, const TakenShot& shot, const char* name, Plane& into) {
+    const int width = shot.colour.width(), height = shot.colour.height();
+    if (Status ok = check_plane(given, width, height, name); !ok) return ok;
+    const petzval_plane plane = taken(given);
+    into = Plane::uninitialised(width, height);
+    read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
+                          plane.row_stride},
+                into);
+    return Done{};
+}
+
 // Depth or radii, whichever was given.
 Status take_depth(const petzval_shot& shot, TakenShot& into) {
     if ((shot.depth_m != nullptr) == (shot.radii_px != nullptr))
         return refused("shot: one of depth_m and radii_px, and not both");
     const bool radii = shot.radii_px != nullptr;
     const petzval_plane* const given = radii ? shot.radii_px : shot.depth_m;
-    const int width = into.colour.width(), height = into.colour.height();
-    if (Status ok = check_plane(given, width, height, radii ? "radii_px" : "depth_m"); !ok) return ok;
-    const petzval_plane plane = taken(given);
-    into.depth = Plane::uninitialised(width, height);
-    read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
-                          plane.row_stride},
-                into.depth);
+    if (Status ok = take_plane(given, into, radii ? "radii_px" : "depth_m", into.depth); !ok) return ok;
     (radii ? into.job.coc_px : into.job.depth_m) = into.depth;
     return Done{};
 }
@@ -147,6 +152,10 @@ Status TakenShot::take(const petzval_shot* given, TakenShot& into) {
     read_pixels(*colour, into.colour);
     into.job.colour = into.colour;
     if (Status ok = take_depth(shot, into); !ok) return ok;
+    if (shot.mask) {
+        if (Status ok = take_plane(shot.mask, into, "mask", into.mask); !ok) return ok;
+        into.job.mask = into.mask;
+    }
     const Rect display = rect_of(shot.display_window), data = rect_of(shot.data_window);
     into.job.place.data_window = data.empty() ? into.colour.rect() : data;
     into.job.place.display_window = display.empty() ? into.job.place.data_window : display;

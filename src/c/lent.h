@@ -37,7 +37,7 @@ Camera camera_of(const petzval_camera& c);
 // The pictures of a shot, read into ours.
 struct TakenShot {
     Picture colour;
-    Plane depth;
+    Plane depth, mask;
     DeepPicture deep, behind, holdout;
     std::vector<LightPoint> lights;
     DefocusJob job;  // of all these

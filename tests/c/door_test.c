@@ -314,6 +314,36 @@ static void test_what_lies_behind_and_lights(petzval_session* session) {
     petzval_look_close(look);
 }
 
+static void test_a_mask_limits_the_effect(petzval_session* session) {
+    static picture in, out, whole;
+    static float shares[HEIGHT][WIDTH];
+    petzval_pixels colour, into = pixels_of(&out, 0);
+    const petzval_plane plane = radii_plane();
+    petzval_plane mask = plane;
+    petzval_shot shot = {0};
+    int x, y;
+    paint(&in, 0);
+    colour = pixels_of(&in, 0);
+    shot.size = sizeof shot;
+    shot.colour = &colour;
+    shot.radii_px = &plane;
+    expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "everywhere");
+    whole = out;
+    for (y = 0; y < HEIGHT; ++y)
+        for (x = 0; x < WIDTH; ++x) shares[y][x] = x < WIDTH / 2 ? 1.f : 0.f;
+    mask.data = shares;
+    shot.mask = &mask;
+    expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_OK, "with a mask");
+    for (y = 0; y < HEIGHT; ++y)
+        expect(memcmp(out.rgba[y], whole.rgba[y], sizeof out.rgba[y] / 2) == 0 &&
+                   memcmp(out.rgba[y][WIDTH / 2], in.rgba[y][WIDTH / 2], sizeof out.rgba[y] / 2) == 0,
+               "a row is blurred where the mask is 1, and as given where it is 0");
+    expect(memcmp(&out, &whole, sizeof out) != 0, "which differ");
+    mask.width = WIDTH - 1;
+    expect(petzval_defocus(session, &shot, NULL, NULL, &into, NULL) == PETZVAL_INVALID_ARGUMENT,
+           "a mask of another size is refused");
+}
+
 /* A host that was built when settings held a size and nothing else. */
 static void test_structs_of_older_hosts(void) {
     struct {
@@ -376,6 +406,7 @@ int main(void) {
     test_threads_may_be_lent(session);
     test_a_region_is_a_crop_of_the_whole(session);
     test_what_lies_behind_and_lights(session);
+    test_a_mask_limits_the_effect(session);
     petzval_session_close(session);
     test_structs_of_older_hosts();
     test_devices();
