@@ -36,7 +36,7 @@ void main() {
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles);
     const vec4 sharp = texelFetch(colours, pixel, 0);
     const float radius = radius_of(texelFetch(depths, pixel, 0).r);
-    const vec4 lamp = lamp_of(pixel, light_of(sharp), radius);
+    const vec4 lamp = lamp_of(pixel, light_of(sharp));
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, near_lamps, back_lamps);
     const vec4 near = textureLod(gathered, vec3(place, kGatheredNear), 0);

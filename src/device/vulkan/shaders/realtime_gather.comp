@@ -42,8 +42,6 @@ vec4 back_of(vec2 middle, vec4 own_light, vec2 own, float hides_px, out float is
     is_known = 1;
     if (has && own_px < 0.5) return own_light / own.x;
     const float level = level_of(radius);
-    // A lamp is not spread over what is hidden beside it: what is much brighter than most counts for less.
-    const float typical = has ? 1.0 : 1e-3 + 0.25 * brightness(textureLod(cells, place_of(middle, vec2(0), radius, kBackLight), 3.0));
     vec4 light = vec4(0);
     float area = 0;
     for (int i = 0; i < kTaps; ++i) {
@@ -54,7 +52,7 @@ vec4 back_of(vec2 middle, vec4 own_light, vec2 own, float hides_px, out float is
         const float share = has ? clamp(there.y / there.x, 0.5, radius) / radius : 1.0;
         const vec4 there_light = textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
         const vec4 w = has ? norm(share).y * shape(kFarShape, tap, share)
-                           : vec4((1 - 0.9 * lens[i].z) / (brightness(there_light / there.x) + typical));
+                           : vec4(1 - 0.9 * lens[i].z);
         light += w * there_light;
         area += w.a * there.x;
     }

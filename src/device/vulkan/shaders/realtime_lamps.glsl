@@ -9,10 +9,26 @@ vec2 surroundings_at(ivec2 pixel) {
                mix(surroundings[high.y * at.tiles.x + low.x], surroundings[high.y * at.tiles.x + high.x], share.x), share.y);
 }
 
+// The signed radius of the brightest pixel of a square. A pixel on the rim of a lamp shows lamp and surroundings, and its
+// depth may be that of these: a lamp is where it is brightest.
+float radius_of_brightest(ivec2 low, int side) {
+    float most = -1, radius = 0;
+    for (int i = 0; i < side * side; ++i) {
+        const ivec2 pixel = clamp(low + ivec2(i % side, i / side), ivec2(0), at.size - 1);
+        const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
+        if (light > most) most = light, radius = radius_of(texelFetch(depths, pixel, 0).r);
+    }
+    return radius;
+}
+
 // What taps alone show well stays: light a few times as bright as what is around it, the more the wider its disc. So no
 // pixel is reached by many more lamps than can be told apart.
-vec4 lamp_of(ivec2 pixel, vec4 light, float radius_px) {
+vec4 lamp_of(ivec2 pixel, vec4 light) {
     const vec2 around = surroundings_at(pixel);
-    const float floor_light = (4 + 0.08 * radius_px * radius_px) * around.x + 2 * around.y, own = brightness(light);
+    const float own = brightness(light);
+    float floor_light = 4 * around.x + 2 * around.y;
+    if (own <= floor_light) return vec4(0);
+    const float radius = radius_of_brightest(pixel - 1, 3);
+    floor_light += 0.08 * radius * radius * around.x;
     return own > floor_light ? vec4(light.rgb * (1 - floor_light / own), 0) : vec4(0);
 }

@@ -18,18 +18,6 @@ shared vec4 part[kLayers][64];
 shared vec2 radii[64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
 
-// A pixel on the rim of a lamp shows lamp and surroundings, and its depth may be that of these: a lamp stands where the
-// brightest pixel in and around its cell does.
-float radius_of_lamp(ivec2 cell) {
-    float most = -1, radius = 0;
-    for (int i = 0; i < 16; ++i) {
-        const ivec2 pixel = clamp(2 * cell - 1 + ivec2(i % 4, i / 4), ivec2(0), at.size - 1);
-        const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
-        if (light > most) most = light, radius = radius_of(texelFetch(depths, pixel, 0).r);
-    }
-    return radius < 0 ? min(radius, -0.5) : max(radius, 0.5);
-}
-
 // The lamp of a cell: its light; where it is, times its brightness.
 void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     const uint own = gl_LocalInvocationIndex;
@@ -38,7 +26,7 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     barrier();
     const float bright = brightness(light);
     if (bright > 0) {
-        const float radius = radius_of_lamp(cell);
+        const float found = radius_of_brightest(2 * cell - 1, 4), radius = found < 0 ? min(found, -0.5) : max(found, 0.5);
         imageStore(cells_1, ivec3(cell, kLampLight), 0.25 * light);
         imageStore(cells_1, ivec3(cell, kLampPlace), vec4(place / bright, radius, 0));
         atomicOr(lamp_cells[own / 32u], 1u << (own % 32u));
@@ -63,7 +51,7 @@ void main() {
         const ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(2 * cell + corner, at.size - 1);
         vec4 light = light_of(texelFetch(colours, pixel, 0));
         const float radius = radius_of(texelFetch(depths, pixel, 0).r);
-        const vec4 bright = lamp_of(pixel, light, radius);
+        const vec4 bright = lamp_of(pixel, light);
         light -= bright;
         if (pixel == 2 * cell + corner) {
             const vec4 taken = blurred_share(abs(radius)) * bright;
