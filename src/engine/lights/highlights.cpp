@@ -121,7 +121,10 @@ Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
 
 namespace {
 
-constexpr float kSquaresPerRadius = 4;
+// Squares to a radius, at least: a wide square in a small disc would smear the shadows that nearer things
+// throw into it. In what is no brighter than white, as a sky behind leaves, that shows less: for there are
+// many.
+constexpr float kSquaresPerRadius = 4, kDimSquaresPerRadius = 3;
 constexpr float kSameRadius = 0.01f;  // pixels of a square differ by less than this share of their radius
 
 // What was taken from one sample.
@@ -157,8 +160,9 @@ public:
                     common = {std::min(common.r, c.taken.colour.r), std::min(common.g, c.taken.colour.g),
                               std::min(common.b, c.taken.colour.b), 0};
                 });
-                // A wide square in a small disc would smear the shadows that nearer things throw into it.
-                const bool narrow = float(size) * kSquaresPerRadius <= std::abs(coc);
+                const bool dim = luminance(common) <= split.white();
+                const bool narrow =
+                    float(size) * (dim ? kDimSquaresPerRadius : kSquaresPerRadius) <= std::abs(coc);
                 if (!all || !narrow || split.may_stay(x_ + x, first_row_ + y_ + y, coc, luminance(common)))
                     continue;
                 for_square(x, y, size, [&](Cell& c) { c.taken.colour -= common; });

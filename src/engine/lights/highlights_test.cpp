@@ -1,0 +1,42 @@
+#include "engine/lights/highlights.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+constexpr float kHiddenPx = 7;
+
+// What is taken of hidden light behind something dark and near.
+std::vector<Highlight> taken(float light) {
+    const Picture colour(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1});
+    const Plane coc_px(kWidth, kHeight, -5.0f);
+    Input input;
+    input.colour = colour, input.coc_px = coc_px, input.frame = colour.rect(), input.workers = &one_thread();
+    CocSamples samples;
+    samples.width = kWidth;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+        samples.first.push_back(samples.samples.size());
+        samples.samples.push_back({{0.1f, 0.1f, 0.1f, 1}, -5, -5});
+        samples.samples.push_back({{light, light, light, 1}, kHiddenPx, kHiddenPx});
+    }
+    samples.first.push_back(samples.samples.size());
+    return take_highlights(samples, HighlightSplit(input, {}), 0, kLargestSquare, one_thread());
+}
+
+// White is half: four times the mean, to a power of two.
+TEST(Highlights, AHiddenSkyIsTakenAsSquaresALampAsPixels) {
+    const auto inside = [](const Highlight& h) {
+        return h.x >= 16 && h.y >= 16 && h.x < kWidth - 16 && h.y < kHeight - 16;
+    };
+    const std::vector<Highlight> sky = taken(0.45f), lamp = taken(3);
+    EXPECT_GT(std::count_if(sky.begin(), sky.end(), inside), 0);
+    for (const Highlight& h : sky) EXPECT_TRUE(h.size == 2 || !inside(h));
+    for (const Highlight& h : lamp) EXPECT_EQ(h.size, 1);
+}
+
+}  // namespace
+}  // namespace petzval::engine
