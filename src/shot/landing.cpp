@@ -9,7 +9,6 @@
 namespace petzval::shot {
 namespace {
 
-constexpr float kOneDepth = 1.02f;      // of one surface, seen from two places
 constexpr double kShareThatFits = 0.5;  // of two pictures of the same things
 // Vectors by which so much less looks the same than by cameras are not what they are taken for.
 constexpr double kWorseByMotion = 0.05;

@@ -16,6 +16,7 @@
 
 namespace petzval::shot {
 
+constexpr float kOneDepth = 1.02f;   // of one surface, seen from two places
 constexpr float kOneSurface = 1.1f;  // from pixel to pixel, in depth
 constexpr float kSilhouette = 1.3f;  // within 3 x 3 pixels
 

@@ -260,6 +260,31 @@ private:
     Image<std::uint8_t> stands_;
 };
 
+// A side of a square that a thing has to fill for what it hides to be worth telling: a thread is taken apart
+// by what shows on both of its sides, and knowing it behind some of its pixels only makes it flicker.
+constexpr int kThick = 3;  // px
+
+void drop_behind_thin_things(View<const float> depth, Workers& workers, std::vector<DeepSample>& known) {
+    const auto hides = [&](int x0, int y0, float known_m) {  // all of the square from there
+        if (!depth.rect().contains(x0, y0) || !depth.rect().contains(x0 + kThick - 1, y0 + kThick - 1))
+            return false;
+        for (int y = y0; y < y0 + kThick; ++y)
+            for (int x = x0; x < x0 + kThick; ++x)
+                if (!(depth(x, y) * kOneDepth < known_m)) return false;
+        return true;
+    };
+    for_rows(depth.height(), workers, [&](int y) {
+        for (int x = 0; x < depth.width(); ++x) {
+            DeepSample& s = known[std::size_t(y) * std::size_t(depth.width()) + std::size_t(x)];
+            if (!(s.colour.a > 0)) continue;
+            bool is_thick = false;
+            for (int dy = 0; dy < kThick && !is_thick; ++dy)
+                for (int dx = 0; dx < kThick && !is_thick; ++dx) is_thick = hides(x - dx, y - dy, s.depth_m);
+            if (!is_thick) s = {};
+        }
+    });
+}
+
 }  // namespace
 
 Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
@@ -282,6 +307,7 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPict
         if (!landings->warning.empty()) found.left_out.push_back(landings->warning);
         Other(*other.shot, depth, std::move(*landings), bounds, workers).add_to(known);
     }
+    drop_behind_thin_things(depth, workers, known);
     for (const DeepSample& s : known) found.pixels += s.colour.a > 0;
     if (found.pixels > 0)
         found.behind = DeepPicture::made_of(depth.width(), depth.height(), [&](int x, int y, auto& samples) {
@@ -298,14 +324,19 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* con
     return seen_elsewhere(shot, pictures, workers);
 }
 
+std::vector<const Shot*> other_eyes(std::span<const Shot* const> views, const Shot& of) {
+    std::vector<const Shot*> others;
+    for (const Shot* other : views)
+        if (other->deep.empty() && other->camera.camera_from_world != of.camera.camera_from_world)
+            others.push_back(other);
+    return others;
+}
+
 std::vector<SeenElsewhere> seen_by_each_other(std::span<const Shot* const> views, Workers& workers) {
     std::vector<SeenElsewhere> all(views.size());
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (!views[i]->deep.empty() || !views[i]->behind.empty()) continue;
-        std::vector<const Shot*> others;
-        for (const Shot* other : views)
-            if (other->deep.empty() && other->camera.camera_from_world != views[i]->camera.camera_from_world)
-                others.push_back(other);
+        const std::vector<const Shot*> others = other_eyes(views, *views[i]);
         if (others.empty()) continue;
         if (auto seen = seen_elsewhere(*views[i], others, workers)) all[i] = std::move(*seen);
     }

@@ -18,9 +18,10 @@ Rgba wall_at(double x, double y) {
 }
 
 struct Scene {
-    double camera_x = 0, card_x = 0;  // m; the card is 0.4 m wide and stands on the axis
+    double camera_x = 0, card_x = 0;  // m; the card stands on the axis
     double x_axis = 1, z_axis = 1;    // where the camera's +x and +z point: right and forward, or not
     float card_brightness = 0.9f;
+    double half_width = 0.2;  // of the card, m
 };
 
 // A wall with light that varies, and a card before it, as a camera sees them that moves sideways.
@@ -33,7 +34,7 @@ Shot shot_of(const Scene& scene) {
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const double u = (x + 0.5 - kWidth / 2) / kFocal_px, v = -(y + 0.5 - kHeight / 2) / kFocal_px;
-            const bool card = std::abs(u * double(kCard) + scene.camera_x - scene.card_x) < 0.2;
+            const bool card = std::abs(u * double(kCard) + scene.camera_x - scene.card_x) < scene.half_width;
             depth(x, y) = card ? kCard : kWall;
             shot.colour(x, y) = card ? scene.card_brightness * Rgba{1, 1, 1, 0} + Rgba{0, 0, 0, 1}
                                      : wall_at(u * double(kWall) + scene.camera_x, v * double(kWall));
@@ -110,6 +111,14 @@ TEST(SeenElsewhere, WhatMovesByItselfIsNotTakenForWhatIsHidden) {
     EXPECT_GT(found.pixels, 10 * kHeight);
     // The other way round: a card that came nearer the middle is before the wall, nothing to be seen behind.
     EXPECT_EQ(seen(shot, {&shot}).pixels, 0u);
+}
+
+TEST(SeenElsewhere, WhatThreadsHideIsNotTold) {
+    for (const double half_width : {0.02, 0.2}) {  // 2 pixels wide, and 20
+        const Scene here{.half_width = half_width}, right{.camera_x = 0.2, .half_width = half_width};
+        const Shot shot = shot_of(here), other = shot_of(right);
+        EXPECT_EQ(seen(shot, {&other}).pixels > 0, half_width == 0.2) << half_width;
+    }
 }
 
 TEST(SeenElsewhere, PicturesOfOtherThingsAreLeftOutByName) {
