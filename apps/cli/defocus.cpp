@@ -207,19 +207,27 @@ Status Run::read_other_views() {
 
 // What the picture hides and others see: frames before and after, or the other eye.
 Status Run::look_around() {
+    std::vector<Run*> runs{this};
+    for (const auto& other : others_) runs.push_back(&other->run);
+    std::vector<const Shot*> eyes;
+    for (const Run* run : runs) eyes.push_back(&run->shot_);
     if (flags_.around) {
-        auto seen = flags_.around(shot_);
-        if (!seen) return seen.error();
-        held_bytes_ = seen->kept_bytes;
-        take_behind(std::move(*seen));
+        std::size_t held_bytes = 0;
+        std::vector<SeenElsewhere> all;
+        for (const Shot* eye : eyes) {
+            auto seen = flags_.around(*eye, other_eyes(eyes, *eye));
+            if (!seen) return seen.error();
+            held_bytes += seen->kept_bytes;
+            all.push_back(std::move(*seen));
+        }
+        for (std::size_t i = 0; i < runs.size(); ++i)
+            runs[i]->held_bytes_ = held_bytes, runs[i]->take_behind(std::move(all[i]));
         return Done{};
     }
     if (others_.empty() || expands_plate() || !is_rendered(flags_.view)) return Done{};
-    std::vector<const Shot*> eyes{&shot_};
-    for (const auto& other : others_) eyes.push_back(&other->run.shot_);
     auto seen = seen_by_each_other(eyes, *own_workers(flags_.run.threads));
     for (std::size_t i = 0; i < seen.size(); ++i)
-        if (seen[i].pixels > 0) (i == 0 ? *this : others_[i - 1]->run).take_behind(std::move(seen[i]));
+        if (seen[i].pixels > 0) runs[i]->take_behind(std::move(seen[i]));
     return Done{};
 }
 

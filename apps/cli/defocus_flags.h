@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,9 @@ struct DefocusFlags {
     RunFlags run;
     FrameFlags frames;
     TrackFlags track;
-    // Of a frame of a shot with --temporal: what the frames around it see behind its surfaces.
-    std::function<Result<SeenElsewhere>(const Shot&)> around;
+    // Of a frame of a shot with --temporal: what the frames around it and its other eyes see behind its
+    // surfaces.
+    std::function<Result<SeenElsewhere>(const Shot&, std::span<const Shot* const> eyes)> around;
 
     void add_to(Verb& verb);
     // What a window knows of them: what is rendered, what is chosen, how it is shown.

@@ -6,6 +6,7 @@
 #include "console.h"
 #include "defocus_flags.h"
 
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -74,26 +75,52 @@ void check_temporal(const DefocusFlags& flags, bool from_many) {
         if (given) throw UsageError(std::string("--temporal cannot be used with ") + name);
 }
 
-// What the frames around each frame see of what it hides. Errors: those of listing the files.
-Result<std::shared_ptr<Neighbours>> neighbours_of(const DefocusFlags& flags,
-                                                  const std::function<Result<DefocusFlags>(int)>& of_frame) {
-    const auto pattern = FramePattern::find(flags.input.path);
-    if (!pattern) return pattern.error();
-    auto frames = (*pattern)->frames_there();
-    if (!frames) return frames.error();
-    return std::make_shared<Neighbours>(
-        std::move(*frames), flags.track.temporal,
-        [of_frame](int frame) -> Result<Shot> {
-            const auto of = of_frame(frame);
-            if (!of) return of.error();
-            ShotSource source = of->input.source(of->camera);
-            if (source.read.view_name == kAllViews) source.read.view_name.clear();
-            source.holdout.clear(), source.lights.clear(), source.read.layers.clear();
-            source.read.motion = of->track.motion_reading();
-            return load_shot(source);
-        },
-        flags.max_memory_bytes);
-}
+// What the frames around each frame see of what it hides, of each view by itself.
+class Around {
+public:
+    // Errors: those of listing the files.
+    static Result<std::shared_ptr<Around>> make(const DefocusFlags& flags,
+                                                std::function<Result<DefocusFlags>(int)> of_frame) {
+        const auto pattern = FramePattern::find(flags.input.path);
+        if (!pattern) return pattern.error();
+        auto frames = (*pattern)->frames_there();
+        if (!frames) return frames.error();
+        auto around = std::make_shared<Around>();
+        around->frames_ = std::move(*frames), around->of_frame_ = std::move(of_frame);
+        around->each_side_ = flags.track.temporal, around->max_memory_bytes_ = flags.max_memory_bytes;
+        around->all_views_ = flags.input.read.view_name == kAllViews;
+        return around;
+    }
+
+    Result<SeenElsewhere> behind(const Shot& shot, int frame, Workers& workers,
+                                 std::span<const Shot* const> eyes) {
+        std::unique_ptr<Neighbours>& own = of_view_[shot.view];
+        const std::size_t views = all_views_ ? std::max<std::size_t>(1, shot.views.size()) : 1;
+        if (!own)
+            own = std::make_unique<Neighbours>(
+                frames_, each_side_, [this, view = shot.view](int f) { return read(f, view); },
+                max_memory_bytes_ / views);
+        return own->behind(shot, frame, workers, eyes);
+    }
+
+private:
+    Result<Shot> read(int frame, const std::string& view) const {
+        const auto of = of_frame_(frame);
+        if (!of) return of.error();
+        ShotSource source = of->input.source(of->camera);
+        if (all_views_) source.read.view_name = view;
+        source.holdout.clear(), source.lights.clear(), source.read.layers.clear();
+        source.read.motion = of->track.motion_reading();
+        return load_shot(source);
+    }
+
+    std::vector<int> frames_;
+    std::function<Result<DefocusFlags>(int)> of_frame_;
+    int each_side_ = 0;
+    std::size_t max_memory_bytes_ = 0;
+    bool all_views_ = false;
+    std::map<std::string, std::unique_ptr<Neighbours>> of_view_;
+};
 
 Result<std::optional<Track>> read_track(const TrackFlags& flags) {
     std::optional<Track> track;
@@ -182,11 +209,11 @@ Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
     const auto track = read_track(flags.track);
     if (!track) return track.error();
     const auto of_frame = [&](int frame) { return flags_of(flags, frame, *track ? &**track : nullptr); };
-    std::shared_ptr<Neighbours> neighbours;
+    std::shared_ptr<Around> around;
     if (flags.track.temporal > 0) {
-        auto found = neighbours_of(flags, of_frame);
-        if (!found) return found.error();
-        neighbours = *found;
+        auto made = Around::make(flags, of_frame);
+        if (!made) return made.error();
+        around = *made;
     }
     FrameWork work;
     work.input = flags.input.path;
@@ -206,9 +233,9 @@ Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
         auto of = of_frame(frame);
         if (!of) return of.error();
         if (again) of->overwrite = {};
-        if (neighbours)
-            of->around = [&neighbours, frame, threads = of->run.threads](const Shot& shot) {
-                return neighbours->behind(shot, frame, *own_workers(threads));
+        if (around)
+            of->around = [&around, frame, threads = of->run.threads](const Shot& shot, auto eyes) {
+                return around->behind(shot, frame, *own_workers(threads), eyes);
             };
         return make(*of);
     };

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace petzval {
@@ -25,10 +26,11 @@ public:
     Neighbours(const Neighbours&) = delete;
     Neighbours& operator=(const Neighbours&) = delete;
 
-    // What up to `each_side` frames before and as many after see of what the shot hides, the nearest in time
-    // first. A function of these frames alone. A neighbour that cannot be read is left out by name. Errors:
-    // those of seen_elsewhere(); OutOfMemory.
-    Result<SeenElsewhere> behind(const Shot& shot, int frame, Workers& workers);
+    // What `eyes`, other views of that moment, see of what the shot hides, then what up to `each_side` frames
+    // before and as many after do, the nearest in time first. A function of these alone. A neighbour that
+    // cannot be read is left out by name. Errors: those of seen_elsewhere(); OutOfMemory.
+    Result<SeenElsewhere> behind(const Shot& shot, int frame, Workers& workers,
+                                 std::span<const Shot* const> eyes = {});
 
 private:
     Status check_memory(const Shot& shot) const;

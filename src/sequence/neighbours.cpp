@@ -98,9 +98,11 @@ Status Neighbours::check_memory(const Shot& shot) const {
                  "read.max_memory_bytes"};
 }
 
-Result<SeenElsewhere> Neighbours::behind(const Shot& shot, int frame, Workers& workers) {
+Result<SeenElsewhere> Neighbours::behind(const Shot& shot, int frame, Workers& workers,
+                                         std::span<const Shot* const> eyes) {
     std::vector<SharedShot> held;
     std::vector<OtherPicture> others;
+    for (const Shot* eye : eyes) others.push_back({eye});
     std::vector<std::string> left_out;
     for (const int other : around(frames_, frame, each_side_)) {
         held.push_back(kept_->get(other, frame, std::size_t(2 * each_side_ + 1), read_));

@@ -150,5 +150,22 @@ class SeenElsewhere(CommandLineTest):
             self.assertGreater(together, guessed + 3, view)
 
 
+    def test_both_eyes_look_around_in_time_too(self):
+        places = {"left": -0.1, "right": 0.1}
+        for frame, moved in enumerate([-0.12, 0, 0.12], 1):
+            write_eyes(self.path("in.%04d.exr" % frame), [(view, *self.seen_from(x + moved)) for view, x in places.items()])
+        eyes = ["--view-name", "all", "--frames", "2"]
+        self.succeed("defocus", "in.####.exr", "-o", "eyes.####.exr", *eyes)
+        self.succeed("defocus", "in.####.exr", "-o", "both.####.exr", "--temporal", "1", *eyes)
+        for view, x in places.items():
+            channels, attributes = self.seen_from(x)
+            write_eyes(self.path("one.exr"), [(view, channels, attributes)])
+            write_exr(self.path("wall.exr"), self.seen_from(x, card=False)[0], attributes=attributes)
+            self.succeed("defocus", "one.exr", "-o", "known.exr", "--behind", "wall.exr")
+            together, each = (self.report("compare", "known.exr", name + ".0002.exr", "--view-name", view)["psnr_lin"]
+                              for name in ("both", "eyes"))
+            self.assertGreater(together, each + 1, view)
+
+
 if __name__ == "__main__":
     unittest.main()
