@@ -75,7 +75,7 @@ def demo(*_):
 
 
 def build(preset="release", *targets):
-    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, core, no-tbb)"""
+    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, plain, core, no-tbb)"""
     make(preset, *targets)
 
 

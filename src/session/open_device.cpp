@@ -24,8 +24,9 @@ struct VulkanChoice {
     std::string lacks;
 };
 Result<std::vector<VulkanChoice>> vulkan_choices() {
-    return Error{ErrorCode::Unsupported,
-                 "this build has none: the headers of Vulkan and glslc were not found when it was made"};
+    return Error{
+        ErrorCode::Unsupported,
+        "this build has none: it was made with PETZVAL_VULKAN off, or without Vulkan's headers and glslc"};
 }
 Result<std::shared_ptr<const device::Device>> open_vulkan(std::size_t) { return vulkan_choices().error(); }
 #else

@@ -1,9 +1,10 @@
 """Runs what the documents tell people to type: every block marked ```sh in README.md and docs/, one page at a time.
 
 Usage: run_commands.py PROGRAM [PAGE…]. Each page gets an empty folder, a `petzval` on its PATH, a `./dev run` that
-is the same program, and `shot.exr`, a small rendered picture with depth that stands for the reader's own. Blocks
-marked ```text are not run; `./dev demo` and `./dev test` have their own tests.
+is the same program, and `shot.exr`, a small rendered picture with depth that stands for the reader's own. What asks for
+a GPU is left out, and said so, where there is none. Blocks marked ```text are not run; `./dev demo` and `./dev test` have their own tests.
 """
+import json
 import os
 import pathlib
 import re
@@ -27,6 +28,11 @@ def place(folder, program):
     return {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}"}
 
 
+def has_gpu(program):
+    listed = subprocess.run([program, "devices", "--json", "-"], stdout=subprocess.PIPE, check=True).stdout
+    return any(device["name"] != "cpu" and not device["lacks"] for device in json.loads(listed)["devices"])
+
+
 def failures(page, program):
     blocks = BLOCK.findall(page.read_text())
     if not blocks:
@@ -34,6 +40,9 @@ def failures(page, program):
     with tempfile.TemporaryDirectory() as name:
         environment = place(pathlib.Path(name), program)
         for block in blocks:
+            if "--device gpu" in block and not has_gpu(program):
+                print(f"{page.relative_to(ROOT)}: skipped, there is no GPU")
+                continue
             result = subprocess.run(["sh", "-eu", "-c", block], cwd=name, env=environment, text=True,
                                     stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
             if result.returncode:
