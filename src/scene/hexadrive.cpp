@@ -1,11 +1,10 @@
 // What HexaDrive's demo of 2009 was for: many bright lights at many depths out to the corners of a wide view,
 // mirrors among them, a very shallow focus. A wheel of lamps turns through it, so that their pentagons turn
 // over before one's eyes. docs/published.md.
+#include "scene/lamps.h"
 #include "scene/scenes.h"
 #include "scene/shading.h"
 #include "scene/textures.h"
-
-#include <array>
 
 namespace petzval::scene {
 namespace {
@@ -14,20 +13,11 @@ constexpr float kFocus = 1.6f;                        // m
 constexpr float kHalfWidth = 1.2f;                    // of the frame, tangent: 100 degrees across
 constexpr float kBlurTangent = 0.5f * 0.150f / 1.0f;  // radius of the aperture, m
 constexpr float kFloor = -0.55f;
-constexpr std::array<Vec3, 6> kColours{{{1, 0.62f, 0.28f},
-                                        {1, 0.86f, 0.62f},
-                                        {0.55f, 0.76f, 1},
-                                        {1, 0.20f, 0.16f},
-                                        {0.30f, 1, 0.52f},
-                                        {1, 0.42f, 0.75f}}};
-
-Vec3 colour(int i) { return kColours[std::size_t(i) % kColours.size()]; }
 
 // A lamp at a place in the frame, -1…1 across and up, whose disc shows about `glow`.
 void lamp(World& world, float across, float up, float z, float radius_m, Vec3 tint, float glow) {
-    const float own = radius_m / z, blur = kBlurTangent * std::abs(1 / kFocus - 1 / z);
-    world.add_lamp({across * kHalfWidth * z, up * kHalfWidth * 9 / 16 * z, z}, radius_m,
-                   glow * std::max(1.0f, blur * blur / (own * own)) * tint);
+    add_disc(world, {across * kHalfWidth * z, up * kHalfWidth * 9 / 16 * z, z}, radius_m, tint, glow,
+             kBlurTangent, kFocus);
 }
 
 void add_far_lamps(World& world) {
@@ -36,14 +26,15 @@ void add_far_lamps(World& world) {
             const int k = 11 * row + i;
             const float across = -0.97f + 0.194f * (float(i) + 0.35f * float(row % 2));
             lamp(world, across, 0.95f - 0.27f * float(row) + 0.08f * (cell_value(k, 0, 761) - 0.5f),
-                 4 + 6 * cell_value(k, 1, 761), 0.02f, colour(5 * k), 0.2f + 0.9f * cell_value(k, 2, 761));
+                 4 + 6 * cell_value(k, 1, 761), 0.02f, lamp_colour(5 * k),
+                 0.2f + 0.9f * cell_value(k, 2, 761));
         }
 }
 
 void add_near_lamps(World& world) {
     for (int i = 0; i < 8; ++i)
         lamp(world, -0.94f + 0.268f * float(i), i % 2 ? -0.90f : -0.72f, 0.75f + 0.1f * cell_value(i, 3, 761),
-             0.003f, colour(5 * i + 2), 0.6f);
+             0.003f, lamp_colour(5 * i + 2), 0.6f);
 }
 
 // Around a tilted axis through the point in focus: every lamp passes before it and behind it.
@@ -53,7 +44,7 @@ void add_wheel(World& world, float time) {
         const float angle = 2 * kPi * (float(i) + time * 2) / kLamps;
         const Vec3 at = Vec3{0, 0.12f, kFocus} +
                         Vec3{0.95f * std::cos(angle), 0.22f * std::sin(angle), 0.62f * std::sin(angle)};
-        world.add_lamp(at, 0.005f, 110 * colour(i));
+        world.add_lamp(at, 0.005f, 110 * lamp_colour(i));
     }
 }
 
@@ -61,7 +52,8 @@ void add_wheel(World& world, float time) {
 void add_string(World& world) {
     for (int i = 0; i < 7; ++i) {
         const float t = float(i) / 3 - 1;
-        world.add_lamp({0.85f * t, -0.02f - 0.10f * t * t, kFocus}, 0.004f, 90 * colour(i % 3 == 1 ? 2 : 1));
+        world.add_lamp({0.85f * t, -0.02f - 0.10f * t * t, kFocus}, 0.004f,
+                       90 * lamp_colour(i % 3 == 1 ? 2 : 1));
     }
 }
 

@@ -1,6 +1,7 @@
 // Everything HexaDrive's demo of 2009 showed, in one picture: lamps far behind, in and close before focus,
 // all over the frame, so that a five-bladed aperture turns over, the barrel cuts discs towards the corners,
 // and sharp lamps throw stars. docs/published.md photographs it.
+#include "scene/lamps.h"
 #include "scene/scenes.h"
 #include "scene/textures.h"
 
@@ -14,19 +15,10 @@ constexpr float kHalfWidth = 18.0f / 50;             // of the frame, tangent
 constexpr float kBlurTangent = 0.5f * 0.05f / 1.2f;  // radius of the aperture, m
 constexpr float kFloor = -0.28f;
 
-constexpr std::array<Vec3, 6> kColours{{{1, 0.62f, 0.28f},
-                                        {1, 0.86f, 0.62f},
-                                        {0.55f, 0.76f, 1},
-                                        {1, 0.20f, 0.16f},
-                                        {0.30f, 1, 0.52f},
-                                        {1, 0.42f, 0.75f}}};
-
 // A lamp at a place in the frame (-1…1 across, upwards in the same measure) whose disc shows about `glow`.
 void lamp(World& world, float across, float up, float z, float radius_m, Vec3 colour, float glow) {
-    // Tangents of the lamp's own radius and of its circle of confusion.
-    const float own = radius_m / z, blur = kBlurTangent * std::abs(1 / kFocus - 1 / z);
-    const float spread = std::max(1.0f, blur * blur / (own * own));
-    world.add_lamp({across * kHalfWidth * z, up * kHalfWidth * z, z}, radius_m, glow * spread * colour);
+    add_disc(world, {across * kHalfWidth * z, up * kHalfWidth * z, z}, radius_m, colour, glow, kBlurTangent,
+             kFocus);
 }
 
 void add_far_lamps(World& world) {
@@ -35,7 +27,7 @@ void add_far_lamps(World& world) {
             const int k = 12 * row + i;
             const float across = -0.96f + 1.92f * (float(i) + 0.5f * float(row % 2)) / 11.5f;
             const float up = 0.49f - 0.145f * float(row) + 0.03f * (cell_value(k, 0, 11) - 0.5f);
-            lamp(world, across, up, 6.5f + 2 * cell_value(k, 1, 11), 0.010f, kColours[std::size_t(k * 7 % 6)],
+            lamp(world, across, up, 6.5f + 2 * cell_value(k, 1, 11), 0.010f, lamp_colour(k * 7),
                  0.25f + 1.1f * cell_value(k, 2, 11));
         }
 }
@@ -46,7 +38,7 @@ void add_near_lamps(World& world) {
     for (int i = 0; i < 8; ++i) {
         const float across = -0.92f + 1.84f * float(i) / 7, up = -0.34f - 0.1f * float(i % 2);
         const float z = 0.52f + 0.05f * cell_value(i, 3, 11);
-        lamp(world, across, up, z, 0.0012f, kColours[std::size_t((i * 5 + 2) % 6)], 0.8f);
+        lamp(world, across, up, z, 0.0012f, lamp_colour(i * 5 + 2), 0.8f);
         const Vec3 at{across * kHalfWidth * z, up * kHalfWidth * z, z + 0.003f};
         stalks.path({at, at - Vec3{0, 0.12f, 0}}, 0.0007f, 0.0012f);
     }
@@ -66,7 +58,7 @@ void add_string(World& world) {
     for (int i = 0; i < kBulbs; ++i) {
         const Vec3 knot = through[std::size_t(2 * i + 1)], at = knot - Vec3{0, 0.014f, 0.006f};
         wire.line(knot, at + Vec3{0, 0.004f, 0.006f}, 0.003f);
-        world.add_lamp(at, 0.0024f, 90 * (i % 3 == 1 ? kColours[2] : kColours[1]));
+        world.add_lamp(at, 0.0024f, 90 * (i % 3 == 1 ? lamp_colour(2) : lamp_colour(1)));
     }
     world.add(std::move(wire), [](const SurfacePoint&) { return Matter{{0.06f, 0.07f, 0.06f}, {}}; });
 }

@@ -1,5 +1,6 @@
 // Rows of large lights close before the lens, and of small ones far behind, out to the corners of the frame:
 // every place of the picture shows what the barrel and the blades make of a light on either side of focus.
+#include "scene/lamps.h"
 #include "scene/scenes.h"
 #include "scene/textures.h"
 
@@ -14,10 +15,8 @@ constexpr std::array<Vec3, 5> kColours{
 
 // A lamp at a place in the frame, -1…1 across and up, whose disc shows about `glow`.
 Vec3 add_light(World& world, float across, float up, float z, float radius_m, int colour, float glow) {
-    const float own = radius_m / z, blur = kBlurTangent * std::abs(1 / kFocus - 1 / z);
     const Vec3 at{across * kHalfWidth * z, up * kHalfWidth * 9 / 16 * z, z};
-    const float spread = std::max(1.0f, blur * blur / (own * own));
-    world.add_lamp(at, radius_m, glow * spread * kColours[std::size_t(colour % 5)]);
+    add_disc(world, at, radius_m, kColours[std::size_t(colour % 5)], glow, kBlurTangent, kFocus);
     return at;
 }
 
