@@ -1,6 +1,6 @@
 #include "scene/gltf.h"
 
-#include "scene/shading.h"
+#include "scene/gltf_lights.h"
 
 #include <algorithm>
 #include <array>
@@ -129,8 +129,10 @@ struct Surface {
 
 class Reader {
 public:
-    Reader(World& world, const tinygltf::Model& model, std::string path)
-        : world_(world), model_(model), path_(std::move(path)) {}
+    Reader(World& world, const tinygltf::Model& model, std::string path, std::vector<std::string>& warnings)
+        : world_(world), model_(model), path_(std::move(path)), warnings_(warnings) {
+        if (!model.animations.empty()) warnings_.push_back(path_ + ": its animations are not played");
+    }
 
     Status read() {
         world_.is_baked = false;
@@ -140,15 +142,11 @@ public:
         for (const int node : model_.scenes[scene].nodes)
             if (Status done = visit(node, Matrix{}, 0); !done) return done;
         if (triangles_ == 0) return broken("no triangles");
-        for (auto& [mesh, surface] : meshes_)
+        const float dimmed = lighting_->settle(world_, 0.5f * (low_ + high_), path_, warnings_);
+        for (auto& [mesh, surface] : meshes_) {
+            surface.emission *= dimmed;
             world_.add(std::move(mesh), paint(surface), Sides::Leaf, holes(surface));
-        day_.sun = {2.4f, 2.3f, 2.1f};
-        day_.ambient_above = {0.9f, 0.95f, 1.05f}, day_.ambient_below = {0.35f, 0.33f, 0.3f};
-        if (!has_sun_) day_.towards = normalised({-0.5f, 0.9f, -0.6f});
-        *light_ = day_;
-        world_.sky = [](Vec3 d) {
-            return mix(Vec3{0.18f, 0.18f, 0.19f}, Vec3{0.10f, 0.15f, 0.26f}, 0.5f + 0.5f * normalised(d).y);
-        };
+        }
         return Done{};
     }
 
@@ -261,8 +259,20 @@ private:
         const int index = found->second.Get("light").GetNumberAsInt();
         if (!has(model_.lights, index)) return;
         const tinygltf::Light& light = model_.lights[std::size_t(index)];
-        if (light.type == "directional" && !has_sun_)
-            day_.towards = normalised(here.direction(0, 0, 1)), has_sun_ = true;
+        PunctualLight taken;
+        taken.light.distant = light.type == "directional";
+        taken.axis = normalised(here.direction(0, 0, -1));
+        taken.light.position = taken.light.distant ? -taken.axis : here.point(0, 0, 0);
+        const auto shade = [&](std::size_t k) { return light.color.size() > k ? light.color[k] : 1.0; };
+        taken.light.power = float(light.intensity) * Vec3{float(shade(0)), float(shade(1)), float(shade(2))};
+        if (light.type == "spot") {
+            taken.cos_inner = float(std::cos(light.spot.innerConeAngle));
+            taken.cos_outer = float(std::cos(light.spot.outerConeAngle));
+        }
+        const Vec3 all = taken.light.power + taken.light.position;
+        const bool is_known = light.type == "directional" || light.type == "point" || light.type == "spot";
+        if (is_known && luminance(taken.light.power) > 0 && std::isfinite(dot(all, all)))
+            lighting_->lights.push_back(taken);
     }
 
     Status take_part(const tinygltf::Primitive& part, const Matrix& here) {
@@ -390,11 +400,12 @@ private:
     }
 
     Paint paint(const Surface& of) const {
-        return [world = &world_, light = light_, of](const SurfacePoint& p) {
+        return [world = &world_, lighting = lighting_, of](const SurfacePoint& p) {
             const auto t = of.texture ? of.texture->at(p.u, p.v) : std::array<float, 4>{1, 1, 1, 1};
             const auto g = of.glow ? of.glow->at(p.u, p.v) : std::array<float, 4>{1, 1, 1, 1};
             const Vec3 albedo{of.base[0] * t[0], of.base[1] * t[1], of.base[2] * t[2]};
-            return Matter{{}, matt(*world, *light, p, albedo) + of.emission * Vec3{g[0], g[1], g[2]}};
+            const Vec3 light = lighting->on(*world, p, albedo) + of.emission * Vec3{g[0], g[1], g[2]};
+            return Matter{{}, light};
         };
     }
     static Cutout holes(const Surface& of) {
@@ -407,13 +418,12 @@ private:
     World& world_;
     const tinygltf::Model& model_;
     std::string path_;
+    std::vector<std::string>& warnings_;
     std::vector<std::pair<Mesh, Surface>> meshes_;
     std::map<int, std::shared_ptr<const Texels>> pictures_;
     std::optional<Viewpoint> camera_;
     double focal_length_mm_ = 50;
-    Daylight day_;
-    std::shared_ptr<Daylight> light_ = std::make_shared<Daylight>();
-    bool has_sun_ = false;
+    std::shared_ptr<Lighting> lighting_ = std::make_shared<Lighting>();
     Vec3 low_{1e12f, 1e12f, 1e12f}, high_{-1e12f, -1e12f, -1e12f};
     std::size_t triangles_ = 0, visited_ = 0;
 };
@@ -443,7 +453,7 @@ Status add_gltf(World& world, const std::string& path, Camera& camera, std::vect
     try {
         tinygltf::Model model;
         if (Status done = load(path, model, warnings); !done) return done;
-        Reader reader(world, model, path);
+        Reader reader(world, model, path, warnings);
         if (Status done = reader.read(); !done) return done;
         reader.place_camera(camera);
         return Done{};

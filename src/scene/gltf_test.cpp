@@ -56,7 +56,9 @@ protected:
         if (!built && built.error().code == ErrorCode::Unsupported) GTEST_SKIP() << built.error().message;
     }
     Result<StandingScene> build(const std::string& text) {
-        path_ = testing::TempDir() + "petzval-scene.gltf";
+        // Tests run side by side.
+        path_ = testing::TempDir() + "petzval-" +
+                testing::UnitTest::GetInstance()->current_test_info()->name() + ".gltf";
         std::ofstream(path_) << text;
         return StandingScene::build(path_, settings_);
     }
@@ -88,6 +90,67 @@ TEST_F(GltfScenes, TrianglesStandWhereTheFilesCameraSeesThem) {
     EXPECT_NEAR(seen.depth_m(x, y), 2, 1e-4);
     EXPECT_NEAR(seen.colour(x, y).g, 1, 1e-4);
     EXPECT_TRUE(std::isinf(seen.depth_m(0, 0)));
+}
+
+// The first square with a light above its middle, everything else dark.
+std::string lit_by(const std::string& light, const std::string& place = "0,0,-2") {
+    std::string text = two_squares();
+    const auto replace = [&](const std::string& what, const std::string& instead) {
+        text.replace(text.find(what), what.size(), instead);
+    };
+    replace(R"("nodes":[0,1,2])", R"("nodes":[0,1,2,3])");
+    replace(R"({"camera":0}])", R"({"camera":0},{"translation":[)" + place +
+                                    R"(],"extensions":{"KHR_lights_punctual":{"light":0}}}])");
+    replace(R"({"asset")",
+            R"({"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)" +
+                light + R"(]}},"asset")");
+    return text;
+}
+
+TEST_F(GltfScenes, LightsShineAsTheExtensionHasIt) {
+    const auto red = [&](const std::string& light, int x) {
+        auto standing = build(lit_by(light));
+        EXPECT_TRUE(standing) << standing.error().message;
+        return standing->render(settings_).value().colour(x, 18).r;
+    };
+    const auto added = [&](const std::string& kind, double intensity, int x) {
+        const std::string rest = R"(,"type":)" + kind + "}";
+        return red(R"({"intensity":)" + std::to_string(intensity) + rest, x) -
+               red(R"({"intensity":1e-6)" + rest, x);
+    };
+    settings_.samples = 64;
+    const double pi = 3.14159265358979, px = 18 / std::tan(0.3);
+    // Straight above the middle 1 m away; at 40, 7.5 px aside on the square 3 m away.
+    const double aside = 3 * 8.5 / px, far = std::hypot(1, aside);
+    EXPECT_NEAR(added(R"("point")", 0.3, 32), 0.3 / pi, 2e-3);
+    EXPECT_NEAR(added(R"("point")", 0.3, 40) / (0.3 / pi), std::pow(far, -3), 0.01);
+    EXPECT_NEAR(added(R"("directional")", 0.3, 40), 0.3 / pi, 1e-4);
+    const std::string spot = R"("spot","spot":{"innerConeAngle":0.1,"outerConeAngle":0.3})";
+    EXPECT_NEAR(added(spot, 0.3, 32), 0.3 / pi, 2e-3);
+    EXPECT_EQ(added(spot, 0.3, 42), 0);
+}
+
+TEST_F(GltfScenes, LightsThatAreTooBrightAreDimmedWithAllThatGlowsAndItIsSaid) {
+    auto standing = build(lit_by(R"({"intensity":1000,"type":"directional"})"));
+    ASSERT_TRUE(standing);
+    EXPECT_NE(standing->warnings().back().find("8.4 stops"), std::string::npos)
+        << standing->warnings().back();
+    const RenderedScene seen = standing->render(settings_).value();
+    EXPECT_LT(seen.colour(32, 18).r, 2);
+    const double px = 18 / std::tan(0.3);
+    EXPECT_NEAR(seen.colour(int(32 + 0.2 * px), int(18 - 0.15 * px)).g, 0.003, 1e-4);
+}
+
+TEST_F(GltfScenes, EmissionHasItsStrength) {
+    std::string text = two_squares();
+    const std::string glow = R"("emissiveFactor":[0,1,0])";
+    text.replace(text.find(glow), glow.size(),
+                 glow + R"(,"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":25}})");
+    auto standing = build(text);
+    ASSERT_TRUE(standing) << standing.error().message;
+    const double px = 18 / std::tan(0.3);
+    EXPECT_NEAR(standing->render(settings_).value().colour(int(32 + 0.2 * px), int(18 - 0.15 * px)).g, 25,
+                1e-3);
 }
 
 TEST_F(GltfScenes, APictureThatIsMissingIsAWarningAndWhite) {

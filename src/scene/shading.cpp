@@ -26,6 +26,14 @@ Vec3 matt(const World& world, const Daylight& light, const SurfacePoint& at, Vec
     return albedo * irradiance / kPi;
 }
 
+Vec3 irradiance_from(const World& world, const Light& light, const SurfacePoint& at) {
+    const Vec3 normal = facing_eye(at), from = at.position + 1e-3f * normal;
+    const Arrival a = arrival(light, from);
+    const float cosine = dot(normal, normalised(a.towards));
+    if (cosine <= 0 || world.is_shaded(from, a.towards, light.distant)) return {};
+    return cosine * a.facing;
+}
+
 Vec3 gloss(const World& world, const SurfacePoint& at, float exponent) {
     constexpr float kFaintest = 1e-6f;
     const float most = (exponent + 8) / (8 * kPi);

@@ -14,6 +14,9 @@ struct Daylight {
 // A matt surface, in the sun's shadow or not. Requires: the world outlives it and is not baked.
 Vec3 matt(const World& world, const Daylight& light, const SurfacePoint& at, Vec3 albedo);
 
+// Irradiance of a surface from a light without size, or from its shadow black. Requires: as matt().
+Vec3 irradiance_from(const World& world, const Light& light, const SurfacePoint& at);
+
 // The lamps of the world in a glossy surface: (n + 8)/(8 pi) (N.H)^n of each, as Blinn has it (1977),
 // normalised to keep its light.
 Vec3 gloss(const World& world, const SurfacePoint& at, float exponent);

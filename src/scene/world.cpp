@@ -31,17 +31,6 @@ void* buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::si
     return memory;
 }
 
-// Cosine-free share of a light at a point: direction and irradiance of a surface facing it.
-struct Arrival {
-    Vec3 towards;  // not of unit length for a near light: ends at the light
-    Vec3 facing;
-};
-Arrival arrival(const Light& light, Vec3 position) {
-    if (light.distant) return {normalised(light.position), light.power};
-    const Vec3 towards = light.position - position;
-    return {towards, light.power / std::max(dot(towards, towards), 1e-4f)};
-}
-
 }  // namespace
 
 struct World::Object {
@@ -52,6 +41,12 @@ struct World::Object {
     Sides sides = Sides::Solid;
     Cutout cutout;  // empty: whole
 };
+
+Arrival arrival(const Light& light, Vec3 position) {
+    if (light.distant) return {normalised(light.position), light.power};
+    const Vec3 towards = light.position - position;
+    return {towards, light.power / std::max(dot(towards, towards), 1e-4f)};
+}
 
 Viewpoint Viewpoint::looking(Vec3 from, Vec3 at) {
     Viewpoint v{.position = from};

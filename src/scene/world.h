@@ -53,6 +53,13 @@ struct Light {
     bool lights_tubes = true;  // tubes cast shadows but receive none: false where they stand in the shade
 };
 
+// Cosine-free share of a light at a point: where it comes from, and the irradiance of a surface facing it.
+struct Arrival {
+    Vec3 towards;  // not of unit length for a near light: ends at the light
+    Vec3 facing;
+};
+Arrival arrival(const Light& light, Vec3 position);
+
 // A small disc parallel to the sensor that glows; tracked one by one, so that its image through the lens can
 // be integrated without noise however bright it is.
 struct Lamp {

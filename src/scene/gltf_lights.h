@@ -1,0 +1,38 @@
+// What lights the scene of a glTF file: its own lights, or a day's.
+#pragma once
+
+#include "scene/shading.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace petzval::scene {
+
+// A light of KHR_lights_punctual: without size; a spot's fades from its inner to its outer cone.
+struct PunctualLight {
+    Light light;
+    Vec3 axis;                             // along which a spot shines
+    float cos_inner = -1, cos_outer = -2;  // of the cones' half angles; everywhere: no spot
+
+    // As the extension has it, of light towards a place.
+    float share_at(Vec3 place) const {
+        if (cos_outer < -1) return 1;
+        const float cosine = dot(axis, normalised(place - light.position));
+        const float share = (cosine - cos_outer) / std::max(cos_inner - cos_outer, 0.001f);
+        return std::clamp(share, 0.0f, 1.0f) * std::clamp(share, 0.0f, 1.0f);
+    }
+};
+
+struct Lighting {
+    Daylight day;
+    std::vector<PunctualLight> lights;
+
+    // Once all lights are known: what the day and the world's sky are worth beside them, and how bright all
+    // is in the scene's middle. Returns the factor for what glows, with a warning where it is not 1.
+    float settle(World& world, Vec3 middle, const std::string& path, std::vector<std::string>& warnings);
+    // What a matt surface throws back. Requires: as matt().
+    Vec3 on(const World& world, const SurfacePoint& at, Vec3 albedo) const;
+};
+
+}  // namespace petzval::scene
