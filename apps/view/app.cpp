@@ -173,12 +173,13 @@ void App::play() {
     if (Clock::now() - shown_since_ >= std::chrono::milliseconds(41)) go_to(state.timeline.stepped(1));
 }
 
-void App::read_again() {
+void App::read_again(bool anew) {
     if (setup_.source.path.empty()) return;  // nothing has been pushed yet
     reading_ = true;
     Reading reading{source(), false, setup_.focus_point};
     if (is_live()) {
         reading.scene = scene_wish();
+        reading.scene->anew = anew;
         if (coarse_)
             reading.scene->is_moving = true, reading.scene->settings.samples = 1,
             reading.scene->coarse = coarse_by();

@@ -104,9 +104,9 @@ public:
     void ask();
     // Something was done by hand: if a picture changes by it, it is timed from here.
     void note_action();
-    std::string waits_for() const;  // while nothing is open
-    bool is_busy() const;           // something is being read, made, developed or saved
-    void read_again();
+    std::string waits_for() const;       // while nothing is open
+    bool is_busy() const;                // something is being read, made, developed or saved
+    void read_again(bool anew = false);  // anew: a scene's file as well
     void go_to(int frame);
     bool is_live() const { return !setup_.scene.empty(); }
     // The scene at a frame as its camera looks at it now, or on its path. Requires: is_live().

@@ -373,7 +373,7 @@ Status push(App& app, const Words& words) {
     return app.push(int(*port));
 }
 Status reload(App& app, const Words&) {
-    app.read_again();
+    app.read_again(true);
     return Done{};
 }
 Status quit(App& app, const Words&) {

@@ -131,8 +131,7 @@ Result<LiveScene::Seen> LiveScene::look(const SceneWish& wish, const std::functi
     const auto start = Clock::now();
     SceneSettings settings = wish.settings;
     settings.progress = [&](double) { return !cancelled(); };
-    if (!standing_ || name_ != wish.name || frame_ != settings.frame) {
-        standing_.reset();
+    if (wish.anew || !standing_ || name_ != wish.name || frame_ != settings.frame) {
         auto built = StandingScene::build(wish.name, settings);
         if (!built) return built.error();
         standing_ = std::move(*built), name_ = wish.name, frame_ = settings.frame;

@@ -47,6 +47,7 @@ Stand orbited(const Stand& own, const Orbit& orbit);
 struct SceneWish {
     std::string name;
     SceneSettings settings;
+    bool anew = false;  // its file is to be read again
     bool is_moving = false;
     int coarse = 1;  // so many by so many pixels are seen by the rays of one
 };

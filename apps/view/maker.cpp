@@ -318,13 +318,23 @@ void Maker::do_reading(const Reading& reading) {
         read.error = Error{ErrorCode::OutOfMemory, reading.source.path + ": not enough memory"};
     }
     if (read.error && read.error->code == ErrorCode::Cancelled) return take_up_again(reading);
-    std::erase_if(watched_, [&](const Watched& w) { return w.path == reading.source.path; });
-    if (read.shot && !reading.scene && !reading.pushed) watched_.push_back({reading.source.path, time});
+    if (read.shot) watch(reading, time);
     {
         const std::lock_guard lock(mutex_);
         news_.shots.push_back(std::move(read));
     }
     wake_();
+}
+
+// The file that was read. A scene's stays read until it is asked for anew.
+void Maker::watch(const Reading& reading, std::optional<std::filesystem::file_time_type> time) {
+    const std::string& path = reading.source.path;
+    const auto known = [&](const Watched& w) { return w.path == path; };
+    const bool is_read =
+        !reading.scene || reading.scene->anew || std::none_of(watched_.begin(), watched_.end(), known);
+    if (!is_read || reading.pushed) return;
+    std::erase_if(watched_, known);
+    if (time) watched_.push_back({path, time});
 }
 
 // What was cancelled by something else than another reading in its place.

@@ -136,6 +136,7 @@ private:
     void tell(MadeFrame frame);
     void do_reading(const Reading& reading);
     Result<OpenShot> opened(const Reading& reading);
+    void watch(const Reading& reading, std::optional<std::filesystem::file_time_type> time);
     void take_up_again(const Reading& reading);
     void do_step(int side, const Order& order);
     MadeFrame made(int side, const Order& order, const Control& control);

@@ -1,11 +1,13 @@
 """Scenes that are rendered as one looks, under Xvfb: articles, camera paths, recordings."""
+import base64
 import json
 import os
 import shlex
+import struct
 import subprocess
 
 import window
-from window import PETZVAL
+from window import PETZVAL, TIME_LIMIT_S
 
 
 class SceneTest(window.WindowTest):
@@ -60,6 +62,38 @@ class SceneTest(window.WindowTest):
             say last.picture_ms
         """, "--scene", "hexadrive", "--scene-size", "160x90")
         self.assertGreater(float(out), 0)
+
+    def test_a_gltf_file_may_be_broken_lack_pictures_change_and_vanish(self):
+        if "glTF" in subprocess.run([PETZVAL, "scene", "make", "x.gltf", "-o", "x.exr"], cwd=self.shared,
+                                    capture_output=True, text=True).stderr.replace("no glTF", ""):
+            self.skipTest("built without tinygltf")
+        path = os.path.join(self.shared, "square.gltf")
+        places = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+        square = {
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+            "textures": [{"source": 0}], "images": [{"uri": "missing.png"}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+            "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64," + base64.b64encode(places).decode()}]}
+        with open(path, "w") as file:
+            json.dump(square, file)
+        with open(os.path.join(self.shared, "square.txt"), "w") as file:
+            file.write("wait\nexpect no error\nexpect notice missing.png\nsay frame.engine\nuntil notice changed\n"
+                       "orbit 5 5\nwait\nexpect no error\nkey ctrl+r\nwait\nexpect error square.gltf\norbit 5 0\nwait\n"
+                       "expect no error\nexpect scene.samples 4\nsay frame.engine\nuntil notice gone\nreload\nwait\n"
+                       "expect error square.gltf\n")
+        window = self.start("--scene", "square.gltf", "--engine", "gather", "--scene-size", "60x34", "--script", "square.txt")
+        self.assertIn("gather", window.stdout.readline())
+        with open(path, "w") as file:
+            file.write('{"asset": broken')
+        os.utime(path, (1, 1))
+        self.assertIn("gather", window.stdout.readline())
+        os.remove(path)
+        _, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, 0, err)
 
     def buffers_of(self, scene, buffers, before=""):
         """Shows every buffer of an article; all are different pictures."""
