@@ -162,6 +162,24 @@ TEST(Png, NoDepthIsAnErrorAndDepthOfAnotherSizeIsTaken) {
     EXPECT_TRUE(frame->depth_is_share);
 }
 
+TEST(Png, ASmallerMapIsALineBetweenItsValues) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(write_png(folder / "colour.png", ramp(8, 4, 3, 8)));
+    ASSERT_TRUE(write_png(folder / "depth.png", ramp(2, 2, 1, 8)));
+    ReadOptions options;
+    options.depth_file = folder / "depth.png";
+    const Result<Frame> frame = read_frame(folder / "colour.png", options);
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_THAT(frame->detected, testing::Contains(HasSubstr("a line between its values")));
+    const auto stored = read_png(folder / "depth.png");
+    const auto value = [&](std::size_t i) { return float(stored->samples[i]) / 255; };
+    EXPECT_FLOAT_EQ(frame->depth(0, 0), value(0)) << "the middle of a value lies farther in";
+    EXPECT_FLOAT_EQ(frame->depth(7, 3), value(3));
+    EXPECT_NEAR(frame->depth(2, 0), value(0) + (value(1) - value(0)) * 0.125f, 1e-6f);
+    EXPECT_NEAR(frame->depth(5, 0), value(0) + (value(1) - value(0)) * 0.875f, 1e-6f);
+    EXPECT_NEAR(frame->depth(0, 1), value(0) + (value(2) - value(0)) * 0.25f, 1e-6f);
+}
+
 TEST(Png, DamagedFilesAreErrorsThatNameTheFile) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_png(folder / "good.png", ramp(9, 6, 3, 8)));

@@ -7,6 +7,7 @@
 #include "files/raster.h"
 #include "files/wording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,33 +52,59 @@ Plane first_channel(const Raster& r) {
 
 std::string size_of(const Rect& r) { return std::to_string(r.width()) + " x " + std::to_string(r.height()); }
 
-// Depth that covers the display window, whatever its size: the nearest value, as means of two depths lie
-// where nothing is.
-Plane nearest_in(const Plane& depth, const Rect& display, const Rect& data) {
-    const auto places = [](int from, int to, int origin, int size, int stored) {
-        std::vector<int> at;
-        for (int i = from; i < to; ++i)
-            at.push_back(i < origin || i >= origin + size
-                             ? -1
-                             : int((double(i - origin) + 0.5) * double(stored) / double(size)));
-        return at;
+// Where the middles of pixels from … to - 1 fall on a line of `stored` values that is stretched over `size`
+// pixels from `origin` on: the values around each, and how far from the first to the second.
+struct Between {
+    int first = -1, second = -1;  // -1: outside
+    float share = 0;
+};
+
+std::vector<Between> stretched(int from, int to, int origin, int size, int stored) {
+    std::vector<Between> all;
+    for (int i = from; i < to; ++i) {
+        if (i < origin || i >= origin + size) {
+            all.emplace_back();
+            continue;
+        }
+        const double at = (double(i - origin) + 0.5) * double(stored) / double(size);
+        const auto clamped = [&](double place) { return std::clamp(int(std::floor(place)), 0, stored - 1); };
+        if (stored < size)
+            all.push_back({clamped(at - 0.5), clamped(at + 0.5), float(at - 0.5 - std::floor(at - 0.5))});
+        else
+            all.push_back({clamped(at), clamped(at), 0});
+    }
+    return all;
+}
+
+// Depth that covers the display window, whatever its size: the nearest value each, as a mean of two depths
+// lies where nothing is. Shares of full scale are mostly of networks, whose silhouettes are ramps anyhow:
+// smaller maps of those are a line between values, and each pixel goes to one side by the picture's colours
+// (DepthEdges); in blocks it would keep their steps.
+Plane depth_over(const Rect& display, const Plane& depth, bool shares, const Rect& data) {
+    const auto columns = stretched(data.x0, data.x1, display.x0, display.width(), depth.width());
+    const auto rows = stretched(data.y0, data.y1, display.y0, display.height(), depth.height());
+    const auto mix = [shares](float a, float b, float share) {
+        return shares ? a + (b - a) * share : share < 0.5f ? a : b;
     };
-    const auto columns = places(data.x0, data.x1, display.x0, display.width(), depth.width());
-    const auto rows = places(data.y0, data.y1, display.y0, display.height(), depth.height());
     Plane out(data.width(), data.height(), std::numeric_limits<float>::infinity());
     for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            if (rows[std::size_t(y)] >= 0 && columns[std::size_t(x)] >= 0)
-                out(x, y) = depth(columns[std::size_t(x)], rows[std::size_t(y)]);
+        for (int x = 0; x < out.width(); ++x) {
+            const Between &c = columns[std::size_t(x)], &r = rows[std::size_t(y)];
+            if (c.first < 0 || r.first < 0) continue;
+            out(x, y) = mix(mix(depth(c.first, r.first), depth(c.second, r.first), c.share),
+                            mix(depth(c.first, r.second), depth(c.second, r.second), c.share), r.share);
+        }
     return out;
 }
 
 // What is said of a map of another size; nothing for one that fits.
-std::string resampled(const Rect& theirs, const Rect& display) {
+std::string resampled(const Rect& theirs, const Rect& display, bool shares) {
     if (theirs.width() == display.width() && theirs.height() == display.height()) return "";
     const double shape =
         double(theirs.width()) * display.height() / (double(theirs.height()) * display.width());
-    return "; " + size_of(theirs) + " for " + size_of(display) + ", the nearest value each" +
+    const bool lines = shares && theirs.width() < display.width();
+    return "; " + size_of(theirs) + " for " + size_of(display) +
+           (lines ? ", a line between its values" : ", the nearest value each") +
            (std::abs(shape - 1) > 0.02 ? ", of another shape: stretched" : "");
 }
 
@@ -92,9 +119,9 @@ Result<Plane> depth_of_raster(const InputFile& file, const RasterFormat& format,
     frame.detected.push_back(
         "depth: " + printable(file.path()) + ", " + std::to_string(raster->bits) + " bit" +
         (raster->is_float() ? " float" : " as a share of full scale, never sRGB-decoded") +
-        (fits_data ? "" : resampled(raster->rect(), place.display_window)));
+        (fits_data ? "" : resampled(raster->rect(), place.display_window, frame.depth_is_share)));
     if (fits_data) return depth;
-    return nearest_in(depth, place.display_window, place.data_window);
+    return depth_over(place.display_window, depth, frame.depth_is_share, place.data_window);
 }
 
 Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
@@ -104,14 +131,14 @@ Result<Plane> depth_of_exr(const std::shared_ptr<const InputFile>& file, const R
     const Rect theirs = exr->layout.display_window, &display = place.display_window;
     const Result<DepthChoice> choice = choose_depth(file->path(), exr->layout, nullptr, options, false);
     if (!choice) return choice.error();
-    const std::string other_size = resampled(theirs, display);
+    const std::string other_size = resampled(theirs, display, false);
     detected.push_back(choice->line + ", in " + printable(file->path()) + other_size);
     Result<Plane> depth = read_depth(*exr, *choice);
     if (!depth) return depth.error();
     const Rect window = exr->layout.parts[choice->part].data_window;
     if (!other_size.empty()) {
         if (window != theirs) *depth = pasted(*depth, window, theirs);
-        return nearest_in(*depth, display, place.data_window);
+        return depth_over(display, *depth, false, place.data_window);
     }
     return window == place.data_window ? std::move(*depth) : pasted(*depth, window, place.data_window);
 }

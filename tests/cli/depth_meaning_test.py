@@ -48,13 +48,18 @@ class DepthMeaning(CommandLineTest):
         self.assertAlmostEqual(rows[HEIGHT // 2][WIDTH // 2], 15, delta=0.01)  # 5 + 20 sqrt(0.25), near the axis
         self.assertLess(rows[0][0], 14.9)  # by distance from the pinhole
 
-    def test_maps_of_another_size_are_taken_without_mixing_depths(self):
+    def test_maps_of_another_size_are_taken(self):
         write_png(self.path("small.png"), plane(7, 5, lambda x, y: 65535 if x < 4 else 0), channels=1, bits=16)
         report = self.report("defocus", "in.exr", "--depth", "small.png", "--depth-kind", "inverse", "--depth-range",
                              "1,8", "-o", "out.exr")
         self.assertTrue(any("7 x 5 for 32 x 20" in line for line in report["detected"]), report["detected"])
         rows = self.depth("--depth", "small.png", "--depth-kind", "inverse", "--depth-range", "1,8")
-        self.assertEqual({v for row in rows for v in row}, {1, 8})
+        self.assertEqual([rows[0][x] for x in (0, 15, 21, 31)], [1, 1, 8, 8])
+        self.assertEqual(sorted(rows[0]), rows[0])
+        self.assertTrue(all(1 < rows[0][x] < 8 for x in (17, 18, 19)), "a line from one value to the next")
+        write_exr(self.path("small.exr"), {"Z": plane(7, 5, lambda x, y: 1.0 if x < 4 else 8.0)})
+        rows = self.depth("--depth", "small.exr")
+        self.assertEqual({v for row in rows for v in row}, {1, 8}, "distances are not mixed")
         self.assertEqual([rows[0][x] for x in (0, 17, 18, 19, 31)], [1, 1, 8, 8, 8])
         write_exr(self.path("big.exr"), {"Z": plane(64, 40, lambda x, y: 1.0 if x < 32 else 3.0)})
         rows = self.depth("--depth", "big.exr")
