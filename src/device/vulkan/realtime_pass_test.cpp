@@ -5,11 +5,13 @@
 #include "kernel/lenses/make_lens.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +93,23 @@ TEST(RealtimeDrawer, KeepsItsPassForFramesOfOneSize) {
     drawer.draw(given.plan(), again);
     EXPECT_EQ(drawer.passes_made(), 3);
     EXPECT_EQ(std::memcmp(first.pixels(), again.pixels(), first.size() * sizeof(Rgba)), 0);
+}
+
+TEST(RealtimeDrawer, DrawsFramesSideBySide) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    RealtimeDrawer drawer(*context);
+    const Given given;
+    const engine::RealtimePlan plan = given.plan();
+    std::array<Picture, 2> made{Picture(100, 150), Picture(100, 150)};
+    std::array<std::thread, 2> threads;
+    for (std::size_t i = 0; i < 2; ++i)
+        threads[i] = std::thread([&, i] {
+            for (int frame = 0; frame < 3; ++frame) drawer.draw(plan, made[i]);
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_LE(drawer.passes_made(), 2);
+    EXPECT_EQ(std::memcmp(made[0].pixels(), made[1].pixels(), made[0].size() * sizeof(Rgba)), 0);
 }
 
 // A large picture is drawn in strips that nobody sees: here of 48 rows, with 48 around them.
