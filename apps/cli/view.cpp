@@ -205,6 +205,10 @@ Status open_window(const ViewFlags&) {
 
 // Its name stands where that of a file would.
 void check_scene(ViewFlags& flags) {
+    const auto is_gltf = [](const std::string& name) {
+        return name.ends_with(".gltf") || name.ends_with(".glb");
+    };
+    if (flags.scene.empty() && is_gltf(flags.input.path)) flags.scene.swap(flags.input.path);
     if (flags.scene.empty()) {
         if (flags.scene_size) throw UsageError("--scene-size has no effect without --scene");
         return;
@@ -212,8 +216,7 @@ void check_scene(ViewFlags& flags) {
     refuse_both(!flags.input.path.empty(), "IN", true, "--scene");
     std::vector<std::string> known;
     for (const SceneSummary& one : scene_list()) known.push_back(one.name);
-    const bool is_file = flags.scene.ends_with(".gltf") || flags.scene.ends_with(".glb");
-    if (!is_file && std::find(known.begin(), known.end(), flags.scene) == known.end())
+    if (!is_gltf(flags.scene) && std::find(known.begin(), known.end(), flags.scene) == known.end())
         throw UsageError("--scene " + flags.scene + ": no such scene" + did_you_mean(flags.scene, known) +
                          "; petzval scene list tells them");
     flags.input.path = flags.scene;

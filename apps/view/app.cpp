@@ -253,7 +253,7 @@ void App::turn_to(const Orbit& orbit) {
 
 bool App::is_coarse() const { return is_live() && coarse_ && !state.timeline.playing; }
 
-// A frame of a moving scene is to be there in 80 ms: it is made of as many pixels as that allows.
+// A draft is to be there in 80 ms: it is made of as many pixels as that allows.
 int App::coarse_by() const {
     constexpr double kWanted_s = 0.080;
     constexpr int kCoarsest = 4;
@@ -261,9 +261,10 @@ int App::coarse_by() const {
 }
 
 void App::time_draft(const MadeFrame& made) {
-    if (!shot_ || !shot_->is_live || made.step != 0) return;
-    const double pixels = shot_->coarse * shot_->coarse;
-    const double now = (shot_->render_s / shot_->samples + made.seconds) * pixels;
+    if (!shot_ || made.step != 0 || state.left.shown != "result") return;
+    const auto all_of = [](double seconds, int coarse) { return seconds * coarse * coarse; };
+    double now = all_of(made.seconds, made.coarse);
+    if (shot_->is_live) now += all_of(shot_->render_s / shot_->samples, shot_->coarse);
     draft_s_ = draft_s_ > 0 ? 0.5 * (draft_s_ + now) : now;
 }
 

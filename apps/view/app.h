@@ -158,7 +158,7 @@ private:
     bool reading_ = false;
     std::optional<FoundCamera> home_;  // of a scene: its own view
     bool coarse_ = false;              // it is to be seen with few rays, as it moves
-    double draft_s_ = 0;               // what such a frame takes at full size, as the last ones say
+    double draft_s_ = 0;               // what a draft takes at full size, as the last ones say
     std::chrono::steady_clock::time_point moved_;
     std::chrono::steady_clock::time_point shown_since_;  // the frame, while it is played
     LensMade lens_made_;

@@ -68,6 +68,7 @@ void App::ask_frame(int index, const Side& side) {
     if (!side.engine.empty()) wish.look.engine = side.engine;
     wish.on_cpu = side.on_cpu;
     wish.region = region_for(frames, wish);
+    if (!is_live()) wish.coarse = coarse_by();
     const bool same = frames.wish && same_frame(*frames.wish, wish);
     if (same && frames.wish->region == wish.region && frames.wish->final_quality == wish.final_quality)
         return;

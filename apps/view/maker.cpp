@@ -122,8 +122,9 @@ std::shared_ptr<const Picture> flat(const DeepPicture& deep) {
 // A first look is of no more pixels than can be drawn at once: of every n-th.
 constexpr double kFirstPixels = 4e5;
 
-int thinning_of(const OpenShot& open) {
-    return std::max(open.coarse, int(std::ceil(std::sqrt(double(open.shot.colour.size()) / kFirstPixels))));
+int thinning_of(const Wish& wish) {
+    const double pixels = double(wish.shot->shot.colour.size());
+    return std::max({wish.shot->coarse, wish.coarse, int(std::ceil(std::sqrt(pixels / kFirstPixels)))});
 }
 
 // What is seen alone, on a sensor of fewer pixels.
@@ -409,7 +410,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     Look look = look_of_step(wish, order.step);
     if (Status done = read_lens_images(look); !done) return done.error();
     Result<DefocusReport> done = Error{ErrorCode::InvalidArgument, ""};
-    const int by = order.step == 0 ? thinning_of(*wish.shot) : 1;
+    const int by = order.step == 0 ? thinning_of(wish) : 1;
     if (wish.shown == "result" && by > 1) {
         DefocusReport report;
         auto look_at_it = first_look(*session_, rendered, look, by, control, report);
@@ -422,7 +423,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     if (!done) return done.error();
     if (is_view(wish.shown)) frame.last = order.step > 0 || done->engine == "gaussian";
     frame.is_part = control.region.has_value();
-    if (wish.shown == "result" && order.step == 0) frame.coarse = wish.shot->coarse;
+    if (wish.shown == "result") frame.coarse = by;
     if (frame.is_part) frame.area = *control.region;
     if (is_buffer(wish.shown)) frame.area = done->image.rect();
     if (look.engine == "gather" && look.gather.stage == GatherStage::Coc && wish.shown == "result")

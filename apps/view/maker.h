@@ -58,8 +58,10 @@ struct Wish {
     std::optional<Rect> region = {};  // in pixels as the data window is
     bool final_quality = false;       // after standard quality
     bool on_cpu = false;              // in place of the session's device
+    int coarse = 1;                   // so many by so many pixels are one in its draft
 };
-bool same_frame(const Wish& a, const Wish& b);  // but for the region and how far it is refined
+// But for the region, how far it is refined and how coarse it begins.
+bool same_frame(const Wish& a, const Wish& b);
 
 // One step of it, done.
 struct MadeFrame {

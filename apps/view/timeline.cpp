@@ -161,7 +161,10 @@ void draw_timeline(App& app) {
         const ImVec2 p{x_of(frame), y_of(metres)};
         list->AddQuadFilled({p.x - half, p.y}, {p.x, p.y - half}, {p.x + half, p.y}, {p.x, p.y + half},
                             IM_COL32(255, 220, 90, 255));
-        list->AddText({p.x, p.y + half}, IM_COL32(255, 220, 90, 200), (text_of(metres, 3) + " m").c_str());
+        const std::string words = text_of(metres, 3) + " m";
+        const float end = from.x + size.x - ImGui::CalcTextSize(words.c_str()).x;
+        list->AddText({std::max(from.x, std::min(p.x, end)), p.y + half}, IM_COL32(255, 220, 90, 200),
+                      words.c_str());
     }
     list->AddLine({x_of(line.frame), from.y}, {x_of(line.frame), from.y + size.y},
                   IM_COL32(255, 255, 255, 255), 2);

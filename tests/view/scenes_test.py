@@ -85,7 +85,7 @@ class SceneTest(window.WindowTest):
                        "orbit 5 5\nwait\nexpect no error\nkey ctrl+r\nwait\nexpect error square.gltf\norbit 5 0\nwait\n"
                        "expect no error\nexpect scene.samples 4\nsay frame.engine\nuntil notice gone\nreload\nwait\n"
                        "expect error square.gltf\n")
-        window = self.start("--scene", "square.gltf", "--engine", "gather", "--scene-size", "60x34", "--script", "square.txt")
+        window = self.start("square.gltf", "--engine", "gather", "--scene-size", "60x34", "--script", "square.txt")
         self.assertIn("gather", window.stdout.readline())
         with open(path, "w") as file:
             file.write('{"asset": broken')
