@@ -44,6 +44,23 @@ SHOWN = [
         frame 3
         wait
         shot {shot}"""),
+    ("view-panels", ["table.exr", "--against", "table.exr"], """
+        click 320 200
+        click "panel Look"
+        click "panel Compare"
+        click "panel Camera"
+        click "panel Depth"
+        wait
+        click "panel Pixel"
+        wait
+        click "panel Files"
+        wait
+        click "panel Lenses"
+        wait
+        click "lens apochromat"
+        set fstop 1.4
+        wait
+        shot {shot}"""),
     ("view-hexadrive", ["--scene", "hexadrive"], """
         frame 6
         wait
