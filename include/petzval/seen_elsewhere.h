@@ -34,14 +34,17 @@ struct OtherPicture {
 // it. Else by both cameras (worldToCamera, focal length, sensor width) and depths; these may look along +z or
 // -z and have x to either side: taken is how most of the picture fits.
 //
-// What moves otherwise is found by its surface (pixels that touch and lie at one depth): where that is seen
-// by both, at least nine in ten of its pixels have to lie at one depth, else all of it is left out. With
-// vectors it may have come nearer or gone away as a whole. Vectors by which less of the picture looks the
-// same than by cameras, or less than half of it, are left out with a line that says so. Pixels beside a
-// nearer surface hold some of its light and are left out, and so is what is not opaque, and what lies behind
-// things narrower than three pixels: those are taken apart by what shows on both of their sides, and are
-// steadier so. Takes about 70 bytes a pixel beside the pictures. Errors: InvalidArgument without depth in
-// metres in `shot` itself, and without a camera or its matrix where there are no vectors.
+// Left out with a line that says so: a picture of which by its camera less than half looks the same (much
+// moves by itself then, and what was uncovered in it may be covered now), and vectors by which less looks the
+// same than by the camera, or, where that does not hold half of it, less than seven tenths. Of the others,
+// what moves otherwise is found by its surface (pixels that touch and lie at one depth): where both see it,
+// or one sees it a little behind the other, at least nine in ten of its pixels have to lie at one depth and
+// half of these to look the same, else all of it is left out. With vectors it may have come nearer or gone
+// away as a whole. Pixels beside a nearer surface hold some of its light and are left out, and so is what is
+// not opaque, and what lies behind things narrower than three pixels: those are taken apart by what shows on
+// both of their sides, and are steadier so. Takes about 80 bytes a pixel beside the pictures. Errors:
+// InvalidArgument without depth in metres in `shot` itself, and without a camera or its matrix where there
+// are no vectors.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
                                                  Workers& workers);
 // The same of one moment.

@@ -12,6 +12,9 @@ namespace {
 constexpr double kShareThatFits = 0.5;  // of two pictures of the same things
 // Vectors by which so much less looks the same than by cameras are not what they are taken for.
 constexpr double kWorseByMotion = 0.05;
+// Where little stands still, so much has to look the same by vectors: of what turns and tumbles, frames
+// around see what is covered by now, and what covers it they may not know.
+constexpr double kShareThatIsFollowed = 0.7;
 
 Error cannot(const Shot& shot, const std::string& what) {
     return {ErrorCode::InvalidArgument, shot.path + ": " + what};
@@ -142,7 +145,7 @@ Result<CameraWay> way_by_cameras(const Shot& other, const Shot& shot, const Boun
             other, [&](int x, int y) { return way(x, y, depth(x, y)); }, bounds);
         if (!best || fit > best->fit) best.emplace(CameraWay{way, fit});
     }
-    return std::move(*best);
+    return *best;
 }
 
 Image<Landing> all_by_cameras(const Shot& other, const Way& way, Workers& workers) {
@@ -215,7 +218,6 @@ Image<Landing> all_by_motion(const OtherPicture& other, std::span<const OtherPic
 // The share of some pixels of `other` that look as the shot does where they land.
 double likeness(const Shot& other, const Shot& shot, const Image<Landing>& landings) {
     constexpr int kStep = 3;
-    constexpr float kLikeness = 0.1f, kDark = 0.01f;
     const View<const float> theirs = other.depth_plane(), ours = shot.depth_plane();
     int alike = 0, all = 0;
     for (int y = kStep / 2; y < theirs.height(); y += kStep)
@@ -226,13 +228,9 @@ double likeness(const Shot& other, const Shot& shot, const Image<Landing>& landi
                 !(u < float(ours.width()) && v < float(ours.height())))
                 continue;
             const float depth = ours(int(u), int(v));
-            const Rgba a = other.colour(x, y), b = shot.colour(int(u), int(v));
-            const auto near = [&](float p, float q) {
-                return std::abs(p - q) <= kLikeness * std::max(std::abs(p), std::abs(q)) + kDark;
-            };
             ++all;
             alike += std::max(depth, at.depth_m) <= kSilhouette * std::min(depth, at.depth_m) &&
-                     near(a.r, b.r) && near(a.g, b.g) && near(a.b, b.b);
+                     look_alike(other, x, y, shot, at);
         }
     return all > 0 ? double(alike) / all : 0;
 }
@@ -262,13 +260,23 @@ Verdict verdict_of(const Landing& at, const Bounds& bounds) {
     if (!(u >= 0 && v >= 0 && u < float(bounds.nearest.width()) && v < float(bounds.nearest.height())))
         return Verdict::Unknown;
     const int x = int(u), y = int(v);
-    if (at.depth_m > bounds.farthest(x, y)) return Verdict::Hidden;
+    if (at.depth_m > kSilhouette * bounds.farthest(x, y)) return Verdict::Hidden;
+    if (at.depth_m > bounds.farthest(x, y)) return Verdict::JustBehind;
     if (at.depth_m >= bounds.nearest(x, y)) return Verdict::Agrees;
     // Beside a silhouette half a pixel decides.
     for (int j = std::max(0, y - 1); j <= std::min(bounds.nearest.height() - 1, y + 1); ++j)
         for (int i = std::max(0, x - 1); i <= std::min(bounds.nearest.width() - 1, x + 1); ++i)
             if (at.depth_m >= bounds.nearest(i, j)) return Verdict::Unknown;
     return Verdict::InFront;
+}
+
+bool look_alike(const Shot& other, int x, int y, const Shot& shot, const Landing& at) {
+    constexpr float kLikeness = 0.1f, kDark = 0.01f;
+    const Rgba a = other.colour(x, y), b = shot.colour(int(at.x), int(at.y));
+    const auto near = [&](float p, float q) {
+        return std::abs(p - q) <= kLikeness * std::max(std::abs(p), std::abs(q)) + kDark;
+    };
+    return near(a.r, b.r) && near(a.g, b.g) && near(a.b, b.b);
 }
 
 Status check_depth(const Shot& shot) {
@@ -288,23 +296,28 @@ Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPic
     const auto by_cameras = way_by_cameras(theirs, shot, bounds);
     const bool has_camera = by_cameras && by_cameras->fit >= kShareThatFits;
     Landings landings;
+    if (has_camera) landings.of_pixels = all_by_cameras(theirs, by_cameras->way, workers);
+    const double standing = has_camera ? likeness(theirs, shot, landings.of_pixels) : 0;
     if (other.frames_later != 0 && !theirs.motion.empty()) {
-        const Way* const way = has_camera ? &by_cameras->way : nullptr;
-        landings.of_pixels = all_by_motion(other, all, shot, way, workers);
-        const double alike = likeness(theirs, shot, landings.of_pixels);
-        const double standing =
-            has_camera ? likeness(theirs, shot, all_by_cameras(theirs, *way, workers)) : kShareThatFits;
-        landings.by_motion = alike >= standing - (has_camera ? kWorseByMotion : 0);
-        if (landings.by_motion) return landings;
+        auto moved = all_by_motion(other, all, shot, has_camera ? &by_cameras->way : nullptr, workers);
+        const double alike = likeness(theirs, shot, moved);
+        landings.by_motion = alike >= standing - kWorseByMotion &&
+                             (standing >= kShareThatFits || alike >= kShareThatIsFollowed);
+        if (landings.by_motion) {
+            landings.of_pixels = std::move(moved);
+            return landings;
+        }
         landings.warning = theirs.path + ": by its motion vectors " + percent(alike) +
                            " of the picture look the same" +
                            (has_camera ? ", by its camera " + percent(standing) : "") +
-                           ": they are left out; look at read.motion.scale";
-        if (!has_camera) return Error{ErrorCode::InvalidArgument, landings.warning};
+                           ": they are left out; too much moves, or look at read.motion.scale";
+        if (standing < kShareThatFits) return Error{ErrorCode::InvalidArgument, landings.warning};
     }
     if (!by_cameras) return by_cameras.error();
     if (!has_camera) return cannot(theirs, "by its camera and depth it does not show the same things");
-    landings.of_pixels = all_by_cameras(theirs, by_cameras->way, workers);
+    if (standing < kShareThatFits)
+        return cannot(theirs, "most of it moves by itself or looks different: by its camera " +
+                                  percent(standing) + " of the picture look the same");
     return landings;
 }
 

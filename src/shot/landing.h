@@ -31,8 +31,12 @@ struct Bounds {
 };
 Bounds bounds_of(View<const float> depth, Workers& workers);
 
-enum class Verdict : std::uint8_t { Unknown, Agrees, InFront, Hidden };
+// JustBehind: hidden by what is so near that it may be the same thing, moved by itself.
+enum class Verdict : std::uint8_t { Unknown, Agrees, InFront, JustBehind, Hidden };
 Verdict verdict_of(const Landing& at, const Bounds& bounds);
+
+// Whether a pixel has the colour of where it lands. Requires: it lands within the shot.
+bool look_alike(const Shot& other, int x, int y, const Shot& shot, const Landing& at);
 
 struct Landings {
     Image<Landing> of_pixels;  // of the other picture

@@ -20,7 +20,8 @@ namespace {
 using namespace shot;
 
 constexpr float kOpaque = 0.99f;
-constexpr double kShareThatAgrees = 0.9;  // of a surface that stands still, or moves as it says
+constexpr double kShareThatAgrees = 0.9;   // of a surface that stands still, or moves as it says
+constexpr double kShareThatIsAlike = 0.5;  // of what lies at one depth
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
 
 // Surfaces of a picture: pixels that touch and lie at one depth, by union and find.
@@ -109,11 +110,11 @@ float depth_at(const Square& s, const std::array<float, 4>& shares) {
 // One other picture on its way to where the shot sees it.
 class Other {
 public:
-    Other(const Shot& other, const View<const float>& shots_depth, Landings landings, const Bounds& bounds,
-          Workers& workers)
+    Other(const Shot& other, const Shot& shot, Landings landings, const Bounds& bounds, Workers& workers)
         : other_(other),
+          shot_(shot),
           depth_(other.depth_plane()),
-          shots_depth_(shots_depth),
+          shots_depth_(shot.depth_plane()),
           landings_(std::move(landings.of_pixels)),
           bounds_(bounds),
           workers_(workers),
@@ -153,17 +154,25 @@ private:
             for (int x = 0; x < depth_.width(); ++x)
                 if (surfaces_.usable(x, y)) verdicts_(x, y) = verdict_of(landing(x, y), bounds_);
         });
-        std::vector<std::array<std::uint32_t, 2>> counts(verdicts_.size());  // agrees, in front
+        struct Counts {
+            std::uint32_t agree = 0, differ = 0, alike = 0;
+        };
+        std::vector<Counts> counts(verdicts_.size());
         stands_ = Image<std::uint8_t>(depth_.width(), depth_.height());
         for (int y = 0; y < depth_.height(); ++y)
             for (int x = 0; x < depth_.width(); ++x) {
-                if (verdicts_(x, y) == Verdict::Agrees) ++counts[surfaces_.of(x, y)][0];
-                if (verdicts_(x, y) == Verdict::InFront) ++counts[surfaces_.of(x, y)][1];
+                if (!surfaces_.usable(x, y)) continue;
+                Counts& c = counts[surfaces_.of(x, y)];
+                const Verdict verdict = verdicts_(x, y);
+                c.differ += verdict == Verdict::InFront || verdict == Verdict::JustBehind;
+                if (verdict == Verdict::Agrees)
+                    ++c.agree, c.alike += look_alike(other_, x, y, shot_, landing(x, y));
             }
         for (int y = 0; y < depth_.height(); ++y)
             for (int x = 0; x < depth_.width(); ++x) {
-                const auto& [agree, in_front] = counts[surfaces_.of(x, y)];
-                stands_(x, y) = double(agree) >= kShareThatAgrees * double(agree + in_front);
+                const Counts& c = counts[surfaces_.of(x, y)];
+                stands_(x, y) = double(c.agree) >= kShareThatAgrees * double(c.agree + c.differ) &&
+                                double(c.alike) >= kShareThatIsAlike * double(c.agree);
             }
     }
 
@@ -202,7 +211,7 @@ private:
         if (!stands_(x, y) || !surfaces_.is_whole(x, y)) return false;
         for (const int v : {y, y + 1})
             for (const int u : {x, x + 1})
-                if (verdicts_(u, v) == Verdict::Hidden) return true;
+                if (verdicts_(u, v) == Verdict::Hidden || verdicts_(u, v) == Verdict::JustBehind) return true;
         return false;
     }
 
@@ -250,7 +259,7 @@ private:
         return {colour, depth, depth};
     }
 
-    const Shot& other_;
+    const Shot &other_, &shot_;
     View<const float> depth_, shots_depth_;
     Image<Landing> landings_;
     const Bounds& bounds_;
@@ -305,7 +314,7 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPict
         }
         found.by_motion += landings->by_motion;
         if (!landings->warning.empty()) found.left_out.push_back(landings->warning);
-        Other(*other.shot, depth, std::move(*landings), bounds, workers).add_to(known);
+        Other(*other.shot, shot, std::move(*landings), bounds, workers).add_to(known);
     }
     drop_behind_thin_things(depth, workers, known);
     for (const DeepSample& s : known) found.pixels += s.colour.a > 0;

@@ -137,6 +137,16 @@ TEST(SeenElsewhere, PicturesOfOtherThingsAreLeftOutByName) {
     EXPECT_FALSE(seen_elsewhere(blind, std::span<const Shot* const>{}, *own_workers(1)));
 }
 
+TEST(SeenElsewhere, APictureThatLooksDifferentIsLeftOutByName) {
+    const Shot shot = shot_of({});
+    Shot other = shot_of({.camera_x = 0.2});
+    for (std::size_t i = 0; i < other.colour.size(); ++i) other.colour.pixels()[i].r *= 2;
+    const SeenElsewhere found = seen(shot, {&other});
+    EXPECT_EQ(found.pixels, 0u);
+    ASSERT_EQ(found.left_out.size(), 1u);
+    EXPECT_NE(found.left_out[0].find("look the same"), std::string::npos);
+}
+
 TEST(SeenElsewhere, IsTheSameForAnyNumberOfThreads) {
     const Shot shot = shot_of({}), a = shot_of({.camera_x = 0.17}), b = shot_of({.camera_x = -0.21});
     const std::vector<const Shot*> others{&a, &b};
