@@ -80,6 +80,22 @@ TEST(GatherStages, TheDiscIsBlindAndTheTestIsNot) {
 }
 
 // Two lamps within one zone of the lens, one of them on a border of the tiles that are drawn together.
+// Everywhere |CoC| is the distance of the outermost taps to the bit: they count, whatever rounding says.
+TEST(GatherStages, TapsAtTheDistanceOfTheirOwnRadiusCount) {
+    for (const float coc : {11.3f, -7.1f}) {
+        Shot shot = flat(60, 44, {}, coc);
+        paint_noise(shot.colour, 4);
+        for (const int taps : {16, 43}) {
+            DefocusJob job = shot.job("gather");
+            job.gather.taps = taps;
+            job.gather.stage = GatherStage::Disc;
+            const Picture all = rendered(job);
+            job.gather.stage = GatherStage::HardTest;
+            EXPECT_EQ(largest_difference(rendered(job), all), 0) << coc << ", " << taps;
+        }
+    }
+}
+
 TEST(Gather, ALensThatDiffersOverTheFieldTearsNoDiscWhereTilesMeet) {
     const auto lamp_at = [](int x) {
         Shot shot = flat(640, 384, {0, 0, 0, 1}, 8);

@@ -154,7 +154,7 @@ private:
             for (int x = window_.x0; x < window_.x1; ++x) {
                 const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
                 const bool outside = u != x || v != y, on = !outside || goes_on(x, y, width, height);
-                engine::for_each_sample(plan_.strip, plan_.fill, u, v,
+                engine::for_each_sample(plan_.strip, plan_.guessed, u, v,
                                         [&](Rgba colour, float coc_px, float covered, bool hidden) {
                                             plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
                                                 if (turn < begin || turn >= end) return;

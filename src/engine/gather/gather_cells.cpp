@@ -19,10 +19,10 @@ CellLight& of_turn(std::vector<CellLight>& lights, std::size_t begin, int turn) 
 // A row of cells: first every column of pixels by itself, then the columns of each cell.
 class RowOfCells {
 public:
-    RowOfCells(const Input& input, const BlockFill& fill, const RingSizes& sizes, const CellAxis& across,
+    RowOfCells(const Input& input, const Guessed& guessed, const RingSizes& sizes, const CellAxis& across,
                const CellAxis& down)
         : input_(input),
-          fill_(fill),
+          guessed_(guessed),
           sizes_(sizes),
           across_(across),
           down_(down),
@@ -61,7 +61,7 @@ private:
         const int u = std::min(x, input_.width() - 1), v = std::min(y, input_.height() - 1);
         const bool outside_x = u != x, outside_y = v != y, outside = outside_x || outside_y;
         const bool open = (!outside_x || input_.open_edges.right) && (!outside_y || input_.open_edges.bottom);
-        for_each_sample(input_, fill_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
+        for_each_sample(input_, guessed_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
             if (!may_hold_.contains(coc_px)) return;
             sizes_.hand_out(coc_px, hidden, [&](int turn, float share) {
                 if (sizes_.level_of_turn(turn) != across_.level()) return;
@@ -73,7 +73,7 @@ private:
     }
 
     const Input& input_;
-    const BlockFill& fill_;
+    const Guessed& guessed_;
     const RingSizes& sizes_;
     const CellAxis &across_, &down_;
     RingSizes::Sizes may_hold_;
@@ -83,14 +83,14 @@ private:
 
 }  // namespace
 
-CellLevel::CellLevel(const Input& input, const BlockFill& fill, const RingSizes& sizes, int level)
+CellLevel::CellLevel(const Input& input, const Guessed& guessed, const RingSizes& sizes, int level)
     : width_((input.width() + (1 << level) - 1) >> level),
       height_((input.height() + (1 << level) - 1) >> level),
       rows_(std::size_t(height_)) {
     const CellAxis across(level, width_), down(level, height_);
     parallel_for(height_, *input.workers, [&](int cy) {
         Row& row = rows_[std::size_t(cy)];
-        RowOfCells(input, fill, sizes, across, down).make(cy, row.first, row.lights);
+        RowOfCells(input, guessed, sizes, across, down).make(cy, row.first, row.lights);
     });
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/gather/gather_fill.h"
 #include "engine/gather/gather_rings.h"
+#include "engine/samples/bright_rims.h"
 #include "engine/waist/engine.h"
 
 #include <span>
@@ -68,14 +69,25 @@ private:
     float open_ = 1, opaque_px_ = -1e30f, in_front_px_ = -1e30f;
 };
 
+// What one picture does not say, as far as a preview guesses it.
+struct Guessed {
+    BlockFill fill;
+    BrightRims rims;
+};
+
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
 template <typename Emit>
-void for_each_sample(const Input& input, const BlockFill& fill, int x, int y, const Emit& emit) {
+void for_each_sample(const Input& input, const Guessed& guessed, int x, int y, const Emit& emit) {
     SeenFirst take(emit);
     if (input.deep.empty()) {
         const float coc = input.coc_px(x, y);
-        emit(input.colour(x, y), coc, 1.0f, false);
-        if (const auto hidden = fill.behind(x, y, coc))
+        if (const BrightRim* const rim = guessed.rims.at(x, y)) {
+            take(rim->near, rim->near_coc_px, rim->share);
+            take(rim->far, coc, 1.0f);
+        } else {
+            emit(input.colour(x, y), coc, 1.0f, false);
+        }
+        if (const auto hidden = guessed.fill.behind(x, y, coc))
             emit(hidden->colour, hidden->coc_px, 1.0f, is_hidden(coc, hidden->coc_px));
         return;
     }
@@ -87,7 +99,7 @@ void for_each_sample(const Input& input, const BlockFill& fill, int x, int y, co
 class CellLevel {
 public:
     // Requires: level >= 1.
-    CellLevel(const Input& input, const BlockFill& fill, const RingSizes& sizes, int level);
+    CellLevel(const Input& input, const Guessed& guessed, const RingSizes& sizes, int level);
     int width() const { return width_; }
     int height() const { return height_; }
     std::span<const CellLight> at(int x, int y) const {

@@ -11,6 +11,10 @@ namespace {
 // The article's permissible radius and where its far part is wholly blurred, px.
 constexpr float kSharpPx = 0.2f, kBlurredPx = 1, kFarBlurredPx = 1.2f;
 
+// |CoC| is that of infinity in much of a picture, and so the distance of the outermost taps to the bit: they
+// count, whatever rounding makes of it (the article's half floats are coarser than this).
+constexpr float kTie = 1 - 1e-4f;
+
 float smoothstep(float low, float high, float x) {
     const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
     return t * t * (3 - 2 * t);
@@ -129,7 +133,7 @@ private:
                 const float distance = largest_px_ * std::hypot(p.x, p.y);
                 const float w = blind   ? 1.0f
                                 : apart ? std::clamp(r - distance, 0.0f, 1.0f)
-                                        : float(std::abs(r) >= distance);
+                                        : float(std::abs(r) >= kTie * distance);
                 sum += w * c, weight += w;
                 const float n = apart ? std::clamp(-r - distance, 0.0f, 1.0f) : 0;
                 near += n * c, near_weight += n;

@@ -94,10 +94,11 @@ GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, cons
     parallel_for(int(tiles.size()), *strip.workers,
                  [&](int i) { largest[std::size_t(i)] = largest_px(strip, tiles[std::size_t(i)]); });
     if (strip.fill != Fill::Off && strip.gather.fill_hidden && strip.deep.empty())
-        plan.fill = BlockFill::make(strip);
+        plan.guessed.fill = BlockFill::make(strip);
+    if (strip.deep.empty()) plan.guessed.rims = BrightRims::find(strip.colour, strip.coc_px, *strip.workers);
     for (int level = 0; level < sizes.levels(); ++level) {
         plan.reach.push_back(kernels.reach(level));
-        if (level > 0) plan.levels.emplace_back(strip, plan.fill, sizes, level);
+        if (level > 0) plan.levels.emplace_back(strip, plan.guessed, sizes, level);
     }
     for (const Rect& tile : tiles) {
         if (tile.intersected(rows).empty()) continue;

@@ -13,7 +13,7 @@
 namespace petzval::engine {
 namespace {
 
-// The result, the layers, and what blurring copies of one at a time.
+// The result, the layers, what blurring copies of one at a time, and radii of rims and where they are.
 std::size_t bytes_per_pixel(const GaussianPlan& plan) {
     constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float);
     std::size_t layers = 0, largest = 0;
@@ -21,7 +21,8 @@ std::size_t bytes_per_pixel(const GaussianPlan& plan) {
         const std::size_t bytes = (kOfCell >> (2 * blur.level)) + 1;
         layers += bytes, largest = std::max(largest, bytes);
     }
-    return sizeof(Rgba) + layers + largest;
+    const std::size_t rims = plan.own_radii.empty() ? 0 : sizeof(float) + sizeof(int);
+    return sizeof(Rgba) + layers + largest + rims;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "engine/gaussian/plan.h"
 
+#include "engine/samples/bright_rims.h"
 #include "engine/waist/cells.h"
 
 #include <algorithm>
@@ -92,6 +93,8 @@ GaussianPlan plan_gaussian(const Input& input) {
     plan.view = options.view, plan.colour = input.colour, plan.coc_px = input.coc_px;
     if (options.style == GaussianStyle::Layered && options.view == GaussianView::Result) {
         plan_layers(input, band_px, plan);
+        const BrightRims rims = BrightRims::find(input.colour, input.coc_px, *input.workers);
+        if (!rims.empty()) plan.own_radii = rims.radii(input.coc_px), plan.coc_px = plan.own_radii;
         return plan;
     }
     const auto add = [&](float radius_px) {

@@ -42,6 +42,7 @@ struct GaussianPlan {
     GaussianView view = GaussianView::Result;
     View<const Rgba> colour;
     View<const float> coc_px;
+    Plane own_radii;  // Layered: what coc_px looks at, where rims of lamps are spread as the lamps
     // Layered: near ones from the widest, far ones from the narrowest, the backdrop. ByRadius: from the
     // narrowest.
     std::vector<Blur> blurs;
