@@ -119,7 +119,7 @@ TEST(RealtimeDrawer, DrawsStripsAsIfTheyWereOne) {
     const Given given;
     Picture whole(100, 150), strips(100, 150);
     RealtimeDrawer(*context).draw(given.plan(), whole);
-    RealtimeDrawer drawer(*context, {.most_pixels = 100 * 112});
+    RealtimeDrawer drawer(*context, {.most_pixels = std::size_t(100) * 112});
     drawer.draw(given.plan(), strips);
     EXPECT_GT(drawer.passes_made(), 1);
     float largest = 0;
