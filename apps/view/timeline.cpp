@@ -154,7 +154,7 @@ void draw_timeline(App& app) {
     constexpr double kMostDrawn = 20'000;
     if (span < kMostDrawn)
         for (const auto& [frame, metres] : line.focus_over(line.frames.front(), line.frames.back()))
-            curve.push_back({x_of(frame), y_of(metres)});
+            curve.emplace_back(x_of(frame), y_of(metres));
     list->AddPolyline(curve.data(), int(curve.size()), IM_COL32(255, 220, 90, 255), 0, 1.5f);
     const float half = 0.3f * ImGui::GetFontSize();
     for (const auto& [frame, metres] : line.keys) {
