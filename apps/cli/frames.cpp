@@ -50,6 +50,14 @@ std::string in_words(double seconds) {
     return plain(std::ceil(seconds / 360) / 10) + " h";
 }
 
+std::string without_numbers(std::string line) {
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c >= '0' && c <= '9'; }, '#');
+    line.erase(std::unique(line.begin(), line.end(), [](char a, char b) { return a == '#' && b == '#'; }),
+               line.end());
+    return line;
+}
+
 bool contains(const std::vector<int>& frames, int frame) {
     return std::find(frames.begin(), frames.end(), frame) != frames.end();
 }
@@ -218,7 +226,8 @@ private:
         return work_.keeps_what_is_there && fs::exists(files.outputs.front(), missing);
     }
 
-    // A frame says nothing itself; what it warns of is said once.
+    // A frame says nothing itself; what it warns of is said once, whatever its numbers: those of all frames
+    // are in the reports.
     Result<Json> quietly(int frame, const FrameWork::Files& files) {
         const bool again = is_there(files) && !is_whole(files.outputs.front());
         if (again) warning(files.outputs.front() + ": damaged or cut off; made again");
@@ -230,7 +239,7 @@ private:
             return Json{{"output", files.outputs.front()}, {"skipped", "another run made it meanwhile"}};
         if (made)
             for (const Json& line : made->value("warnings", Json::array()))
-                if (warned_.insert(line.get<std::string>()).second && !run_.verbose)
+                if (warned_.insert(without_numbers(line.get<std::string>())).second && !run_.verbose)
                     warning(line.get<std::string>());
         return made;
     }

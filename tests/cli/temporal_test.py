@@ -125,6 +125,18 @@ class SeenElsewhere(CommandLineTest):
         self.assertEqual(few.code, 4)
         self.assertIn("--max-memory is too little: the frames around", few.err)
 
+    def test_what_is_left_out_of_many_frames_is_said_once(self):
+        for frame in range(1, 6):  # each is twice as bright as the last
+            channels, attributes = self.seen_from(0.02 * frame)
+            lit = {name: rows if name == "Z" else [[value * 2 ** frame for value in row] for row in rows]
+                   for name, rows in channels.items()}
+            write_exr(self.path("in.%04d.exr" % frame), lit, attributes=attributes)
+        said = self.succeed("defocus", "in.####.exr", "-o", "out.####.exr", "--temporal", "2", "--report", "r.jsonl")
+        self.assertEqual(said.err.count("look the same"), 1, said)
+        with open(self.path("r.jsonl"), encoding="utf-8") as file:
+            left_out = [json.loads(line)["seen_elsewhere"]["left_out"] for line in file]
+        self.assertEqual([len(lines) for lines in left_out], [2, 3, 4, 3, 2])
+
     def test_what_does_not_go_together_is_refused(self):
         self.write_frames([0, 0.1])
         self.refuse(2, "defocus", "in.0001.exr", "-o", "out.exr", "--temporal", "1", says=["--temporal"])
