@@ -410,7 +410,7 @@ Drawn draw(const Host& host, const Given& given, const Drawing& d) {
     std::memcpy(buffer.mapped, given.frame.colour.pixels(), pixels * sizeof(Rgba));
     std::memcpy(static_cast<char*>(buffer.mapped) + pixels * sizeof(Rgba), given.coc_px.pixels(),
                 pixels * sizeof(float));
-    const VkQueryPool times = make_times(host);
+    VkQueryPool times = make_times(host);
     VkCommandBufferAllocateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
     info.commandPool = host.pool, info.commandBufferCount = 1;

@@ -63,7 +63,7 @@ struct DefocusFlags {
     static std::string default_kernel_cache();
     SessionSettings session() const;
     // The job with what the flags choose.
-    DefocusJob job(DefocusJob rendered) const;
+    DefocusJob job(DefocusJob job) const;
     // Those that the report has no other place for.
     Json parameters_json(const DefocusJob& job) const;
 

@@ -149,7 +149,7 @@ Status wipe(App& app, const Words& words) {
         if (app.state.right == app.state.left) app.state.right = {app.against() ? "against" : "sharp", ""};
         return Done{};
     }
-    const std::string what = words[0];
+    const std::string& what = words[0];
     if (has(engine_names(), what))
         app.state.right = {"result", what};
     else if (what == "cpu" && !app.setup().cpu_session)

@@ -203,8 +203,8 @@ void draw_curves(App& app, const Box& box) {
         std::vector<ImVec2> line;
         for (std::size_t z = 0; z < curves.zones.size(); ++z)
             if (std::isfinite(curves.shift_mm[w][z]))
-                line.push_back({middle + float(0.45 * curves.shift_mm[w][z] / most) * box.width(),
-                                box.to.y - float(curves.zones[z]) * 0.95f * box.height()});
+                line.emplace_back(middle + float(0.45 * curves.shift_mm[w][z] / most) * box.width(),
+                                  box.to.y - float(curves.zones[z]) * 0.95f * box.height());
         list->AddPolyline(line.data(), int(line.size()), colour, 0, 1.5f);
     }
     note_in(box, "focus by zone, ± " + text_of(most, 2) + " mm");

@@ -106,7 +106,7 @@ private:
         return pixels;
     }
 
-    std::size_t cells_of(const Blur& blur, Span rows) const {
+    static std::size_t cells_of(const Blur& blur, Span rows) {
         return std::size_t(blur.cells_across()) * std::size_t(cells_for(blur, rows).size());
     }
 
