@@ -13,8 +13,8 @@ namespace {
 constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                            kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-constexpr std::uint32_t kTile = 16, kGroup = 8;  // pixels; invocations along a side
-constexpr std::uint32_t kLevels = 4;             // of cells
+constexpr std::uint32_t kGroup = 8;   // invocations along a side
+constexpr std::uint32_t kLevels = 4;  // of cells
 
 struct Push {
     std::int32_t width, height, tiles_x, tiles_y;
