@@ -156,7 +156,7 @@ void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, doub
     if (!samples_.first.empty()) input.deep = samples_;
     input.deep_dims_itself = job.deep && !job.deep->empty();
     if (job.fill != Fill::Full && !input.deep.empty() && (input.plate.empty() || job.engine != "scatter"))
-        warnings.emplace_back("fill has no effect where all samples of a pixel are given");
+        warnings.emplace_back("job.fill has no effect where all samples of a pixel are given");
     if (job.holdout && !job.holdout->empty())
         input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, has_radii(job), *job.workers);
 }

@@ -99,7 +99,7 @@ TEST(FillingNothing, IsSaidOfWhatNeedsNone) {
     const auto report = defocus(job);
     ASSERT_TRUE(report);
     ASSERT_EQ(report->warnings.size(), 1u);
-    EXPECT_TRUE(report->warnings.front().starts_with("fill has no effect")) << report->warnings.front();
+    EXPECT_TRUE(report->warnings.front().starts_with("job.fill has no effect")) << report->warnings.front();
 }
 
 }  // namespace

@@ -301,8 +301,8 @@ void say_what_is_not_known(const Input& input, Output& output) {
     if (empty == 0) return;
     const double percent = 100.0 * double(empty) / double(output.image.size());
     output.warnings.push_back(std::to_string(std::max(1, int(percent))) +
-                              " % of the picture show what near things hide, which is not known and left "
-                              "empty: job.behind (hidden layers) states it");
+                              " % of the picture see past near things to what they hide, which is not known "
+                              "and left empty; hidden layers say it: shot.behind");
 }
 
 }  // namespace
