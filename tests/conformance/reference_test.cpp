@@ -95,7 +95,7 @@ TEST(Reference, SaysWhereHiddenLayersAreMissing) {
         for (int x = 20; x < 48; ++x) shot.coc_px(x, y) = -8;
     const auto said = warnings(shot.job("reference"));
     ASSERT_EQ(said.size(), 1U);
-    EXPECT_NE(said.front().find("job.behind"), std::string::npos) << said.front();
+    EXPECT_NE(said.front().find("shot.behind"), std::string::npos) << said.front();
     put_behind(
         shot,
         [](int, int) {

@@ -3,11 +3,12 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
 DEV = pathlib.Path(__file__).resolve().parents[2] / "dev"
-TOOLS = ["sh", "sed", "dirname", "mktemp", "rm", "tail", "env", "python3"]
+TOOLS = ["sh", "sed", "dirname", "mktemp", "rm", "tail", "env"]
 
 
 def dev(*words, path=None):
@@ -20,6 +21,8 @@ def machine(folder, **programs):
     """A PATH with the few tools that a bare system has, and programs of one line each."""
     for tool in TOOLS:
         (pathlib.Path(folder) / tool).symlink_to(shutil.which(tool))
+    # The interpreter itself: what a PATH calls python3 may be a script that needs more (pyenv).
+    (pathlib.Path(folder) / "python3").symlink_to(sys.executable)
     for name, line in programs.items():
         program = pathlib.Path(folder) / name.replace("_", "-")
         program.write_text(f"#!/bin/sh\n{line}\n")
