@@ -1,7 +1,6 @@
 #include "device/vulkan/context.h"
 
 #include "device/vulkan/failure.h"
-#include "device/vulkan/pipeline.h"
 
 #include <utility>
 
@@ -40,11 +39,7 @@ Status Context::create(std::size_t number) {
 
 Context::~Context() {
     if (!opened_.device) return;
-    for (auto& [key, p] : programs_) {
-        vk_.vkDestroyPipeline(opened_.device, p.pipeline, nullptr);
-        vk_.vkDestroyPipelineLayout(opened_.device, p.layout, nullptr);
-        vk_.vkDestroyDescriptorSetLayout(opened_.device, p.set_layout, nullptr);
-    }
+    for (const auto& [key, program] : programs_) destroy_program(opened_, program);
     heap_.reset();
     vk_.vkDestroyDevice(opened_.device, nullptr);
 }
@@ -54,29 +49,7 @@ const Program& Context::program(Shader shader, std::uint32_t variant) {
     const std::pair key(shader, variant);
     const auto known = programs_.find(key);
     if (known != programs_.end()) return known->second;
-    return programs_.emplace(key, make_program(words_of(shader), variant)).first->second;
-}
-
-Program Context::make_program(const ShaderWords& words, std::uint32_t variant) const {
-    const std::string what = "a program";
-    Program program;
-    program.buffers = words.buffers, program.push_bytes = words.push_bytes;
-    std::vector<VkDescriptorSetLayoutBinding> bindings(std::size_t(words.buffers));
-    for (std::size_t i = 0; i < bindings.size(); ++i)
-        bindings[i] = {std::uint32_t(i), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT,
-                       nullptr};
-    VkDescriptorSetLayoutCreateInfo set = {};
-    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set.bindingCount = std::uint32_t(bindings.size()), set.pBindings = bindings.data();
-    check(vk_.vkCreateDescriptorSetLayout(handle(), &set, nullptr, &program.set_layout), name(), what);
-    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, words.push_bytes};
-    VkPipelineLayoutCreateInfo layout = {};
-    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    layout.setLayoutCount = 1, layout.pSetLayouts = &program.set_layout;
-    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &push;
-    check(vk_.vkCreatePipelineLayout(handle(), &layout, nullptr, &program.layout), name(), what);
-    program.pipeline = make_pipeline(opened_, words.spirv, program.layout, variant);
-    return program;
+    return programs_.emplace(key, make_program(opened_, shader, variant)).first->second;
 }
 
 void Context::submit(VkCommandBuffer commands, VkFence fence) {

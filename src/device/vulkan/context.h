@@ -4,7 +4,7 @@
 #include "device/vulkan/heap.h"
 #include "device/vulkan/instance.h"
 #include "device/vulkan/pass_time.h"
-#include "device/vulkan/shaders.h"
+#include "device/vulkan/pipeline.h"
 
 #include <cstdint>
 #include <map>
@@ -15,15 +15,6 @@
 #include <vector>
 
 namespace petzval::device::vulkan {
-
-// A program of the device, ready to run.
-struct Program {
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    int buffers = 0;
-    std::uint32_t push_bytes = 0;
-};
 
 // Safe to use from many threads.
 class Context {
@@ -57,7 +48,6 @@ private:
     Context(std::shared_ptr<Instance> instance, Candidate candidate)
         : instance_(std::move(instance)), candidate_(std::move(candidate)) {}
     Status create(std::size_t number);
-    Program make_program(const ShaderWords& words, std::uint32_t variant) const;
 
     std::shared_ptr<Instance> instance_;
     const Candidate candidate_;

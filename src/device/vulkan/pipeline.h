@@ -2,14 +2,21 @@
 #pragma once
 
 #include "device/vulkan/heap.h"
+#include "device/vulkan/shaders.h"
 
 #include <cstdint>
-#include <span>
 
 namespace petzval::device::vulkan {
 
+// Ready to run.
+struct Program {
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+};
+
 // variant: constant 0 of the program, where it has one. Throws Failed.
-VkPipeline make_pipeline(const Opened& opened, std::span<const std::uint32_t> spirv, VkPipelineLayout layout,
-                         std::uint32_t variant);
+Program make_program(const Opened& opened, Shader shader, std::uint32_t variant = 0);
+void destroy_program(const Opened& opened, const Program& program);
 
 }  // namespace petzval::device::vulkan

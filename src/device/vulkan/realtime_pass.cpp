@@ -1,7 +1,6 @@
 #include "device/vulkan/realtime_pass.h"
 
 #include "device/vulkan/failure.h"
-#include "device/vulkan/pipeline.h"
 #include "device/vulkan/recording.h"
 
 #include <cstring>
@@ -22,23 +21,6 @@ struct Push {
     std::uint32_t has_layer;
 };
 static_assert(sizeof(Push) == 36, "as shaders/realtime.glsl has it");
-
-// What each dispatch is bound to, from binding 0 on: as its program declares it.
-std::vector<VkDescriptorType> bindings_of(int step) {
-    switch (step) {
-        case 0:
-            return {kSampled, kBuffer};
-        case 1:
-            return {kSampled, kSampled, kStored, kStored, kStored, kStored, kBuffer, kBuffer, kBuffer};
-        case 2:
-            return {kBuffer, kBuffer, kBuffer, kBuffer};
-        case 3:
-            return {kSampled, kBuffer, kBuffer, kBuffer, kStored};
-        default:
-            return {kSampled, kSampled, kSampled, kSampled, kStored,
-                    kSampled, kBuffer,  kBuffer,  kBuffer,  kBuffer};
-    }
-}
 
 }  // namespace
 
@@ -77,7 +59,8 @@ void RealtimePass::make() {
     lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
     make_sampler(VK_FILTER_NEAREST, nearest_);
     make_sampler(VK_FILTER_LINEAR, linear_);
-    for (int step = 0; step < kSteps; ++step) make_program(Step(step));
+    for (std::size_t step = 0; step < kSteps; ++step)
+        programs_[step] = make_program(opened_, shader_of(step));
     make_sets();
 }
 
@@ -92,34 +75,18 @@ void RealtimePass::make_sampler(VkFilter filter, VkSampler& sampler) const {
     check(vk_.vkCreateSampler(opened_.device, &info, nullptr, &sampler), opened_.name, "a sampler");
 }
 
-void RealtimePass::make_program(Step step) {
-    const std::string what = "a program";
-    Program& program = programs_[step];
-    std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (const VkDescriptorType type : bindings_of(step))
-        bindings.push_back({std::uint32_t(bindings.size()), type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-    VkDescriptorSetLayoutCreateInfo set = {};
-    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set.bindingCount = std::uint32_t(bindings.size()), set.pBindings = bindings.data();
-    check(vk_.vkCreateDescriptorSetLayout(opened_.device, &set, nullptr, &program.set_layout), opened_.name,
-          what);
-    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push)};
-    VkPipelineLayoutCreateInfo layout = {};
-    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    layout.setLayoutCount = 1, layout.pSetLayouts = &program.set_layout;
-    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &push;
-    check(vk_.vkCreatePipelineLayout(opened_.device, &layout, nullptr, &program.layout), opened_.name, what);
+Shader RealtimePass::shader_of(std::size_t step) const {
     const std::array shaders{
         Shader::RealtimeMeasure, Shader::RealtimeSplit, Shader::RealtimeReach, Shader::RealtimeGather,
         settings_.has_float_result ? Shader::RealtimeCombine32 : Shader::RealtimeCombine16};
-    program.pipeline = make_pipeline(opened_, words_of(shaders[step]).spirv, program.layout, 0);
+    return shaders[step];
 }
 
 void RealtimePass::make_sets() {
     const std::uint32_t slots = settings_.slots;
     std::array<VkDescriptorPoolSize, 3> sizes{{{kSampled, 0}, {kStored, 0}, {kBuffer, 0}}};
-    for (int step = 0; step < kSteps; ++step)
-        for (const VkDescriptorType type : bindings_of(step))
+    for (std::size_t step = 0; step < kSteps; ++step)
+        for (const VkDescriptorType type : words_of(shader_of(step)).bindings)
             for (VkDescriptorPoolSize& size : sizes)
                 if (size.type == type) size.descriptorCount += slots;
     VkDescriptorPoolCreateInfo pool = {};
@@ -142,11 +109,7 @@ void RealtimePass::make_sets() {
 
 void RealtimePass::destroy() {
     if (pool_) vk_.vkDestroyDescriptorPool(opened_.device, pool_, nullptr);
-    for (const Program& p : programs_) {
-        if (p.pipeline) vk_.vkDestroyPipeline(opened_.device, p.pipeline, nullptr);
-        if (p.layout) vk_.vkDestroyPipelineLayout(opened_.device, p.layout, nullptr);
-        if (p.set_layout) vk_.vkDestroyDescriptorSetLayout(opened_.device, p.set_layout, nullptr);
-    }
+    for (const Program& program : programs_) destroy_program(opened_, program);
     for (VkSampler sampler : {nearest_, linear_})
         if (sampler) vk_.vkDestroySampler(opened_.device, sampler, nullptr);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/vulkan/image.h"
-#include "device/vulkan/shaders.h"
+#include "device/vulkan/pipeline.h"
 #include "engine/gather/realtime_plan.h"
 
 #include <array>
@@ -56,11 +56,6 @@ public:
 
 private:
     enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
-    struct Program {
-        VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-        VkPipelineLayout layout = VK_NULL_HANDLE;
-        VkPipeline pipeline = VK_NULL_HANDLE;
-    };
     struct Slot {
         std::array<VkDescriptorSet, kSteps> sets = {};
         Piece lens;                                       // written by the host
@@ -70,7 +65,7 @@ private:
     void make();
     void destroy();
     void make_sampler(VkFilter filter, VkSampler& sampler) const;
-    void make_program(Step step);
+    Shader shader_of(std::size_t step) const;
     void make_sets();
     void write_own(const Slot& slot) const;
     void write_given(const Slot& slot, const RealtimeImages& images) const;

@@ -1,5 +1,8 @@
 #include "device/vulkan/shaders.h"
 
+#include <array>
+#include <cstddef>
+
 namespace petzval::device::vulkan {
 namespace {
 
@@ -52,44 +55,57 @@ constexpr std::uint32_t kRealtimeCombine32[] =
 #include "realtime_combine_32.comp.inc"
     ;
 
+constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                           kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                           kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+constexpr std::array kBuffers{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer};
+constexpr std::array kOfMeasure{kSampled, kBuffer};
+constexpr std::array kOfSplit{kSampled, kSampled, kStored, kStored, kStored,
+                              kStored,  kBuffer,  kBuffer, kBuffer};
+constexpr std::array kOfGather{kSampled, kBuffer, kBuffer, kBuffer, kStored};
+constexpr std::array kOfCombine{kSampled, kSampled, kSampled, kSampled, kStored,
+                                kSampled, kBuffer,  kBuffer,  kBuffer,  kBuffer};
+
+std::span<const VkDescriptorType> buffers(std::size_t count) { return std::span(kBuffers).first(count); }
+
 }  // namespace
 
 ShaderWords words_of(Shader shader) {
     switch (shader) {
         case Shader::Composite:
-            return {kComposite, 7, 48};
+            return {kComposite, buffers(7), 48};
         case Shader::AddSectors:
-            return {kAddSectors, 4, 4};
+            return {kAddSectors, buffers(4), 4};
         case Shader::CoverPupil:
-            return {kCoverPupil, 3, 8};
+            return {kCoverPupil, buffers(3), 8};
         case Shader::OpenPupil:
-            return {kOpenPupil, 3, 4};
+            return {kOpenPupil, buffers(3), 4};
         case Shader::AddLights:
-            return {kAddLights, 6, 36};
+            return {kAddLights, buffers(6), 36};
         case Shader::AddCells:
-            return {kAddCells, 3, 8};
+            return {kAddCells, buffers(3), 8};
         case Shader::Gather:
-            return {kGather, 4, 36};
+            return {kGather, buffers(4), 36};
         case Shader::SpreadCells:
-            return {kSpreadCells, 5, 84};
+            return {kSpreadCells, buffers(5), 84};
         case Shader::BlurCells:
-            return {kBlurCells, 5, 84};
+            return {kBlurCells, buffers(5), 84};
         case Shader::MixBlurs:
-            return {kMixBlurs, 6, 84};
+            return {kMixBlurs, buffers(6), 84};
         case Shader::RealtimeMeasure:
-            return {kRealtimeMeasure, 0, 36};
+            return {kRealtimeMeasure, kOfMeasure, 36};
         case Shader::RealtimeSplit:
-            return {kRealtimeSplit, 0, 36};
+            return {kRealtimeSplit, kOfSplit, 36};
         case Shader::RealtimeReach:
-            return {kRealtimeReach, 0, 36};
+            return {kRealtimeReach, buffers(4), 36};
         case Shader::RealtimeGather:
-            return {kRealtimeGather, 0, 36};
+            return {kRealtimeGather, kOfGather, 36};
         case Shader::RealtimeCombine16:
-            return {kRealtimeCombine16, 0, 36};
+            return {kRealtimeCombine16, kOfCombine, 36};
         case Shader::RealtimeCombine32:
             break;
     }
-    return {kRealtimeCombine32, 0, 36};
+    return {kRealtimeCombine32, kOfCombine, 36};
 }
 
 }  // namespace petzval::device::vulkan

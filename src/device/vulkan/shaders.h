@@ -1,6 +1,8 @@
 // The programs of the device, compiled into the library.
 #pragma once
 
+#include "device/vulkan/functions.h"
+
 #include <cstdint>
 #include <span>
 
@@ -27,8 +29,8 @@ enum class Shader {
 
 struct ShaderWords {
     std::span<const std::uint32_t> spirv;
-    int buffers;               // storage buffers, bound from 0 on; RealtimePass knows its own bindings
-    std::uint32_t push_bytes;  // of push constants
+    std::span<const VkDescriptorType> bindings;  // from 0 on
+    std::uint32_t push_bytes;                    // of push constants
 };
 
 ShaderWords words_of(Shader shader);

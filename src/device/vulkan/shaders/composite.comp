@@ -151,33 +151,34 @@ vec4 enlarged(ivec2 pixel, int level, Box cells) {
     return interpolated(rows[0], rows[1], rows[2], rows[3], wy);
 }
 
-// What runs send to a pixel, through one sector.
-vec4 arrived(uint begin, uint end, uint sector, Box box, ivec2 pixel, bool inside) {
+// What a run sends to a pixel, through one sector.
+vec4 arrived(uint run, uint sector, Box box, ivec2 pixel, bool inside) {
     const uint own = gl_LocalInvocationIndex;
-    vec4 sum = vec4(0);
-    for (uint run = begin; run < end; ++run) {
-        const int level = int(plan[at.runs + kRunWords * (run - at.first_run) + 1u]);
-        if (level == 0) {
-            sum += gathered(run, sector, box, pixel, inside, 0u, 1u);
-            continue;
-        }
-        const Box cells = Box((box.low >> level) - kBorder, ((box.high - 1) >> level) + 1 + kBorder);
+    const int level = int(plan[at.runs + kRunWords * (run - at.first_run) + 1u]);
+    Box cells = box;
+    ivec2 cell = pixel;
+    bool wanted = inside;
+    uint count = 1u, slices = 1u;
+    if (level > 0) {
+        cells = Box((box.low >> level) - kBorder, ((box.high - 1) >> level) + 1 + kBorder);
         const ivec2 size = cells.high - cells.low;
-        const uint count = uint(size.x * size.y), slices = uint(kChunk) / count;
-        const ivec2 cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
-        const vec4 part = gathered(run, sector, cells, cell, own < slices * count, own / count, slices);
-        hit_light[own] = part;
-        barrier();
-        vec4 whole = vec4(0);
-        if (own < count)
-            for (uint s = 0u; s < slices; ++s) whole += hit_light[own + s * count];
-        barrier();
-        if (own < count) hit_light[own] = whole;
-        barrier();
-        if (inside) sum += enlarged(pixel, level, cells);
-        barrier();
+        count = uint(size.x * size.y), slices = uint(kChunk) / count;
+        cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
+        wanted = own < slices * count;
     }
-    return sum;
+    const vec4 part = gathered(run, sector, cells, cell, wanted, level > 0 ? own / count : 0u, slices);
+    if (level == 0) return part;
+    hit_light[own] = part;
+    barrier();
+    vec4 whole = vec4(0);
+    if (own < count)
+        for (uint s = 0u; s < slices; ++s) whole += hit_light[own + s * count];
+    barrier();
+    if (own < count) hit_light[own] = whole;
+    barrier();
+    const vec4 made = inside ? enlarged(pixel, level, cells) : vec4(0);
+    barrier();
+    return made;
 }
 
 // engine/waist/holdout.h
@@ -249,8 +250,13 @@ void main() {
         const uint word = at.layers + kLayerWords * (layer - at.first_layer);
         const uint of = min(sector, plan[word + 2u] - 1u);
         const uint begin = plan[word], middle = plan[word + 1u], close = plan[word + kLayerWords];
-        const vec4 light = arrived(begin, middle, of, box, pixel, inside);
-        const float emptiness = middle < close ? arrived(middle, close, of, box, pixel, inside).a : 0.0;
+        vec4 light = vec4(0);
+        float emptiness = 0;
+        for (uint run = begin; run < close; ++run) {
+            const vec4 more = arrived(run, of, box, pixel, inside);
+            if (run < middle) light += more;
+            else emptiness += more.a;
+        }
         const float arrives = light.a + emptiness;
         if (inside && arrives > 0) {
             const vec2 taken = take(left, arrives, int(plan[word + 5u]));
