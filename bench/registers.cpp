@@ -1,0 +1,131 @@
+// What a driver says of our programs when it has made them: registers, shared memory, what was spilled. None
+// is run, so that a driver without its hardware serves as well: bench/gpu.py names one. Prints a JSON object.
+#include "device/failure.h"
+#include "device/vulkan/pipeline.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace petzval::device::vulkan;
+
+struct Named {
+    Shader shader;
+    const char* name;
+    std::uint32_t variant = 0;
+};
+constexpr std::array kPrograms{
+    Named{Shader::Composite, "composite"},
+    Named{Shader::Composite, "composite, held out", 1},
+    Named{Shader::AddSectors, "add sectors"},
+    Named{Shader::CoverPupil, "cover pupils"},
+    Named{Shader::OpenPupil, "open pupils"},
+    Named{Shader::AddLights, "add lights"},
+    Named{Shader::AddCells, "add cells"},
+    Named{Shader::Gather, "gather"},
+    Named{Shader::SpreadCells, "spread cells"},
+    Named{Shader::BlurCells, "blur cells"},
+    Named{Shader::MixBlurs, "mix blurs"},
+    Named{Shader::RealtimeMeasure, "realtime measure"},
+    Named{Shader::RealtimeSplit, "realtime split"},
+    Named{Shader::RealtimeReach, "realtime reach"},
+    Named{Shader::RealtimeGather, "realtime gather"},
+    Named{Shader::RealtimeCombine16, "realtime combine"},
+};
+
+[[noreturn]] void fail(const std::string& what) {
+    std::fprintf(stderr, "bench registers: %s\n", what.c_str());
+    std::exit(1);
+}
+
+VkDevice open_device(const Functions& vk, const Candidate& candidate) {
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue = {};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = candidate.queue_family;
+    queue.queueCount = 1, queue.pQueuePriorities = &priority;
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR tells = {};
+    tells.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+    tells.pipelineExecutableInfo = VK_TRUE;
+    const char* const extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+    VkDeviceCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, info.pNext = &tells;
+    info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = 1, info.ppEnabledExtensionNames = &extension;
+    VkDevice device = VK_NULL_HANDLE;
+    if (vk.vkCreateDevice(candidate.handle, &info, nullptr, &device) != VK_SUCCESS)
+        fail(candidate.name + " says nothing of programs (" + extension + ")");
+    return device;
+}
+
+PFN_vkCreateComputePipelines create_pipelines = nullptr;
+// As the library asks for a program, and for what is said of it.
+VKAPI_ATTR VkResult VKAPI_CALL create_told(VkDevice device, VkPipelineCache cache, std::uint32_t count,
+                                           const VkComputePipelineCreateInfo* info,
+                                           const VkAllocationCallbacks* memory, VkPipeline* made) {
+    VkComputePipelineCreateInfo told = *info;
+    told.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
+    return create_pipelines(device, cache, count, &told, memory, made);
+}
+
+double value_of(const VkPipelineExecutableStatisticKHR& said) {
+    switch (said.format) {
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
+            return said.value.b32;
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR:
+            return double(said.value.i64);
+        case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR:
+            return double(said.value.u64);
+        default:
+            return said.value.f64;
+    }
+}
+
+void print_said(const Opened& opened, VkPipeline pipeline) {
+    const auto said_of = reinterpret_cast<PFN_vkGetPipelineExecutableStatisticsKHR>(
+        opened.vk->vkGetDeviceProcAddr(opened.device, "vkGetPipelineExecutableStatisticsKHR"));
+    VkPipelineExecutableInfoKHR which = {};
+    which.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR, which.pipeline = pipeline;
+    std::uint32_t count = 0;
+    said_of(opened.device, &which, &count, nullptr);
+    std::vector<VkPipelineExecutableStatisticKHR> all(count);
+    for (auto& said : all) said.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR;
+    said_of(opened.device, &which, &count, all.data());
+    const char* separator = "";
+    for (const auto& said : all) {
+        std::printf("%s\"%s\": %.17g", separator, said.name, value_of(said));
+        separator = ", ";
+    }
+}
+
+}  // namespace
+
+int main() {
+    const auto instance = Instance::open();
+    if (!instance) fail(instance.error().message);
+    if ((*instance)->candidates().empty()) fail("no device of Vulkan");
+    const Candidate& candidate = (*instance)->candidates().front();
+    Functions vk = (*instance)->functions();
+    const Opened opened{&vk, open_device(vk, candidate), candidate.name};
+    find_functions(vk, opened.device);
+    create_pipelines = vk.vkCreateComputePipelines, vk.vkCreateComputePipelines = create_told;
+    std::printf("{\"device\": \"%s\", \"programs\": {", candidate.name.c_str());
+    const char* separator = "";
+    for (const Named& named : kPrograms) try {
+            const Program program = make_program(opened, named.shader, named.variant);
+            std::printf("%s\"%s\": {", separator, named.name);
+            print_said(opened, program.pipeline);
+            std::printf("}");
+            separator = ", ";
+            destroy_program(opened, program);
+        } catch (const petzval::device::Failed& failed) {
+            fail(failed.error.message);
+        }
+    std::printf("}}\n");
+    vk.vkDestroyDevice(opened.device, nullptr);
+}
