@@ -440,10 +440,13 @@ Status load(const std::string& path, tinygltf::Model& model, std::vector<std::st
         return Error{ErrorCode::InvalidFile,
                      path + ": no glTF that can be read" + (wrong.empty() ? "" : ": " + first_line(wrong))};
     if (!warning.empty()) warnings.push_back(path + ": " + first_line(warning));
-    for (const std::string& needed : model.extensionsRequired)
-        if (needed != "KHR_lights_punctual" && needed != "KHR_materials_emissive_strength" &&
-            needed != "KHR_texture_transform" && needed != "KHR_materials_unlit")
-            return Error{ErrorCode::InvalidFile, path + ": needs " + needed + ", which is not read"};
+    const auto& needed = model.extensionsRequired;
+    const auto unread = std::find_if_not(needed.begin(), needed.end(), [](const std::string& name) {
+        return name == "KHR_lights_punctual" || name == "KHR_materials_emissive_strength" ||
+               name == "KHR_texture_transform" || name == "KHR_materials_unlit";
+    });
+    if (unread != needed.end())
+        return Error{ErrorCode::InvalidFile, path + ": needs " + *unread + ", which is not read"};
     return Done{};
 }
 

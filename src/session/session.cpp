@@ -325,14 +325,14 @@ std::vector<std::string> engine_names() {
     return names;
 }
 
-Result<Plane> circle_of_confusion(const DefocusJob& given) {
-    if (const Status status = check_job(given); !status) return status.error();
-    const auto radii = Radii::make(given);
+Result<Plane> circle_of_confusion(const DefocusJob& job) {
+    if (const Status status = check_job(job); !status) return status.error();
+    const auto radii = Radii::make(job);
     if (!radii) return radii.error();
-    const std::shared_ptr<Workers> workers = workers_of(given.threads, given.workers);
-    DefocusJob job = given;
-    const HardEdges edges(job, *workers);
-    return radii->of(depth_or_radii(job), *workers);
+    const std::shared_ptr<Workers> workers = workers_of(job.threads, job.workers);
+    DefocusJob hardened = job;
+    const HardEdges edges(hardened, *workers);
+    return radii->of(depth_or_radii(hardened), *workers);
 }
 
 Result<DefocusReport> defocus(const DefocusJob& job) {
