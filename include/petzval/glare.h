@@ -19,7 +19,7 @@
 namespace petzval {
 
 enum class StarQuality {
-    Draft,  // streaks in a few passes, at a quarter of the size (M. Kawase, GDC 2003)
+    Draft,  // streaks in a few passes (M. Kawase, GDC 2003)
     Final,  // the diffraction of the aperture's true outline, wavelength by wavelength
 };
 

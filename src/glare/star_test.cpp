@@ -106,6 +106,37 @@ TEST(StarKernel, TheQuickStarPointsTheSameWay) {
     }
 }
 
+TEST(QuickStar, IsAStarNextToTheLampToo) {
+    // Round the lamp light stands on the spikes and not between them, wherever the lamp lies in the cells.
+    for (const int off : {0, 1, 2, 3}) {
+        Picture light(201, 201), out(201, 201);
+        const int middle = 98 + off;
+        light(middle, middle) = {1000, 1000, 1000, 0};
+        add_streaks(out.view(), light.view(), blades(6, 30), 100, 1, 1, one_thread());
+        const auto at = [&](double r, double degrees) {
+            return double(out(middle + int(std::lround(r * std::cos(degrees * kPi / 180))),
+                              middle - int(std::lround(r * std::sin(degrees * kPi / 180))))
+                              .g);
+        };
+        for (const double r : {4, 5, 6, 8}) {
+            double on = 0, between = 0;
+            for (int k = 0; k < 6; ++k) on += at(r, 60 * k), between += at(r, 30 + 60 * k);
+            EXPECT_GT(on, 4 * between) << r << " px away, lamp at " << middle;
+        }
+    }
+}
+
+TEST(QuickStar, KeepsTheLightOfEachChannelInsideTheFrame) {
+    Picture light(301, 301), out(301, 301);
+    light(150, 150) = {500, 700, 900, 0};
+    add_streaks(out.view(), light.view(), blades(5, 8), 60, 1, 0.5f, one_thread());
+    Rgba sum;
+    for (std::size_t i = 0; i < out.size(); ++i) sum += out.pixels()[i];
+    EXPECT_NEAR(sum.r, 250, 0.25);
+    EXPECT_NEAR(sum.g, 350, 0.35);
+    EXPECT_NEAR(sum.b, 450, 0.45);
+}
+
 TEST(StarKernel, EachChannelSumsToOneNoneIsNegativeAndItIsSymmetric) {
     const auto star = star_kernel(blades(5, 8), 90, 0, 1, one_thread());
     double r = 0, g = 0, b = 0;

@@ -1,6 +1,6 @@
 // The quick star: streaks by repeated passes of four samples, each pass reaching four times as far
-// (M. Kawase, Frame Buffer Postprocessing Effects in DOUBLE-S.T.E.A.L, GDC 2003), on a picture of a quarter
-// of the size.
+// (M. Kawase, Frame Buffer Postprocessing Effects in DOUBLE-S.T.E.A.L, GDC 2003), long streaks on a picture
+// of half the size.
 #pragma once
 
 #include "petzval/image.h"
