@@ -22,6 +22,21 @@ TEST(Scatter, ASlopeThroughFocusHidesWhatIsKnownToBeBehindIt) {
     }
 }
 
+// What is found behind an edge goes on behind the surface, and must not show where its narrow discs become
+// wide.
+TEST(Scatter, ASlopeBeforeAWallHidesWhatIsFoundBehindIt) {
+    Shot shot = flat(120, 60, {0, 0, 0, 1}, 20);
+    for (int y = 0; y < 60; ++y)
+        for (int x = 60; x < 120; ++x)
+            shot.colour(x, y) = {0.5f, 0.5f, 0.5f, 1}, shot.coc_px(x, y) = 1.7f - 0.012f * float(x - 60);
+    for (const Quality quality : {Quality::Draft, Quality::Standard, Quality::Final}) {
+        DefocusJob job = shot.job("scatter");
+        job.quality = quality;
+        const Picture image = rendered(job);
+        for (int x = 66; x < 114; ++x) EXPECT_NEAR(image(x, 30).g, 0.5, 0.005) << "column " << x;
+    }
+}
+
 // Where no ray comes past the slope, what is behind takes no part at all, however finely the pupil is taken.
 TEST(Scatter, WhatNoRayReachesBehindASlopeDoesNotMatter) {
     Shot shot = flat(100, 90, {}, 0);

@@ -99,11 +99,9 @@ private:
             emptiness{layer.first_empty_run, next.first_run};
         const bool partly_empty = emptiness.begin < emptiness.end;
         const Interval radii = held() ? radii_of(light) : Interval{};
-        accumulate(light, layer.sectors, w_.light);
-        if (partly_empty) accumulate(emptiness, layer.sectors, w_.emptiness);
-        for (int c = 0; c < sectors_; ++c)
-            take(w_.budgets[std::size_t(c)], std::size_t(std::min(c, layer.sectors - 1)), partly_empty,
-                 layer.layer, radii);
+        accumulate(light, w_.light);
+        if (partly_empty) accumulate(emptiness, w_.emptiness);
+        for (int c = 0; c < sectors_; ++c) take(std::size_t(c), partly_empty, layer.layer, radii);
     }
     // Whether no pixel has any lens area left for what is yet to come.
     bool is_spent() const {
@@ -127,8 +125,8 @@ private:
         return radii;
     }
     // Stamps runs into one accumulator, or one for each sector of the pupil.
-    void accumulate(const RunRange& runs, int sectors, Workspace::Accumulators& into) {
-        const std::span<Accumulator> fine = std::span(into).first(std::size_t(sectors));
+    void accumulate(const RunRange& runs, Workspace::Accumulators& into) {
+        const std::span<Accumulator> fine = std::span(into).first(std::size_t(sectors_));
         for (Accumulator& a : fine) a.reset(tile_);
         for (std::size_t r = runs.begin; r < runs.end; ++r) {
             const int level = plan_.runs[r].level;
@@ -153,7 +151,8 @@ private:
         }
     }
     // From what arrived through one sector of the pupil.
-    void take(Budget& budget, std::size_t sector, bool partly_empty, int layer, const Interval& radii) {
+    void take(std::size_t sector, bool partly_empty, int layer, const Interval& radii) {
+        Budget& budget = w_.budgets[sector];
         const Accumulator &light = w_.light[sector], &emptiness = w_.emptiness[sector];
         Rows rows = light.touched();
         if (partly_empty) rows = rows.with(emptiness.touched());

@@ -160,8 +160,8 @@ private:
                     low = std::min(low, coc_px), high = std::max(high, coc_px);
                 }
             }
-        words.insert(words.end(), {layer.first_run, layer.first_empty_run, std::uint32_t(layer.sectors),
-                                   bits_of(low), bits_of(high), std::uint32_t(layer.layer)});
+        words.insert(words.end(), {layer.first_run, layer.first_empty_run, bits_of(low), bits_of(high),
+                                   std::uint32_t(layer.layer)});
     }
     // Of each level those from the first to the last that arrives. Returns by level what is to be taken off
     // the number of a source to find it in here.

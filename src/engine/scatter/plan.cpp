@@ -123,15 +123,14 @@ private:
         if (is_emptiness(layer) ||
             (middle < keys_.size() && layer_of_key(keys_[middle]) == layer + kEmptinessAfter))
             end = end_of_layer(middle);
-        const int sectors = std::abs(layer) <= plan_.rule.narrow_layer ? 1 : draft.sectors;
         const auto first_run = std::uint32_t(draft.runs.size());
-        add_runs(begin, middle, sectors > 1, draft);
+        add_runs(begin, middle, draft);
         const auto first_empty_run = std::uint32_t(draft.runs.size());
-        add_runs(middle, end, sectors > 1, draft);
-        draft.layers.push_back({first_run, first_empty_run, sectors, layer});
+        add_runs(middle, end, draft);
+        draft.layers.push_back({first_run, first_empty_run, layer});
         return end;
     }
-    void add_runs(std::size_t begin, std::size_t end, bool by_sector, TileDraft& draft) {
+    void add_runs(std::size_t begin, std::size_t end, TileDraft& draft) {
         int level = -1;
         for (; begin < end; ++begin) {
             const Found& found = found_of_key(keys_[begin]);
@@ -139,15 +138,15 @@ private:
                 level = found.level;
                 draft.runs.push_back({std::uint32_t(draft.arrivals.size()), level});
             }
-            add_arrivals(found, by_sector, draft);
+            add_arrivals(found, draft);
         }
     }
-    void add_arrivals(const Found& found, bool by_sector, TileDraft& draft) {
+    void add_arrivals(const Found& found, TileDraft& draft) {
         const Source& s = plan_.levels[std::size_t(found.level)].sources[found.source];
         for (const auto& [zone, share] : kernels_.zones_for(plan_.frame, found.level, s.x, s.y(), s.radius)) {
             if (share <= 0) continue;
-            const std::size_t number =
-                kernels_.number_of(kernels_.ask(found.level, zone, s.radius, s.skirt_of(), by_sector));
+            const std::size_t number = kernels_.number_of(
+                kernels_.ask(found.level, zone, s.radius, s.skirt_of(), draft.sectors > 1));
             marks_.mark(number);
             draft.arrivals.push_back({found.source, std::uint32_t(number)});
             if (kernels_.has_zones()) draft.shares.push_back(share);
@@ -170,8 +169,7 @@ void write_tile(const TileDraft& draft, const TilePlace& at, const std::vector<s
                 ScatterPlan& plan) {
     for (std::size_t i = 0; i < draft.layers.size(); ++i) {
         const TileLayer& layer = draft.layers[i];
-        plan.layers[at.layer + i] = {at.run + layer.first_run, at.run + layer.first_empty_run, layer.sectors,
-                                     layer.layer};
+        plan.layers[at.layer + i] = {at.run + layer.first_run, at.run + layer.first_empty_run, layer.layer};
     }
     for (std::size_t i = 0; i < draft.runs.size(); ++i)
         plan.runs[at.run + i] = {at.arrival + draft.runs[i].first_arrival, draft.runs[i].level};
@@ -211,7 +209,7 @@ void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& work
     }
     const TilePlace end = at.back();
     plan.tiles.push_back({{}, end.layer, 1});
-    plan.layers.resize(end.layer + 1), plan.layers.back() = {end.run, end.run, 1, 0};
+    plan.layers.resize(end.layer + 1), plan.layers.back() = {end.run, end.run, 0};
     plan.runs.resize(end.run + 1), plan.runs.back() = {end.arrival, 0};
     plan.arrivals.resize(end.arrival);
     if (kernels.has_zones()) plan.shares.resize(end.arrival);
@@ -247,7 +245,6 @@ LevelRule level_rule(const Input& input) {
             rule = {.largest_cells = 12, .surfaces_for_sectors = 2, .inner_sectors = 1, .outer_sectors = 5};
             break;
     }
-    if (!input.deep.empty()) rule.narrow_layer = 0;
     return rule;
 }
 

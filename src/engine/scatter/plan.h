@@ -26,9 +26,6 @@ struct LevelRule {
     // One budget for the whole lens does not know which part of it each of three surfaces takes: where at
     // least this many reach a tile, sectors of the pupil are composited each on its own.
     int surfaces_for_sectors = 3;
-    // Layers up to this one, on either side of focus, count as so narrow that they come alike through all of
-    // the pupil. Where what lies behind them is known, it would show through where wider ones begin.
-    int narrow_layer = kNextLayer;
     // Sectors of equal light that the pupil is taken in: in the middle, and around that.
     int inner_sectors = 0, outer_sectors = 4;
     int sectors() const { return inner_sectors + outer_sectors; }
@@ -102,15 +99,14 @@ struct LevelRun {
 // What is composited as one: light, and after it the emptiness at its depth.
 struct TileLayer {
     std::uint32_t first_run, first_empty_run;
-    int sectors;  // 1: all of the pupil at once
-    int layer;    // its place in the order of compositing
+    int layer;  // its place in the order of compositing
 };
 // Pixels of the result that are drawn together. Its layers come nearest first; each takes the lens area it
 // arrives with, or what is left.
 struct Tile {
     Rect pixels;
     std::uint32_t first_layer;
-    int sectors;  // of the pupil, each with a budget of its own
+    int sectors;  // of the pupil, each with a budget of its own; 1: all of it at once
 };
 
 struct ScatterPlan {

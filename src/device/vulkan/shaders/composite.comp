@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
     uint held_rows, held_width, held_samples;    // row 0 of the holdout, its width; where samples begin
 } at;
 
-const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 6, kRunWords = 3;
+const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
 const int kTilePixels = 64 * 64;
 const float kSpent = 0.002;
 
@@ -248,21 +248,20 @@ void main() {
         barrier();
         if (any_free == 0u) break;
         const uint word = at.layers + kLayerWords * (layer - at.first_layer);
-        const uint of = min(sector, plan[word + 2u] - 1u);
         const uint begin = plan[word], middle = plan[word + 1u], close = plan[word + kLayerWords];
         vec4 light = vec4(0);
         float emptiness = 0;
         for (uint run = begin; run < close; ++run) {
-            const vec4 more = arrived(run, of, box, pixel, inside);
+            const vec4 more = arrived(run, sector, box, pixel, inside);
             if (run < middle) light += more;
             else emptiness += more.a;
         }
         const float arrives = light.a + emptiness;
         if (inside && arrives > 0) {
-            const vec2 taken = take(left, arrives, int(plan[word + 5u]));
+            const vec2 taken = take(left, arrives, int(plan[word + 4u]));
             float through = 1;
             if (kHeld != 0u)
-                through = let_through(pixel, uintBitsToFloat(plan[word + 3u]), uintBitsToFloat(plan[word + 4u]));
+                through = let_through(pixel, uintBitsToFloat(plan[word + 2u]), uintBitsToFloat(plan[word + 3u]));
             sum += light * (taken.x / arrives * through);
             sum_of_more += light * (taken.y / arrives * through);
         }
