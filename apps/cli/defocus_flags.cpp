@@ -25,6 +25,8 @@ std::optional<GaussianView> gaussian_view(ViewKind view) {
             return GaussianView::BlurSmall;
         case ViewKind::BlurLarge:
             return GaussianView::BlurLarge;
+        case ViewKind::BlurRows:
+            return GaussianView::BlurRows;
         case ViewKind::FocusIndex:
             return GaussianView::FocusIndex;
         default:
@@ -69,7 +71,7 @@ void DefocusFlags::add_output_to(Verb& verb) {
         .choice("--view",
                 "the picture (beauty, default); coc, signed blur radius; focus, what is sharp, near and far; "
                 "depth; alpha; of "
-                "--engine gaussian: sharp, blur-small, blur-large, focus-index; of "
+                "--engine gaussian: sharp, blur-small, blur-large, blur-rows, focus-index; of "
                 "scatter: layers, the surfaces seen and found behind them; levels, what each level of detail "
                 "drew; "
                 "highlights, light spread by itself",

@@ -173,18 +173,14 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
 }  // namespace
 
 const NameTable<ViewKind>& view_names() {
-    static const NameTable<ViewKind> table{{"beauty", ViewKind::Beauty},
-                                           {"coc", ViewKind::Coc},
-                                           {"focus", ViewKind::Focus},
-                                           {"depth", ViewKind::Depth},
-                                           {"alpha", ViewKind::Alpha},
-                                           {"sharp", ViewKind::Sharp},
-                                           {"blur-small", ViewKind::BlurSmall},
-                                           {"blur-large", ViewKind::BlurLarge},
-                                           {"focus-index", ViewKind::FocusIndex},
-                                           {"levels", ViewKind::Levels},
-                                           {"layers", ViewKind::Layers},
-                                           {"highlights", ViewKind::Highlights}};
+    static const NameTable<ViewKind> table{
+        {"beauty", ViewKind::Beauty},        {"coc", ViewKind::Coc},
+        {"focus", ViewKind::Focus},          {"depth", ViewKind::Depth},
+        {"alpha", ViewKind::Alpha},          {"sharp", ViewKind::Sharp},
+        {"blur-small", ViewKind::BlurSmall}, {"blur-large", ViewKind::BlurLarge},
+        {"blur-rows", ViewKind::BlurRows},   {"focus-index", ViewKind::FocusIndex},
+        {"levels", ViewKind::Levels},        {"layers", ViewKind::Layers},
+        {"highlights", ViewKind::Highlights}};
     return table;
 }
 

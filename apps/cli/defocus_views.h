@@ -27,6 +27,7 @@ enum class ViewKind {
     Sharp,
     BlurSmall,
     BlurLarge,
+    BlurRows,
     FocusIndex,
     Levels,
     Layers,

@@ -225,6 +225,8 @@ std::vector<LookRow> rows_of_engines() {
         row("Engine gather", "--gather-taps", "gather.taps",
             one_of({{"16", "16"}, {"22", "22"}, {"43", "43"}, {"71", "71"}}),
             "samples of the published disc (default 43)"),
+        row("Engine gather", "--gather-pixel-size", "gather.pixel_size_px", value("PX", parse_not_negative),
+            "published combine and cure: radii up to this stay sharp (default 0.2; less than 1)"),
         row("Engine gather", "--gather-coc", "gather.coc",
             one_of({{"mean", "\"mean\""}, {"extreme", "\"extreme\""}}),
             "the radius of 2 x 2 pixels in the published prefilter (default mean)"),

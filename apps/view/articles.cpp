@@ -55,6 +55,7 @@ Article wgld() {
              {"sharp", "sharp", ""},
              {"small blur", "blur-small", ""},
              {"large blur", "blur-large", ""},
+             {"temporary: rows", "blur-rows", ""},
              {"depth", "depth", ""}}};
 }
 
@@ -66,6 +67,7 @@ Article unity() {
              {"camera.aperture_mm", "aperture, mm", 5, 100},
              {"camera.focus_distance_m", "focus, m", 0.8, 10},
              {"scene.follow", "focus on the green cube", 0, 0},
+             {"gather.pixel_size_px", "pixel size, px", 0, 0.99},
              {"gather.taps", "kernel size", 0, 0},
              {"gather.coc", "radius of 2 x 2", 0, 0}},
             {{"result: cure", "result", "cure"},

@@ -160,8 +160,8 @@ double DepthHistogram::share_of(double distance_m) const {
 
 const std::vector<std::string>& shown_names() {
     static const std::vector<std::string> names{
-        "result", "sharp",  "against", "coc",        "depth",      "hidden",     "holdout",    "blurred",
-        "glare",  "layers", "levels",  "highlights", "blur-small", "blur-large", "focus-index"};
+        "result", "sharp",  "against", "coc",        "depth",      "hidden",     "holdout",   "blurred",
+        "glare",  "layers", "levels",  "highlights", "blur-small", "blur-large", "blur-rows", "focus-index"};
     return names;
 }
 

@@ -47,9 +47,10 @@ enum class GatherStage {
 
 struct GatherOptions {
     GatherStage stage = GatherStage::Final;
-    int taps = 43;             // of the article's disc: 16, 22, 43 or 71
-    bool extreme_coc = false;  // article's prefilter: the CoC largest in size of 2 x 2, not their mean
-    bool fill_hidden = true;   // the engine: continue what lies behind near things under their soft edges
+    int taps = 43;               // of the article's disc: 16, 22, 43 or 71
+    double pixel_size_px = 0.2;  // combine and cure: radii up to this stay sharp; 0 or more, less than 1
+    bool extreme_coc = false;    // article's prefilter: the CoC largest in size of 2 x 2, not their mean
+    bool fill_hidden = true;     // the engine: continue what lies behind near things under their soft edges
 
     bool operator==(const GatherOptions&) const = default;
 };
@@ -68,6 +69,7 @@ enum class GaussianView {
     BlurLarge,   // and by the larger
     FocusIndex,  // 1 in focus … 0 wholly blurred, in every channel: Wgld's weight of the sharp picture; else
                  // it falls evenly from the pixel's own radius to the largest
+    BlurRows,  // what the larger blur has after the first of its two passes: its rows alone
 };
 
 struct GaussianOptions {

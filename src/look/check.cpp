@@ -108,6 +108,12 @@ Rules rules_of_gather() {
                            std::string("with gather.stage ") + name_of(l.gather.stage) +
                                ", which does not ask for the radius of 2 x 2 pixels");
          }},
+        {{"gather.pixel_size_px"},
+         [](const Look& l) {
+             return unless(l.engine == "gather" && (l.gather.stage == GatherStage::Combine ||
+                                                    l.gather.stage == GatherStage::Cure),
+                           "without gather.stage combine or cure");
+         }},
         {{"gather.fill"},
          [](const Look& l) {
              return unless(uses_gather(l) && !is_published_stage(l),

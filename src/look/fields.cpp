@@ -103,6 +103,7 @@ std::vector<Field> lens_fields() {
 std::vector<Field> engine_fields() {
     return {field("gather.stage", MEMBER(gather.stage)),
             field("gather.taps", MEMBER(gather.taps)),
+            field("gather.pixel_size_px", MEMBER(gather.pixel_size_px)),
             either("gather.coc", "mean", "extreme", MEMBER(gather.extreme_coc)),
             field("gather.fill", MEMBER(gather.fill_hidden)),
             field("gaussian.style", MEMBER(gaussian.style)),

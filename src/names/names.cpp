@@ -35,6 +35,7 @@ constexpr Named<GaussianView> kGaussianViews[]{
     {GaussianView::Sharp, "sharp", "the input"},
     {GaussianView::BlurSmall, "blur-small", "all of it blurred by the smaller Gaussian"},
     {GaussianView::BlurLarge, "blur-large", "all of it blurred by the larger Gaussian"},
+    {GaussianView::BlurRows, "blur-rows", "after the first pass of the larger: rows alone"},
     {GaussianView::FocusIndex, "focus-index", "1 in focus to 0 wholly blurred"}};
 constexpr Named<SpriteBackground> kBackgrounds[]{{SpriteBackground::Gather, "gather", "engine gather"},
                                                  {SpriteBackground::Gaussian, "gaussian", "engine gaussian"}};

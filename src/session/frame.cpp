@@ -105,6 +105,8 @@ Status check_job(const DefocusJob& job) {
     if (job.scatter.view != ScatterView::Result && job.engine != "scatter")
         return invalid("layers, levels of detail and highlights are those of job.engine scatter, not " +
                        job.engine);
+    if (!(job.gather.pixel_size_px >= 0 && job.gather.pixel_size_px < 1))
+        return invalid("gather.pixel_size_px must be 0 or more, and less than 1");
     if (!(job.sprites.bright_factor > 0)) return invalid("sprites.bright_factor must be more than 0");
     if (job.pupil_points < 1) return invalid("job.pupil_points must be at least 1");
     return Done{};

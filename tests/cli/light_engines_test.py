@@ -90,7 +90,7 @@ class LightEngines(CommandLineTest):
         index = self.defocus(*gaussian, "--view", "focus-index", channel="focus_index")
         self.assertEqual(index[5][20], 1)
         self.assertLess(index[20][40], 1)
-        for view in ("sharp", "blur-small", "blur-large", "focus-index"):
+        for view in ("sharp", "blur-small", "blur-large", "blur-rows", "focus-index"):
             self.succeed("defocus", "in.exr", "-o", view + ".png", *CAMERA, *gaussian, "--view", view)
             rows, channels, _ = read_png(self.path(view + ".png"))
             self.assertEqual((len(rows), channels), (32, 1 if view == "focus-index" else 3), view)

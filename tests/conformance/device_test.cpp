@@ -218,7 +218,7 @@ TEST(Device, MixesBlursAsTheCpuDoes) {
         Session cpu = session_on("cpu"), session = session_on(gpu);
         for (const auto style : {GaussianStyle::Layered, GaussianStyle::Plain, GaussianStyle::Wgld})
             for (const auto view : {GaussianView::Result, GaussianView::BlurSmall, GaussianView::BlurLarge,
-                                    GaussianView::FocusIndex})
+                                    GaussianView::BlurRows, GaussianView::FocusIndex})
                 for (const float widest_px : {5.0f, 70.0f}) {
                     shot.coc_px(3, 3) = widest_px;
                     DefocusJob job = shot.job("gaussian");

@@ -79,7 +79,6 @@ TEST(GatherStages, TheDiscIsBlindAndTheTestIsNot) {
     EXPECT_EQ(at_stage(GatherStage::Coc)(60, 48).g, 12);
 }
 
-// Two lamps within one zone of the lens, one of them on a border of the tiles that are drawn together.
 // Everywhere |CoC| is the distance of the outermost taps to the bit: they count, whatever rounding says.
 TEST(GatherStages, TapsAtTheDistanceOfTheirOwnRadiusCount) {
     for (const float coc : {11.3f, -7.1f}) {
@@ -96,6 +95,23 @@ TEST(GatherStages, TapsAtTheDistanceOfTheirOwnRadiusCount) {
     }
 }
 
+// A wall a little out of focus: sharp up to the pixel size, mixed beyond.
+TEST(GatherStages, ThePixelSizeSaysWhatStaysSharp) {
+    Shot shot = flat(60, 44, {}, 0.5f);
+    paint_noise(shot.colour, 4);
+    shot.coc_px(0, 0) = 9;
+    DefocusJob job = shot.job("gather");
+    for (const GatherStage stage : {GatherStage::Combine, GatherStage::Cure}) {
+        job.gather.stage = stage, job.gather.pixel_size_px = 0.2;
+        EXPECT_GT(largest_difference(rendered(job), shot.colour), 0.01);
+        job.gather.pixel_size_px = 0.6;
+        EXPECT_EQ(rendered(job)(30, 20).g, shot.colour(30, 20).g);
+    }
+    job.gather.pixel_size_px = 1;
+    EXPECT_FALSE(defocus(job));
+}
+
+// Two lamps within one zone of the lens, one of them on a border of the tiles that are drawn together.
 TEST(Gather, ALensThatDiffersOverTheFieldTearsNoDiscWhereTilesMeet) {
     const auto lamp_at = [](int x) {
         Shot shot = flat(640, 384, {0, 0, 0, 1}, 8);

@@ -161,8 +161,9 @@ TEST(Gaussian, EveryBufferIsAnotherPicture) {
     const Shot shot = noise_at_several_depths();
     for (const GaussianStyle style : {GaussianStyle::Layered, GaussianStyle::Plain, GaussianStyle::Wgld}) {
         std::vector<Picture> seen;
-        for (const GaussianView view : {GaussianView::Result, GaussianView::Sharp, GaussianView::BlurSmall,
-                                        GaussianView::BlurLarge, GaussianView::FocusIndex}) {
+        for (const GaussianView view :
+             {GaussianView::Result, GaussianView::Sharp, GaussianView::BlurSmall, GaussianView::BlurLarge,
+              GaussianView::BlurRows, GaussianView::FocusIndex}) {
             DefocusJob job = job_of(shot, style);
             job.gaussian.view = view;
             seen.push_back(rendered(job));
@@ -170,6 +171,28 @@ TEST(Gaussian, EveryBufferIsAnotherPicture) {
                 EXPECT_GT(largest_difference(seen.back(), seen[i]), 1e-3)
                     << int(style) << " views " << i << ", " << int(view);
         }
+    }
+}
+
+// Rows of one colour each are not changed by the first pass, columns of one colour not by the second.
+TEST(Gaussian, BetweenTheTwoPassesRowsAreBlurredAndColumnsAreNot) {
+    for (const float radius_px : {3.0f, 12.0f}) {
+        Shot rows = flat(96, 64, {}, radius_px), columns = flat(96, 64, {}, radius_px);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 96; ++x) {
+                rows.colour(x, y) = {float(y % 7), float(y % 3), 1, 1};
+                columns.colour(x, y) = {float(x % 23), float(x % 3), 1, 1};
+            }
+        const auto seen = [](const Shot& shot, GaussianView view) {
+            DefocusJob job = job_of(shot, GaussianStyle::Wgld);
+            job.gaussian.view = view;
+            return rendered(job);
+        };
+        EXPECT_LT(largest_difference(seen(rows, GaussianView::BlurRows), rows.colour), 1e-5);
+        EXPECT_GT(largest_difference(seen(rows, GaussianView::BlurLarge), rows.colour), 1);
+        const Picture both = seen(columns, GaussianView::BlurLarge);
+        EXPECT_LT(largest_difference(seen(columns, GaussianView::BlurRows), both), 1);
+        EXPECT_GT(largest_difference(both, columns.colour), 5);
     }
 }
 

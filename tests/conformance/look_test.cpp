@@ -75,6 +75,7 @@ std::vector<Choice> changes_of_all_else() {
             {"lens.wave", "true"},
             {"gather.stage", "near-far"},
             {"gather.taps", "16"},
+            {"gather.pixel_size_px", "0.6"},
             {"gather.coc", "extreme"},
             {"gather.fill", "false"},
             {"gaussian.style", "plain"},
@@ -157,10 +158,10 @@ bool is_idle(const Look& look, const std::string& path) {
 
 // What shows in some pictures and not in others: silhouettes that are ramps, discs large enough to be
 // simplified, the radii before focus where a method goes by the largest, light that is still bright after the
-// blur, rims that cut a beam.
+// blur, rims that cut a beam, radii of about a pixel.
 bool depends_on_the_shot(const std::string& path) {
     return path == "quality" || path == "depth.edges" || path == "focus.near_scale" ||
-           path == "glare.ghosts" || path == "lens.name";
+           path == "gather.pixel_size_px" || path == "glare.ghosts" || path == "lens.name";
 }
 
 // Of the fields whose paths begin so.

@@ -108,7 +108,8 @@ class SceneTest(window.WindowTest):
                                       "highlights", "blurred, no glare", "glare alone"])
 
     def test_every_buffer_of_wglds_page_can_be_seen(self):
-        self.buffers_of("wgld", ["result", "depth index", "sharp", "small blur", "large blur", "depth"])
+        self.buffers_of("wgld", ["result", "depth index", "sharp", "small blur", "large blur",
+                                 "temporary: rows", "depth"])
 
     def test_every_stage_of_unitys_articles_can_be_seen(self):
         self.buffers_of("unity", ["result: cure", "radii", "half size", "blind disc", "hard test", "four-tap blur",

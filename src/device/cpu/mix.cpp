@@ -184,6 +184,7 @@ private:
             case GaussianView::BlurSmall:
                 return blurs[GaussianPlan::kSmall].light(x);
             case GaussianView::BlurLarge:
+            case GaussianView::BlurRows:
                 return blurs[GaussianPlan::kLarge].light(x);
             case GaussianView::FocusIndex: {
                 const float index = plan_.focus_index(x, y);

@@ -80,6 +80,7 @@ private:
             case GaussianView::BlurSmall:
                 return 1;
             case GaussianView::BlurLarge:
+            case GaussianView::BlurRows:
                 return 2;
             case GaussianView::FocusIndex:
                 return 3;

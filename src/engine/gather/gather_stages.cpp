@@ -8,8 +8,8 @@
 namespace petzval::engine {
 namespace {
 
-// The article's permissible radius and where its far part is wholly blurred, px.
-constexpr float kSharpPx = 0.2f, kBlurredPx = 1, kFarBlurredPx = 1.2f;
+// Where the article's picture is wholly blurred, and its far part, px.
+constexpr float kBlurredPx = 1, kFarBlurredPx = 1.2f;
 
 // |CoC| is that of infinity in much of a picture, and so the distance of the outermost taps to the bit: they
 // count, whatever rounding makes of it (the article's half floats are coarser than this).
@@ -170,13 +170,14 @@ private:
     }
 
     Picture combined(const Picture& bokeh, bool apart) const {
+        const float sharp_px = float(in_.gather.pixel_size_px);
         return each([&](int x, int y) {
             const Rgba sharp = in_.colour(x, y);
             Rgba soft = bokeh(x, y);
             const float near = soft.a;
             if (apart) soft.a = sharp.a;
-            if (!apart) return mixed(sharp, soft, smoothstep(kSharpPx, kBlurredPx, std::abs(coc(x, y))));
-            const Rgba with_far = mixed(sharp, soft, smoothstep(kSharpPx, kFarBlurredPx, coc(x, y)));
+            if (!apart) return mixed(sharp, soft, smoothstep(sharp_px, kBlurredPx, std::abs(coc(x, y))));
+            const Rgba with_far = mixed(sharp, soft, smoothstep(sharp_px, kFarBlurredPx, coc(x, y)));
             return mixed(with_far, soft, near);
         });
     }

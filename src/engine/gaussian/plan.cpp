@@ -52,11 +52,20 @@ std::vector<float> share_inside(const std::vector<float>& weights, const CellAxi
     return shares;
 }
 
-BlurAxis axis(double sigma_px, int level, int pixels) {
-    std::vector<float> weights = gaussian_weights(sigma_in_cells(sigma_px, level));
+BlurAxis axis_of(std::vector<float> weights, int level, int pixels) {
     const int cells = (pixels + (1 << level) - 1) >> level;
     std::vector<float> inside = share_inside(weights, CellAxis(level, cells), pixels);
     return {std::move(weights), std::move(inside)};
+}
+
+BlurAxis axis(double sigma_px, int level, int pixels) {
+    return axis_of(gaussian_weights(sigma_in_cells(sigma_px, level)), level, pixels);
+}
+
+// On cells so small that columns stay as they are: pixels, but for the widest.
+Blur blur_of_rows(double radius_px, double pixel_aspect, int width, int height) {
+    const int level = std::max(0, blur_level(radius_px, pixel_aspect) - 3);
+    return {level, axis(sigma_of(radius_px), level, width), axis_of({1}, level, height)};
 }
 
 void plan_layers(const Input& input, float band_px, GaussianPlan& plan) {
@@ -111,6 +120,9 @@ GaussianPlan plan_gaussian(const Input& input) {
         }
     }
     add(largest_px / 2), add(largest_px);
+    if (plan.view == GaussianView::BlurRows)
+        plan.blurs[GaussianPlan::kLarge] =
+            blur_of_rows(largest_px, input.pixel_aspect, input.width(), input.height());
     return plan;
 }
 
