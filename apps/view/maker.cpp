@@ -457,7 +457,7 @@ Result<DefocusReport> Maker::shown(const Wish& wish, const DefocusJob& rendered,
     auto report = session.defocus(job, control);
     if (!report || wish.shown != "glare") return report;
     const Picture blurred = report->image.clone();
-    auto lit = add_light(std::move(report->image), rendered, look);
+    auto lit = session.add_light(std::move(report->image), rendered, look, {.cancelled = control.cancelled});
     if (!lit) return lit.error();
     for (std::size_t i = 0; i < lit->size(); ++i) {
         Rgba& pixel = lit->pixels()[i];

@@ -52,7 +52,7 @@ struct Control {
 };
 
 struct SessionUsage {
-    std::size_t kept_bytes = 0;  // kernels kept between frames
+    std::size_t kept_bytes = 0;  // kernels and stars kept between frames
     int lenses = 0;              // mounted on cameras, and kept
 };
 
@@ -76,6 +76,10 @@ public:
     // also those of add_falloff(), add_glare(), expand_highlights() and of check(), before any work. All that
     // follows the blur is the stage "light" of the report.
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
+
+    // What petzval::add_light() does. control.region: none; the picture is whole.
+    Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look,
+                              const Control& control = {});
 
     // How many pixels around a region are looked at for it: four of the largest radius, or of how far the
     // lens throws light at that radius if it is farther, and 104: twice the 32 pixels that a light may be

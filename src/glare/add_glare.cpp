@@ -3,10 +3,9 @@
 
 #include "base/parallel.h"
 #include "glare/bloom.h"
-#include "glare/convolve.h"
 #include "glare/ghosts.h"
+#include "glare/kept_stars.h"
 #include "glare/light.h"
-#include "glare/star_kernel.h"
 #include "glare/streaks.h"
 #include "kernel/draw/pupil.h"
 #include "kernel/lenses/opened_lens.h"
@@ -122,6 +121,13 @@ Result<GhostModel> ghosts_of(const GlareSettings& s, double height_px, int width
 }  // namespace
 
 Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings) {
+    glare::KeptStars stars;
+    return glare::add_glare(picture, settings, stars);
+}
+
+namespace glare {
+
+Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings, KeptStars& stars) {
     GlareSettings s = settings;
     if (s.opened_lens) s.lens = s.opened_lens->choice();
     if (picture.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
@@ -159,8 +165,8 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& setting
                     *workers);
     if (s.star > 0 && s.star_quality == StarQuality::Final)
         add_convolved(out, bright,
-                      star_kernel(s.lens.aperture, std::max(2.0, s.star_radius * height), s.diffraction_px,
-                                  s.place.pixel_aspect, *workers),
+                      *stars.star(s.lens.aperture, std::max(2.0, s.star_radius * height), s.diffraction_px,
+                                  s.place.pixel_aspect, bright.width(), bright.height(), *workers),
                       float(s.star), *workers);
     if (s.ghosts > 0) {
         const kernel::Point middle{display.x0 - data.x0 + 0.5 * display.width(),
@@ -171,4 +177,5 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& setting
     return out;
 }
 
+}  // namespace glare
 }  // namespace petzval

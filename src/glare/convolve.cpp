@@ -11,7 +11,7 @@ namespace {
 
 using Field = std::vector<std::complex<float>>;
 
-// The transform of one channel of the kernel around pixel (0, 0); real, because the kernel is symmetric.
+// The transform of one channel of the kernel around pixel (0, 0).
 std::vector<float> spectrum(const kernel::PointSpread& kernel, float Rgba::*channel, const Fft& fft,
                             Workers& workers) {
     const int n = fft.size();
@@ -57,17 +57,23 @@ bool is_dark(View<const Rgba> tile) {
 
 }  // namespace
 
-void add_convolved(View<Rgba> out, View<const Rgba> light, const kernel::PointSpread& kernel, float amount,
-                   Workers& workers) {
-    const int reach_x = -kernel.extent.x0, reach_y = -kernel.extent.y0;
-    const int reach = std::max(reach_x, reach_y);
+int transform_size(int reach, int width, int height) {
     int n = kLanes;  // at least as much tile as margin, and no larger than the picture needs
-    while (n < 3 * reach && n < std::max(light.width(), light.height()) + 2 * reach) n *= 2;
+    while (n < 3 * reach && n < std::max(width, height) + 2 * reach) n *= 2;
     while (n <= 2 * reach) n *= 2;
-    const int tile = n - 2 * reach;
+    return n;
+}
+
+Filter filter_of(const kernel::PointSpread& kernel, int size, Workers& workers) {
+    const Fft fft(size);
+    return {std::max(-kernel.extent.x0, -kernel.extent.y0), size, spectrum(kernel, &Rgba::r, fft, workers),
+            spectrum(kernel, &Rgba::g, fft, workers), spectrum(kernel, &Rgba::b, fft, workers)};
+}
+
+void add_convolved(View<Rgba> out, View<const Rgba> light, const Filter& filter, float amount,
+                   Workers& workers) {
+    const int reach = filter.reach, n = filter.size, tile = n - 2 * reach;
     const Fft fft(n);
-    const auto kr = spectrum(kernel, &Rgba::r, fft, workers), kg = spectrum(kernel, &Rgba::g, fft, workers),
-               kb = spectrum(kernel, &Rgba::b, fft, workers);
     const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(n) + std::size_t(x); };
     for (int y0 = 0; y0 < light.height(); y0 += tile)
         for (int x0 = 0; x0 < light.width(); x0 += tile) {
@@ -82,8 +88,8 @@ void add_convolved(View<Rgba> out, View<const Rgba> light, const kernel::PointSp
                     blue[at(x + reach, y + reach)] = c.b;
                 }
             for (Field* field : {&red_green, &blue}) fft_square(*field, fft, false, workers);
-            filter_pair(red_green, kr, kg, n, workers);
-            for (std::size_t i = 0; i < blue.size(); ++i) blue[i] *= kb[i];
+            filter_pair(red_green, filter.r, filter.g, n, workers);
+            for (std::size_t i = 0; i < blue.size(); ++i) blue[i] *= filter.b[i];
             for (Field* field : {&red_green, &blue}) fft_square(*field, fft, true, workers);
             const Rect lit = rect.grown(reach).intersected(out.rect());
             for (int y = lit.y0; y < lit.y1; ++y)

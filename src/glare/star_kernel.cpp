@@ -116,8 +116,7 @@ struct Geometry {
 
 Geometry geometry(double radius_px, double diffraction_px, double pixel_aspect) {
     Geometry g;
-    const double finest = radius_px / (kUsed * kLargestGrid / 2 * kStep);
-    g.reddest_px = std::max(finest, diffraction_px * kReddest_nm / kReference_nm);
+    g.reddest_px = reddest_px(radius_px, diffraction_px);
     g.reach_cells = radius_px / g.reddest_px / kStep;
     for (g.n = 64; kUsed * g.n / 2 < g.reach_cells; g.n *= 2) {
     }
@@ -163,6 +162,11 @@ void add_band(const Pattern& pattern, const Geometry& g, const colour::SpectralB
 }
 
 }  // namespace
+
+double reddest_px(double radius_px, double diffraction_px) {
+    const double finest = radius_px / (kUsed * kLargestGrid / 2 * kStep);
+    return std::max(finest, diffraction_px * kReddest_nm / kReference_nm);
+}
 
 kernel::PointSpread star_kernel(const ApertureShape& aperture, double radius_px, double diffraction_px,
                                 double pixel_aspect, Workers& workers) {

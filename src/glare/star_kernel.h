@@ -18,6 +18,9 @@
 
 namespace petzval::glare {
 
+// 700 nm times the f-number in pixels, as the kernel has it: no smaller than the grid can hold.
+double reddest_px(double radius_px, double diffraction_px);
+
 // Odd sides, the point of light in the middle. pixel_aspect: vertical distances are times it.
 // radius_px >= 1: where red light (700 nm) ends. diffraction_px: 550 nm times N in pixels; smaller values
 // than the grid can hold count as the smallest it can.

@@ -6,6 +6,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "device/failure.h"
+#include "glare/kept_stars.h"
 #include "session/mounted_lens.h"
 #include "session/open_device.h"
 
@@ -14,6 +15,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace petzval {
@@ -29,6 +31,7 @@ struct Session::Contents {
     mutable std::mutex mutex;  // of all below
     std::list<std::pair<std::string, std::shared_ptr<MountedLens>>> lenses;
     std::shared_ptr<const device::Device> device;  // null: not opened yet
+    glare::KeptStars stars;                        // with a lock of its own
 
     std::size_t most_kept_bytes() const {
         constexpr std::size_t kUnlimited = std::size_t(1) << 30;
@@ -45,18 +48,19 @@ struct Session::Contents {
     };
     Result<Reach> reach(const DefocusJob& job);
 
-    // Runs body(progress, workers), which gives a report, for one frame.
+    // Runs body(progress, workers), which gives a Result, for one frame.
     template <typename Body>
-    Result<DefocusReport> unless_cancelled(const Control& control, const Body& body) {
+    auto unless_cancelled(const Control& control, const Body& body) {
+        using Made = std::invoke_result_t<Body, Progress&, CancellableWorkers&>;
         Progress progress(control.progress, control.cancelled);
         CancellableWorkers cancellable(*settings.workers, progress);
         const WorksFor these(cancellable);
         try {
             return body(progress, cancellable);
         } catch (const Cancelled&) {
-            return Error{ErrorCode::Cancelled, "cancelled"};
+            return Made(Error{ErrorCode::Cancelled, "cancelled"});
         } catch (const device::Failed& failed) {
-            return failed.error;
+            return Made(failed.error);
         }
     }
 
@@ -87,11 +91,12 @@ struct Session::Contents {
         return made;
     }
 
-    // Of lenses that hold more than the others leave them: first their kernels go, then they.
+    // Of lenses that hold more than stars and the others leave them: first their kernels go, then they.
     void trim(std::size_t bytes) {
         constexpr std::size_t kMostLenses = 8;  // each holds tables besides its kernels
         const std::lock_guard lock(mutex);
-        std::size_t held = 0;
+        stars.trim(bytes);
+        std::size_t held = stars.bytes();
         for (auto& [key, lens] : lenses) {
             lens->kernels.trim(bytes - std::min(bytes, held));
             held += lens->kernels.bytes();
@@ -103,6 +108,7 @@ struct Session::Contents {
         const std::lock_guard lock(mutex);
         SessionUsage usage;
         for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->kernels.bytes();
+        usage.kept_bytes += stars.bytes();
         usage.lenses = int(lenses.size());
         return usage;
     }

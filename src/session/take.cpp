@@ -35,7 +35,8 @@ Result<Picture> with_falloff(Picture picture, const DefocusJob& job, const Look&
                                  .workers = job.workers});
 }
 
-Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look) {
+Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look,
+                           glare::KeptStars& stars) {
     if (!has_glare(look.glare)) return picture;
     GlareSettings settings;
     static_cast<GlareAmounts&>(settings) = look.glare;
@@ -44,13 +45,13 @@ Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& l
     settings.opened_lens = job.opened_lens;
     settings.place = job.place;
     settings.workers = job.workers;
-    return add_glare(picture, settings);
+    return glare::add_glare(picture, settings, stars);
 }
 
-Result<Picture> lit(Picture picture, const DefocusJob& job, const Look& look) {
+Result<Picture> lit(Picture picture, const DefocusJob& job, const Look& look, glare::KeptStars& stars) {
     auto dimmed = with_falloff(std::move(picture), job, look);
     if (!dimmed) return dimmed;
-    return with_glare(std::move(*dimmed), job, look);
+    return with_glare(std::move(*dimmed), job, look, stars);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -58,13 +59,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // What the lens does to all light of a frame. Glare is of all of it together and goes to the picture alone.
-Status light(DefocusReport& report, const DefocusJob& job, const Look& look) {
+Status light(DefocusReport& report, const DefocusJob& job, const Look& look, glare::KeptStars& stars) {
     for (Picture& layer : report.layers) {
         auto dimmed = with_falloff(std::move(layer), job, look);
         if (!dimmed) return dimmed.error();
         layer = std::move(*dimmed);
     }
-    auto image = lit(std::move(report.image), job, look);
+    auto image = lit(std::move(report.image), job, look, stars);
     if (!image) return image.error();
     report.image = std::move(*image);
     return Done{};
@@ -97,13 +98,23 @@ DefocusJob with_look(DefocusJob job, const Look& look) {
 }
 
 Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look) {
+    Session session({.threads = rendered.threads, .workers = workers_of(rendered.threads, rendered.workers)});
+    return session.add_light(std::move(picture), rendered, look);
+}
+
+Result<Picture> Session::add_light(Picture picture, const DefocusJob& rendered, const Look& look,
+                                   const Control& control) {
     const LookCheck checked = check(look);
     if (!checked.possible) return checked.possible.error();
-    DefocusJob job = with_look(rendered, look);
-    const std::shared_ptr<Workers> workers = workers_of(job.threads, job.workers);
-    job.workers = workers.get();
-    if (const Status opened = open_lens(job); !opened) return opened.error();
-    return lit(std::move(picture), job, look);
+    const auto lighten = [&](Progress&, CancellableWorkers& workers) -> Result<Picture> {
+        DefocusJob job = with_look(rendered, look);
+        job.workers = &workers;
+        if (const Status opened = open_lens(job); !opened) return opened.error();
+        auto made = lit(std::move(picture), job, look, contents_->stars);
+        contents_->trim(contents_->most_kept_bytes());
+        return made;
+    };
+    return contents_->unless_cancelled(control, lighten);
 }
 
 Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look, const Control& control) {
@@ -132,7 +143,8 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             // Buffers that are shown instead of the picture stay as they are.
             if (!report || !report->panels.empty()) return report;
             const auto blurred = std::chrono::steady_clock::now();
-            if (const Status done = light(*report, job, look); !done) return done.error();
+            if (const Status done = light(*report, job, look, contents_->stars); !done) return done.error();
+            contents_->trim(contents_->most_kept_bytes());
             if (made != asked) {
                 const Rect pixels = asked.moved(-made.x0, -made.y0);
                 report->image = part_of(report->image, pixels);

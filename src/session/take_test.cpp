@@ -133,6 +133,26 @@ TEST(Take, APlateIsBlurredWithItsHighlightsAndComesBackToItsRange) {
     for (std::size_t i = 0; i < taken->image.size(); ++i) EXPECT_LE(taken->image.pixels()[i].r, 1);
 }
 
+TEST(Take, AStarIsKeptFromFrameToFrameAndLightsThemAlike) {
+    Rendered r;
+    r.job.camera.f_number = 200;  // a coarse grain, which is made at once
+    Look look;
+    look.lens.aperture.blades = 6, look.glare.star = 0.5, look.glare.threshold = 0;
+    Session session;
+    const auto first = session.take(r.job, look);
+    const std::size_t kept = session.usage().kept_bytes;
+    const auto again = session.take(r.job, look), alone = Session().take(r.job, look);
+    ASSERT_TRUE(first && again && alone);
+    EXPECT_TRUE(same(first->image, again->image));
+    EXPECT_TRUE(same(again->image, alone->image));
+    EXPECT_EQ(session.usage().kept_bytes, kept);
+    look.glare.star_radius = 0.25;
+    ASSERT_TRUE(session.take(r.job, look));
+    EXPECT_GT(session.usage().kept_bytes, kept);
+    session.trim(0);
+    EXPECT_EQ(session.usage().kept_bytes, 0u);
+}
+
 TEST(Take, SaysWhatItCannotTake) {
     const Rendered r;
     Session session;

@@ -1,0 +1,46 @@
+// Stars between frames: making one takes longer than laying it over a picture.
+#pragma once
+
+#include "petzval/glare.h"
+#include "petzval/workers.h"
+
+#include "glare/convolve.h"
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace petzval::glare {
+
+// All that decides a star, and the transforms that it is kept as.
+struct StarShape {
+    ApertureShape aperture;
+    double radius_px = 1;
+    double reddest_px = 0;
+    double pixel_aspect = 1;
+    int transform_size = 0;
+    bool operator==(const StarShape&) const = default;
+};
+
+// Used by any number of threads at once; nothing that is drawn depends on what is kept.
+class KeptStars {
+public:
+    // The star for pictures of this size: that of a frame before, or a new one. radius_px and diffraction_px:
+    // star_kernel().
+    std::shared_ptr<const Filter> star(const ApertureShape& aperture, double radius_px, double diffraction_px,
+                                       double pixel_aspect, int width, int height, Workers& workers);
+    std::size_t bytes() const;
+    // Lets go of those not used longest, until at most so many bytes are kept.
+    void trim(std::size_t max_bytes);
+
+private:
+    mutable std::mutex mutex_;
+    std::list<std::pair<StarShape, std::shared_ptr<const Filter>>> stars_;  // the last used first
+};
+
+// petzval::add_glare() with stars of frames before.
+Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings, KeptStars& stars);
+
+}  // namespace petzval::glare
