@@ -39,8 +39,9 @@ std::size_t most_in_a_pixel(const Input& input, const CocSamplesView& samples) {
 
 }  // namespace
 
-bool LayersView::read(const Input& input, const engine::SampleSet& set) {
-    const CocSamplesView samples = set.samples;
+bool LayersView::read(const Input& input, const engine::CompletedPicture& completed) {
+    const engine::CocSamples all = completed.all();
+    const CocSamplesView samples = all;
     const std::size_t most = most_in_a_pixel(input, samples);
     const std::size_t ranks = std::clamp<std::size_t>(most, 1, kRanks.size());
     const int width = input.width(), height = input.height();

@@ -24,7 +24,7 @@ constexpr std::size_t kBytesPerPixel = 260;
 
 class PlanView : public engine::PlanReader {
 public:
-    bool read(const engine::Input&, const engine::SampleSet&) override { return true; }
+    bool read(const engine::Input&, const engine::CompletedPicture&) override { return true; }
     void read(const engine::PlannedStrip&) override {}
     Shown take() { return std::move(shown_); }
 
@@ -42,7 +42,7 @@ const char* name_of(ScatterView view);
 // rows; a warning says if there is more.
 class LayersView final : public PlanView {
 public:
-    bool read(const engine::Input& strip, const engine::SampleSet& set) override;
+    bool read(const engine::Input& input, const engine::CompletedPicture& completed) override;
 };
 
 // Level 0 at the top left, highlights right of it; below, the reduced levels side by side, and a map of which

@@ -38,14 +38,15 @@ Viewpoint shared_viewpoint(const Highlight& h, Quality quality) {
 
 }  // namespace
 
-LightsPlanner::LightsPlanner(const Input& strip, const HighlightKernels& kernels, const CocSamples& samples,
-                             const std::vector<Highlight>& highlights, float white, const Rect& rows,
-                             int first_row, const std::vector<Highlight>* asked_by)
+LightsPlanner::LightsPlanner(const Input& strip, const HighlightKernels& kernels,
+                             const ShadowCasters& casters, const std::vector<Highlight>& highlights,
+                             float white, const Rect& rows, int first_row,
+                             const std::vector<Highlight>* asked_by)
     : input_(strip),
       kernels_(kernels),
       highlights_(highlights),
       asked_by_(asked_by ? *asked_by : highlights),
-      casters_(samples, *strip.workers),
+      casters_(casters),
       bright_disc_(white * (strip.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)),
       rows_(rows),
       first_row_(first_row) {

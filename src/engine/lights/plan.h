@@ -73,10 +73,10 @@ struct LightsPlan {
 // Plans the lights of a strip in batches whose kernels and shadows fit into memory together.
 class LightsPlanner {
 public:
-    // `samples` are what may stand in the way; `white` as in HighlightSplit; rows: the pixels to be drawn.
+    // `casters` are what may stand in the way; `white` as in HighlightSplit; rows: the pixels to be drawn.
     // The others outlive this.
     // asked_by: the same highlights with the light that decides how finely kernels are made; null: their own.
-    LightsPlanner(const Input& strip, const HighlightKernels& kernels, const CocSamples& samples,
+    LightsPlanner(const Input& strip, const HighlightKernels& kernels, const ShadowCasters& casters,
                   const std::vector<Highlight>& highlights, float white, const Rect& rows, int first_row,
                   const std::vector<Highlight>* asked_by = nullptr);
     // False: there is nothing left to be drawn.
@@ -91,7 +91,7 @@ private:
     const HighlightKernels& kernels_;
     const std::vector<Highlight>& highlights_;
     const std::vector<Highlight>& asked_by_;
-    ShadowCasters casters_;
+    const ShadowCasters& casters_;
     float bright_disc_;  // a disc brighter than this shows a radius that is off by little
     Rect rows_, sending_;
     int first_row_;

@@ -31,7 +31,8 @@ public:
         highlights_.push_back({x, y, size, coc_px, {light, light, light, 0}});
     }
     std::vector<LightsPlan> plans(const Rect& rows = {0, 0, kWidth, kHeight}) const {
-        LightsPlanner planner(input_, *kernels_, samples_, highlights_, 1, rows, 0);
+        const ShadowCasters casters(samples_, one_thread());
+        LightsPlanner planner(input_, *kernels_, casters, highlights_, 1, rows, 0);
         std::vector<LightsPlan> all;
         for (LightsPlan plan; planner.next(plan);) all.push_back(plan);
         return all;

@@ -14,6 +14,7 @@ constexpr float kOpaque = 0.98f;
 // The samples of one rank (0: nearest of its pixel) in a block, merged.
 class BlockCasters {
 public:
+    // `samples` are the block's rows.
     BlockCasters(CocSamplesView samples, const Rect& block, std::vector<Caster>& out)
         : samples_(samples), block_(block), out_(out) {}
 
@@ -25,7 +26,7 @@ public:
 
 private:
     const CocSample* at(int x, int y) const {
-        const auto all = samples_.at(x, y);
+        const auto all = samples_.at(x, y - block_.y0);
         return rank_ < all.size() ? &all[rank_] : nullptr;
     }
     bool add_square(int x0, int y0, int size) {
@@ -104,34 +105,49 @@ void coarsen(std::span<const Caster> fine, int size, std::vector<Caster>& out) {
 
 }  // namespace
 
-ShadowCasters::ShadowCasters(const CocSamples& samples, Workers& workers)
-    : nearest_of_blocks_((samples.width + kBlock - 1) / kBlock, (samples.height() + kBlock - 1) / kBlock,
-                         1e30f) {
-    const CocSamplesView view = samples;
-    const Rect picture{0, 0, samples.width, samples.height()};
+ShadowCasters::ShadowCasters(int width, int height)
+    : nearest_of_blocks_((width + kBlock - 1) / kBlock, (height + kBlock - 1) / kBlock, 1e30f) {
     for (auto& rows : views_) rows.resize(std::size_t(nearest_of_blocks_.height()));
+}
+
+ShadowCasters::ShadowCasters(const CocSamples& samples, Workers& workers)
+    : ShadowCasters(samples.width, samples.height()) {
     parallel_for(nearest_of_blocks_.height(), workers, [&](int by) {
-        RowOfBlocks& fine = views_[0][std::size_t(by)];
-        for (auto& rows : views_) rows[std::size_t(by)].first.push_back(0);
-        for (int bx = 0; bx < nearest_of_blocks_.width(); ++bx) {
-            const Rect block =
-                Rect{bx * kBlock, by * kBlock, (bx + 1) * kBlock, (by + 1) * kBlock}.intersected(picture);
-            BlockCasters casters(view, block, fine.casters);
-            for (std::size_t rank = 0; casters.add(rank);) ++rank;
-            std::stable_sort(fine.casters.begin() + std::ptrdiff_t(fine.first.back()), fine.casters.end(),
-                             [](const Caster& a, const Caster& b) { return a.coc_px < b.coc_px; });
-            if (fine.casters.size() > fine.first.back())
-                nearest_of_blocks_(bx, by) = fine.casters[fine.first.back()].coc_px;
-            fine.first.push_back(fine.casters.size());
-            for (int v = 1; v < kViews; ++v) {
-                RowOfBlocks& row = views_[std::size_t(v)][std::size_t(by)];
-                coarsen(of_block(v - 1, bx, by), 1 << v, row.casters);
-                row.first.push_back(row.casters.size());
-            }
-        }
+        const int y0 = by * kBlock, y1 = std::min(y0 + kBlock, samples.height());
+        add(y0, CocSamplesView(samples).rows(y0, y1));
     });
-    for (std::size_t i = 0; i < nearest_of_blocks_.size(); ++i)
-        nearest_ = std::min(nearest_, nearest_of_blocks_.pixels()[i]);
+}
+
+void ShadowCasters::add(int y0, const CocSamplesView& rows) {
+    float nearest = 1e30f;
+    for (int y = 0; y < rows.height(); y += kBlock) {
+        const int end = std::min(y + kBlock, rows.height()), by = (y0 + y) / kBlock;
+        add_blocks(by, rows.rows(y, end), {0, y0 + y, rows.width(), y0 + end});
+        const float* const of_row = nearest_of_blocks_.row(by);
+        nearest = std::min(nearest, *std::min_element(of_row, of_row + nearest_of_blocks_.width()));
+    }
+    for (float known = nearest_; nearest < known && !nearest_.compare_exchange_weak(known, nearest);) {
+    }
+}
+
+void ShadowCasters::add_blocks(int by, const CocSamplesView& samples, const Rect& rows) {
+    RowOfBlocks& fine = views_[0][std::size_t(by)];
+    for (auto& view : views_) view[std::size_t(by)].first.push_back(0);
+    for (int bx = 0; bx < nearest_of_blocks_.width(); ++bx) {
+        const Rect block = Rect{bx * kBlock, rows.y0, (bx + 1) * kBlock, rows.y1}.intersected(rows);
+        BlockCasters casters(samples, block, fine.casters);
+        for (std::size_t rank = 0; casters.add(rank);) ++rank;
+        std::stable_sort(fine.casters.begin() + std::ptrdiff_t(fine.first.back()), fine.casters.end(),
+                         [](const Caster& a, const Caster& b) { return a.coc_px < b.coc_px; });
+        if (fine.casters.size() > fine.first.back())
+            nearest_of_blocks_(bx, by) = fine.casters[fine.first.back()].coc_px;
+        fine.first.push_back(fine.casters.size());
+        for (int v = 1; v < kViews; ++v) {
+            RowOfBlocks& row = views_[std::size_t(v)][std::size_t(by)];
+            coarsen(of_block(v - 1, bx, by), 1 << v, row.casters);
+            row.first.push_back(row.casters.size());
+        }
+    }
 }
 
 std::span<const Caster> ShadowCasters::of_block(int view, int bx, int by) const {

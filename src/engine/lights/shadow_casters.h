@@ -6,6 +6,7 @@
 #include "engine/waist/engine.h"
 
 #include <array>
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,12 @@ public:
     // How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a
     // tap. To what is behind one by less it is no shadow: it may be its own surface.
     static constexpr float kSameRadiusPx = 0.2f;
+    // Of a picture of that size, whose rows are then added.
+    ShadowCasters(int width, int height);
     ShadowCasters(const CocSamples& samples, Workers& workers);
+    // The samples of the rows from y0 on, a multiple of kBlock, up to another or to the end; other rows may
+    // be added at the same time.
+    void add(int y0, const CocSamplesView& rows);
 
     float nearest_coc_px() const { return nearest_; }  // of all
     // Blocks are counted from the picture's corner.
@@ -40,8 +46,11 @@ public:
     static float end_of_view(int view, float highlight_coc_px);
 
 private:
+    // A row of blocks, of the samples of these rows of pixels.
+    void add_blocks(int by, const CocSamplesView& samples, const Rect& rows);
+
     Plane nearest_of_blocks_;
-    float nearest_ = 1e30f;
+    std::atomic<float> nearest_{1e30f};
     struct RowOfBlocks {
         std::vector<Caster> casters;
         std::vector<std::size_t> first;  // of each block, and the end

@@ -8,12 +8,14 @@
 #include "engine/samples/lens_left.h"
 #include "engine/samples/out_of_sight.h"
 #include "engine/samples/plate.h"
+#include "engine/samples/sample_source.h"
 #include "engine/samples/white.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace petzval::engine {
@@ -80,7 +82,7 @@ CocSamples deep_completed(const Input& input) {
 
 // What a picture shows, taken apart and filled in. Before a plate, only what is in front of that: `back` is
 // what the plate was completed to.
-class FlatPicture {
+class FlatPicture final : public CompletedPicture::Parts {
 public:
     FlatPicture(const Input& input, View<const unsigned char> connected, const Dim& dim,
                 const CocSamples* back = nullptr)
@@ -96,28 +98,21 @@ public:
         if (back) unmix_before_plate(mixtures_, picture, input.coc_px, input.plate, *input.workers);
         if (dim && !back && input.fill == Fill::Full)
             lamps_ = lamps_behind(picture, input.coc_px, mixtures_, *input.workers);
+        count();
     }
 
-    // Counted first, then written, so that rows can be done in parallel.
-    CocSamples samples() const {
-        const int width = input_.width(), height = input_.height();
-        std::vector<std::size_t> first_of_row(std::size_t(height) + 1, 0);
-        parallel_for(height, *input_.workers, [&](int y) {
-            std::size_t n = 0;
-            visit_row(
-                y, [](int) {}, [&](const CocSample&) { ++n; });
-            first_of_row[std::size_t(y) + 1] = n;
-        });
-        std::partial_sum(first_of_row.begin(), first_of_row.end(), first_of_row.begin());
+    CocSamples rows(int y0, int y1) const override {
+        const int width = input_.width();
+        const std::size_t before = first_of_row_[std::size_t(y0)];
         CocSamples all;
         all.width = width;
-        all.first.resize(std::size_t(width) * std::size_t(height) + 1);
-        all.samples.resize(first_of_row.back());
-        parallel_for(height, *input_.workers, [&](int y) {
-            std::size_t at = first_of_row[std::size_t(y)];
-            const std::size_t row = std::size_t(y) * std::size_t(width);
+        all.first.resize(std::size_t(width) * std::size_t(y1 - y0) + 1);
+        all.samples.resize(first_of_row_[std::size_t(y1)] - before);
+        parallel_for(y1 - y0, *input_.workers, [&](int row) {
+            std::size_t at = first_of_row_[std::size_t(y0 + row)] - before;
+            const std::size_t pixel = std::size_t(row) * std::size_t(width);
             visit_row(
-                y, [&](int x) { all.first[row + std::size_t(x)] = at; },
+                y0 + row, [&](int x) { all.first[pixel + std::size_t(x)] = at; },
                 [&](const CocSample& s) { all.samples[at++] = s; });
         });
         all.first.back() = all.samples.size();
@@ -125,6 +120,22 @@ public:
     }
 
 private:
+    // So that rows can be written in parallel.
+    void count() {
+        const auto height = std::size_t(input_.height());
+        first_of_row_.assign(height + 1, 0);
+        std::vector<float> largest(height, 0);
+        parallel_for(int(height), *input_.workers, [&](int y) {
+            std::size_t n = 0;
+            float row = 0;
+            visit_row(
+                y, [](int) {}, [&](const CocSample& s) { ++n, row = std::max(row, std::abs(s.coc_px)); });
+            first_of_row_[std::size_t(y) + 1] = n, largest[std::size_t(y)] = row;
+        });
+        std::partial_sum(first_of_row_.begin(), first_of_row_.end(), first_of_row_.begin());
+        sample_count = first_of_row_.back();
+        largest_coc_px = *std::max_element(largest.begin(), largest.end());
+    }
     // begin(x) for every pixel, then emit(sample) for each of its samples, nearest first.
     template <typename Begin, typename Emit>
     void visit_row(int y, const Begin& begin, const Emit& emit) const {
@@ -164,22 +175,53 @@ private:
     Sparse<Mixture> mixtures_;
     HiddenLayers hidden_;
     HiddenLamps lamps_;
+    std::vector<std::size_t> first_of_row_;  // sample of each row; and the end
+};
+
+// Samples that are all there.
+class GivenSamples final : public CompletedPicture::Parts {
+public:
+    explicit GivenSamples(CocSamples all) : all_(std::move(all)) {
+        sample_count = all_.samples.size();
+        largest_coc_px = SampleSource(all_).largest_coc_px();
+    }
+    CocSamples rows(int y0, int y1) const override {
+        const auto pixels = CocSamplesView(all_).rows(y0, y1).first();
+        const std::size_t begin = pixels.front(), end = pixels.back();
+        CocSamples part;
+        part.width = all_.width;
+        part.first.reserve(pixels.size());
+        for (const std::size_t first : pixels) part.first.push_back(first - begin);
+        part.samples.assign(all_.samples.begin() + std::ptrdiff_t(begin),
+                            all_.samples.begin() + std::ptrdiff_t(end));
+        return part;
+    }
+
+private:
+    CocSamples all_;
 };
 
 CocSamples completed_before_plate(const Input& input, View<const unsigned char> connected, const Dim& dim) {
     Input plate = input;
     plate.colour = input.plate.colour, plate.coc_px = input.plate.coc_px;
-    const CocSamples back = FlatPicture(plate, connections(plate.coc_px, *input.workers), dim).samples();
-    CocSamples all = FlatPicture(input, connected, dim, &back).samples();
+    const int height = input.height();
+    const CocSamples back =
+        FlatPicture(plate, connections(plate.coc_px, *input.workers), dim).rows(0, height);
+    CocSamples all = FlatPicture(input, connected, dim, &back).rows(0, height);
     if (!input.plate.all) drop_out_of_sight(all, input.lens(0).reach_px(1), *input.workers);
     return all;
 }
 
 }  // namespace
 
-CocSamples completed(const Input& input, View<const unsigned char> connected, const Dim& dim) {
-    if (!input.plate.empty()) return completed_before_plate(input, connected, dim);
-    return input.deep.empty() ? FlatPicture(input, connected, dim).samples() : deep_completed(input);
+CompletedPicture::CompletedPicture(const Input& input, View<const unsigned char> connected, const Dim& dim)
+    : height_(input.height()) {
+    if (!input.plate.empty())
+        parts_ = std::make_unique<GivenSamples>(completed_before_plate(input, connected, dim));
+    else if (!input.deep.empty())
+        parts_ = std::make_unique<GivenSamples>(deep_completed(input));
+    else
+        parts_ = std::make_unique<FlatPicture>(input, connected, dim);
 }
 
 void share_lens_area(CocSamples& samples, Workers& workers) {

@@ -7,14 +7,39 @@
 #include "engine/samples/dim.h"
 #include "engine/waist/engine.h"
 
+#include <memory>
+
 namespace petzval::engine {
 
-// Every sample of every pixel, nearest first. A deep input says it all itself; of a flat one, pixels at
-// silhouettes are taken apart into what they show of each surface, and what is hidden near silhouettes is
-// filled in (engine/samples/hidden.h). What a flat pixel leaves uncovered (alpha below 1) lies at the far end
-// as emptiness: covered, transparent black. `connected`: connections(input.coc_px).
-// Of a picture before a clean plate, that is completed, and what is in front of it put before.
-CocSamples completed(const Input& input, View<const unsigned char> connected, const Dim& dim);
+// Every sample of every pixel, nearest first, put together by rows. A deep input says it all itself; of a
+// flat one, pixels at silhouettes are taken apart into what they show of each surface, and what is hidden
+// near silhouettes is filled in (engine/samples/hidden.h). What a flat pixel leaves uncovered (alpha below 1)
+// lies at the far end as emptiness: covered, transparent black. `connected`: connections(input.coc_px). Of a
+// picture before a clean plate, that is completed, and what is in front of it put before.
+class CompletedPicture {
+public:
+    // `input` outlives this.
+    CompletedPicture(const Input& input, View<const unsigned char> connected, const Dim& dim);
+    // Rows y0…y1-1; from any thread.
+    CocSamples rows(int y0, int y1) const { return parts_->rows(y0, y1); }
+    CocSamples all() const { return rows(0, height_); }
+    std::size_t sample_count() const { return parts_->sample_count; }
+    float largest_coc_px() const { return parts_->largest_coc_px; }  // of any |radius|
+
+    // What it is made of.
+    struct Parts {
+        std::size_t sample_count = 0;
+        float largest_coc_px = 0;
+        Parts() = default;
+        Parts(const Parts&) = delete;
+        virtual ~Parts() = default;
+        virtual CocSamples rows(int y0, int y1) const = 0;
+    };
+
+private:
+    std::unique_ptr<const Parts> parts_;
+    int height_;
+};
 
 // From samples that dim each other (Input::deep_dims_itself) to shares of the lens: what a ray straight
 // through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front

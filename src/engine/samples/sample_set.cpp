@@ -8,7 +8,7 @@ namespace petzval::engine {
 SampleSet complete_samples(const Input& input, const Dim& dim) {
     SampleSet set;
     set.connected = connections(input.coc_px, *input.workers);
-    set.samples = completed(input, set.connected, dim);
+    set.samples = CompletedPicture(input, set.connected, dim).all();
     return set;
 }
 

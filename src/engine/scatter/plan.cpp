@@ -248,13 +248,13 @@ LevelRule level_rule(const Input& input) {
     return rule;
 }
 
-ScatterPlan make_plan(const Input& strip, const CocSamples& samples, View<const unsigned char> connected,
+ScatterPlan make_plan(const Input& strip, SampleSource samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels) {
     ScatterPlan plan;
     plan.rows = rows, plan.first_row = first_row, plan.frame = strip.frame;
     plan.rule = rule, plan.holdout = strip.holdout;
-    plan.levels =
-        make_sources(samples, strip.coc_px, connected, strip.open_edges, rule, kernels, *strip.workers);
+    plan.levels = make_sources(std::move(samples), strip.coc_px, connected, strip.open_edges, rule, kernels,
+                               *strip.workers);
     fill_tiles(kernels, *strip.progress, *strip.workers, plan);
     return plan;
 }

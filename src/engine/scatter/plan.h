@@ -7,7 +7,7 @@
 
 #include "device/kernels.h"
 #include "engine/samples/lens_left.h"
-#include "engine/samples/sample_set.h"
+#include "engine/samples/sample_source.h"
 #include "engine/waist/cells.h"
 #include "engine/waist/engine.h"
 #include "image/big_vector.h"
@@ -133,8 +133,8 @@ struct ScatterPlan {
 class ScatterKernels;
 
 // The plan of a strip: its sources, and what of them reaches which tile. `strip` is what the samples were
-// made from; rows: the pixels of it to be drawn; first_row: the frame's row that is its row 0.
-ScatterPlan make_plan(const Input& strip, const CocSamples& samples, View<const unsigned char> connected,
+// made from, by rows; rows: the pixels of it to be drawn; first_row: the frame's row that is its row 0.
+ScatterPlan make_plan(const Input& strip, SampleSource samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels);
 
 }  // namespace petzval::engine

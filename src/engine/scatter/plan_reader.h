@@ -4,6 +4,7 @@
 #include "device/device.h"
 #include "engine/lights/highlights.h"
 #include "engine/lights/plan.h"
+#include "engine/samples/complete.h"
 #include "engine/scatter/plan.h"
 #include "engine/scatter/scatter_kernels.h"
 
@@ -16,12 +17,11 @@ struct PlannedStrip {
     const Input& input;
     const ScatterPlan& scatter;
     const ScatterKernels& kernels;
-    const CocSamples& base;  // what was seen, less the highlights
     const std::vector<Highlight>& highlights;
+    const ShadowCasters& casters;
     const HighlightKernels& highlight_kernels;
     float white;
     const std::vector<Highlight>* asked_by = nullptr;  // see LightsPlanner
-    const Image<unsigned char>* connected = nullptr;   // of the strip
 };
 
 // Adds the highlights of a strip to `out`, the whole frame.
@@ -32,7 +32,7 @@ class PlanReader {
 public:
     virtual ~PlanReader() = default;
     // `strip` is what the plan is made from. False: nothing that follows is wanted.
-    virtual bool read(const Input& strip, const SampleSet& set) = 0;
+    virtual bool read(const Input& strip, const CompletedPicture& completed) = 0;
     virtual void read(const PlannedStrip& strip) = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "device/device.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
+#include "engine/samples/connectivity.h"
 #include "engine/samples/lamps.h"
 #include "engine/scatter/layer_light.h"
 #include "engine/scatter/plan_reader.h"
@@ -11,7 +12,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace petzval::engine {
 namespace {
@@ -134,45 +140,99 @@ public:
     // Draws `rows` of the frame. `share`: of the progress.
     void draw(const Rect& rows, int halo, double share, Output& out) {
         const int first = std::max(0, rows.y0 - halo);
-        const Input strip = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
-        share /= double(1 + strip.layers.size());
-        SampleSet set = complete(strip, first);
-        const CocSamples seen = strip.layers.empty() ? CocSamples{} : set.samples;
-        planned(strip, std::move(set), rows, first, [&](const PlannedStrip& p) {
+        const Input input = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
+        share /= double(1 + input.layers.size());
+        Strip strip = complete(input, rows, first);
+        const CocSamples seen = input.layers.empty() ? CocSamples{} : strip.completed->all();
+        planned(strip, [&](const PlannedStrip& p) {
             draw(p, share, out.image);
-            for (std::size_t i = 0; i < strip.layers.size(); ++i)
-                draw_layer(p, seen, strip.layers[i], share, out.layers[i]);
+            for (std::size_t i = 0; i < input.layers.size(); ++i)
+                draw_layer(strip, p, seen, input.layers[i], share, out.layers[i]);
         });
     }
     void show(PlanReader& reader) {
-        SampleSet set = complete(frame_, 0);
-        if (!reader.read(frame_, set)) return;
-        planned(frame_, std::move(set), frame_.colour.rect(), 0,
-                [&](const PlannedStrip& p) { reader.read(p); });
+        Strip strip = complete(frame_, frame_.colour.rect(), 0);
+        if (!reader.read(frame_, *strip.completed)) return;
+        planned(strip, [&](const PlannedStrip& p) { reader.read(p); });
     }
 
 private:
-    SampleSet complete(const Input& strip, int first_row) {
-        SampleSet set = complete_samples(
-            strip, [&](int x, int y, Rgba light) { return split_.dim(x, first_row + y, light); });
-        watch_.lap("complete", {bytes_of(strip.colour) + bytes_of(strip.coc_px) + bytes_of(set.samples)});
-        return set;
+    // Rows of the frame, of which `rows` are to be drawn, on their way.
+    struct Strip {
+        const Input& input;
+        Rect rows;  // counted from the strip's own
+        int first_row = 0;
+        Image<unsigned char> connected;
+        std::shared_ptr<const CompletedPicture> completed;
+        std::size_t sample_bytes = 0;  // of all
+        CocSamples base;               // all that is seen but highlights, where there are layers
+    };
+
+    Strip complete(const Input& input, const Rect& rows, int first_row) {
+        Strip strip{input,     {0, rows.y0 - first_row, rows.width(), rows.y1 - first_row},
+                    first_row, connections(input.coc_px, *input.workers),
+                    nullptr,   0,
+                    {}};
+        strip.completed = std::make_shared<CompletedPicture>(
+            input, strip.connected,
+            [&](int x, int y, Rgba light) { return split_.dim(x, first_row + y, light); });
+        strip.sample_bytes = strip.completed->sample_count() * sizeof(CocSample) +
+                             std::size_t(input.width()) * std::size_t(input.height()) * sizeof(std::size_t);
+        watch_.lap("complete", {bytes_of(input.colour) + bytes_of(input.coc_px) + strip.connected.bytes()});
+        return strip;
+    }
+
+    // What is found on the way from a strip's samples to its sources.
+    struct Found {
+        explicit Found(const Input& strip)
+            : highlights(std::size_t(strip.height() / SampleSource::kRows + 1)),
+              casters(strip.width(), strip.height()) {}
+        std::vector<std::vector<Highlight>> highlights;  // by rows
+        ShadowCasters casters;
+    };
+
+    // The samples of a strip's rows, less the highlights.
+    CocSamples base_of(const Strip& strip, const CompletedPicture& completed, int y0, int y1,
+                       Found& found) const {
+        CocSamples rows = completed.rows(y0, y1);
+        std::vector<Highlight>& taken = found.highlights[std::size_t(y0 / SampleSource::kRows)];
+        taken = take_highlights(rows, split_, strip.first_row + y0, kLargestSquare, *strip.input.workers);
+        for (Highlight& h : taken) h.y += y0;
+        if (strip.input.deep_dims_itself) share_lens_area(rows, *strip.input.workers);
+        found.casters.add(y0, rows);
+        return rows;
+    }
+    // The same, held at once for layers alone; else what was completed lasts until every row was asked for.
+    SampleSource base_of(Strip& strip, Found& found) const {
+        const std::shared_ptr<const CompletedPicture> completed = std::move(strip.completed);
+        const int width = strip.input.width(), height = strip.input.height();
+        if (!strip.input.layers.empty()) {
+            strip.base = base_of(strip, *completed, 0, height, found);
+            return strip.base;
+        }
+        return {width, height, completed->largest_coc_px(),
+                [this, &strip, completed, &found](int y0, int y1) {
+                    return base_of(strip, *completed, y0, y1, found);
+                }};
     }
 
     // use(the strip, planned).
     template <typename Use>
-    void planned(const Input& strip, SampleSet set, const Rect& rows, int first_row, const Use& use) {
-        CocSamples& base = set.samples;
-        const std::vector<Highlight> highlights =
-            take_highlights(base, split_, first_row, kLargestSquare, *strip.workers);
-        if (strip.deep_dims_itself) share_lens_area(base, *strip.workers);
-        watch_.lap("split", {2 * bytes_of(base) + highlights.size() * sizeof(Highlight)});
-        const Rect here{0, rows.y0 - first_row, rows.width(), rows.y1 - first_row};
-        const ScatterPlan plan = make_plan(strip, base, set.connected, here, first_row, rule_, *kernels_);
-        watch_.lap("sources",
-                   {bytes_of(base) + bytes_of(strip.coc_px) + set.connected.bytes() + bytes_of(plan)});
-        use({strip, plan, *kernels_, base, highlights, *highlight_kernels_, split_.white(), nullptr,
-             &set.connected});
+    void planned(Strip& strip, const Use& use) {
+        Found found(strip.input);
+        const ScatterPlan plan = plan_of(strip, base_of(strip, found));
+        std::vector<Highlight> highlights;
+        for (const auto& rows : found.highlights)
+            highlights.insert(highlights.end(), rows.begin(), rows.end());
+        use({strip.input, plan, *kernels_, highlights, found.casters, *highlight_kernels_, split_.white()});
+    }
+
+    ScatterPlan plan_of(const Strip& strip, SampleSource base) {
+        ScatterPlan plan = make_plan(strip.input, std::move(base), strip.connected, strip.rows,
+                                     strip.first_row, rule_, *kernels_);
+        watch_.lap("sources", {2 * strip.sample_bytes + bytes_of(strip.input.coc_px) +
+                               strip.connected.bytes() + bytes_of(plan)});
+        return plan;
     }
 
     void draw(const PlannedStrip& p, double share, View<Rgba> out) {
@@ -188,19 +248,16 @@ private:
     }
 
     // The same plan with a layer's light in place of the beauty's.
-    void draw_layer(const PlannedStrip& beauty, const CocSamples& seen, const Input::Layer& layer,
-                    double share, View<Rgba> out) {
+    void draw_layer(const Strip& strip, const PlannedStrip& beauty, const CocSamples& seen,
+                    const Input::Layer& layer, double share, View<Rgba> out) {
         if (frame_.progress->cancelled()) return;
-        const std::vector<Rgba> shares = shares_of(beauty.input, seen, layer);
-        const CocSamples base = lit_by(beauty.base, shares, layer);
-        const std::vector<Highlight> highlights = lit_by(beauty.highlights, beauty.base, shares, layer);
+        const std::vector<Rgba> shares = shares_of(strip.input, seen, layer);
+        const CocSamples base = lit_by(strip.base, shares, layer);
+        const std::vector<Highlight> highlights = lit_by(beauty.highlights, strip.base, shares, layer);
         watch_.lap("layers", {bytes_of(seen) + 2 * bytes_of(base)});
-        const ScatterPlan& p = beauty.scatter;
-        const ScatterPlan plan =
-            make_plan(beauty.input, base, *beauty.connected, p.rows, p.first_row, rule_, *kernels_);
-        watch_.lap("sources", {bytes_of(base) + bytes_of(plan)});
-        draw({beauty.input, plan, *kernels_, base, highlights, *highlight_kernels_, split_.white(),
-              &beauty.highlights, beauty.connected},
+        const ScatterPlan plan = plan_of(strip, base);
+        draw({strip.input, plan, *kernels_, highlights, beauty.casters, *highlight_kernels_, split_.white(),
+              &beauty.highlights},
              share, out);
     }
 
@@ -218,7 +275,7 @@ device::Work draw_lights(const PlannedStrip& strip, View<Rgba> out) {
     if (strip.highlights.empty()) return {};
     const Input& input = strip.input;
     const device::Control control{*input.workers, *input.progress};
-    LightsPlanner planner(input, strip.highlight_kernels, strip.base, strip.highlights, strip.white,
+    LightsPlanner planner(input, strip.highlight_kernels, strip.casters, strip.highlights, strip.white,
                           strip.scatter.rows, strip.scatter.first_row, strip.asked_by);
     device::Work work;
     LightsPlan plan;

@@ -98,16 +98,17 @@ private:
 // Visits every sample once and hands it to its level, or to two where one fades into the next.
 class Maker {
 public:
-    Maker(const CocSamples& samples, View<const float> coc_px, View<const unsigned char> connected,
-          const LevelRule& rule)
-        : samples_(samples), coc_px_(coc_px), connected_(connected), rule_(rule) {}
+    // `samples` are rows from first_row on.
+    Maker(const CocSamplesView& samples, int first_row, View<const float> coc_px,
+          View<const unsigned char> connected, const LevelRule& rule)
+        : samples_(samples), first_row_(first_row), coc_px_(coc_px), connected_(connected), rule_(rule) {}
 
     // Pixel (x, y), clamped to the picture; put(level, gathered).
     template <typename Put>
     void visit(int x, int y, const Put& put) const {
         const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
         LayersOfPixel layers;
-        for (const CocSample& s : samples_.at(u, v)) {
+        for (const CocSample& s : samples_.at(u, v - first_row_)) {
             const int layer = layers.next(s);
             // Only what is seen has a known slope.
             const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
@@ -128,6 +129,7 @@ public:
 
 private:
     CocSamplesView samples_;
+    int first_row_;
     View<const float> coc_px_;
     View<const unsigned char> connected_;
     LevelRule rule_;
@@ -226,7 +228,7 @@ private:
 // Fills the rows of all levels, from top to bottom; a band begins and ends on whole cells of every level.
 class Band {
 public:
-    Band(std::span<const LevelBuilder> levels, const ScatterKernels& kernels, int width)
+    Band(std::span<const LevelBuilder> levels, const ScatterKernels& kernels, int width, int rows)
         : levels_(levels),
           kernels_(kernels),
           width_(width),
@@ -238,7 +240,8 @@ public:
         for (int l = 1; l <= coarsest; ++l)
             cells_[std::size_t(l)].resize(std::size_t(cells_across(coarsest)) << (coarsest - l));
         for (int l = 0; l <= coarsest; ++l)  // mostly one of a cell
-            rows_[std::size_t(l)].sources.reserve(std::size_t(cells_across(l)) << (coarsest - l));
+            rows_[std::size_t(l)].sources.reserve(std::size_t(cells_across(l)) *
+                                                  std::size_t(((rows - 1) >> l) + 1));
         for (int l = kWideLevel; l <= coarsest; ++l)
             of_row_[std::size_t(l)].resize(cells_[std::size_t(l)].size());
     }
@@ -267,7 +270,10 @@ public:
             end_row(l, y >> l);
         }
     }
-    std::vector<Rows> take() { return std::move(rows_); }
+    std::vector<Rows> take() {
+        for (Rows& rows : rows_) rows.sources.shrink_to_fit();
+        return std::move(rows_);
+    }
 
 private:
     int cells_across(int level) const { return ((width_ - 1) >> level) + 1; }
@@ -304,39 +310,42 @@ private:
 
 }  // namespace
 
-std::vector<SourceArray> make_sources(const CocSamples& samples, View<const float> coc_px,
+std::vector<SourceArray> make_sources(SampleSource samples, View<const float> coc_px,
                                       View<const unsigned char> connected, const OpenEdges& open,
                                       const LevelRule& rule, const ScatterKernels& kernels,
                                       Workers& workers) {
-    float largest = 0;
-    for (const CocSample& s : samples.samples) largest = std::max(largest, std::abs(s.coc_px));
-    const Maker maker(samples, coc_px, connected, rule);
-    const int coarsest = kernels.coarsest_for(int(std::ceil(rule.position(largest))));
+    const int coarsest = kernels.coarsest_for(int(std::ceil(rule.position(samples.largest_coc_px()))));
     const auto cells = [](int pixels, int level) { return ((pixels - 1) >> level) + 1; };
     std::vector<LevelBuilder> levels;
     constexpr int kAround = 4;  // cells read around a tile, and sources that lie off their cell's middle
     for (int l = 0; l <= coarsest; ++l)
         levels.emplace_back(cells(coc_px.width(), l), cells(coc_px.height(), l), kernels.reach(l) + kAround,
                             open);
-    // A band of rows as tall as the largest cell is done by one thread.
-    const int band_height = 1 << coarsest, bands = cells(coc_px.height(), coarsest);
+    // A band of rows as tall as the largest cell, or more, is done by one thread.
+    const int band_height = std::max(1 << coarsest, SampleSource::kRows);
+    const int height = coc_px.height(), bands = (height + band_height - 1) / band_height;
     std::vector<std::vector<Rows>> rows(static_cast<std::size_t>(bands));
     parallel_for(bands, workers, [&](int i) {
-        Band band(levels, kernels, coc_px.width());
-        for (int y = i * band_height; y < (i + 1) * band_height; ++y) {
-            for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
-                maker.visit(x, y, [&](int level, const Gathered& g) { band.put(level, x, y, g); });
-            band.finish_row(y);
-        }
+        const int y0 = i * band_height, y1 = std::min(y0 + band_height, cells(height, coarsest) << coarsest);
+        Band band(levels, kernels, coc_px.width(), y1 - y0);
+        samples.rows(y0, std::min(y1, height), [&](const CocSamplesView& of_band) {
+            const Maker maker(of_band, y0, coc_px, connected, rule);
+            for (int y = y0; y < y1; ++y) {
+                for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
+                    maker.visit(x, y, [&](int level, const Gathered& g) { band.put(level, x, y, g); });
+                band.finish_row(y);
+            }
+        });
         rows[std::size_t(i)] = band.take();
     });
+    samples = {};
     for (std::size_t l = 0; l < levels.size(); ++l) {
         for (const std::vector<Rows>& band : rows) levels[l].place(band[l]);
         levels[l].allocate();
     }
     parallel_for(bands, workers, [&](int i) {
         for (int l = 0; l <= coarsest; ++l)
-            levels[std::size_t(l)].fill(rows[std::size_t(i)][std::size_t(l)], i << (coarsest - l));
+            levels[std::size_t(l)].fill(rows[std::size_t(i)][std::size_t(l)], i * band_height >> l);
         rows[std::size_t(i)] = {};
     });
     std::vector<SourceArray> arrays;

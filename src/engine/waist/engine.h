@@ -51,6 +51,8 @@ public:
     CocSamplesView(std::span<const std::size_t> first, std::span<const CocSample> samples, int width)
         : first_(first), samples_(samples), width_(width) {}
     bool empty() const { return first_.empty(); }
+    int width() const { return width_; }
+    int height() const { return width_ > 0 ? int((first_.size() - 1) / std::size_t(width_)) : 0; }
     std::span<const CocSample> at(int x, int y) const {
         const std::size_t i = std::size_t(y) * std::size_t(width_) + std::size_t(x);
         return samples_.subspan(first_[i], first_[i + 1] - first_[i]);
@@ -75,8 +77,8 @@ struct CocSamples {
     int width = 0;
     BigVector<std::size_t> first;
     BigVector<CocSample> samples;
-    int height() const { return width > 0 ? int((first.size() - 1) / std::size_t(width)) : 0; }
     operator CocSamplesView() const { return {first, samples, width}; }
+    int height() const { return CocSamplesView(*this).height(); }
 };
 
 // Which edges of the picture are merely where the render stopped (the scene goes on beyond them), as against

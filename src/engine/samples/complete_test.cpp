@@ -1,0 +1,64 @@
+#include "engine/samples/complete.h"
+
+#include "base/parallel.h"
+#include "engine/samples/connectivity.h"
+#include "engine/samples/sample_source.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kWidth = 40, kHeight = 50;
+
+// A near disc over a far wall, and what a lens may see of both.
+class DiscBeforeWall {
+public:
+    DiscBeforeWall() : colour_(kWidth, kHeight), coc_px_(kWidth, kHeight) {
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const bool near = std::hypot(x - 20, y - 25) < 12;
+                coc_px_(x, y) = near ? -9.0f : 5.0f;
+                colour_(x, y) = near ? Rgba{0.2f, 0.6f, 0.1f, 1} : Rgba{0.5f, 0.4f, 0.01f * float(x + y), 1};
+            }
+        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
+        input_.nearest_coc_px = -9, input_.farthest_coc_px = 5;
+    }
+    CompletedPicture completed() const { return {input_, connections(coc_px_, one_thread()), {}}; }
+
+private:
+    Picture colour_;
+    Plane coc_px_;
+    Input input_;
+};
+
+bool equal(const CocSample& a, const CocSample& b) {
+    return a.colour == b.colour && a.coc_px == b.coc_px && a.coc_back_px == b.coc_back_px &&
+           a.empty == b.empty;
+}
+
+TEST(CompletedPicture, RowsAreThoseOfAll) {
+    const DiscBeforeWall scene;
+    const CompletedPicture picture = scene.completed();
+    const CocSamples all = picture.all();
+    EXPECT_EQ(picture.sample_count(), all.samples.size());
+    EXPECT_GT(all.samples.size(), std::size_t(kWidth * kHeight));
+    EXPECT_EQ(picture.largest_coc_px(), SampleSource(all).largest_coc_px());
+    for (int y0 = 0; y0 < kHeight; y0 += SampleSource::kRows) {
+        const int y1 = std::min(y0 + SampleSource::kRows, kHeight);
+        const CocSamples rows = picture.rows(y0, y1);
+        ASSERT_EQ(rows.height(), y1 - y0);
+        for (int y = y0; y < y1; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const auto some = CocSamplesView(rows).at(x, y - y0), same = CocSamplesView(all).at(x, y);
+                EXPECT_TRUE(std::equal(some.begin(), some.end(), same.begin(), same.end(), equal))
+                    << x << "," << y;
+            }
+    }
+}
+
+}  // namespace
+}  // namespace petzval::engine

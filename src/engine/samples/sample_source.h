@@ -1,0 +1,45 @@
+// The samples of a picture, by rows: all of a 4K frame at once would be the largest thing that it holds.
+#pragma once
+
+#include "engine/waist/engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace petzval::engine {
+
+class SampleSource {
+public:
+    SampleSource() = default;
+    // Rows are asked for from a multiple of this on, and to one or to the end.
+    static constexpr int kRows = 16;
+    // Of samples that are there already, and outlive this.
+    SampleSource(const CocSamples& all) : all_(&all), width_(all.width), height_(all.height()) {
+        for (const CocSample& s : all.samples)
+            largest_coc_px_ = std::max(largest_coc_px_, std::abs(s.coc_px));
+    }
+    // make(y0, y1): rows y0…y1-1, asked from any thread; largest_coc_px: of any |radius|.
+    SampleSource(int width, int height, float largest_coc_px, std::function<CocSamples(int, int)> make)
+        : make_(std::move(make)), width_(width), height_(height), largest_coc_px_(largest_coc_px) {}
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    float largest_coc_px() const { return largest_coc_px_; }
+    // use(samples of rows y0…y1-1, counted from y0), which last as long as the call.
+    template <typename Use>
+    void rows(int y0, int y1, const Use& use) const {
+        if (all_) return use(CocSamplesView(*all_).rows(y0, y1));
+        const CocSamples made = make_(y0, y1);
+        use(CocSamplesView(made));
+    }
+
+private:
+    const CocSamples* all_ = nullptr;
+    std::function<CocSamples(int, int)> make_;
+    int width_ = 0, height_ = 0;
+    float largest_coc_px_ = 0;
+};
+
+}  // namespace petzval::engine
