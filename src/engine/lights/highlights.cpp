@@ -41,8 +41,21 @@ float box_mean(View<const float> cells, int cx, int cy, int reach) {
 
 }  // namespace
 
+float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int x, int y) {
+    float brightest = luminance(colour(x, y)), coc = coc_px(x, y);
+    for (int v = std::max(0, y - 1); v <= std::min(colour.height() - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(colour.width() - 1, x + 1); ++u)
+            if (const float there = luminance(colour(u, v)); there > brightest)
+                brightest = there, coc = coc_px(u, v);
+    return coc;
+}
+
 HighlightSplit::HighlightSplit(const Input& input, const HighlightRule& rule)
-    : rule_(rule), width_(input.width()), height_(input.height()) {
+    : rule_(rule),
+      colour_(input.deep.empty() ? input.colour : View<const Rgba>{}),
+      coc_px_(input.coc_px),
+      width_(input.width()),
+      height_(input.height()) {
     Workers& workers = *input.workers;
     find_contested(input.coc_px, workers);
     const Plane reciprocal = reciprocal_cells(input.colour, kCell, workers);
@@ -102,6 +115,13 @@ Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
     // The brighter, the more surely it says nothing of the surface: from the bound down to what is around.
     const Rgba scaled = light * (std::max(around, bound * (bound / brightness)) / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};
+}
+
+float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
+    constexpr float kOneSurfacePx = 0.9f;  // silhouettes of less are not taken apart (samples/connectivity.h)
+    if (colour_.empty() || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
+    const float coc = radius_of_brightest(colour_, coc_px_, x, y);
+    return std::abs(coc - coc_px) <= kOneSurfacePx ? coc : coc_px;
 }
 
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
@@ -237,7 +257,8 @@ std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit
                                                         .subspan(samples.first[i], k + 1 - samples.first[i]),
                                                     split.rule().same_pixel_px)
                                 : 1;
-                        const float coc = std::clamp(sample.coc_px, -kWidestHighlightPx, kWidestHighlightPx);
+                        const float coc = std::clamp(split.radius_of_light(x, first_row + y, sample.coc_px),
+                                                     -kWidestHighlightPx, kWidestHighlightPx);
                         sample.colour = base;
                         if (in_block)
                             out.push_back({x, y, 1, coc, leaves * taken});

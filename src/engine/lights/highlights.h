@@ -44,17 +44,25 @@ constexpr float same_pixel_px(double pixel_aspect) {
     return pixel_aspect > 1 ? float(0.5 / pixel_aspect) : 0.5f;
 }
 
+// The radius of the brightest of the pixels around (x, y) and itself. A pixel on the rim of a lamp shows lamp
+// and surroundings, and its depth may be that of the surroundings.
+float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int x, int y);
+
 // Splits light where it stands out of its surroundings:  base + highlight = light. The surroundings are the
 // smaller of two harmonic means of the picture's luminance, over 12 x 12 pixels and twice that over 28 x 28:
 // lamps hardly raise them, surfaces do. Light without alpha (additive glow) is taken out whole.
 class HighlightSplit {
 public:
-    // Of the input's picture, by the nearest radius of each of its pixels; white is that of the whole frame.
+    // Of the input's picture, which must last as long, by the nearest radius of each of its pixels; white is
+    // that of the whole frame.
     HighlightSplit(const Input& input, const HighlightRule& rule);
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
     // `light` without that of a lamp: what is left of a lamp is as bright as its surroundings.
     Rgba dim(int x, int y, Rgba light) const;
+    // Where the light of a lamp in pixel (x, y) stands: where the brightest pixel around does, unless that is
+    // another surface, which is for those who take silhouettes apart. Samples of a deep picture know it.
+    float radius_of_light(int x, int y, float coc_px) const;
     float white() const { return white_; }
     const HighlightRule& rule() const { return rule_; }
     // Whether light so bright, left over at this place and radius, may stay whatever surrounds it.
@@ -67,6 +75,8 @@ private:
     void find_contested(View<const float> coc_px, Workers& workers);
 
     HighlightRule rule_;
+    View<const Rgba> colour_;
+    View<const float> coc_px_;
     int width_, height_;
     float white_ = 0;
     Plane surroundings_;  // per cell of kCell x kCell pixels

@@ -38,5 +38,31 @@ TEST(Highlights, AHiddenSkyIsTakenAsSquaresALampAsPixels) {
     for (const Highlight& h : lamp) EXPECT_EQ(h.size, 1);
 }
 
+// A lamp of two pixels before a wall, and its rim in pixels that have the wall's radius.
+TEST(Highlights, TheRimOfALampStandsWhereTheLampDoes) {
+    constexpr float kWallPx = 3.1f, kLampPx = 2.7f;
+    Picture colour(kWidth, kHeight, Rgba{0.01f, 0.01f, 0.02f, 1});
+    Plane coc_px(kWidth, kHeight, kWallPx);
+    for (int y = 30; y < 33; ++y)
+        for (int x = 40; x < 44; ++x) {
+            const bool inside = y == 31 && (x == 41 || x == 42);
+            colour(x, y) = inside ? Rgba{100, 80, 60, 1} : Rgba{30, 24, 18, 1};
+            if (inside) coc_px(x, y) = kLampPx;
+        }
+    Input input;
+    input.colour = colour, input.coc_px = coc_px, input.frame = colour.rect(), input.workers = &one_thread();
+    CocSamples samples;
+    samples.width = kWidth;
+    for (std::size_t i = 0; i < colour.size(); ++i) {
+        const float coc = coc_px.pixels()[i];
+        samples.first.push_back(i);
+        samples.samples.push_back({colour.pixels()[i], coc, coc});
+    }
+    samples.first.push_back(colour.size());
+    const auto lights = take_highlights(samples, HighlightSplit(input, {}), 0, kLargestSquare, one_thread());
+    EXPECT_EQ(lights.size(), 12U);
+    for (const Highlight& h : lights) EXPECT_EQ(h.coc_px, kLampPx) << h.x << ", " << h.y;
+}
+
 }  // namespace
 }  // namespace petzval::engine

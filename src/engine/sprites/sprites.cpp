@@ -27,17 +27,6 @@ struct Parted {
     std::vector<Sprite> sprites;
 };
 
-// A pixel on the rim of a lamp shows lamp and surroundings, and its depth may be that of the surroundings:
-// the bright part of its light stands where the brightest pixel around it does.
-float radius_of_light(const Input& input, int x, int y) {
-    float brightest = luminance(input.colour(x, y)), coc = input.coc_px(x, y);
-    for (int v = std::max(0, y - 1); v <= std::min(input.height() - 1, y + 1); ++v)
-        for (int u = std::max(0, x - 1); u <= std::min(input.width() - 1, x + 1); ++u)
-            if (const float there = luminance(input.colour(u, v)); there > brightest)
-                brightest = there, coc = input.coc_px(u, v);
-    return coc;
-}
-
 Parted part(const Input& input) {
     Parted parted{Picture::uninitialised(input.width(), input.height()), {}};
     const HighlightRule rule{.factor = float(input.sprites.bright_factor),
@@ -55,8 +44,9 @@ Parted part(const Input& input) {
             const Rgba base = split.base(x, y, coc, light), bright = light - base;
             if (bright.r <= 0 && bright.g <= 0 && bright.b <= 0) continue;
             parted.background(x, y) = base;
-            rows[std::size_t(y)].push_back({float(x) + 0.5f, float(y) + 0.5f, radius_of_light(input, x, y),
-                                            bright.r, bright.g, bright.b});
+            rows[std::size_t(y)].push_back({float(x) + 0.5f, float(y) + 0.5f,
+                                            radius_of_brightest(input.colour, input.coc_px, x, y), bright.r,
+                                            bright.g, bright.b});
         }
     });
     for (const auto& row : rows) parted.sprites.insert(parted.sprites.end(), row.begin(), row.end());
