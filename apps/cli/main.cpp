@@ -20,11 +20,14 @@ namespace petzval::cli {
 namespace {
 
 // Exit codes of docs/conventions.md.
-int exit_code(ErrorCode code) {
-    switch (code) {
+int exit_code(const Error& error) {
+    // A device that fails at its work was not chosen wrongly.
+    const bool is_device = error.field == "session.device" && !error.message.starts_with(error.field);
+    switch (error.code) {
         case ErrorCode::InvalidArgument:
-        case ErrorCode::Unsupported:
             return 2;
+        case ErrorCode::Unsupported:
+            return is_device ? 1 : 2;
         case ErrorCode::InvalidFile:
             return 3;
         case ErrorCode::Cancelled:
@@ -114,7 +117,7 @@ int run(int argc, const char* const* argv) {
     Words words = Words::Flags;
     const Status done = parse_and_act(argc, argv, words);
     if (done) return 0;
-    const int code = exit_code(done.error().code);
+    const int code = exit_code(done.error());
     if (asks_for_json(argc, argv)) print_failure(code, done.error());
     return fail(code, done.error().message, words);
 }

@@ -185,8 +185,8 @@ Status open_window(const ViewFlags& flags) {
     setup.command_line = [&](const view::Choice& choice, const std::string& output) {
         return command_line(flags, choice, output);
     };
-    setup.save = [&, session = setup.session](const view::Choice& choice, const std::string& output) {
-        return save(static_cast<const DefocusFlags&>(flags), *session, choice, output);
+    setup.save = [&](Session& session, const view::Choice& choice, const std::string& output) {
+        return save(static_cast<const DefocusFlags&>(flags), session, choice, output);
     };
     if (flags.ocio.is_on())
         setup.ocio_codes = [&](View<const Rgba> light) { return ocio_codes(flags.ocio, light); };

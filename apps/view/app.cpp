@@ -304,7 +304,9 @@ void App::save(const std::string& path) {
                 return save_result(shot->shot, camera, choice, *session, path);
             });
     }
-    start_saving(path, [save = setup_.save, choice = state.choice, path] { return save(choice, path); });
+    start_saving(path, [save = setup_.save, session = setup_.session, choice = state.choice, path] {
+        return save(*session, choice, path);
+    });
 }
 
 void App::record(const std::string& path) {
@@ -348,6 +350,10 @@ void App::take_news() {
     for (MadeFrame& made : news.frames) take_frame(std::move(made));
     take_pushed();
     for (const std::string& line : news.changed) notice = line;
+    if (!news.lost.empty()) {
+        setup_.session = setup_.cpu_session;
+        error = news.lost + "; the CPU makes all from here on";
+    }
     for (Print& print : darkroom_.prints()) take_print(std::move(print));
     for (LensMade& made : bench_.news()) take_lens(std::move(made));
     if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {

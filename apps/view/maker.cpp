@@ -352,7 +352,7 @@ void Maker::do_step(int side, const Order& order) {
                           .region = order.step == 0 ? std::nullopt : order.wish.region};
     MadeFrame frame;
     try {
-        frame = made(side, order, control);
+        frame = made_somehow(order, control);
     } catch (const std::bad_alloc&) {
         frame.error = Error{ErrorCode::OutOfMemory, "not enough memory for this frame"};
     }
@@ -382,7 +382,24 @@ void Maker::tell(MadeFrame frame) {
     wake_();
 }
 
-MadeFrame Maker::made(int, const Order& order, const Control& control) {
+Session& Maker::session_of(const Wish& wish) const {
+    return (wish.on_cpu || device_is_lost_) && cpu_session_ ? *cpu_session_ : *session_;
+}
+
+// On the device; once that is lost, on the CPU.
+MadeFrame Maker::made_somehow(const Order& order, const Control& control) {
+    MadeFrame frame = made(order, control);
+    const bool lost = frame.error && frame.error->field == "session.device";
+    if (!lost || device_is_lost_ || order.wish.on_cpu || !cpu_session_) return frame;
+    device_is_lost_ = true;
+    {
+        const std::lock_guard lock(mutex_);
+        news_.lost = frame.error->message;
+    }
+    return made(order, control);
+}
+
+MadeFrame Maker::made(const Order& order, const Control& control) {
     MadeFrame frame;
     const Wish& wish = order.wish;
     const Shot& shot = wish.shot->shot;
@@ -413,7 +430,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     const int by = order.step == 0 ? thinning_of(wish) : 1;
     if (wish.shown == "result" && by > 1) {
         DefocusReport report;
-        auto look_at_it = first_look(*session_, rendered, look, by, control, report);
+        auto look_at_it = first_look(session_of(wish), rendered, look, by, control, report);
         if (!look_at_it) return look_at_it.error();
         report.image = std::move(*look_at_it);
         done = std::move(report);
@@ -441,7 +458,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
 
 Result<DefocusReport> Maker::shown(const Wish& wish, const DefocusJob& rendered, const Look& look,
                                    const Control& control) {
-    Session& session = wish.on_cpu && cpu_session_ ? *cpu_session_ : *session_;
+    Session& session = session_of(wish);
     if (wish.shown == "result") return session.take(rendered, look, control);
     if (wish.shown.starts_with(kLayer)) {
         auto report = session.take(rendered, look, control);

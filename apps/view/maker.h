@@ -104,7 +104,8 @@ struct Reading {
 class Maker {
 public:
     // `wake` is called, by the maker's thread, whenever there is news.
-    // `cpu_session`: of wishes that are on_cpu; null: none are.
+    // `cpu_session`: of wishes that are on_cpu, and of all once the other's device is lost; null: there is
+    // no other.
     Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session, std::function<void()> wake);
     ~Maker();  // cancels
     Maker(const Maker&) = delete;
@@ -119,6 +120,7 @@ public:
         std::vector<ReadShot> shots;
         std::vector<MadeFrame> frames;
         std::vector<std::string> changed;  // files that are no longer what was read
+        std::string lost;                  // what was said of the device when it was lost
     };
     News news();
     bool is_idle() const;
@@ -141,7 +143,9 @@ private:
     void watch(const Reading& reading, std::optional<std::filesystem::file_time_type> time);
     void take_up_again(const Reading& reading);
     void do_step(int side, const Order& order);
-    MadeFrame made(int side, const Order& order, const Control& control);
+    MadeFrame made(const Order& order, const Control& control);
+    MadeFrame made_somehow(const Order& order, const Control& control);
+    Session& session_of(const Wish& wish) const;
     Status take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
                         MadeFrame& frame);
     void look_at_files();
@@ -149,6 +153,7 @@ private:
                                 const Control& control);
 
     std::shared_ptr<Session> session_, cpu_session_;
+    bool device_is_lost_ = false;  // of the thread alone
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable something_;

@@ -57,7 +57,7 @@ struct Setup {
     // The command that makes this frame as that file; and the same, done. Called by another thread than the
     // window's.
     std::function<std::string(const Choice&, const std::string& output)> command_line;
-    std::function<Status(const Choice&, const std::string& output)> save;
+    std::function<Status(Session&, const Choice&, const std::string& output)> save;
     // Exposed scene-linear light to a display's codes by OpenColorIO; null: not asked for.
     std::function<Result<Picture>(View<const Rgba>)> ocio_codes;
 };

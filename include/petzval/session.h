@@ -67,7 +67,7 @@ public:
 
     // The settings of the session stand in place of the job's own. Errors: those of petzval::defocus();
     // InvalidArgument or Unsupported: settings.device is none that there is, or cannot be used; Unsupported:
-    // it was lost; OutOfMemory: also of its own.
+    // it was lost, which the error's field, session.device, says too; OutOfMemory: also of its own.
     Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
     // A whole frame, in the order of physics: a plate's highlights given back, blur, light lost towards the
     // corners, glare, and back into the plate's range. `rendered` says what there is (pictures, place,
