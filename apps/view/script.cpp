@@ -23,7 +23,7 @@ struct Verb {
 };
 constexpr Verb kVerbs[]{{"click", 1, 2}, {"drag", 2, 4},   {"move", 1, 2},   {"wheel", 1, 1},
                         {"key", 1, 1},   {"wait", 0, 1},   {"until", 2, 2},  {"sleep", 1, 1},
-                        {"shot", 1, 1},  {"resize", 2, 2}, {"expect", 1, 7}, {"say", 1, 1}};
+                        {"shot", 1, 2},  {"resize", 2, 2}, {"expect", 1, 7}, {"say", 1, 1}};
 
 const Verb* verb_called(const std::string& name) {
     for (const Verb& verb : kVerbs)
@@ -42,6 +42,21 @@ std::size_t comment_of(const std::string& line) {
     while (at != std::string::npos && at > 0 && line[at - 1] != ' ' && line[at - 1] != '\t')
         at = line.find('#', at + 1);
     return std::min(at, line.size());
+}
+
+// Means over by x by pixels; what is left over at the right and below is dropped.
+Script::Screen means_of(const Script::Screen& screen, int by) {
+    Script::Screen means{screen.width / by, screen.height / by, {}};
+    for (int y = 0; y < means.height; ++y)
+        for (int x = 0; x < means.width; ++x)
+            for (int channel = 0; channel < 3; ++channel) {
+                int sum = 0;
+                for (int j = y * by; j < (y + 1) * by; ++j)
+                    for (int i = x * by; i < (x + 1) * by; ++i)
+                        sum += screen.codes[std::size_t(3 * (j * screen.width + i) + channel)];
+                means.codes.push_back(std::uint16_t((sum + by * by / 2) / (by * by)));
+            }
+    return means;
 }
 
 std::string why_refused(const Words& words) {
@@ -280,11 +295,15 @@ void Script::seen(App& app, const Screen& screen) {
     looks_ = false;
     const Words& words = lines_[step_].words;
     if (words[0] == "shot") {
-        const PngPixels png{.width = screen.width,
-                            .height = screen.height,
+        const Result<double> by = words.size() > 2 ? number_of(words[2]) : 1.0;
+        if (!by || !(*by >= 1 && *by <= std::min(screen.width, screen.height)))
+            return fail("BY is 1 to the pixels of the window's shorter side");
+        Screen shown = means_of(screen, int(*by));
+        const PngPixels png{.width = shown.width,
+                            .height = shown.height,
                             .channels = 3,
                             .bits = 8,
-                            .samples = screen.codes};
+                            .samples = std::move(shown.codes)};
         if (const Status done = write_png(words[1], png); !done) fail(done.error().message);
     } else {
         expect_screen(app, screen);

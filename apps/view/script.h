@@ -7,7 +7,7 @@
 //   wait [SECONDS]                  until nothing is being made (at most so long, 60), or fail
 //   sleep SECONDS                   whatever is being made
 //   until FIELD TEXT                until the field contains it, 60 s at most, or fail
-//   shot FILE.png                   what is on the screen
+//   shot FILE.png [BY]              what is on the screen, or its means over BY x BY pixels
 //   resize W H
 //   expect FIELD VALUE [TOLERANCE]  of numbers, a share of the value; of texts: contained
 //   expect screen X Y R G B [CODES] what is on the screen where this pixel of the frame is
