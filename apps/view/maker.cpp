@@ -38,37 +38,6 @@ Look look_of_step(const Wish& wish, int step) {
     return now;
 }
 
-constexpr int kHistogramSteps = 160;
-
-DepthHistogram histogram_of(const Shot& shot) {
-    DepthHistogram histogram;
-    const auto* depth = std::get_if<DepthMetres>(&shot.depth);
-    if (!depth || depth->plane.empty()) return histogram;
-    const float* all = depth->plane.pixels();
-    const std::size_t count = depth->plane.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!(all[i] > 0) || std::isinf(all[i])) {
-            histogram.has_misses = true;
-            continue;
-        }
-        const double z = double(all[i]);
-        histogram.nearest_m = histogram.nearest_m > 0 ? std::min(histogram.nearest_m, z) : z;
-        histogram.farthest_m = std::max(histogram.farthest_m, z);
-    }
-    if (histogram.farthest_m <= 0) return {};
-    if (histogram.farthest_m < 1.01 * histogram.nearest_m)  // a wall: give it a width
-        histogram.nearest_m *= 0.9, histogram.farthest_m *= 1.1;
-    histogram.counts.assign(kHistogramSteps, 0);
-    for (std::size_t i = 0; i < count; ++i)
-        if (all[i] > 0 && !std::isinf(all[i])) {
-            const int at = int(histogram.share_of(double(all[i])) * kHistogramSteps);
-            histogram.counts[std::size_t(std::clamp(at, 0, kHistogramSteps - 1))] += 1;
-        }
-    const float most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
-    for (float& n : histogram.counts) n /= most;
-    return histogram;
-}
-
 std::optional<std::filesystem::file_time_type> time_of(const std::string& path) {
     std::error_code missing;
     const auto time = std::filesystem::last_write_time(path, missing);
@@ -150,13 +119,6 @@ Result<Picture> first_look(Session& session, const DefocusJob& rendered, Look lo
 }
 
 }  // namespace
-
-double DepthHistogram::distance_at(double share) const {
-    return nearest_m * std::pow(farthest_m / nearest_m, share);
-}
-double DepthHistogram::share_of(double distance_m) const {
-    return std::log(distance_m / nearest_m) / std::log(farthest_m / nearest_m);
-}
 
 const std::vector<std::string>& shown_names() {
     static const std::vector<std::string> names{

@@ -7,6 +7,7 @@
 #include "petzval/session.h"
 #include "petzval/shot.h"
 
+#include "depth_histogram.h"
 #include "live_scene.h"
 #include "tev.h"
 
@@ -24,16 +25,6 @@
 #include <vector>
 
 namespace petzval::view {
-
-// How many pixels lie at which distance, on a logarithmic scale.
-struct DepthHistogram {
-    double nearest_m = 0, farthest_m = 0;  // finite ones; both 0: there is no depth in metres
-    std::vector<float> counts;             // even steps of the logarithm between; share of the fullest
-    bool has_misses = false;
-
-    double distance_at(double share) const;  // 0…1 of the scale
-    double share_of(double distance_m) const;
-};
 
 struct OpenShot {
     Shot shot;
