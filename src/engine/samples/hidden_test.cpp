@@ -139,6 +139,30 @@ TEST(Hidden, ALampBehindAnEdgeShinesFromBehindIt) {
         for (int x = 20; x < 28; ++x) EXPECT_LT(d.background(x, y).g, 0.3f) << "not painted behind the wire";
 }
 
+TEST(Hidden, ASmallLampHasTheLightOfItsRimAlsoNextToSomethingNearer) {
+    // Two pixels have its depth, those around them the wall's; a bar passes right below, nearer than all.
+    constexpr float kLampPx = 0.4f, kWallPx = 4;
+    Drawn d;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const bool bar = y >= 26;
+            d.colour(x, y) = grey(bar ? 0.15f : 0.01f), d.coc(x, y) = bar ? kNearPx : kWallPx;
+        }
+    for (const int y : {24, 25}) {
+        d.colour(23, y) = grey(4), d.colour(24, y) = grey(35), d.colour(25, y) = grey(14);
+        d.coc(24, y) = kLampPx;
+    }
+    const LitPicture picture{d.colour, [](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }};
+    const auto mixtures = unmix_silhouettes(picture, d.coc, connections(d.coc, one_thread()), one_thread());
+    for (const int x : {23, 25}) {
+        const Mixture* m = mixtures.at(x, 24);
+        ASSERT_TRUE(m);
+        EXPECT_LT(m->far_light.g, 0.2f) << x;
+        EXPECT_GT(m->near_colour.g, 3) << x;
+        EXPECT_FLOAT_EQ(m->near_coc_px, kLampPx) << x;
+    }
+}
+
 TEST(Hidden, LightOfALampBeforeANightSkyIsTheLamps) {
     // It sits on the edge of a dark thing, and shines into the pixel beside it as well: renderers filter
     // colour, not depth.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace petzval::engine {
 namespace {
@@ -93,38 +94,55 @@ struct LampsBehind {
     float share = 0, coc_px = 0;
 };
 
+// A pixel, by the light of lamps in it; clean: it touches no silhouette.
+struct LitPixel {
+    float light = 0, coc_px = 0;
+    bool clean = false;
+};
+
 // How alike two lights are in colour, 0…1: red and white hardly.
 float alike(Rgba a, Rgba b) {
     const float cosine2 = dot(a, b) * dot(a, b) / std::max(1e-12f, dot(a, a) * dot(b, b));
     return cosine2 * cosine2 * cosine2 * cosine2;
 }
 
-// The side whose pixels nearby are lit brighter, in the pixel's own colour, has the lamp. But one that lights
-// only a few of the nearer surface's pixels, and none that touches no silhouette, is hardly part of it: it
-// shows past its edge.
+// How surely a lamp that lights the nearer side belongs to the surface of its brightest pixel: one that
+// lights only a few pixels of that, and none that touches no silhouette, shows past its edge.
+float share_of_surface(const std::vector<LitPixel>& nearer) {
+    constexpr float kOneSurfacePx = 0.9f, kFewLit = 0.15f, kManyLit = 0.5f;
+    const auto brightest = std::max_element(nearer.begin(), nearer.end(),
+                                            [](const auto& a, const auto& b) { return a.light < b.light; });
+    if (brightest == nearer.end()) return 1;
+    int pixels = 0, lit = 0;
+    for (const LitPixel& p : nearer) {
+        if (std::abs(p.coc_px - brightest->coc_px) > kOneSurfacePx) continue;
+        if (p.light > 0 && p.clean) return 1;
+        ++pixels, lit += p.light > 0;
+    }
+    return std::clamp((float(lit) / float(pixels) - kFewLit) / (kManyLit - kFewLit), kFewLit, 1.0f);
+}
+
+// The side whose pixels nearby are lit brighter, in the pixel's own colour, has the lamp.
 LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
                        int x, int y, float threshold) {
     constexpr int kLampReach = 2;
-    constexpr float kFewLit = 0.15f, kManyLit = 0.5f;
     const Rect window =
         Rect{x - kLampReach, y - kLampReach, x + kLampReach + 1, y + kLampReach + 1}.intersected(coc.rect());
     const Rgba own = picture.colour(x, y) - picture.dim(x, y);
     float near = 0, far = 0, far_coc = 0;
-    int nearer = 0, lit = 0;
-    bool clean = false;
+    std::vector<LitPixel> nearer;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
             const Rgba lamp = picture.colour(u, v) - picture.dim(u, v);
             const float light = luminance(lamp) * alike(lamp, own);
             if (coc(u, v) <= threshold) {
-                ++nearer, lit += light > 0, clean = clean || (light > 0 && !touching(u, v));
+                nearer.push_back({light, coc(u, v), !touching(u, v)});
                 near = std::max(near, light);
             } else if (light > far) {
                 far = light, far_coc = coc(u, v);
             }
         }
-    const float share_lit = float(lit) / float(std::max(1, nearer));
-    near *= clean ? 1 : std::clamp((share_lit - kFewLit) / (kManyLit - kFewLit), kFewLit, 1.0f);
+    near *= share_of_surface(nearer);
     const float t = std::clamp((far / std::max(1e-9f, near + far) - 0.35f) / 0.3f, 0.0f, 1.0f);
     return {t * t * (3 - 2 * t), far_coc};
 }
