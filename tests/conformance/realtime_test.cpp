@@ -225,6 +225,62 @@ TEST_F(Realtime, ALampDoesNotShineThroughWhatIsNearer) {
         }
 }
 
+// And one behind a bar before focus is cut where the cone of its light meets the bar: lamp and bar are as
+// blurred, so half-way between them.
+TEST_F(Realtime, ALampIsCutByWhatStandsBeforeFocus) {
+    for (Session& session : sessions_) {
+        Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 14);
+        shot.colour(50, 40) = {900, 900, 900, 1};
+        const Picture open = drawn(session, shot);
+        for (int y = 0; y < 80; ++y)
+            for (int x = 68; x < 78; ++x) shot.coc_px(x, y) = -14;
+        const Picture made = drawn(session, shot);
+        EXPECT_GT(open(61, 40).g, 0.8);
+        EXPECT_LT(made(61, 40).g, 0.1 * open(61, 40).g);
+        EXPECT_NEAR(made(55, 40).g / open(55, 40).g, 1, 0.05);
+        EXPECT_NEAR(made(42, 40).g / open(42, 40).g, 1, 0.05);
+    }
+}
+
+// A lamp in focus, its rim filtered over what is behind and with the depth of that: no disc around it.
+TEST_F(Realtime, ALampInFocusHasNoHalo) {
+    Shot shot = flat(96, 64, {0.02f, 0.02f, 0.02f, 1}, 12);
+    for (int y = 26; y < 38; ++y)
+        for (int x = 42; x < 54; ++x) {
+            const bool is_rim = x == 42 || x == 53 || y == 26 || y == 37;
+            const float light = is_rim ? 20.0f : 60.0f;
+            shot.colour(x, y) = {light, light, light, 1};
+            if (!is_rim) shot.coc_px(x, y) = 0;
+        }
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        EXPECT_NEAR(made(48, 32).g, 60, 0.1);
+        for (const int x : {36, 39, 56, 60}) EXPECT_NEAR(made(x, 32).g, 0.02, 0.01) << x;
+    }
+}
+
+// Too narrow for cells of two pixels, on either side of focus.
+TEST_F(Realtime, SmallBlursAreThoseOfFinalFrames) {
+    for (const float coc_px : {-2.0f, -1.0f, 1.0f, 2.0f}) {
+        Shot shot = flat(64, 48, {}, coc_px);
+        paint_noise(shot.colour, 7);
+        const auto final = defocus(shot.job("scatter"));
+        ASSERT_TRUE(final) << final.error().message;
+        for (Session& session : sessions_)
+            EXPECT_LT(rms(drawn(session, shot), final->image), 0.012) << coc_px;
+    }
+}
+
+// A thin bar far before focus hides next to nothing: what is beside it goes on behind it.
+TEST_F(Realtime, WhatAThinThingHidesIsWhatIsBesideIt) {
+    Shot shot = flat(160, 80, {0.2f, 0.2f, 0.2f, 1}, 0);
+    for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 60; ++x) shot.colour(x, y) = {0.9f, 0.9f, 0.9f, 1};
+    for (int y = 0; y < 80; ++y)
+        for (int x = 80; x < 84; ++x) shot.colour(x, y) = {0.2f, 0.2f, 0.2f, 1}, shot.coc_px(x, y) = -30;
+    for (Session& session : sessions_) EXPECT_NEAR(drawn(session, shot)(82, 40).g, 0.2, 0.01);
+}
+
 // No more of them than can be told apart: light that is everywhere is no lamp, and is not lost.
 TEST_F(Realtime, GlitterKeepsItsLight) {
     Shot shot = flat(128, 96, {}, 9);

@@ -46,7 +46,7 @@ void RealtimePass::make() {
     ImageKind kind;
     kind.width = tiles_x() * kGroup, kind.height = tiles_y() * kGroup, kind.is_array = true;
     kind.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    kind.layers = 6, kind.levels = kLevels;
+    kind.layers = 7, kind.levels = kLevels;
     cells_ = DeviceImage(opened_, memory_, kind);
     kind.layers = 3, kind.levels = 1;
     gathered_ = DeviceImage(opened_, memory_, kind);
@@ -54,7 +54,7 @@ void RealtimePass::make() {
     surroundings_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
     tiles_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
     lamps_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
-    reach_ = heap_.allocate(Kind::OnDevice, tiles * sizeof(float));
+    reach_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
     boxes_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::int32_t));
     lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
     make_sampler(VK_FILTER_NEAREST, nearest_);
@@ -138,23 +138,22 @@ void RealtimePass::write_own(const Slot& slot) const {
     for (std::uint32_t level = 0; level < kLevels; ++level)
         write_image(slot.sets[kSplit], 2 + level, kStored, {VK_NULL_HANDLE, cells_.level(level), kLayout});
     write_buffer(slot.sets[kSplit], 6, tiles_);
-    for (const Step step : {kSplit, kCombine}) {
-        write_buffer(slot.sets[step], 7, surroundings_);
-        write_buffer(slot.sets[step], 8, lamps_);
-    }
+    write_buffer(slot.sets[kSplit], 7, surroundings_);
+    write_buffer(slot.sets[kSplit], 8, lamps_);
     write_buffer(slot.sets[kReach], 0, tiles_);
     write_buffer(slot.sets[kReach], 1, reach_);
     write_buffer(slot.sets[kReach], 2, lamps_);
     write_buffer(slot.sets[kReach], 3, boxes_);
     write_image(slot.sets[kGather], 0, kSampled, {linear_, cells_.view(), kLayout});
     write_buffer(slot.sets[kGather], 1, lens_);
-    write_buffer(slot.sets[kGather], 2, tiles_);
-    write_buffer(slot.sets[kGather], 3, reach_);
-    write_image(slot.sets[kGather], 4, kStored, {VK_NULL_HANDLE, gathered_.view(), kLayout});
+    write_buffer(slot.sets[kGather], 2, reach_);
+    write_image(slot.sets[kGather], 3, kStored, {VK_NULL_HANDLE, gathered_.view(), kLayout});
     write_image(slot.sets[kCombine], 3, kSampled, {linear_, gathered_.view(), kLayout});
-    write_image(slot.sets[kCombine], 5, kSampled, {nearest_, cells_.view(), kLayout});
-    write_buffer(slot.sets[kCombine], 6, lens_);
-    write_buffer(slot.sets[kCombine], 9, boxes_);
+    write_image(slot.sets[kCombine], 1, kSampled, {linear_, cells_.view(), kLayout});
+    write_buffer(slot.sets[kCombine], 5, lens_);
+    write_buffer(slot.sets[kCombine], 6, lamps_);
+    write_buffer(slot.sets[kCombine], 7, boxes_);
+    write_buffer(slot.sets[kCombine], 8, reach_);
 }
 
 void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) const {
@@ -162,10 +161,9 @@ void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) c
         return VkDescriptorImageInfo{nearest_, input.view, input.layout};
     };
     write_image(slot.sets[kMeasure], 0, kSampled, sampled(images.colour));
-    for (const Step step : {kSplit, kCombine}) {
+    for (const Step step : {kSplit, kCombine})
         write_image(slot.sets[step], 0, kSampled, sampled(images.colour));
-        write_image(slot.sets[step], 1, kSampled, sampled(images.depth));
-    }
+    write_image(slot.sets[kSplit], 1, kSampled, sampled(images.depth));
     // Without one something must be bound all the same.
     write_image(slot.sets[kCombine], 2, kSampled, sampled(images.layer.view ? images.layer : images.colour));
     write_image(slot.sets[kCombine], 4, kStored, {VK_NULL_HANDLE, images.result, VK_IMAGE_LAYOUT_GENERAL});
@@ -184,17 +182,18 @@ std::uint64_t RealtimePass::least_bytes(Step step) const {
     const std::uint64_t colour = settings_.has_float_result ? 16 : 8, depth = 4, texel = 8;
     // Four layers of the finest level; a quarter, a sixteenth and a 64th of them of the others.
     const std::uint64_t all_cells = cells * 4 * texel * 85 / 64, gathered = cells * 3 * texel;
+    const std::uint64_t radii = cells * texel;
     switch (step) {
         case kMeasure:
             return pixels * colour + tiles * 8;
         case kSplit:
-            return pixels * (colour + depth) + all_cells + tiles * (8 + 8 + 16);
+            return pixels * (colour + depth) + all_cells + radii + tiles * (8 + 8 + 16);
         case kReach:
-            return tiles * (8 + 16 + 4 + 16);
+            return tiles * (8 + 16 + 8 + 16);
         case kGather:
-            return all_cells + gathered + tiles * (8 + 4);
+            return all_cells + gathered + tiles * 8;
         default:
-            return pixels * (colour + depth + colour) + gathered + tiles * (8 + 16 + 16);
+            return pixels * (colour + colour) + radii + gathered + tiles * (8 + 16 + 16);
     }
 }
 

@@ -62,9 +62,9 @@ constexpr std::array kBuffers{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuff
 constexpr std::array kOfMeasure{kSampled, kBuffer};
 constexpr std::array kOfSplit{kSampled, kSampled, kStored, kStored, kStored,
                               kStored,  kBuffer,  kBuffer, kBuffer};
-constexpr std::array kOfGather{kSampled, kBuffer, kBuffer, kBuffer, kStored};
+constexpr std::array kOfGather{kSampled, kBuffer, kBuffer, kStored};
 constexpr std::array kOfCombine{kSampled, kSampled, kSampled, kSampled, kStored,
-                                kSampled, kBuffer,  kBuffer,  kBuffer,  kBuffer};
+                                kBuffer,  kBuffer,  kBuffer,  kBuffer};
 
 std::span<const VkDescriptorType> buffers(std::size_t count) { return std::span(kBuffers).first(count); }
 

@@ -9,7 +9,8 @@ layout(push_constant) uniform Push {
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
-const int kLampLight = 4, kLampPlace = 5;  // of the finest alone: a quarter of its light; place in the cell, signed radius
+// Of the finest alone: a quarter of its light; place in the cell, signed radius; signed radii of its four pixels.
+const int kLampLight = 4, kLampPlace = 5, kRadii = 6;
 const int kGatheredBack = 0, kGatheredNear = 1, kGatheredArea = 2;            // of what is gathered
 
 vec4 light_of(vec4 colour) { return clamp(colour, vec4(0), vec4(kMostLight)); }
@@ -18,5 +19,9 @@ float radius_of(float depth) {
     const float radius = at.add_px + at.per_depth_px * depth;
     return radius == radius ? clamp(radius, -at.most_px, at.most_px) : 0.0;
 }
-// The share of something at a radius that is drawn blurred; the rest stays sharp.
-float blurred_share(float radius_px) { return smoothstep(0.5, 2.0, radius_px); }
+// The share of something at a radius that cells draw; the rest is blurred pixel by pixel.
+const float kWholePx = 3.5;  // from there on they draw all
+float blurred_share(float radius_px) { return smoothstep(1.5, kWholePx, radius_px); }
+// The radius that cells gather over, so that with what cells themselves blur (boxes and tents of two pixels) a disc is as
+// wide, by its second moment, as it should be.
+float gathered_radius(float radius_px) { return sqrt(max(radius_px * radius_px - 4, 1.0)); }

@@ -2,13 +2,53 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2D colours;
-layout(binding = 1) uniform sampler2D depths;
+layout(binding = 1) uniform sampler2DArray cells;
 layout(binding = 2) uniform sampler2D over;  // the host's transparent layer, premultiplied
 layout(binding = 3) uniform sampler2DArray gathered;
 layout(binding = 4, RESULT) writeonly uniform image2D result;
+layout(std430, binding = 8) readonly buffer Reach { vec2 reach[]; };
 #include "realtime.glsl"
-#include "realtime_lamps.glsl"
+
+float radius_at(ivec2 pixel) {
+    return texelFetch(cells, ivec3(pixel / 2, kRadii), 0)[(pixel.y & 1) * 2 + (pixel.x & 1)];
+}
 #include "realtime_sprites.glsl"
+
+// What cells of two pixels are too coarse for: a pixel and those around it, each over a disc of its own. What lies behind
+// the pixel is seen through the pixel's disc.
+struct Fine {
+    vec4 back, near;
+    float area;  // of what is in front of focus
+};
+Fine fine(ivec2 pixel, vec4 sharp, float radius, float widest_px) {
+    Fine sum = Fine(sharp, vec4(0), 0);
+    if (widest_px == 0) return sum;
+    const int far = int(ceil(widest_px));
+    vec4 back = vec4(0), guess = vec4(0);
+    float back_area = 0, guess_area = 0;
+    for (int y = -far; y <= far; ++y)
+        for (int x = -far; x <= far; ++x) {
+            const ivec2 there = clamp(pixel + ivec2(x, y), ivec2(0), at.size - 1);
+            const float own = radius_at(there), reaches = own < 0 ? -own : min(own, radius), disc = max(reaches, 0.5);
+            const float covers = clamp(disc + 0.5 - length(vec2(x, float(y) / at.aspect)), 0.0, 1.0);
+            const float area = (1 - blurred_share(disc)) * covers / max(1.0, 3.14159 * (disc * disc + 1.0 / 12));
+            if (area == 0 && (own < 0 || radius >= 0)) continue;
+            const vec4 light = texelFetch(colours, there, 0);
+            if (own < 0) sum.near += area * light, sum.area += area;
+            else {
+                const float likely = 1 / (1 + brightness(light));
+                back += area * light, back_area += area;
+                guess += likely * light, guess_area += likely;
+            }
+        }
+    // What something near hides is guessed from what is around it, or goes on as that.
+    if (back_area > 1e-3) sum.back = back / back_area;
+    else if (guess_area > 0) sum.back = guess / guess_area;
+    else if (sum.area > 0) sum.back = sum.near / sum.area;
+    // A disc counted pixel by pixel is its area to 4 %.
+    if (sum.area > 1) sum.near /= sum.area, sum.area = 1;
+    return sum;
+}
 
 // Between the four cells around it, those that are as blurred as the pixel before others.
 vec4 back_at(ivec2 pixel, float radius, out float is_known) {
@@ -21,7 +61,7 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
         const ivec2 d = ivec2(i & 1, i >> 1), cell = clamp(low + d, ivec2(0), last);
         const vec4 area = texelFetch(gathered, ivec3(cell, kGatheredArea), 0);
         const vec2 near_it = mix(1 - share, share, vec2(d));
-        const float alike = radius > 0 ? exp2(-4 * abs(area.y - radius) / (1 + 0.5 * radius)) : 1.0;
+        const float alike = radius > 0 ? exp2(-4 * abs(area.y - gathered_radius(radius)) / (1 + 0.5 * radius)) : 1.0;
         const float w = near_it.x * near_it.y * area.z * max(alike, 1e-4);
         sum += w * texelFetch(gathered, ivec3(cell, kGatheredBack), 0);
         weights += w;
@@ -34,26 +74,26 @@ void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, at.size))) return;
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles);
-    const vec4 sharp = texelFetch(colours, pixel, 0);
-    const float radius = radius_of(texelFetch(depths, pixel, 0).r);
-    const vec4 lamp = lamp_of(pixel, light_of(sharp));
+    const ivec2 tile = pixel / kTile;
+    const float radius = radius_at(pixel);
+    const vec2 reaches = reach[tile.y * at.tiles.x + tile.x];
+    const Fine own = fine(pixel, texelFetch(colours, pixel, 0), radius, reaches.y);
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
-    add_all_lamps(pixel, near_lamps, back_lamps);
+    add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
     const vec4 near = textureLod(gathered, vec3(place, kGatheredNear), 0);
     float area = textureLod(gathered, vec3(place, kGatheredArea), 0).x, is_known;
     const vec4 back = back_at(pixel, radius, is_known);
     const float hidden = blurred_share(-radius);
     // A pixel that is wholly near has nothing sharp; of what it hides something may be known.
-    const float blurred = max(blurred_share(radius), hidden), share = is_known > 0 ? blurred : 0.0;
-    vec4 base = mix(blurred > 0 ? sharp - lamp : sharp, back, share);
-    base += (blurred > 0 ? (1 - blurred) * lamp : vec4(0)) + back_lamps;
+    vec4 base = mix(own.back, back, is_known * blurred_share(abs(radius)));
+    base = own.near + (1 - own.area) * base;
     vec4 made = base;
     if (area > 0) {
         const bool fills = is_known == 0 && hidden > 0.99;
         const float covers = fills ? 1.0 : min(area, 1.0);
         made = near * (covers / area) + (1 - covers) * base;
     }
-    made += near_lamps;
+    made += (1 - own.area) * back_lamps + near_lamps;
     if (at.has_layer != 0u) {
         const vec4 layer = texelFetch(over, pixel, 0);
         made = layer + (1 - layer.a) * made;

@@ -6,9 +6,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray cells;
 layout(std430, binding = 1) readonly buffer Lens { vec4 lens[]; };  // engine/gather/realtime_plan.h
-layout(std430, binding = 2) readonly buffer Tiles { vec2 tiles[]; };
-layout(std430, binding = 3) readonly buffer Reach { float reach[]; };
-layout(binding = 4, rgba16f) writeonly uniform image2DArray gathered;
+layout(std430, binding = 2) readonly buffer Reach { vec2 reach[]; };
+layout(binding = 3, rgba16f) writeonly uniform image2DArray gathered;
 #include "realtime.glsl"
 
 const int kTaps = 127, kNorms = 64, kSide = 64, kFirstNorm = kTaps, kNearShape = kFirstNorm + kNorms,
@@ -16,6 +15,7 @@ const int kTaps = 127, kNorms = 64, kSide = 64, kFirstNorm = kTaps, kNearShape =
 const float kShapeHalf = 1.25;  // of the pupil's radius: half a side of the shape
 const float kTapsAcross = 6.5;  // between the middle and the rim
 const float kLeastArea = 1e-4;
+const float kNearestPx = 8;  // where what is hidden is looked for first
 
 // engine/gather/realtime_plan.cpp: what a tap counts of something blurred by a share of the disc's radius.
 vec4 shape(int first, vec2 tap, float share) {
@@ -36,29 +36,53 @@ vec3 place_of(vec2 middle, vec2 tap, float radius_px, int layer) {
 }
 float level_of(float radius_px) { return max(0.0, log2(radius_px / (2 * kTapsAcross))); }
 
-vec4 back_of(vec2 middle, vec4 own_light, vec2 own, float hides_px, out float is_known) {
-    const bool has = own.x > 0.02;
-    const float own_px = has ? own.y / own.x : 0.0, radius = has ? max(own_px, 1.0) : hides_px;
-    is_known = 1;
-    if (has && own_px < 0.5) return own_light / own.x;
-    const float level = level_of(radius);
+// Adds what a tap says of something hidden: bright things hide behind nothing, as far as is known.
+void guess(vec4 there, float there_area, float weight, inout vec4 light, inout float area) {
+    const float likely = weight / (1 + brightness(there) / there_area);
+    light += likely * there, area += likely * there_area;
+}
+
+// What a cell that is wholly in front of focus hides: the mean of what is behind focus around it, and of what is in front
+// as well but far less blurred; of the nearest of these.
+vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
+    vec4 light = vec4(0);
+    float area = 0;
+    for (float radius = min(kNearestPx, most_px);; radius = min(4 * radius, most_px)) {
+        const float level = level_of(radius);
+        for (int i = 0; i < kTaps; ++i) {
+            const vec2 tap = lens[i].xy;
+            const float w = exp2(-8 * lens[i].z * lens[i].z);
+            const vec3 back = textureLod(cells, place_of(middle, tap, radius, kBack), level).xyz;
+            if (back.z > kLeastArea)
+                guess(textureLod(cells, place_of(middle, tap, radius, kBackLight), level) * (back.z / back.x), back.z, w,
+                      light, area);
+            const vec2 near = textureLod(cells, place_of(middle, tap, radius, kNear), level).xy;
+            const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near.y / (near.x * own_px)) : 0.0;
+            if (behind > 0)
+                guess(textureLod(cells, place_of(middle, tap, radius, kNearLight), level), near.x, behind, light, area);
+        }
+        if (area > 0.05 || radius == most_px) break;
+    }
+    is_known = area > 1e-6 ? 1.0 : 0.0;
+    return area > 1e-6 ? light / area : vec4(0);
+}
+
+// Of a cell with something in it: what lies behind is seen through this cell's own disc.
+vec4 back_of(vec2 middle, vec4 own_light, vec2 own) {
+    const float own_px = own.y / own.x, radius = max(own_px, 1.0), level = level_of(radius);
+    if (own_px < 0.5) return own_light / own.x;
     vec4 light = vec4(0);
     float area = 0;
     for (int i = 0; i < kTaps; ++i) {
         const vec2 tap = lens[i].xy;
         const vec2 there = textureLod(cells, place_of(middle, tap, radius, kBack), level).xy;
-        if (there.x < kLeastArea) continue;
-        // What lies behind is seen through this cell's own disc; what hides is guessed from all around it.
-        const float share = has ? clamp(there.y / there.x, 0.5, radius) / radius : 1.0;
-        const vec4 there_light = textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
-        const vec4 w = has ? norm(share).y * shape(kFarShape, tap, share)
-                           : vec4(1 - 0.9 * lens[i].z);
-        light += w * there_light;
+        if (there.x == 0) continue;
+        const float share = clamp(there.y / there.x, 0.5, radius) / radius;
+        const vec4 w = norm(share).y * shape(kFarShape, tap, share);
+        light += w * textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
         area += w.a * there.x;
     }
-    if (area > 1e-3) return light / area;
-    is_known = has ? 1.0 : 0.0;
-    return has ? own_light / own.x : vec4(0);
+    return area > 0 ? light / area : own_light / own.x;
 }
 
 vec4 near_of(vec2 middle, float radius, out float area) {
@@ -79,15 +103,22 @@ vec4 near_of(vec2 middle, float radius, out float area) {
 
 void main() {
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), tile = ivec2(gl_WorkGroupID.xy);
-    const float near_px = reach[tile.y * at.tiles.x + tile.x];
-    const vec2 middle = vec2(cell) + 0.5, own = texelFetch(cells, ivec3(cell, kBack), 0).xy;
-    const vec4 own_light = texelFetch(cells, ivec3(cell, kBackLight), 0);
-    float is_known, area = 0;
-    const vec4 back = back_of(middle, own_light, own, max(near_px, 1.0), is_known);
+    const float near_px = reach[tile.y * at.tiles.x + tile.x].x;
+    const vec2 middle = vec2(cell) + 0.5;
+    const vec3 own = texelFetch(cells, ivec3(cell, kBack), 0).xyz;
+    const bool has = own.z > 0.02;
+    float is_known = 1, area = 0;
+    vec4 back;
+    if (has) {
+        back = back_of(middle, texelFetch(cells, ivec3(cell, kBackLight), 0), own.xy);
+    } else {
+        const vec2 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xy;
+        back = hidden_of(middle, own_near.y / own_near.x, max(near_px, 1.0), is_known);
+    }
     vec4 near = vec4(0);
     if (near_px > 0.5) near = near_of(middle, max(near_px, 1.0), area);
     imageStore(gathered, ivec3(cell, kGatheredBack), back);
     imageStore(gathered, ivec3(cell, kGatheredNear), near);
-    const float own_px = own.x > 0.02 ? own.y / own.x : 0.0;
+    const float own_px = has ? own.y / own.x : 0.0;
     imageStore(gathered, ivec3(cell, kGatheredArea), vec4(area, own_px, is_known, own.x));
 }

@@ -1,6 +1,7 @@
 // Parts the light of 2 x 2 pixels into what lies in front of focus and all else, and takes means; a group is a tile.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2D colours;
@@ -39,18 +40,43 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     }
 }
 
+// The signed radius of a pixel. At a silhouette a pixel shows something near and what is behind, and its depth may be that of
+// what is behind: it has the radius of what it shows mostly, by area or by light.
+float own_radius(ivec2 pixel, vec4 light) {
+    const float kApart = 1.5;  // pixels: less is blurred alike
+    const float radius = radius_of(texelFetch(depths, pixel, 0).r), own = brightness(light);
+    float near = own, found = radius;
+    ivec2 to = ivec2(0);
+    // A loop: nine pixels at once take half as many registers again.
+    [[dont_unroll]] for (int i = 0; i < 9; ++i) {
+        const ivec2 d = ivec2(i % 3, i / 3) - 1, there = clamp(pixel + d, ivec2(0), at.size - 1);
+        const float reaches = radius_of(texelFetch(depths, there, 0).r);
+        if (reaches > radius - kApart) continue;
+        const float bright = brightness(light_of(texelFetch(colours, there, 0)));
+        if (abs(bright - own) > abs(near - own)) near = bright, found = reaches, to = d;
+    }
+    if (to == ivec2(0)) return radius;
+    const ivec2 across = clamp(pixel - 2 * to, ivec2(0), at.size - 1);
+    if (radius_of(texelFetch(depths, across, 0).r) < found + kApart) return radius;
+    const float behind = brightness(light_of(texelFetch(colours, across, 0)));
+    if (near < 1.5 * behind) return radius;
+    const float share = (own - behind) / (near - behind);
+    return share > 0.02 && share < 1.2 && share * near > 0.5 * own ? found : radius;
+}
+
 void main() {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
     vec4 near_light = vec4(0), back_light = vec4(0);
     float near_area = 0, near_radius = 0, back_area = 0, back_weight = 0, back_radius = 0;
     vec2 range = vec2(1e9, -1e9), lamp_place = vec2(0);
-    vec4 lamp = vec4(0);
+    vec4 lamp = vec4(0), own_radii;
     for (int i = 0; i < 4; ++i) {
         // Beyond the picture its border goes on.
         const ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(2 * cell + corner, at.size - 1);
         vec4 light = light_of(texelFetch(colours, pixel, 0));
-        const float radius = radius_of(texelFetch(depths, pixel, 0).r);
+        const float radius = own_radius(pixel, light);
+        own_radii[i] = radius;
         const vec4 bright = lamp_of(pixel, light);
         light -= bright;
         if (pixel == 2 * cell + corner) {
@@ -59,20 +85,20 @@ void main() {
         }
         range = vec2(min(range.x, radius), max(range.y, radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
-        near_light += near * light, near_area += near, near_radius -= near * radius;
-        // In a cell with something blurred in it, that is what the cell stands for.
-        const float weight = back * mix(0.05, 1.0, blurred_share(radius));
+        near_light += near * light, near_area += near, near_radius += near * gathered_radius(radius);
+        // What is in focus is hardly in it, or it would be gathered where a tap falls between two cells.
+        const float weight = back * mix(1e-3, 1.0, smoothstep(0.5, 1.5, radius));
         back_light += weight * light, back_area += back, back_weight += weight;
-        back_radius += weight * max(radius, 0.0);
+        back_radius += weight * (radius > 0.5 ? gathered_radius(radius) : 0.0);
     }
-    const float per_weight = back_weight > 0 ? back_area / back_weight : 0.0;
     keep_lamp(cell, lamp, lamp_place);
-    part[kBackLight][own] = per_weight * back_light;
-    part[kBack][own] = vec4(back_area, per_weight * back_radius, 0, 0);
+    part[kBackLight][own] = back_light;
+    part[kBack][own] = vec4(back_weight, back_radius, back_area, 0);
     part[kNearLight][own] = near_light;
     part[kNear][own] = vec4(near_area, near_radius, 0, 0);
     radii[own] = range;
     for (int k = 0; k < kLayers; ++k) imageStore(cells_1, ivec3(cell, k), part[k][own]);
+    imageStore(cells_1, ivec3(cell, kRadii), own_radii);
     const ivec2 tile = ivec2(gl_WorkGroupID.xy);
     for (int side = 4; side > 0; side /= 2) {
         barrier();

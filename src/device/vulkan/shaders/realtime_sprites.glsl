@@ -1,8 +1,7 @@
 // Lamps as sprites: each with the lens's own kernel, at its own place and radius.
-layout(binding = 5) uniform sampler2DArray cells;
-layout(std430, binding = 6) readonly buffer Lens { vec4 lens[]; };    // engine/gather/realtime_plan.h
-layout(std430, binding = 8) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_split.comp
-layout(std430, binding = 9) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
+layout(std430, binding = 5) readonly buffer Lens { vec4 lens[]; };    // engine/gather/realtime_plan.h
+layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_split.comp
+layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
 
 const int kLampSteps = 14, kFirstStep = 127 + 64 + 2 * 64 * 64;
 const float kStepAt = 0.5;  // pixels: the radius of the first kernel; the next are sqrt(2) times as wide each
@@ -31,15 +30,31 @@ float seen(vec2 from, vec2 to, float radius) {
     for (int i = 1; i <= kSteps; ++i) {
         const float way = float(i) / float(kSteps);
         const ivec2 pixel = clamp(ivec2(floor(mix(from, to, way))), ivec2(0), at.size - 1);
-        const float there = radius_of(texelFetch(depths, pixel, 0).r);
+        const float there = radius_at(pixel);
         const float is_nearer = smoothstep(0.05, 0.2, 1 - there / radius);
         hidden += is_nearer * max(0.0, 1 - float(kSteps) * abs(1 - there / radius - way));
     }
     return 1 - min(hidden, 1.0);
 }
 
+// And what things in front of focus let through, `near_px` at most: beyond the pixel light goes on to where it would have
+// the radius of what stands there.
+float let_through(vec2 from, vec2 to, float radius, float near_px) {
+    const int kSteps = 8;
+    const float step_of = near_px / (radius * float(kSteps));
+    const float level = clamp(log2(0.5 * step_of * length(to - from)), 0.0, 3.0);
+    float hidden = 0;
+    for (int i = 1; i <= kSteps; ++i) {
+        const float way = float(i) * step_of;
+        const vec2 place = mix(from, to, 1 + way) * 0.5 / vec2(8 * at.tiles);
+        const vec2 near = textureLod(cells, vec3(place, kNear), level).xy;
+        if (near.x > 1e-3) hidden += near.x * max(0.0, 1 - abs(near.y / near.x / radius - way) / step_of);
+    }
+    return 1 - min(hidden, 1.0);
+}
+
 // Adds the lamps of one tile, in the order of its cells.
-void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, inout vec4 near, inout vec4 back) {
+void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
     for (int half_of = 0; half_of < 2; ++half_of)
         for (uint left = mask[half_of]; left != 0u; left &= left - 1u) {
             const int i = findLSB(left) + 32 * half_of;
@@ -50,16 +65,16 @@ void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, inout vec4 near, inout vec4 b
             if (share.a == 0) continue;
             const vec4 light = share * vec4(4 * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb, 0);
             if (lamp.z < 0) near += light;
-            else back += light * seen(from, pixel, lamp.z);
+            else back += light * seen(from, pixel, lamp.z) * (near_px > 0.5 ? let_through(from, pixel, lamp.z, near_px) : 1.0);
         }
 }
 
-void add_all_lamps(ivec2 pixel, inout vec4 near, inout vec4 back) {
+void add_all_lamps(ivec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
     const ivec2 own = pixel / kTile;
     const ivec4 box = boxes[own.y * at.tiles.x + own.x];
     for (int y = box.y; y <= box.w; ++y)
         for (int x = box.x; x <= box.z; ++x) {
             const uvec4 head = lamps[y * at.tiles.x + x];
-            if ((head.x | head.y) != 0u) add_lamps(ivec2(x, y), head.xy, vec2(pixel) + 0.5, near, back);
+            if ((head.x | head.y) != 0u) add_lamps(ivec2(x, y), head.xy, vec2(pixel) + 0.5, near_px, near, back);
         }
 }
