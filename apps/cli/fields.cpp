@@ -54,6 +54,7 @@ const Rows& other_flags() {
         {"scene.height", "--height"},
         {"scene.look_at", "--look-at"},
         {"scene.overscan_px", "--overscan"},
+        {"scene.own_camera", "--scene-camera"},
         {"scene.truth_samples", "--samples"},
         {"scene.want_motion", "--motion"},
         {"scene.width", "--width"},

@@ -64,6 +64,9 @@ void MakeFlags::add_to(Verb& verb) {
         .value("--pinhole-samples", "N", "samples per pixel of the sharp picture (default 64)", parse_count,
                scene.samples)
         .value("--seed", "N", "start of all random choices (default 1)", parse_seed, scene.seed)
+        .value("--scene-camera", "NAME",
+               "of a glTF file's cameras that of this name, or number from 1 (default: the first)",
+               parse_text, scene.own_camera)
         .value("--camera-at", "X,Y,Z",
                "where the camera stands in the scene's world, m (default: the scene's)", parse_place,
                camera_at)
@@ -196,6 +199,7 @@ Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale imag
                             {"seed", flags.scene.seed},
                             {"depth_blur_px", flags.scene.depth_blur_px},
                             {"depth_bits", flags.scene.depth_bits}};
+    if (!flags.scene.own_camera.empty()) report["parameters"]["scene_camera"] = flags.scene.own_camera;
     if (flags.camera_at)
         report["parameters"]["camera_at"] = {flags.camera_at->x, flags.camera_at->y, flags.camera_at->z};
     if (flags.look_at)

@@ -22,7 +22,7 @@ namespace petzval::cli {
 namespace {
 
 struct ViewFlags : DefocusFlags {
-    std::string against, script, scene;
+    std::string against, script, scene, scene_camera;
     std::optional<double> scale;
     std::optional<std::pair<int, int>> size, scene_size;
     std::optional<int> listen;
@@ -152,6 +152,7 @@ Status open_window(const ViewFlags& flags) {
         setup.frames = *there;
     }
     setup.scene = flags.scene;
+    setup.choice.scene_camera = flags.scene_camera;
     if (flags.scene_size)
         setup.scene_width = flags.scene_size->first, setup.scene_height = flags.scene_size->second;
     for (const SceneSummary& known : scene_list())
@@ -211,6 +212,7 @@ void check_scene(ViewFlags& flags) {
     if (flags.scene.empty() && is_gltf(flags.input.path)) flags.scene.swap(flags.input.path);
     if (flags.scene.empty()) {
         if (flags.scene_size) throw UsageError("--scene-size has no effect without --scene");
+        if (!flags.scene_camera.empty()) throw UsageError("--scene-camera has no effect without a glTF file");
         return;
     }
     refuse_both(!flags.input.path.empty(), "IN", true, "--scene");
@@ -219,6 +221,8 @@ void check_scene(ViewFlags& flags) {
     if (!is_gltf(flags.scene) && std::find(known.begin(), known.end(), flags.scene) == known.end())
         throw UsageError("--scene " + flags.scene + ": no such scene" + did_you_mean(flags.scene, known) +
                          "; petzval scene list tells them");
+    if (!is_gltf(flags.scene) && !flags.scene_camera.empty())
+        throw UsageError("--scene-camera has no effect: " + flags.scene + " is no glTF file");
     flags.input.path = flags.scene;
 }
 
@@ -238,6 +242,9 @@ void add_view(Verb& program, Action& chosen) {
             "--scene", "NAME",
             "a built-in scene, or a .gltf or .glb file, in place of IN, rendered at every move of its camera",
             parse_text, flags->scene)
+        .value("--scene-camera", "NAME",
+               "of a glTF file's cameras that of this name, or number from 1 (default: the first)",
+               parse_text, flags->scene_camera)
         .value("--scene-size", "WxH", "its picture (default 480x270)", parse_window, flags->scene_size)
         .value(
             "--listen", "PORT",

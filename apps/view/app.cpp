@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <unistd.h>
 #include <utility>
 
@@ -199,6 +200,7 @@ SceneWish App::scene_wish(int frame) const {
     wish.settings.width = setup_.scene_width, wish.settings.height = setup_.scene_height;
     wish.settings.samples = kFineSamples;
     wish.settings.frame = std::clamp(frame, 0, setup_.scene_frames - 1);
+    wish.settings.own_camera = state.choice.scene_camera;
     const Orbit orbit = state.path.at(frame).value_or(state.orbit);
     const Orbit& seen = frame == state.timeline.frame ? state.orbit : orbit;
     if (seen.is_home() || !home_) return wish;
@@ -363,6 +365,17 @@ void App::take_news() {
     }
 }
 
+// Of a file that moves, as is known once it was read.
+void App::has_frames(int count) {
+    setup_.scene_frames = count;
+    Timeline& line = state.timeline;
+    const bool is_all = line.last == line.frames.back();
+    line.frames.resize(std::size_t(count));
+    std::iota(line.frames.begin(), line.frames.end(), 0);
+    if (is_all || line.last >= count) line.last = count - 1;
+    if (line.frame >= count) go_to(count - 1);
+}
+
 void App::take_shot(ReadShot read) {
     if (read.error) trouble = read.error->message;  // what is shown stays
     if (read.is_against) {
@@ -374,6 +387,7 @@ void App::take_shot(ReadShot read) {
     trouble.clear();
     shot_ = std::move(read.shot);
     if (state.orbit.is_home()) home_ = shot_->shot.camera_of_file;
+    if (shot_->frames > setup_.scene_frames) has_frames(shot_->frames);
     if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
     notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
     if (state.following && shot_->subject_m) state.choice.camera.focus_distance_m = shot_->subject_m;

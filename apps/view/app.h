@@ -136,6 +136,7 @@ private:
     bool is_coarse() const;  // a scene whose camera moved a moment ago
     int coarse_by() const;
     void time_draft(const MadeFrame& made);
+    void has_frames(int count);
     void take_shot(ReadShot read);
     void take_frame(MadeFrame made);
     void take_print(Print print);

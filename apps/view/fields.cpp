@@ -92,6 +92,32 @@ Field aperture() {
             }};
 }
 
+// Of a glTF scene: its name, or number from 1.
+Field own_camera() {
+    return {
+        "scene.camera",
+        [](const App& app) {
+            const std::string& chosen = app.state.choice.scene_camera;
+            const bool has_names = app.shot() && !app.shot()->cameras.empty();
+            return chosen.empty() && has_names ? app.shot()->cameras.front() : chosen;
+        },
+        [](App& app, const std::string& text) -> Status {
+            if (!app.shot() || app.shot()->cameras.empty())
+                return invalid("scene.camera is of glTF files that have cameras");
+            const auto& names = app.shot()->cameras;
+            const auto number = number_of(text);
+            if (std::find(names.begin(), names.end(), text) == names.end() &&
+                !(number && *number >= 1 && *number <= double(names.size()))) {
+                std::string known;
+                for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+                return invalid("scene.camera " + text + ": the file has none of that name; it has " + known);
+            }
+            app.state.choice.scene_camera = text;
+            app.turn_to({});
+            return Done{};
+        }};
+}
+
 template <typename E>
 Field word(const char* name, E& (*of)(State&)) {
     return {name, [of](const App& app) { return name_of(of(const_cast<State&>(app.state))); },  // NOLINT
@@ -212,6 +238,7 @@ std::vector<Field> choices() {
         toggle(
             "shot.easing", +[](State& s) -> bool& { return s.timeline.easing; }),
         aperture(),
+        own_camera(),
         toggle(
             "scene.follow", +[](State& s) -> bool& { return s.following; }),
         toggle(

@@ -131,10 +131,12 @@ Result<LiveScene::Seen> LiveScene::look(const SceneWish& wish, const std::functi
     const auto start = Clock::now();
     SceneSettings settings = wish.settings;
     settings.progress = [&](double) { return !cancelled(); };
-    if (wish.anew || !standing_ || name_ != wish.name || frame_ != settings.frame) {
+    if (wish.anew || !standing_ || name_ != wish.name || frame_ != settings.frame ||
+        camera_ != settings.own_camera) {
         auto built = StandingScene::build(wish.name, settings);
         if (!built) return built.error();
         standing_ = std::move(*built), name_ = wish.name, frame_ = settings.frame;
+        camera_ = settings.own_camera;
     }
     const double build_s = seconds_since(start);
     const int by = wish.coarse;
@@ -149,6 +151,7 @@ Result<LiveScene::Seen> LiveScene::look(const SceneWish& wish, const std::functi
     }
     Seen seen;
     seen.build_s = build_s, seen.render_s = seconds_since(start) - build_s;
+    seen.frames = standing_->frames(), seen.cameras = standing_->cameras();
     Shot& shot = seen.shot;
     shot.path = wish.name;
     shot.place = Place::whole({0, 0, settings.width, settings.height});
@@ -223,6 +226,7 @@ std::vector<std::string> scene_words(const SceneWish& wish, const std::string& o
                                    std::to_string(s.samples),
                                    "--frame",
                                    std::to_string(s.frame)};
+    if (!s.own_camera.empty()) words.insert(words.end(), {"--scene-camera", s.own_camera});
     if (s.camera_at) words.insert(words.end(), {"--camera-at", place_text(*s.camera_at)});
     if (s.look_at) words.insert(words.end(), {"--look-at", place_text(*s.look_at)});
     return words;

@@ -56,8 +56,10 @@ struct SceneWish {
 class LiveScene {
 public:
     struct Seen {
-        Shot shot;                        // of no file
-        std::optional<double> subject_m;  // along the axis: where what the scene is about stands
+        Shot shot;                         // of no file
+        std::optional<double> subject_m;   // along the axis: where what the scene is about stands
+        int frames = 1;                    // > 1: it moves
+        std::vector<std::string> cameras;  // of a file: those to choose from
         double build_s = 0, render_s = 0;
     };
     // Errors: those of render_scene().
@@ -65,7 +67,7 @@ public:
 
 private:
     std::optional<StandingScene> standing_;
-    std::string name_;
+    std::string name_, camera_;
     int frame_ = 0;
 };
 

@@ -240,6 +240,7 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
         open.is_live = true, open.samples = reading.scene->settings.samples;
         open.coarse = reading.scene->coarse, open.is_moving = reading.scene->is_moving;
         open.subject_m = seen->subject_m, open.build_s = seen->build_s, open.render_s = seen->render_s;
+        open.frames = seen->frames, open.cameras = std::move(seen->cameras);
         open.shot = std::move(seen->shot);
     } else if (reading.pushed) {
         const Pushed& pushed = *reading.pushed;

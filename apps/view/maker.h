@@ -36,6 +36,8 @@ struct OpenShot {
     bool is_live = false, is_moving = false;  // moving: its drafts alone are made
     int samples = 0, coarse = 1;              // rays a pixel; so many by so many pixels are one
     std::optional<double> subject_m;
+    int frames = 1;
+    std::vector<std::string> cameras;  // of a file's
     double build_s = 0, render_s = 0;
 };
 using ShotPointer = std::shared_ptr<const OpenShot>;

@@ -27,7 +27,20 @@ void command_button(App& app, const char* label, const std::string& line) {
     if (ImGui::Button(label)) say(app, line);
 }
 
+// Of a file that has several.
+void own_cameras(App& app) {
+    if (!app.shot() || app.shot()->cameras.size() < 2) return;
+    const std::string now = field_text(app, "scene.camera").value();
+    if (ImGui::BeginCombo("camera", now.c_str())) {
+        for (const std::string& name : app.shot()->cameras)
+            if (ImGui::Selectable(name.c_str(), name == now)) say(app, "set scene.camera \"" + name + "\"");
+        ImGui::EndCombo();
+    }
+    is_field(app, "scene.camera");
+}
+
 void camera_panel(App& app) {
+    own_cameras(app);
     number_widget(app, "camera.f_number", "f-number", 0, true);
     if (app.shot() && app.shot()->shot.has_radii())
         ImGui::TextWrapped("the file has blur radii: aperture and focus are in them already");

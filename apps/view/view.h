@@ -33,6 +33,7 @@ struct Choice {
     std::optional<int> frame;  // of a shot; nothing: a single picture
     DevelopSettings develop;   // of display pictures
     bool ocio = false;
+    std::string scene_camera;  // of a glTF scene's cameras: its name, or number from 1; empty: the first
 };
 
 struct Setup {

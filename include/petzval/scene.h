@@ -42,6 +42,7 @@ struct SceneSettings {
     std::uint64_t seed = 1;
     int frame = 0;
     std::optional<Camera> camera;  // default: the scene's own
+    std::string own_camera = {};   // of a file's the one of this name, or number from 1; empty: the first
     // Where the camera stands and the point that lies in the middle of its picture; upright. Default: as the
     // scene has it at that frame. With camera_at alone it looks the same way from elsewhere.
     std::optional<ScenePoint> camera_at, look_at;
@@ -82,7 +83,7 @@ PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const Sc
 // built-in one, or a glTF file, which ends in .gltf or .glb (by tinygltf, where it was found).
 class PETZVAL_API StandingScene {
 public:
-    // Of the settings the frame and the threads. Errors: those of render_scene().
+    // Of the settings the frame, own_camera and the threads. Errors: those of render_scene().
     static Result<StandingScene> build(const std::string& name, const SceneSettings& settings);
     ~StandingScene();
     StandingScene(StandingScene&&) noexcept;
@@ -93,6 +94,8 @@ public:
     // Where what the scene is about stands in this frame; nothing where it is about nothing in particular.
     std::optional<ScenePoint> subject() const;
     const Camera& camera() const;                      // the scene's own
+    int frames() const;                                // > 1: it moves; of a file, 24 a second
+    const std::vector<std::string>& cameras() const;   // of a file: those to choose from
     const std::vector<std::string>& warnings() const;  // of a file: what of it could not be read
 
 private:

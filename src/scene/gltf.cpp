@@ -1,21 +1,21 @@
 #include "scene/gltf.h"
 
 #include "scene/gltf_lights.h"
+#ifdef PETZVAL_GLTF
+#include "scene/gltf_animation.h"
+#include "scene/gltf_numbers.h"
+#endif
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <map>
 #include <memory>
 #include <optional>
 #include <utility>
-
-#ifdef PETZVAL_GLTF
-#include <tiny_gltf.h>
-#endif
 
 namespace petzval::scene {
 
@@ -23,7 +23,7 @@ bool is_gltf(const std::string& name) { return name.ends_with(".gltf") || name.e
 
 #ifndef PETZVAL_GLTF
 
-Status add_gltf(World&, const std::string& path, Camera&, std::vector<std::string>&) {
+Result<GltfScene> add_gltf(World&, const std::string& path, int, const std::string&) {
     return Error{ErrorCode::Unsupported,
                  path + ": this petzval was built without glTF; install libtinygltf-dev and build again"};
 }
@@ -130,9 +130,7 @@ struct Surface {
 class Reader {
 public:
     Reader(World& world, const tinygltf::Model& model, std::string path, std::vector<std::string>& warnings)
-        : world_(world), model_(model), path_(std::move(path)), warnings_(warnings) {
-        if (!model.animations.empty()) warnings_.push_back(path_ + ": its animations are not played");
-    }
+        : world_(world), model_(model), path_(std::move(path)), warnings_(warnings) {}
 
     Status read() {
         world_.is_baked = false;
@@ -150,77 +148,62 @@ public:
         return Done{};
     }
 
-    void place_camera(Camera& camera) const {
+    // `wanted`: a name, or a number from 1; empty: the first.
+    Status place_camera(const std::string& wanted, Camera& camera) const {
         const Vec3 middle = 0.5f * (low_ + high_);
         const float reach = std::max(0.5f * length(high_ - low_), 1e-4f);
         camera = {.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 2, .focus_distance_m = 1};
-        if (camera_) {
-            world_.view = *camera_;
-            camera.focal_length_mm = focal_length_mm_;
+        if (!cameras_.empty() || !wanted.empty()) {
+            const auto own = camera_called(wanted);
+            if (!own) return own.error();
+            world_.view = own->view;
+            camera.focal_length_mm = own->focal_length_mm;
         } else {
             const float far = 2.2f * reach * float(camera.focal_length_mm) / (36 * 9.0f / 16);
             world_.view = Viewpoint::looking(middle - normalised(Vec3{-0.35f, -0.25f, 1}) * far, middle);
         }
         const double ahead = double(world_.view.from_world(middle).z);
         camera.focus_distance_m = ahead > 0 ? ahead : double(reach);
+        return Done{};
+    }
+
+    std::vector<std::string> camera_names() const {
+        std::vector<std::string> names;
+        for (const OwnCamera& one : cameras_) names.push_back(one.name);
+        return names;
     }
 
 private:
     Error broken(const std::string& why) const { return {ErrorCode::InvalidFile, path_ + ": " + why}; }
+
+    struct OwnCamera {
+        std::string name;
+        Viewpoint view;
+        double focal_length_mm = 50;
+    };
+
+    Result<OwnCamera> camera_called(const std::string& wanted) const {
+        std::size_t number = wanted.empty() ? 1 : 0;
+        std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+        std::string known;
+        for (const OwnCamera& one : cameras_) {
+            if (one.name == wanted) return one;
+            known += (known.empty() ? "" : ", ") + one.name;
+        }
+        if (number >= 1 && number <= cameras_.size()) return cameras_[number - 1];
+        return Error{ErrorCode::InvalidArgument,
+                     "scene.own_camera " + wanted + ": " + path_ + " has no such camera" +
+                         (known.empty() ? "" : "; it has " + known),
+                     "scene.own_camera"};
+    }
 
     template <typename List>
     static bool has(const List& list, int index) {
         return index >= 0 && std::size_t(index) < list.size();
     }
 
-    // The bytes of an accessor, checked to be there.
-    struct Numbers {
-        const unsigned char* first = nullptr;
-        std::size_t stride = 0, count = 0;
-        int type = 0;  // of a component
-        bool normalised = false;
-
-        double at(std::size_t i, std::size_t component) const {
-            const unsigned char* from = first + i * stride;
-            const auto value = [&]<typename T>(T, double most) {
-                T number;
-                std::memcpy(&number, from + component * sizeof(T), sizeof(T));
-                return normalised ? double(number) / most : double(number);
-            };
-            switch (type) {
-                case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-                    return value(std::uint8_t{}, 255);
-                case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-                    return value(std::uint16_t{}, 65535);
-                case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-                    return value(std::uint32_t{}, 4294967295.0);
-                case TINYGLTF_COMPONENT_TYPE_FLOAT:
-                    return value(float{}, 1);
-                default:
-                    return 0;
-            }
-        }
-    };
-
-    Result<Numbers> numbers(int index, int kind) const {
-        if (!has(model_.accessors, index)) return broken("an accessor is missing");
-        const tinygltf::Accessor& a = model_.accessors[std::size_t(index)];
-        if (a.type != kind) return broken("an accessor is of another type than needed");
-        if (a.sparse.isSparse || !has(model_.bufferViews, a.bufferView))
-            return broken("an accessor without a view of a buffer, or a sparse one, which is not read");
-        const tinygltf::BufferView& view = model_.bufferViews[std::size_t(a.bufferView)];
-        if (!has(model_.buffers, view.buffer)) return broken("a buffer is missing");
-        const auto& data = model_.buffers[std::size_t(view.buffer)].data;
-        const int stride = a.ByteStride(view),
-                  size = tinygltf::GetComponentSizeInBytes(std::uint32_t(a.componentType)),
-                  components = tinygltf::GetNumComponentsInType(std::uint32_t(a.type));
-        if (stride <= 0 || size <= 0 || components <= 0) return broken("an accessor of no known layout");
-        const std::size_t begin = view.byteOffset + a.byteOffset, item = std::size_t(size * components);
-        const bool fits = a.count > 0 && view.byteOffset <= data.size() && a.byteOffset <= data.size() &&
-                          begin <= data.size() && item <= data.size() - begin &&
-                          (a.count - 1) <= (data.size() - begin - item) / std::size_t(stride);
-        if (!fits) return broken("an accessor reaches beyond its buffer");
-        return Numbers{data.data() + begin, std::size_t(stride), a.count, a.componentType, a.normalized};
+    Result<GltfNumbers> numbers(int index, int kind) const {
+        return gltf_numbers(model_, index, kind, path_);
     }
 
     Status visit(int index, const Matrix& above, int depth) {
@@ -229,7 +212,7 @@ private:
             return broken("its nodes form a ring, or are too many");
         const tinygltf::Node& node = model_.nodes[std::size_t(index)];
         const Matrix here = above * matrix_of(node);
-        if (node.camera >= 0 && !camera_) take_camera(node.camera, here);
+        if (node.camera >= 0) take_camera(node, here);
         take_light(node, here);
         if (node.mesh >= 0) {
             if (!has(model_.meshes, node.mesh)) return broken("a mesh is missing");
@@ -242,15 +225,16 @@ private:
         return Done{};
     }
 
-    void take_camera(int index, const Matrix& here) {
-        if (!has(model_.cameras, index)) return;
-        const tinygltf::Camera& camera = model_.cameras[std::size_t(index)];
+    void take_camera(const tinygltf::Node& node, const Matrix& here) {
+        if (!has(model_.cameras, node.camera)) return;
+        const tinygltf::Camera& camera = model_.cameras[std::size_t(node.camera)];
         if (camera.type != "perspective" || !(camera.perspective.yfov > 0.01 && camera.perspective.yfov < 3))
             return;
-        Viewpoint view{here.point(0, 0, 0), normalised(here.direction(1, 0, 0)),
-                       normalised(here.direction(0, 1, 0)), normalised(here.direction(0, 0, -1))};
-        camera_ = view;
-        focal_length_mm_ = 0.5 * 36 * 9 / 16 / std::tan(0.5 * camera.perspective.yfov);
+        const Viewpoint view{here.point(0, 0, 0), normalised(here.direction(1, 0, 0)),
+                             normalised(here.direction(0, 1, 0)), normalised(here.direction(0, 0, -1))};
+        std::string name = node.name.empty() ? camera.name : node.name;
+        if (name.empty()) name = std::to_string(cameras_.size() + 1);
+        cameras_.push_back({name, view, 0.5 * 36 * 9 / 16 / std::tan(0.5 * camera.perspective.yfov)});
     }
 
     void take_light(const tinygltf::Node& node, const Matrix& here) {
@@ -421,8 +405,7 @@ private:
     std::vector<std::string>& warnings_;
     std::vector<std::pair<Mesh, Surface>> meshes_;
     std::map<int, std::shared_ptr<const Texels>> pictures_;
-    std::optional<Viewpoint> camera_;
-    double focal_length_mm_ = 50;
+    std::vector<OwnCamera> cameras_;
     std::shared_ptr<Lighting> lighting_ = std::make_shared<Lighting>();
     Vec3 low_{1e12f, 1e12f, 1e12f}, high_{-1e12f, -1e12f, -1e12f};
     std::size_t triangles_ = 0, visited_ = 0;
@@ -452,14 +435,19 @@ Status load(const std::string& path, tinygltf::Model& model, std::vector<std::st
 
 }  // namespace
 
-Status add_gltf(World& world, const std::string& path, Camera& camera, std::vector<std::string>& warnings) {
+Result<GltfScene> add_gltf(World& world, const std::string& path, int frame, const std::string& camera) {
     try {
+        GltfScene scene;
         tinygltf::Model model;
-        if (Status done = load(path, model, warnings); !done) return done;
-        Reader reader(world, model, path, warnings);
-        if (Status done = reader.read(); !done) return done;
-        reader.place_camera(camera);
-        return Done{};
+        if (Status done = load(path, model, scene.warnings); !done) return done.error();
+        const auto seconds = pose(model, double(frame) / kGltfFramesPerSecond, path, scene.warnings);
+        if (!seconds) return seconds.error();
+        scene.frames = 1 + int(std::ceil(*seconds * kGltfFramesPerSecond - 1e-6));
+        Reader reader(world, model, path, scene.warnings);
+        if (Status done = reader.read(); !done) return done.error();
+        if (Status done = reader.place_camera(camera, scene.camera); !done) return done.error();
+        scene.cameras = reader.camera_names();
+        return scene;
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::OutOfMemory, path + ": not enough memory"};
     } catch (const std::exception& thrown) {

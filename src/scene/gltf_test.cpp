@@ -153,6 +153,110 @@ TEST_F(GltfScenes, EmissionHasItsStrength) {
                 1e-3);
 }
 
+// The first square goes from x = 0 to x = 1 within a second, and a second camera looks at it from 1 m away.
+std::string moving(const std::string& path, const std::vector<float>& values, const std::string& law) {
+    std::string text = two_squares();
+    const auto replace = [&](const std::string& what, const std::string& instead) {
+        ASSERT_NE(text.find(what), std::string::npos) << what;
+        text.replace(text.find(what), what.size(), instead);
+    };
+    std::vector<unsigned char> bytes(2 * sizeof(float) + values.size() * sizeof(float));
+    const float times[] = {0, 1};
+    std::memcpy(bytes.data(), times, sizeof times);
+    std::memcpy(bytes.data() + sizeof times, values.data(), values.size() * sizeof(float));
+    const bool turns = path == "rotation";
+    const std::string count = std::to_string(values.size() / (turns ? 4 : 3)),
+                      length = std::to_string(bytes.size() - 8);
+    replace(R"("nodes":[0,1,2])", R"("nodes":[0,1,2,3])");
+    replace(R"({"camera":0}])", R"({"camera":0},{"camera":0,"name":"close","translation":[0,0,-2]}])");
+    replace(R"("count":6,"type":"SCALAR"})",
+            R"("count":6,"type":"SCALAR"},{"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR"},
+{"bufferView":3,"componentType":5126,"count":)" +
+                count + R"(,"type":")" + (turns ? "VEC4" : "VEC3") + R"("})");
+    replace(
+        R"("byteOffset":48,"byteLength":12})",
+        R"("byteOffset":48,"byteLength":12},{"buffer":1,"byteLength":8},{"buffer":1,"byteOffset":8,"byteLength":)" +
+            length + "}");
+    replace(R"("}]})", R"("},{"byteLength":)" + std::to_string(bytes.size()) +
+                           R"(,"uri":"data:application/octet-stream;base64,)" + base64(bytes) + R"("}],
+"animations":[{"samplers":[{"input":2,"output":3,"interpolation":")" +
+                           law + R"("}],"channels":[{"sampler":0,"target":{"node":0,"path":")" + path +
+                           R"("}}]}]})");
+    return text;
+}
+
+TEST_F(GltfScenes, NodesStandWhereTheirAnimationsHaveThem) {
+    // Beside it nothing is hit; so where its left edge is, is seen.
+    const double px = 10 * 18 / std::tan(0.3) / 3;
+    const auto left_m = [&](const std::string& law, const std::vector<float>& values, int frame) {
+        settings_.frame = frame, settings_.width = 640, settings_.height = 36;
+        auto standing = build(moving("translation", values, law));
+        EXPECT_TRUE(standing) << standing.error().message;
+        EXPECT_EQ(standing->frames(), 25);
+        const RenderedScene seen = standing->render(settings_).value();
+        int x = 0;
+        while (x < 640 && std::isinf(seen.depth_m(x, 30))) ++x;
+        return (x - 320) / px;
+    };
+    const std::vector<float> ends{0, 0, -3, 1, 0, -3};
+    for (const int frame : {0, 6, 24})
+        EXPECT_NEAR(left_m("LINEAR", ends, frame), frame / 24.0 - 1, 1 / px) << frame;
+    EXPECT_NEAR(left_m("STEP", ends, 23), -1, 1 / px);
+    EXPECT_NEAR(left_m("STEP", ends, 24), 0, 1 / px);
+    // Tangents of 0: 3 t^2 - 2 t^3, at a quarter 10 / 64.
+    const std::vector<float> spline{0, 0, 0, 0, 0, -3, 0, 0, 0, 0, 0, 0, 1, 0, -3, 0, 0, 0};
+    EXPECT_NEAR(left_m("CUBICSPLINE", spline, 6), 10 / 64.0 - 1, 1 / px);
+    settings_.frame = 25;
+    EXPECT_FALSE(build(moving("translation", ends, "LINEAR")));
+}
+
+TEST_F(GltfScenes, RotationsGoAlongTheArc) {
+    settings_.frame = 12;  // half of a quarter turn about y: the square stands at 45 degrees
+    const float c = std::cos(0.785398f);
+    auto standing = build(moving("rotation", {0, 0, 0, 1, 0, c, 0, c}, "LINEAR"));
+    ASSERT_TRUE(standing) << standing.error().message;
+    const double tangent = 8.5 / (18 / std::tan(0.3));  // of the pixel's middle
+    const RenderedScene seen = standing->render(settings_).value();
+    const double z = double(seen.depth_m(40, 18));
+    EXPECT_NEAR(std::abs(z - 3), tangent * z, 1e-3);  // as far aside as it is nearer or farther
+}
+
+TEST_F(GltfScenes, OneOfItsCamerasCanBeChosen) {
+    const std::string text = moving("translation", {0, 0, -3, 1, 0, -3}, "LINEAR");
+    const auto depth = [&](const char* camera) {
+        settings_.own_camera = camera;
+        auto standing = build(text);
+        EXPECT_TRUE(standing) << standing.error().message;
+        EXPECT_EQ(standing->cameras(), (std::vector<std::string>{"1", "close"}));
+        return standing->render(settings_).value().depth_m(32, 18);
+    };
+    EXPECT_NEAR(depth(""), 3, 1e-4);
+    EXPECT_NEAR(depth("close"), 1, 1e-4);
+    EXPECT_NEAR(depth("2"), 1, 1e-4);
+    settings_.own_camera = "far";
+    EXPECT_NE(build(text).error().message.find("close"), std::string::npos);
+    EXPECT_FALSE(StandingScene::build("wgld", settings_));
+}
+
+TEST_F(GltfScenes, AnimationsThatAreBrokenAreRefused) {
+    const std::string fine = moving("translation", {0, 0, -3, 1, 0, -3}, "LINEAR");
+    for (const auto& [what, instead] : {std::pair{R"("input":2)", R"("input":9)"},
+                                        {R"("input":2)", R"("input":3)"},
+                                        {R"("output":3)", R"("output":2)"},
+                                        {R"("node":0,)", R"("node":99,)"},
+                                        {R"("LINEAR")", R"("CUBICSPLINE")"},
+                                        {R"("sampler":0)", R"("sampler":4)"}}) {
+        std::string text = fine;
+        text.replace(text.find(what), std::strlen(what), instead);
+        const auto built = build(text);
+        ASSERT_FALSE(built) << instead;
+        EXPECT_NE(built.error().message.find(path_), std::string::npos) << built.error().message;
+    }
+    EXPECT_FALSE(build(moving("translation", {0, 0, -3}, "LINEAR")));
+    EXPECT_FALSE(build(moving("scale", {1, 1, 1, NAN, 1, 1}, "STEP")) &&
+                 (settings_.frame = 24, build(moving("scale", {1, 1, 1, NAN, 1, 1}, "STEP"))));
+}
+
 TEST_F(GltfScenes, APictureThatIsMissingIsAWarningAndWhite) {
     const auto standing = build(two_squares());
     ASSERT_TRUE(standing);

@@ -160,7 +160,7 @@ struct StandingScene::Contents {
     Camera camera;
     int frame = 0, frames = 1;
     std::optional<ScenePoint> subject;
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings, cameras;
 };
 
 StandingScene::StandingScene(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
@@ -170,9 +170,16 @@ StandingScene& StandingScene::operator=(StandingScene&&) noexcept = default;
 
 Status StandingScene::Contents::fill(const std::string& name, const SceneSettings& settings) {
     if (scene::is_gltf(name)) {
-        if (const Status status = scene::check(settings, 1); !status) return status;
-        return scene::add_gltf(world, name, camera, warnings);
+        auto file = scene::add_gltf(world, name, settings.frame, settings.own_camera);
+        if (!file) return file.error();
+        camera = file->camera, frame = settings.frame, frames = file->frames;
+        warnings = std::move(file->warnings), cameras = std::move(file->cameras);
+        return scene::check(settings, frames);
     }
+    if (!settings.own_camera.empty())
+        return Error{ErrorCode::InvalidArgument,
+                     "scene.own_camera has no effect: " + name + " is no file with cameras",
+                     "scene.own_camera"};
     const scene::BuiltInScene* found = scene::find(name);
     if (!found) return scene::unknown(name);
     frames = found->summary.frames;
@@ -192,9 +199,10 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
 Result<scene::WorldsAround> StandingScene::Contents::around(const SceneSettings& settings) const {
     scene::WorldsAround worlds;
     if (!settings.want_motion) return worlds;
-    if (frames == 1)
+    if (frames == 1 || !built_in)
         return Error{ErrorCode::InvalidArgument,
-                     "this scene does not move, so it has no motion vectors (scene.want_motion)"};
+                     built_in ? "this scene does not move, so it has no motion vectors (scene.want_motion)"
+                              : "of files no motion vectors are made (scene.want_motion)"};
     for (const auto& [later, place] : {std::pair{-1, &worlds.before}, {1, &worlds.after}}) {
         auto at_that_time = std::make_unique<scene::World>(true);
         built_in->build(*at_that_time, scene::time_of(frame + later, frames));
@@ -217,6 +225,8 @@ Result<StandingScene> StandingScene::build(const std::string& name, const SceneS
 
 const std::vector<std::string>& StandingScene::warnings() const { return contents_->warnings; }
 const Camera& StandingScene::camera() const { return contents_->camera; }
+int StandingScene::frames() const { return contents_->frames; }
+const std::vector<std::string>& StandingScene::cameras() const { return contents_->cameras; }
 std::optional<ScenePoint> StandingScene::subject() const { return contents_->subject; }
 
 Result<RenderedScene> StandingScene::render(const SceneSettings& settings) {

@@ -63,23 +63,67 @@ class SceneTest(window.WindowTest):
         """, "--scene", "hexadrive", "--scene-size", "160x90")
         self.assertGreater(float(out), 0)
 
-    def test_a_gltf_file_may_be_broken_lack_pictures_change_and_vanish(self):
-        if "glTF" in subprocess.run([PETZVAL, "scene", "make", "x.gltf", "-o", "x.exr"], cwd=self.shared,
-                                    capture_output=True, text=True).stderr.replace("no glTF", ""):
-            self.skipTest("built without tinygltf")
-        path = os.path.join(self.shared, "square.gltf")
+    def square(self, **more):
+        """A glTF scene: a square of 2 x 2 m; `more` beside or in place of what it has."""
         places = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
-        square = {
+        places += struct.pack("<8f", 0, 3, 0, 0, -4, 0, 0, -2)  # two times, s, and where it is then
+        return {
             "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
             "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
             "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
             "textures": [{"source": 0}], "images": [{"uri": "missing.png"}],
             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
-            "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
-            "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64," + base64.b64encode(places).decode()}]}
+                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                          {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                          {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+                            {"buffer": 0, "byteOffset": 60, "byteLength": 8}, {"buffer": 0, "byteOffset": 68, "byteLength": 24}],
+            "buffers": [{"byteLength": len(places),
+                         "uri": "data:application/octet-stream;base64," + base64.b64encode(places).decode()}], **more}
+
+    def need_gltf(self):
+        if "glTF" in subprocess.run([PETZVAL, "scene", "make", "x.gltf", "-o", "x.exr"], cwd=self.shared,
+                                    capture_output=True, text=True).stderr.replace("no glTF", ""):
+            self.skipTest("built without tinygltf")
+
+    def test_a_gltf_file_moves_and_one_of_its_cameras_is_chosen(self):
+        self.need_gltf()
+        lens = {"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}
+        moving = self.square(
+            scenes=[{"nodes": [0, 1, 2]}], cameras=[lens],
+            nodes=[{"mesh": 0}, {"camera": 0, "name": "far"}, {"camera": 0, "name": "close", "translation": [0, 0, -1]}],
+            animations=[{"samplers": [{"input": 2, "output": 3}],
+                         "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}])
+        with open(os.path.join(self.shared, "moving.gltf"), "w") as file:
+            json.dump(moving, file)
+        out, _ = self.do("""
+            wait
+            expect no error
+            expect scene.camera far
+            pick 30 17
+            expect pick.depth_m 4
+            frame 36
+            wait
+            expect pick.depth_m 3
+            set scene.camera close
+            wait
+            expect pick.depth_m 2
+            set scene.camera nobody
+            expect error close
+            expect scene.camera close
+            frame last
+            wait
+            say shot.frame
+            expect pick.depth_m 1
+            expect no error
+        """, "moving.gltf", "--engine", "gather", "--scene-size", "60x34")
+        self.assertEqual(out.strip(), "72")
+
+    def test_a_gltf_file_may_be_broken_lack_pictures_change_and_vanish(self):
+        self.need_gltf()
+        path = os.path.join(self.shared, "square.gltf")
         with open(path, "w") as file:
-            json.dump(square, file)
+            json.dump(self.square(), file)
         with open(os.path.join(self.shared, "square.txt"), "w") as file:
             file.write("wait\nexpect no error\nexpect notice missing.png\nsay frame.engine\nuntil notice changed\n"
                        "orbit 5 5\nwait\nexpect no error\nkey ctrl+r\nwait\nexpect error square.gltf\norbit 5 0\nwait\n"
