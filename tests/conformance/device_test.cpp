@@ -274,15 +274,19 @@ TEST(Device, PutsPointsWhereTheCpuPutsThem) {
     };
     for (const std::string& gpu : gpus()) {
         Session cpu = session_on("cpu"), session = session_on(gpu);
-        for (const float coc_px : {-3.3f, 21.0f}) {
-            Shot shot = flat(80, 70, {0, 0, 0, 1}, coc_px);
-            shot.colour(37, 33) = {0.4f, 0.5f, 0.6f, 1};
-            const DefocusJob job = shot.job("scatter");
-            const auto expected = centroid(drawn(cpu, job, "cpu")), made = centroid(drawn(session, job, gpu));
-            EXPECT_NEAR(made[0] / expected[0], 1, 1e-4) << "energy at radius " << coc_px;
-            EXPECT_NEAR(made[1], expected[1], 0.02);
-            EXPECT_NEAR(made[2], expected[2], 0.02);
-        }
+        for (const float coc_px : {-15.0f, -3.3f, -0.7f, 0.4f, 1.9f, 6.2f, 21.0f})
+            for (const auto& [x, y] : {std::array{37, 33}, std::array{50, 24}}) {
+                Shot shot = flat(80, 70, {0, 0, 0, 1}, coc_px);
+                shot.colour(x, y) = {0.4f, 0.5f, 0.6f, 1};
+                const DefocusJob job = shot.job("scatter");
+                const auto expected = centroid(drawn(cpu, job, "cpu")),
+                           made = centroid(drawn(session, job, gpu));
+                EXPECT_NEAR(made[0] / expected[0], 1, 1e-4) << "energy at radius " << coc_px;
+                EXPECT_NEAR(made[1], expected[1], 0.02) << coc_px;
+                EXPECT_NEAR(made[2], expected[2], 0.02) << coc_px;
+                EXPECT_NEAR(made[1], x, 0.02) << coc_px;
+                EXPECT_NEAR(made[2], y, 0.02) << coc_px;
+            }
     }
 }
 

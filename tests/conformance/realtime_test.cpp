@@ -259,6 +259,17 @@ TEST_F(Realtime, ALampInFocusHasNoHalo) {
     }
 }
 
+// A silhouette that a host did not filter: no pixel is mixed, and stripes behind are blurred up to it.
+TEST_F(Realtime, WhatIsBehindIsBlurredUpToASilhouette) {
+    Shot shot = flat(96, 64, {0.7f, 0.2f, 0.8f, 1}, 0);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 48; x < 96; ++x) {
+            const float stripe = (x & 2) ? 0.1f : 0.5f;
+            shot.colour(x, y) = {stripe, stripe, stripe, 1}, shot.coc_px(x, y) = 8;
+        }
+    for (Session& session : sessions_) EXPECT_NEAR(drawn(session, shot)(48, 32).g, 0.3, 0.08);
+}
+
 // Too narrow for cells of two pixels, on either side of focus.
 TEST_F(Realtime, SmallBlursAreThoseOfFinalFrames) {
     for (const float coc_px : {-2.0f, -1.0f, 1.0f, 2.0f}) {

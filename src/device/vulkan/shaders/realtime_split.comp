@@ -41,27 +41,32 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
 }
 
 // The signed radius of a pixel. At a silhouette a pixel shows something near and what is behind, and its depth may be that of
-// what is behind: it has the radius of what it shows mostly, by area or by light.
+// what is behind: where the near one gives most of its light, it has the radius of that.
 float own_radius(ivec2 pixel, vec4 light) {
+    const float kAlike = 0.97;
     const float kApart = 1.5;  // pixels: less is blurred alike
     const float radius = radius_of(texelFetch(depths, pixel, 0).r), own = brightness(light);
-    float near = own, found = radius;
+    vec4 near = light;
+    float found = radius;
     ivec2 to = ivec2(0);
     // A loop: nine pixels at once take half as many registers again.
     [[dont_unroll]] for (int i = 0; i < 9; ++i) {
         const ivec2 d = ivec2(i % 3, i / 3) - 1, there = clamp(pixel + d, ivec2(0), at.size - 1);
         const float reaches = radius_of(texelFetch(depths, there, 0).r);
         if (reaches > radius - kApart) continue;
-        const float bright = brightness(light_of(texelFetch(colours, there, 0)));
-        if (abs(bright - own) > abs(near - own)) near = bright, found = reaches, to = d;
+        const vec4 colour = light_of(texelFetch(colours, there, 0));
+        if (brightness(colour) > brightness(near)) near = colour, found = reaches, to = d;
     }
     if (to == ivec2(0)) return radius;
     const ivec2 across = clamp(pixel - 2 * to, ivec2(0), at.size - 1);
     if (radius_of(texelFetch(depths, across, 0).r) < found + kApart) return radius;
-    const float behind = brightness(light_of(texelFetch(colours, across, 0)));
-    if (near < 1.5 * behind) return radius;
-    const float share = (own - behind) / (near - behind);
-    return share > 0.02 && share < 1.2 && share * near > 0.5 * own ? found : radius;
+    const vec4 behind = light_of(texelFetch(colours, across, 0));
+    if (brightness(near) < 1.5 * brightness(behind)) return radius;
+    // A mixture of both lies between them.
+    const vec3 more = light.rgb - behind.rgb, most = near.rgb - behind.rgb;
+    const float share = dot(more, most) / dot(most, most);
+    const bool is_mixed = share > 0.02 && share * length(most) > kAlike * length(more);
+    return is_mixed && share * brightness(near) > 0.5 * own ? found : radius;
 }
 
 void main() {
