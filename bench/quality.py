@@ -50,8 +50,8 @@ def petzval(*words):
 
 def engine_names():
     """As the program's own help lists them, but for that of GPUs alone."""
-    listed = re.search(r"--engine NAME\s+(.*?);", petzval("defocus", "--help"), re.DOTALL)[1]
-    return [name for name in re.findall(r"\w+", listed) if name not in ("and", "realtime")]
+    listed = re.search(r"--engine ([\w|]+)", petzval("defocus", "--help"))[1]
+    return [name for name in listed.split("|") if name != "realtime"]
 
 
 def scene_state():
