@@ -63,10 +63,13 @@ ShotSource App::source() const {
     std::vector<std::string*> paths{&source.path, &source.read.depth_file, &source.behind, &source.holdout,
                                     &source.lights};
     for (std::string& path : source.merge) paths.push_back(&path);
-    for (std::string* path : paths)
-        if (const auto pattern = FramePattern::find(*path); pattern && *pattern)
-            *path = (*pattern)->path(state.timeline.frame);
+    for (std::string* path : paths) *path = of_this_frame(*path);
     return source;
+}
+
+std::string App::of_this_frame(const std::string& path) const {
+    const auto pattern = FramePattern::find(path);
+    return state.timeline.is_shot() && pattern && *pattern ? (*pattern)->path(state.timeline.frame) : path;
 }
 
 void App::go_to(int frame) {
@@ -289,8 +292,9 @@ bool App::is_busy() const {
            saving_.valid();
 }
 
-void App::save(const std::string& path) {
+void App::save(const std::string& name) {
     if (!shot_) return void(error = "nothing is open yet");
+    const std::string path = of_this_frame(name);
     if (is_live()) {
         const std::vector<Recorded> one{{scene_wish(), path}};
         return start_saving(

@@ -115,7 +115,7 @@ public:
     void turn_to(const Orbit& orbit);  // the scene's camera
     // .exr: sharp frames with depth; .png: what is shown.
     void record(const std::string& path);
-    void save(const std::string& path);
+    void save(const std::string& name);  // of a shot, #### is the frame that is shown
     // What is made of the left side, to a viewer that listens there.
     Status push(int port);
     // Focus, aperture and all else over the frames, as `defocus --track` has it; focus becomes keys.
@@ -136,6 +136,7 @@ private:
     bool is_coarse() const;  // a scene whose camera moved a moment ago
     int coarse_by() const;
     void time_draft(const MadeFrame& made);
+    std::string of_this_frame(const std::string& path) const;  // #### filled in
     void has_frames(int count);
     void take_shot(ReadShot read);
     void take_frame(MadeFrame made);

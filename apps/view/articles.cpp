@@ -98,8 +98,8 @@ void control(App& app, const ArticleControl& of) {
 void times(const App& app) {
     const OpenShot& open = *app.shot();
     const MadeFrame& made = app.side(0).last;
-    ImGui::Text("%8.1f ms  scene built", 1000 * open.build_s);
-    ImGui::Text("%8.1f ms  rays, %d a pixel", 1000 * open.render_s, open.samples);
+    time_row(open.build_s, "scene built");
+    time_row(open.render_s, "rays, " + std::to_string(open.samples) + " a pixel");
     stage_times(made);
 }
 

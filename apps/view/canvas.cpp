@@ -79,8 +79,13 @@ void draw_pick(const App& app) {
             list->AddLine({p.x + sign * 0.4f * arm, p.y}, {p.x + sign * 1.4f * arm, p.y}, colour, width);
             list->AddLine({p.x, p.y + sign * 0.4f * arm}, {p.x, p.y + sign * 1.4f * arm}, colour, width);
         }
-    if (const auto depth = app.depth_near(*app.state.pick))
-        draw_label({p.x + 2 * arm, p.y + arm}, text_of(*depth, 4) + " m" + radius_at_pick(app));
+    const auto depth = app.depth_near(*app.state.pick);
+    if (!depth) return;
+    const std::string words = text_of(*depth, 4) + " m" + radius_at_pick(app);
+    // Left of it and above where it would be cut off.
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str()), end = list->GetClipRectMax();
+    const bool is_left = p.x + 3 * arm + size.x > end.x, is_above = p.y + 2 * arm + size.y > end.y;
+    draw_label({p.x + (is_left ? -2 : 2) * arm, p.y + (is_above ? -arm - size.y : arm)}, words, is_left);
 }
 
 void draw_legend(const App& app) {
@@ -98,15 +103,25 @@ void draw_legend(const App& app) {
     float y = bottom;
     for (const auto& entry : entries) {
         draw_label({x + line, y}, entry.text);
-        ImGui::GetWindowDrawList()->AddRectFilled({x, y}, {x + 0.7f * line, y + 0.7f * line}, entry.colour);
+        const ImVec2 corner{x + 0.7f * line, y + 0.7f * line};
+        ImGui::GetWindowDrawList()->AddRectFilled({x, y}, corner, entry.colour);
+        ImGui::GetWindowDrawList()->AddRect({x, y}, corner, IM_COL32(130, 130, 130, 255));
         y += 1.2f * line;
     }
 }
 
 void draw_buffer_names(const App& app) {
     if (!is_buffer(app.state.left.shown) || !app.side(0).panels) return;
-    for (const Panel& panel : *app.side(0).panels)
-        draw_label(at(app.mapping, panel.area.x0 + 4, panel.area.y0 + 4), panel.name);
+    for (const Panel& panel : *app.side(0).panels) {
+        // Its parts, between two spaces, as far as they fit.
+        std::string name = panel.name;
+        const double wide = panel.area.width() * app.mapping.scale_x - double(ImGui::GetFontSize());
+        for (std::size_t end = name.rfind("  ");
+             end != std::string::npos && double(ImGui::CalcTextSize(name.c_str()).x) > wide;
+             end = name.rfind("  "))
+            name.resize(end);
+        draw_label(at(app.mapping, panel.area.x0 + 4, panel.area.y0 + 4), name);
+    }
 }
 
 // The line of the wipe can be taken anywhere near it.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <imgui.h>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
@@ -115,16 +116,17 @@ float draw_disc(const Box& box, const Texture& texture, const LensCodes& codes) 
     return scale;
 }
 
-// In the upper left corner, in as many lines as it takes.
-void note_in(const Box& box, const std::string& text) {
-    const float wide = std::max(1.0f, box.width() - 8);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wide);
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    list->PushClipRect(box.from, box.to, true);
-    list->AddRectFilled(box.from, {box.from.x + size.x + 8, box.from.y + size.y + 4}, IM_COL32(0, 0, 0, 150));
-    list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {box.from.x + 4, box.from.y + 2},
-                  IM_COL32(235, 235, 235, 220), text.c_str(), nullptr, wide);
-    list->PopClipRect();
+// In the upper left corner, the first of the texts that fits; none: nothing is said.
+void note_in(const Box& box, std::initializer_list<std::string> texts) {
+    for (const std::string& text : texts) {
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        if (size.x + 8 > box.width() || size.y + 4 > 0.4f * box.height()) continue;
+        ImDrawList* list = ImGui::GetWindowDrawList();
+        list->AddRectFilled(box.from, {box.from.x + size.x + 8, box.from.y + size.y + 4},
+                            IM_COL32(0, 0, 0, 150));
+        list->AddText({box.from.x + 4, box.from.y + 2}, IM_COL32(235, 235, 235, 220), text.c_str());
+        return;
+    }
 }
 
 void picked_disc(App& app, float side) {
@@ -133,7 +135,7 @@ void picked_disc(App& app, float side) {
     is_field(app, "disc");
     // Of a pixel of the picture, on the screen.
     const float scale = float(made.fine) * draw_disc(box, app.lens_pictures()[0], made.disc);
-    note_in(box, "radius " + pixels_text(made.coc_px));
+    note_in(box, {"radius " + pixels_text(made.coc_px), pixels_text(made.coc_px)});
     const ImVec2 middle{0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y)};
     if (scale > 6 && scale < box.width())  // the pixel itself
         ImGui::GetWindowDrawList()->AddRect({middle.x - 0.5f * scale, middle.y - 0.5f * scale},
@@ -157,30 +159,36 @@ void draw_strip(const App& app, const Box& box) {
     if (strip.width == 0) return;
     const float cell = scale * float(strip.width) / float(kStripDiscs);
     const float left = 0.5f * (box.from.x + box.to.x) - 0.5f * scale * float(strip.width);
-    for (int i = 0; i < kStripDiscs; ++i) {
+    const int middle = kStripDiscs / 2;
+    const int step = std::max(1, int(std::ceil(1.2f * ImGui::CalcTextSize("+60").x / std::max(1.0f, cell))));
+    for (int i = middle % step; i < kStripDiscs; i += step) {
         const double radius = kStripReach_px * (2.0 * i / (kStripDiscs - 1) - 1);
         const std::string words = (radius > 0 ? "+" : "") + text_of(radius, 3);
         const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-        if (size.x > 0.9f * cell) continue;
         ImGui::GetWindowDrawList()->AddText({left + (float(i) + 0.5f) * cell - 0.5f * size.x, box.to.y},
                                             IM_COL32(200, 200, 200, 220), words.c_str());
     }
     ImGui::Dummy({1, ImGui::GetTextLineHeight()});
 }
 
-// Focus of the zones of the pupil, one curve a wavelength.
+// Curves stand below what is said of them.
+float curve_height(const Box& box) {
+    return std::max(0.5f * box.height(), box.height() - 1.5f * ImGui::GetTextLineHeight());
+}
+
 // Dragged sideways, the curves bend where they are taken; with Shift the nearest wavelength alone.
 void bend_curves(App& app, const Box& box, double most_mm) {
     static double zone = 0;
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsItemActivated())
-        zone = std::clamp(double((box.to.y - io.MousePos.y) / (0.95f * box.height())), 0.0, 1.0);
+        zone = std::clamp(double((box.to.y - io.MousePos.y) / curve_height(box)), 0.0, 1.0);
     if (!ImGui::IsItemActive() || io.MouseDelta.x == 0) return;
     const double by_mm = double(io.MouseDelta.x / (0.45f * box.width())) * most_mm;
     static_cast<void>(
         act(app, "bend " + text_of(zone, 4) + " " + text_of(by_mm, 5) + (io.KeyShift ? " 549" : "")));
 }
 
+// Focus of the zones of the pupil, one curve a wavelength.
 void draw_curves(App& app, const Box& box) {
     is_field(app, "curves",
              "drag sideways to bend them, with Shift green alone; save_curves FILE keeps the lens");
@@ -192,8 +200,9 @@ void draw_curves(App& app, const Box& box) {
     bend_curves(app, box, std::max(most, 0.05));
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float middle = 0.5f * (box.from.x + box.to.x);
+    const float high = curve_height(box);
     list->AddLine({middle, box.from.y}, {middle, box.to.y}, kLine);
-    if (curves.shift_mm.empty()) return note_in(box, "no aberration");
+    if (curves.shift_mm.empty()) return note_in(box, {"no aberration", "none"});
     for (std::size_t w = 0; w < curves.shift_mm.size(); ++w) {
         const double um = curves.wavelengths_um[w];
         const ImU32 colour = um < 0.47   ? IM_COL32(110, 130, 255, 255)
@@ -204,10 +213,11 @@ void draw_curves(App& app, const Box& box) {
         for (std::size_t z = 0; z < curves.zones.size(); ++z)
             if (std::isfinite(curves.shift_mm[w][z]))
                 line.emplace_back(middle + float(0.45 * curves.shift_mm[w][z] / most) * box.width(),
-                                  box.to.y - float(curves.zones[z]) * 0.95f * box.height());
+                                  box.to.y - float(curves.zones[z]) * high);
         list->AddPolyline(line.data(), int(line.size()), colour, 0, 1.5f);
     }
-    note_in(box, "focus by zone, ± " + text_of(most, 2) + " mm");
+    const std::string range = "± " + text_of(most, 2) + " mm";
+    note_in(box, {"focus by zone, " + range, range});
 }
 
 }  // namespace
@@ -242,10 +252,10 @@ void draw_lens(App& app) {
     ImGui::BeginGroup();
     const Box front = box_of("front", {small, small});
     draw_disc(front, app.lens_pictures()[1], made.front);
-    note_in(front, "in front");
+    note_in(front, {"in front", "front"});
     const Box behind = box_of("behind", {small, small});
     draw_disc(behind, app.lens_pictures()[2], made.behind);
-    note_in(behind, "behind");
+    note_in(behind, {"behind"});
     ImGui::EndGroup();
     ImGui::SameLine();
     draw_curves(app, box_of("curves", {small, high}));

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <imgui.h>
 #include <string>
@@ -112,6 +113,7 @@ void compare_panel(App& app) {
             say(app, "wipe " + what);
         is_field(app, "wipe " + what);
     };
+    ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("wipe with");
     ImGui::SameLine();
     command_button(app, "off", "wipe off");
@@ -305,14 +307,22 @@ std::string under_pointer(const App& app) {
 
 }  // namespace
 
+void time_row(double seconds, const std::string& words) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.1f ms", 1000 * seconds);
+    const float end = ImGui::GetCursorPosX() + 5.5f * ImGui::GetFontSize();
+    ImGui::SetCursorPosX(end - ImGui::CalcTextSize(number).x);
+    ImGui::Text("%s  %s", number, words.c_str());
+}
+
 void stage_times(const MadeFrame& made) {
     double rest = made.seconds;
     for (const StageTime& stage : made.stages) {
-        ImGui::Text("%8.1f ms  %s", 1000 * stage.seconds, stage.stage.c_str());
+        time_row(stage.seconds, stage.stage);
         rest -= stage.seconds;
     }
-    if (rest > 0.0005) ImGui::Text("%8.1f ms  %s besides", 1000 * rest, made.engine.c_str());
-    ImGui::Text("%8.1f ms  this frame, %s", 1000 * made.seconds, name_of(made.quality));
+    if (rest > 0.0005) time_row(rest, made.engine.empty() ? "radii" : made.engine + " besides");
+    time_row(made.seconds, std::string("this frame, ") + name_of(made.quality));
 }
 
 void draw_panels(App& app) {
@@ -331,22 +341,34 @@ void draw_panels(App& app) {
     ImGui::PopItemWidth();
 }
 
+// What is on the screen, and how well it was made.
+std::string state_words(const App& app) {
+    if (!app.shot()) return "nothing is open";
+    const MadeFrame& made = app.side(0).last;
+    const std::string& shown = app.state.left.shown;
+    std::string words = shown == "result" ? "sharp" : shown;
+    if (is_made(shown) && shown != "coc" && !made.engine.empty())
+        words = made.engine + ", " + name_of(made.quality);
+    return app.is_busy() ? words + " …" : words;
+}
+
+// Words that need more than a line take the place of what is under the pointer, too.
 void draw_status_line(App& app) {
     const std::string& wrong = app.error.empty() ? app.trouble : app.error;
-    if (!wrong.empty())
-        ImGui::TextColored({1, 0.45f, 0.35f, 1}, "%s", wrong.c_str());
-    else if (!app.notice.empty())
-        ImGui::TextUnformatted(app.notice.c_str());
-    else
-        ImGui::TextDisabled("H: help");
-    const MadeFrame& made = app.side(0).last;
-    std::string state = !app.shot()           ? "nothing is open"
-                        : made.engine.empty() ? "sharp"
-                                              : made.engine + ", " + name_of(made.quality);
-    if (app.is_busy()) state += " …";
-    const float width = ImGui::CalcTextSize(state.c_str()).x;
-    ImGui::SameLine(std::max(0.0f, ImGui::GetWindowWidth() - width - ImGui::GetFontSize()));
-    ImGui::TextDisabled("%s", state.c_str());
+    const std::string& said = wrong.empty() ? app.notice : wrong;
+    const ImVec4 colour = !wrong.empty() ? ImVec4(1, 0.45f, 0.35f, 1)
+                          : said.empty() ? ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)
+                                         : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextWrapped("%s", said.empty() ? "H: help" : said.c_str());
+    ImGui::PopStyleColor();
+    if (ImGui::GetItemRectSize().y > 1.5f * ImGui::GetTextLineHeight()) return;
+    const std::string state = state_words(app);
+    const float place = ImGui::GetWindowWidth() - ImGui::CalcTextSize(state.c_str()).x - ImGui::GetFontSize();
+    if (ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetFontSize() < place) {
+        ImGui::SameLine(place);
+        ImGui::TextDisabled("%s", state.c_str());
+    }
     ImGui::TextUnformatted(under_pointer(app).c_str());
 }
 

@@ -74,9 +74,7 @@ namespace {
 void say(App& app, const std::string& line) { static_cast<void>(act(app, line)); }
 
 void flowing_switch(App& app, const char* label, const char* field) {
-    const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetFrameHeight();
-    if (ImGui::GetItemRectMax().x + width < ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x)
-        ImGui::SameLine();
+    flow(ImGui::CalcTextSize(label).x + ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x);
     switch_widget(app, field, label);
 }
 
@@ -86,6 +84,7 @@ void draw_buttons(App& app) {
         if (flowing_button(label)) say(app, command);
         is_field(app, label, help);
     };
+    ImGui::AlignTextToFramePadding();
     ImGui::Text("frame %d of %d … %d", line.frame, line.frames.front(), line.frames.back());
     button(line.playing ? "stop" : "play", "toggle shot.playing",
            "Shift-drag on the line below: what is played");
@@ -93,8 +92,9 @@ void draw_buttons(App& app) {
     button("remove key", "remove_key");
     flowing_switch(app, "keys by clicks", "shot.keying");
     flowing_switch(app, "eased", "shot.easing");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(4 * ImGui::GetFontSize());
+    const float number = 4 * ImGui::GetFontSize();
+    flow(number + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("dpt a frame").x);
+    ImGui::SetNextItemWidth(number);
     number_widget(app, "shot.focus_speed", "dpt a frame", 0.002, false);
     button("save track", "save_track track.csv", "track.csv, for defocus --track");
     button("load track", "load_track track.csv", "track.csv");

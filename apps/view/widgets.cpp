@@ -100,11 +100,13 @@ void slider_widget(App& app, const std::string& path, const std::string& label, 
     say_number(app, path, changed, now.value);
 }
 
-bool flowing_button(const char* label) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float width = ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x;
-    const float end = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
+void flow(float width) {
+    const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width;
     if (end < ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
+}
+
+bool flowing_button(const char* label) {
+    flow(ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x);
     return ImGui::Button(label);
 }
 

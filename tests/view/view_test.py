@@ -205,7 +205,7 @@ class ViewTest(window.WindowTest):
             wait
             expect shot.frame 2
             save_track track.csv
-            save shot2.exr
+            save made.####.exr
             wait
             copy
             say copied
@@ -235,7 +235,7 @@ class ViewTest(window.WindowTest):
         done = subprocess.run([PETZVAL, "defocus", "shot.####.exr", "-o", "tracked.####.exr", "--frames", "2",
                                "--track", "track.csv", "--kernel-cache", "off"], cwd=self.shared, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        compared = subprocess.run([PETZVAL, "compare", "tracked.0002.exr", "shot2.exr"], cwd=self.shared,
+        compared = subprocess.run([PETZVAL, "compare", "tracked.0002.exr", "made.0002.exr"], cwd=self.shared,
                                   capture_output=True, text=True)
         self.assertIn("inf", compared.stdout + compared.stderr)
         eased = next(self.contents("eased.csv")).decode()
