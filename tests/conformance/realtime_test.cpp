@@ -242,6 +242,20 @@ TEST_F(Realtime, ALampIsCutByWhatStandsBeforeFocus) {
     }
 }
 
+// A lamp behind, half covered by a leaf before focus whose depth its pixel has: its disc is not the leaf's,
+// which is wider.
+TEST_F(Realtime, ALampBesideALeafHasTheRadiusOfWhatIsBehind) {
+    Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 10);
+    for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 50; ++x) shot.coc_px(x, y) = -20;
+    shot.colour(49, 40) = {900, 900, 900, 1};
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        EXPECT_GT(made(56, 40).g, 1);
+        EXPECT_LT(made(63, 40).g, 0.05);
+    }
+}
+
 // A lamp in focus, its rim filtered over what is behind and with the depth of that: no disc around it.
 TEST_F(Realtime, ALampInFocusHasNoHalo) {
     Shot shot = flat(96, 64, {0.02f, 0.02f, 0.02f, 1}, 12);

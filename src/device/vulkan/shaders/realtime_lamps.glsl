@@ -11,9 +11,10 @@ vec2 surroundings_at(ivec2 pixel) {
 
 // The signed radius of the brightest pixel of a square. A pixel on the rim of a lamp shows lamp and surroundings, and its
 // depth may be that of these: a lamp is where it is brightest.
-float radius_of_brightest(ivec2 low, int side) {
-    float most = -1, radius = 0;
-    for (int i = 0; i < side * side; ++i) {
+float radius_of_brightest(ivec2 low, int side, out float most) {
+    float radius = 0;
+    most = -1;
+    [[dont_unroll]] for (int i = 0; i < side * side; ++i) {
         const ivec2 pixel = clamp(low + ivec2(i % side, i / side), ivec2(0), at.size - 1);
         const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
         if (light > most) most = light, radius = radius_of(texelFetch(depths, pixel, 0).r);
@@ -28,7 +29,8 @@ vec4 lamp_of(ivec2 pixel, vec4 light) {
     const float own = brightness(light);
     float floor_light = 4 * around.x + 2 * around.y;
     if (own <= floor_light) return vec4(0);
-    const float radius = radius_of_brightest(pixel - 1, 3);
+    float most;
+    const float radius = radius_of_brightest(pixel - 1, 3, most);
     floor_light += 0.08 * radius * radius * around.x;
     return own > floor_light ? vec4(light.rgb * (1 - floor_light / own), 0) : vec4(0);
 }

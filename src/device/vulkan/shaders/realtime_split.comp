@@ -19,6 +19,25 @@ shared vec4 part[kLayers][64];
 shared vec2 radii[64];
 shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
 
+// The signed radius of a cell's lamp, which is that of its brightest pixel. But a bright pixel or two among dark ones of their
+// depth, beside what is farther, are a lamp behind that a near thing covers in part.
+float lamp_radius(ivec2 cell) {
+    const int kSide = 4;
+    const ivec2 low = 2 * cell - 1;
+    float most, most_behind = -1, behind;
+    const float found = radius_of_brightest(low, kSide, most);
+    if (found > -1.5) return found;
+    ivec2 alike = ivec2(0);  // of its depth: as bright, dark
+    [[dont_unroll]] for (int i = 0; i < kSide * kSide; ++i) {
+        const ivec2 pixel = clamp(low + ivec2(i % kSide, i / kSide), ivec2(0), at.size - 1);
+        const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
+        const float radius = radius_of(texelFetch(depths, pixel, 0).r);
+        if (radius < found + 1.5) ++alike[light > 0.25 * most ? 0 : 1];
+        else if (light > most_behind) most_behind = light, behind = radius;
+    }
+    return most_behind >= 0 && alike.x <= 2 && alike.y >= 5 ? behind : found;
+}
+
 // The lamp of a cell: its light; where it is, times its brightness.
 void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     const uint own = gl_LocalInvocationIndex;
@@ -27,7 +46,7 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     barrier();
     const float bright = brightness(light);
     if (bright > 0) {
-        const float found = radius_of_brightest(2 * cell - 1, 4), radius = found < 0 ? min(found, -0.5) : max(found, 0.5);
+        const float found = lamp_radius(cell), radius = found < 0 ? min(found, -0.5) : max(found, 0.5);
         imageStore(cells_1, ivec3(cell, kLampLight), 0.25 * light);
         imageStore(cells_1, ivec3(cell, kLampPlace), vec4(place / bright, radius, 0));
         atomicOr(lamp_cells[own / 32u], 1u << (own % 32u));
