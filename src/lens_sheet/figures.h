@@ -53,6 +53,10 @@ std::vector<Figure> wave_figures(const Subject& subject);
 
 // image_formation.cpp
 std::vector<Figure> image_formation(const Subject& subject);
+// blur_by_distance.cpp: the circle of confusion, labelled, and its size by distance
+std::vector<Figure> blur_by_distance(const Subject& subject);
+// sum_of_discs.cpp; none where the lens takes no blades
+std::optional<Figure> sum_of_discs(const Subject& subject);
 
 // number_tables.cpp
 std::string header_of(const Subject& subject);

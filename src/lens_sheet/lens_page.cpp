@@ -56,10 +56,13 @@ std::vector<Section> sections_of(const Subject& subject) {
     append(sharpness, mtf_figures(subject));
     sections.push_back({"spots", "Sharpness", "", std::move(sharpness)});
     sections.push_back({"waves", "Waves", "", wave_figures(subject)});
+    Figures formation = image_formation(subject);
+    append(formation, blur_by_distance(subject));
+    if (auto sum = sum_of_discs(subject)) formation.push_back(std::move(*sum));
     sections.push_back(
         {"formation", "How the image forms",
          "1/f = 1/a + 1/a′: what stands at a is sharp at a′, magnified M = a′/a = f/(a − f) times.",
-         image_formation(subject)});
+         std::move(formation)});
     sections.push_back({"numbers", "Numbers", "", number_tables(subject)});
     return sections;
 }

@@ -186,6 +186,27 @@ TEST(ControlRing, TurnsEveryKindOfLensBothWays) {
     }
 }
 
+TEST(BlurByDistance, IsTheLawOfAThinLens) {
+    const std::vector<Figure> figures = blur_by_distance(subject_of("doublet"));
+    ASSERT_EQ(figures.size(), 2U);
+    const std::string curve = path_of(figures[1].drawing, "curve0");
+    std::vector<double> heights;  // of every hundredth of the focus distance
+    for (std::size_t at = curve.find(' '); at != std::string::npos; at = curve.find(' ', at + 1))
+        heights.push_back(std::stod(curve.substr(at + 1)));
+    ASSERT_EQ(heights.size(), 600U);
+    const double infinity = (heights[599] - heights[99]) / (1 - 1.0 / 6);
+    EXPECT_NEAR((heights[199] - heights[99]) / infinity, 1 - 1.0 / 2, 1e-3);
+    EXPECT_NEAR((heights[49] - heights[99]) / infinity, 1 - 2.0, 1e-3);
+}
+
+TEST(SumOfDiscs, IsDrawnOfEveryKindOfLens) {
+    for (const char* name : {"ideal", "doublet", "tessar"}) {
+        const auto figure = sum_of_discs(subject_of(name));
+        ASSERT_TRUE(figure) << name;
+        EXPECT_EQ(fault_of(*figure), "") << name;
+    }
+}
+
 TEST(Contrast, OfAPerfectLensIsTheDiffractionLimitAndOfOthersLess) {
     const std::string perfect = mtf_figures(subject_of("ideal")).front().drawing;
     EXPECT_NE(path_of(perfect, "mark"), "");
@@ -215,6 +236,7 @@ TEST(EveryLens, HasAllFiguresWithoutAFault) {
             if (more.empty() && traced && subject->facts().field_deg > 0.05) faults[std::size_t(i)] = "none";
             figures.insert(figures.end(), more.begin(), more.end());
         }
+        for (Figure& figure : blur_by_distance(*subject)) figures.push_back(std::move(figure));
         for (const Figure& figure : figures) faults[std::size_t(i)] += fault_of(figure);
     });
     for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(faults[i], "") << names[i];
