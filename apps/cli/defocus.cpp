@@ -13,7 +13,6 @@
 #include "verbs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 

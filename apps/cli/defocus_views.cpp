@@ -154,8 +154,7 @@ Status write_depth(Frame& frame, const ViewSettings& settings) {
 
 // One number per pixel that an engine put into every channel.
 Status write_index(Frame& frame, const ViewSettings& settings) {
-    Plane index(frame.colour.width(), frame.colour.height());
-    for (std::size_t i = 0; i < index.size(); ++i) index.pixels()[i] = frame.colour.pixels()[i].r;
+    const Plane index = red_of(frame.colour);
     if (is_exr(settings))
         return write_plane("focus_index", index.view(), frame, settings, exr_options(settings));
     return write_grey_png(settings.output, in_output_window(index, frame, settings, 0.0f).view(),
@@ -171,6 +170,16 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
 }
 
 }  // namespace
+
+Plane red_of(const Picture& picture) {
+    Plane red(picture.width(), picture.height());
+    for (std::size_t i = 0; i < red.size(); ++i) red.pixels()[i] = picture.pixels()[i].r;
+    return red;
+}
+
+bool shows_radii(const Look& look) {
+    return look.engine == "gather" && look.gather.stage == GatherStage::Coc;
+}
 
 const NameTable<ViewKind>& view_names() {
     static const NameTable<ViewKind> table{
@@ -216,6 +225,8 @@ Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const V
         case ViewKind::Highlights:
             return write_panels(frame, source, settings);
         default:
+            // Radii have a sign, which display codes have not.
+            if (!is_exr(settings) && !source.coc_radius_px.empty()) return write_coc(frame, source, settings);
             return write_beauty(frame, settings);
     }
 }

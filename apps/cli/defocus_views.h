@@ -7,6 +7,7 @@
 #include "petzval/develop.h"
 #include "petzval/files.h"
 #include "petzval/image.h"
+#include "petzval/look.h"
 #include "petzval/result.h"
 
 #include "ocio.h"
@@ -43,7 +44,7 @@ const NameTable<ViewKind>& view_names();
 const char* name_of(ViewKind view);
 
 struct ViewSource {
-    Plane coc_radius_px;        // for Coc and Focus
+    Plane coc_radius_px;        // for Coc and Focus; for Beauty where its channels hold radii, and no light
     std::vector<Panel> panels;  // for Levels, Layers, Highlights
 };
 
@@ -59,6 +60,11 @@ struct ViewSettings {
     std::vector<const Frame*> other_views;                        // of the same file, written beside it
     std::vector<std::string>* warnings = nullptr;                 // what writing had to change
 };
+
+// The number that an engine put into every channel.
+Plane red_of(const Picture& picture);
+// The picture of this look holds radii there.
+bool shows_radii(const Look& look);
 
 // `frame` holds what the engine made where is_rendered(view), else the sharp colour, and planar depth. It is
 // used up. Errors: OutputFailed.

@@ -239,6 +239,10 @@ std::vector<LookRow> rows_of_engines() {
             "hold radii up to N px sharp (default 0); wgld: the band's share of all depth (default 0.2)"),
         row("Engine gaussian", "--depth-offset", "gaussian.depth_offset", value("N", parse_number),
             "wgld: added to depth of 0 to 1; the default puts the focus into the band"),
+        row("Engine gaussian", "--depth-along", "gaussian.depth_along",
+            one_of({{"axis", "\"axis\""}, {"ray", "\"ray\""}}),
+            "wgld: depth is counted along the axis (default) or along the ray from the pinhole, as "
+            "published"),
         row("Engine gaussian", "--depth-band-range", "gaussian.depth_band_range_m",
             value("NEAR,FAR", parse_range_m),
             "wgld: depths that count as 0 and 1, as 0.1m,30m; default: the picture's"),

@@ -37,7 +37,9 @@ enum class GatherStage {
     Final,      // the engine itself
     Coc,        // the article's signed radius, px, in every channel: + behind focus
     Prefilter,  // colour and CoC at half resolution
+    Taps,       // a drawing of the disc: which of its samples reach the pixel in the middle, by HardTest
     Disc,       // a disc of `taps` samples over the half-resolution picture, blind to CoC
+    DiscBlur,   // Disc after the four-tap blur
     HardTest,   // samples count where |their CoC| reaches the pixel
     Blur,       // HardTest after the four-tap blur
     Combine,    // Blur mixed with the sharp picture by the pixel's own CoC: near things keep hard edges
@@ -82,6 +84,8 @@ struct GaussianOptions {
     std::optional<double> depth_offset;
     // Wgld: depths that become 0 and 1; both 0: the nearest and farthest of the picture.
     double depth_near_m = 0, depth_far_m = 0;
+    // Wgld: depth is counted along the ray from the pinhole, as published, not along the axis. Needs metres.
+    bool along_ray = false;
 
     bool operator==(const GaussianOptions&) const = default;
 };

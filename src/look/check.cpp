@@ -74,7 +74,7 @@ Rules rules_of_engines() {
          [](const Look& l) {
              return unless(uses_gaussian(l), "without engine gaussian, or sprites over it");
          }},
-        {{"gaussian.depth_offset", "gaussian.depth_band_range_m"},
+        {{"gaussian.depth_offset", "gaussian.depth_along", "gaussian.depth_band_range_m"},
          [](const Look& l) { return unless(is_wgld(l), "without gaussian.style wgld of engine gaussian"); }},
         {{"sprites.background", "sprites.find_points", "sprites.bright_factor"},
          [](const Look& l) {
@@ -104,7 +104,7 @@ Rules rules_of_gather() {
         {{"gather.coc"},
          [](const Look& l) {
              return unless(l.gather.stage != GatherStage::Coc && l.gather.stage != GatherStage::Prefilter &&
-                               l.gather.stage != GatherStage::Disc,
+                               l.gather.stage != GatherStage::Disc && l.gather.stage != GatherStage::DiscBlur,
                            std::string("with gather.stage ") + name_of(l.gather.stage) +
                                ", which does not ask for the radius of 2 x 2 pixels");
          }},

@@ -109,6 +109,7 @@ std::vector<Field> engine_fields() {
             field("gaussian.style", MEMBER(gaussian.style)),
             field("gaussian.focus_band", MEMBER(gaussian.focus_band)),
             field("gaussian.depth_offset", MEMBER(gaussian.depth_offset)),
+            either("gaussian.depth_along", "axis", "ray", MEMBER(gaussian.along_ray)),
             range("gaussian.depth_band_range_m", MEMBER(gaussian.depth_near_m), MEMBER(gaussian.depth_far_m)),
             field("sprites.background", MEMBER(sprites.background)),
             field("sprites.find_points", MEMBER(sprites.find)),

@@ -78,6 +78,7 @@ Changes changes_of_engines_and_light() {
             [](Look& l) { l.gaussian.style = GaussianStyle::Wgld; },
             [](Look& l) { l.gaussian.focus_band = 0.0; },
             [](Look& l) { l.gaussian.depth_offset = -0.25; },
+            [](Look& l) { l.gaussian.along_ray = true; },
             [](Look& l) { l.gaussian.depth_near_m = 0.1, l.gaussian.depth_far_m = 30; },
             [](Look& l) { l.sprites.background = SpriteBackground::Gaussian; },
             [](Look& l) { l.sprites.find = false; },

@@ -176,6 +176,9 @@ void PreparedFrame::place_in_field(const DefocusJob& job) {
     static_cast<PixelField&>(input) = job.place.field();
     const Rect& data = job.place.data_window;
     input.frame = job.place.display_window.moved(-data.x0, -data.y0);
+    if (!has_radii(job))
+        input.tan_per_field = job.camera.sensor_width_mm / job.camera.focal_length_mm /
+                              (job.place.display_window.width() * input.field_per_px);
 }
 
 }  // namespace petzval

@@ -5,7 +5,7 @@ from pictures import picture, plane, read_exr, read_png, write_exr
 from program import CommandLineTest
 
 CAMERA = ["--focal-length", "200mm", "--sensor-width", "36mm", "--fstop", "1.4", "--focus", "2m"]
-STAGES = ["coc", "prefilter", "disc", "hard-test", "blur", "combine", "near-far", "cure"]
+STAGES = ["coc", "prefilter", "taps", "disc", "disc-blur", "hard-test", "blur", "combine", "near-far", "cure"]
 HEADER = "x,y,coc,r,g,b\n"
 
 
@@ -54,7 +54,7 @@ class LightEngines(CommandLineTest):
         self.assert_differ(by_depth, gaussian)
         self.assert_differ(self.defocus("--engine", "gaussian", "--gaussian-style", "plain"), gaussian)
         self.assert_differ(self.defocus("--engine", "gaussian", "--focus-band", "2"), gaussian)
-        for flags in (["--focus-band", "0.6"], ["--depth-offset", "0.3"], ["--depth-band-range", "0.1m,30m"]):
+        for flags in (["--focus-band", "0.6"], ["--depth-offset", "0.3"], ["--depth-along", "ray"], ["--depth-band-range", "0.1m,30m"]):
             self.assert_differ(self.defocus(*wgld, *flags), by_depth, flags)
         self.assert_differ(self.defocus("--engine", "sprites", "--background", "gaussian"), sprites)
 

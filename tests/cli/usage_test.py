@@ -17,7 +17,7 @@ DEFOCUS_VALUES = {
     "--star-radius": "0.3", "--star-quality": "draft", "--coating": "none", "--glare-threshold": "2", "--highlight-peak": "8",
     "--focus-mode": "best", "--max-memory": "2G", "-o": "out.exr", "--view": "coc", "--json": "r.json", "--threads": "1", "--progress": "off",
     "--gather-stage": "cure", "--gather-taps": "16", "--gather-coc": "mean", "--gather-fill": "off", "--fill": "dim", "--points": "p.csv",
-    "--gaussian-style": "wgld", "--focus-band": "0.3", "--depth-offset": "-0.1", "--depth-band-range": "0.1m,30m",
+    "--gaussian-style": "wgld", "--focus-band": "0.3", "--depth-offset": "-0.1", "--depth-along": "ray", "--depth-band-range": "0.1m,30m",
     "--background": "gather", "--find-points": "off", "--bright-factor": "2",
     "--spherical": "0.5", "--axial-colour": "-1", "--lateral-colour": "0.5", "--coma": "0.3",
     "--add-spherical": "20", "--add-at-fstop": "2", "--add-axial-colour": "-0.5", "--add-field-curvature": "-1",

@@ -31,8 +31,9 @@ TEST(GatherStages, OfAwkwardPicturesStayFiniteAndBounded) {
     std::mt19937 random(9);
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 17}, {17, 1}, {65, 3}, {257, 130}})
         for (const GatherStage stage :
-             {GatherStage::Coc, GatherStage::Prefilter, GatherStage::Disc, GatherStage::HardTest,
-              GatherStage::Blur, GatherStage::Combine, GatherStage::NearFar, GatherStage::Cure}) {
+             {GatherStage::Coc, GatherStage::Prefilter, GatherStage::Taps, GatherStage::Disc,
+              GatherStage::DiscBlur, GatherStage::HardTest, GatherStage::Blur, GatherStage::Combine,
+              GatherStage::NearFar, GatherStage::Cure}) {
             Shot shot = flat(width, height, {}, 0);
             paint_noise(shot.colour, 7);
             for (std::size_t i = 0; i < shot.coc_px.size(); ++i)
@@ -109,6 +110,24 @@ TEST(GatherStages, ThePixelSizeSaysWhatStaysSharp) {
     }
     job.gather.pixel_size_px = 1;
     EXPECT_FALSE(defocus(job));
+}
+
+// Orange lines of samples that count arrive in the middle; where all is nearly sharp none but its own does.
+TEST(GatherStages, TheDrawingShowsWhichSamplesReachTheMiddle) {
+    const auto bright_pixels = [](float coc) {
+        Shot shot = flat(200, 100, {}, coc);
+        shot.coc_px(0, 0) = 9;  // the largest
+        DefocusJob job = shot.job("gather");
+        job.gather.stage = GatherStage::Taps;
+        const Picture figure = rendered(job);
+        int bright = 0;
+        for (std::size_t i = 0; i < figure.size(); ++i) {
+            const Rgba c = figure.pixels()[i];
+            bright += c.r > 0.8f && c.b < 0.1f;
+        }
+        return bright;
+    };
+    EXPECT_GT(bright_pixels(9), 20 * bright_pixels(1));
 }
 
 // Two lamps within one zone of the lens, one of them on a border of the tiles that are drawn together.

@@ -145,6 +145,26 @@ TEST(Gaussian, DepthIsClampedAfterTheOffsetIsAdded) {
     }
 }
 
+// The article's depth is the distance from the pinhole, which grows towards the corners of a wall.
+TEST(Gaussian, DepthCountsAlongTheRayWhereThatIsAskedFor) {
+    DepthShot shot;
+    for (std::size_t i = 0; i < shot.depth_m.size(); ++i) shot.depth_m.pixels()[i] = 2;
+    DefocusJob job = shot.job();
+    job.camera.focal_length_mm = 20, job.camera.sensor_width_mm = 36;
+    job.gaussian.depth_near_m = 1, job.gaussian.depth_far_m = 5, job.gaussian.depth_offset = 0;
+    job.gaussian.view = GaussianView::FocusIndex;
+    const Picture along_axis = rendered(job);
+    job.gaussian.along_ray = true;
+    const Picture along_ray = rendered(job);
+    const double tan_per_px = 36.0 / 20 / shot.colour.width();
+    for (const auto& [x, y] : {std::pair{0, 0}, {50, 20}, {99, 3}}) {
+        const double right = (x + 0.5 - 0.5 * shot.colour.width()) * tan_per_px,
+                     up = (y + 0.5 - 0.5 * shot.colour.height()) * tan_per_px;
+        EXPECT_NEAR(along_axis(x, y).r, 2.5 * (2.0 - 1) / 4, 1e-5);
+        EXPECT_NEAR(along_ray(x, y).r, std::min(1.0, 2.5 * (2 * std::hypot(1, right, up) - 1) / 4), 1e-5);
+    }
+}
+
 TEST(Gaussian, TheFocusDistanceLiesInThePublishedBandUnlessAnOffsetIsGiven) {
     const DepthShot shot;
     DefocusJob job = shot.job();

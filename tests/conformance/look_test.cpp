@@ -81,6 +81,7 @@ std::vector<Choice> changes_of_all_else() {
             {"gaussian.style", "plain"},
             {"gaussian.focus_band", "0.8"},
             {"gaussian.depth_offset", "0.1"},
+            {"gaussian.depth_along", "ray"},
             {"gaussian.depth_band_range_m", "[0.5, 30]"},
             {"sprites.background", "gaussian"},
             {"sprites.find_points", "false"},

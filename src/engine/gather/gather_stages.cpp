@@ -1,6 +1,7 @@
 #include "engine/gather/gather_stages.h"
 
 #include "base/parallel.h"
+#include "engine/gather/gather_taps_figure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,12 +77,14 @@ public:
             });
         const HalfPicture half = prefiltered();
         if (stage == GatherStage::Prefilter) return enlarged(half.colour);
+        if (stage == GatherStage::Taps) return drawn(figure(half), *in_.workers);
         const bool apart = stage == GatherStage::NearFar || stage == GatherStage::Cure;
-        const Picture bokeh = gathered(half, stage == GatherStage::Disc, apart);
+        const bool blind = stage == GatherStage::Disc || stage == GatherStage::DiscBlur;
+        const Picture bokeh = gathered(half, blind, apart);
         if (stage == GatherStage::Disc || stage == GatherStage::HardTest || stage == GatherStage::NearFar)
             return enlarged(bokeh);
         const Picture soft = blurred(bokeh);
-        if (stage == GatherStage::Blur) return enlarged(soft);
+        if (stage == GatherStage::DiscBlur || stage == GatherStage::Blur) return enlarged(soft);
         return combined(enlarged(soft), apart);
     }
 
@@ -118,22 +121,50 @@ private:
         return half;
     }
 
+    struct Read {
+        Rgba colour;
+        float coc_px;
+    };
+    // At a place of the disc round a cell, (x, y) in cells.
+    Read read(const HalfPicture& half, float x, float y, const Place& p) const {
+        const View<const Rgba> colour = half.colour;
+        const View<const float> radii = half.coc_px;
+        const float u = x + largest_px_ / 2 * p.x, v = y + largest_px_ / 2 * p.y;
+        return {bilinear(u, v, [&](int i, int j) { return colour.clamped(i, j); }),
+                bilinear(u, v, [&](int i, int j) { return radii.clamped(i, j); })};
+    }
+    float distance_px(const Place& p) const { return largest_px_ * std::hypot(p.x, p.y); }
+    bool passes(float coc_px, const Place& p) const { return std::abs(coc_px) >= kTie * distance_px(p); }
+
+    TapsFigure figure(const HalfPicture& half) const {
+        const auto cell = [](int pixel) { return float(pixel / 2); };
+        return {each([&](int x, int y) { return in_.colour(x, y); }),
+                [&half, cell, this](int x, int y, float u, float v) {
+                    return read(half, cell(x), cell(y), {u, v}).colour;
+                },
+                [&half, cell, this](int x, int y) {
+                    std::vector<DrawnTap> taps;
+                    for (const Place& p : disc_) {
+                        const float r = read(half, cell(x), cell(y), p).coc_px;
+                        const float reach = largest_px_ > 0 ? std::abs(r) / largest_px_ : 0;
+                        taps.push_back({p.x, p.y, reach, r > 0, passes(r, p)});
+                    }
+                    return taps;
+                }};
+    }
+
     // blind: every tap counts. apart: near and far by saturate(-+CoC - distance); else by |CoC| >= distance.
     Picture gathered(const HalfPicture& half, bool blind, bool apart) const {
         const View<const Rgba> colour = half.colour;
-        const View<const float> radii = half.coc_px;
-        const float cells = largest_px_ / 2;
         return each(colour.width(), colour.height(), [&](int x, int y) {
             Rgba sum, near;
             float weight = 0, near_weight = 0;
             for (const Place& p : disc_) {
-                const float u = float(x) + cells * p.x, v = float(y) + cells * p.y;
-                const Rgba c = bilinear(u, v, [&](int i, int j) { return colour.clamped(i, j); });
-                const float r = bilinear(u, v, [&](int i, int j) { return radii.clamped(i, j); });
-                const float distance = largest_px_ * std::hypot(p.x, p.y);
+                const auto [c, r] = read(half, float(x), float(y), p);
+                const float distance = distance_px(p);
                 const float w = blind   ? 1.0f
                                 : apart ? std::clamp(r - distance, 0.0f, 1.0f)
-                                        : float(std::abs(r) >= kTie * distance);
+                                        : float(passes(r, p));
                 sum += w * c, weight += w;
                 const float n = apart ? std::clamp(-r - distance, 0.0f, 1.0f) : 0;
                 near += n * c, near_weight += n;

@@ -42,13 +42,16 @@ DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_
         offset_ = float(o.depth_offset.value_or(0));
         return;
     }
+    if (o.along_ray) field_ = input, tan_per_field_ = input.tan_per_field;
     double near = o.depth_near_m, far = o.depth_far_m;
     if (near == 0 && far == 0) {
         near = std::numeric_limits<double>::infinity();
         const View<const float> depth_m = input.all().depth_m;
+        DepthMix whole;
+        whole.field_ = input.all(), whole.tan_per_field_ = tan_per_field_;
         for (int y = 0; y < depth_m.height(); ++y)
             for (int x = 0; x < depth_m.width(); ++x) {
-                const double z = double(depth_m(x, y));
+                const double z = double(depth_m(x, y) * whole.ray_length(x, y));
                 if (z > 0 && std::isfinite(z)) near = std::min(near, z), far = std::max(far, z);
             }
         if (!std::isfinite(near)) near = 0;
@@ -62,7 +65,13 @@ float DepthMix::normalised(int x, int y) const {
     if (depth_m_.empty()) return (coc_px_(x, y) - near_) * scale_;
     const float z = depth_m_(x, y);
     if (!(z > 0) || !std::isfinite(z)) return std::numeric_limits<float>::infinity();
-    return (z - near_) * scale_;
+    return (z * ray_length(x, y) - near_) * scale_;
+}
+
+float DepthMix::ray_length(int x, int y) const {
+    if (tan_per_field_ == 0) return 1;
+    const FieldPosition at = field_.field_at(x, y);
+    return float(std::hypot(1.0, tan_per_field_ * at.x, tan_per_field_ * at.y));
 }
 
 float DepthMix::index(int x, int y) const {

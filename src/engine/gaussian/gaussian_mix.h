@@ -60,8 +60,11 @@ public:
 
 private:
     float normalised(int x, int y) const;  // may lie outside 0…1
+    float ray_length(int x, int y) const;  // of what lies one metre along the axis
 
     View<const float> depth_m_, coc_px_;  // the former empty: not known
+    PixelField field_;
+    double tan_per_field_ = 0;  // of the angle from the axis, per half diagonal; 0: depth is along the axis
     float near_ = 0, scale_ = 1, offset_ = 0, half_band_ = 0.1f;
 };
 

@@ -159,6 +159,7 @@ struct Input : LensOnPicture {
     SpriteOptions sprites;
     std::span<const LightPoint> points;  // checked; coc_px holds the radius of each
     std::span<const LampLens> lamps;     // for points whose spectrum is none of the picture's
+    double tan_per_field = 0;            // of the angle from the axis, per half diagonal; 0: not known
     View<const float> depth_m;           // planar, may hold misses; empty where radii were given
     double focus_distance_m = 0;         // 0: unknown
     float radius_at_infinity_px = 0;     // 0: unknown

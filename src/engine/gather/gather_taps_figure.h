@@ -1,0 +1,33 @@
+// A drawing of the published disc: which of its samples reach the pixel in the middle.
+#pragma once
+
+#include "petzval/image.h"
+
+#include "base/parallel.h"
+
+#include <functional>
+#include <vector>
+
+namespace petzval::engine {
+
+struct DrawnTap {
+    float x, y;      // in the unit disc
+    float reach;     // |its radius|, in radii of the disc
+    bool is_behind;  // focus
+    bool counts;
+};
+
+struct TapsFigure {
+    Picture picture;  // drawn upon
+    // What the disc round a pixel holds at a place of the unit disc; its samples.
+    std::function<Rgba(int x, int y, float u, float v)> light;
+    std::function<std::vector<DrawnTap>(int x, int y)> taps;
+};
+
+// The picture, dimmed, under discs two to its height, each round the pixel that it is drawn upon and
+// enlarged to be seen: its samples as dots, each with a line towards the middle as long as its own radius.
+// Lines that arrive belong to samples that count, bright; the others are dark and end on the way. Orange is
+// behind focus, blue in front.
+Picture drawn(TapsFigure figure, Workers& workers);
+
+}  // namespace petzval::engine
