@@ -67,7 +67,9 @@ void InputFlags::add_layers_to(Verb& verb) {
         .value("--layers", "LIST",
                "blur more layers of the file with the colour, so that what sums to it still does: all, or "
                "names of "
-               "layers, parts and channels with commas between; all,-NAME leaves one out",
+               "layers, parts and channels with commas between; all,-NAME leaves one out; NAME:LAMP says "
+               "what its "
+               "light is made of, as signs:neon, in the picture too",
                parse_words, read.layers);
 }
 

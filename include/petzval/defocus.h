@@ -9,6 +9,7 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
+#include "petzval/light_spectrum.h"
 #include "petzval/place.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
@@ -29,6 +30,10 @@ struct ColourLayer {
     // True: light, of which the job's colour is the sum with that of other layers: layers that sum to it sum
     // to it still when blurred. False: a matte or another value of surfaces, blurred as their coverage is.
     bool is_light = true;
+    // What this light is made of, where that is not what the lens is told (LensChoice::light): the job's
+    // colour then holds it as that lamp's too. Light alone. Costs a frame for every lamp. Not of engine
+    // gaussian, whose blur knows no wavelength.
+    std::optional<LightSpectrum> spectrum = {};
 };
 
 struct DefocusJob {

@@ -6,6 +6,7 @@
 #include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/light_spectrum.h"
 #include "petzval/motion.h"
 #include "petzval/output.h"
 #include "petzval/place.h"
@@ -28,7 +29,8 @@ struct ReadOptions {
     std::string depth_channel;           // e.g. "Z", "depth.R", "ViewLayer.Depth.Z"
     Transfer transfer = Transfer::Srgb;  // how PNG colour is decoded; EXR is linear by definition
     // What is blurred beside the colour: "all", and names of layers, parts or single channels; "-NAME" after
-    // "all" leaves one out. Empty: nothing. EXR only.
+    // "all" leaves one out, "NAME:LAMP" says what its light is made of, as "signs:neon". Empty: nothing. EXR
+    // only.
     std::vector<std::string> layers;
     bool need_colour = true;    // false: alpha and depth are enough, as of a matte; colour is 0 then
     bool need_depth = true;     // false: a file without depth is fine, depth stays empty
@@ -73,6 +75,7 @@ struct FrameLayer {
     std::vector<std::string> names;  // one of a colour, else one for each channel
     Picture colour;                  // alpha: that of the frame's colour
     bool is_light = false;           // as in ColourLayer
+    std::optional<LightSpectrum> spectrum = {};
 };
 
 // A layer or channel that stays as it is, and why: this, where it would be blurred if asked for.

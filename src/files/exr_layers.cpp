@@ -1,5 +1,7 @@
 #include "files/exr_layers.h"
 
+#include "petzval/names.h"
+
 #include "base/parallel.h"
 #include "files/exr_pixels.h"
 #include "files/wording.h"
@@ -88,7 +90,8 @@ void describe_layers(const LayersChoice& choice, Frame& frame) {
     frame.layers_carried = choice.carried;
     std::vector<std::string> names;
     for (const LayerChoice& layer : choice.layers)
-        names.insert(names.end(), layer.names.begin(), layer.names.end());
+        for (const std::string& name : layer.names)
+            names.push_back(layer.spectrum ? name + " (" + name_of(*layer.spectrum) + ")" : name);
     if (names.empty()) return;
     frame.detected.push_back("layers: " + listed(names) + " are blurred with the colour");
     std::map<std::string, std::vector<std::string>> by_reason;
@@ -107,6 +110,12 @@ Status read_layers(const ExrFile& exr, std::vector<LayerChoice>& layers, Frame& 
         frame.non_finite_colour += replace_non_finite(read.colour);
         read.names = layers[i].names;
         read.is_light = layers[i].is_light && may_be_light(frame.colour, read.colour);
+        read.spectrum = layers[i].spectrum;
+        if (read.spectrum && !read.is_light)
+            return Error{ErrorCode::InvalidArgument,
+                         "read.layers " + read.names.front() +
+                             " names a lamp, but holds more than the colour: it is no share of its light",
+                         "read.layers"};
         if (layers[i].channels[3].empty() || has_alpha_of(frame.colour, read.colour)) continue;
         LayerChoice alpha{{read.names.front() + ".A"}, layers[i].part, {layers[i].channels[3]}};
         FrameLayer own{alpha.names, Picture(read.colour.width(), read.colour.height()), false};

@@ -120,6 +120,7 @@ private:
 struct Wanted {
     bool all = false;
     std::vector<std::string> names, not_these;
+    std::vector<std::pair<std::string, LightSpectrum>> lamps;  // of names
 
     explicit Wanted(const std::vector<std::string>& list) {
         for (const std::string& name : list)
@@ -128,7 +129,20 @@ struct Wanted {
             else if (name.starts_with("-"))
                 not_these.push_back(lower(name.substr(1)));
             else
-                names.push_back(lower(name));
+                add(name);
+    }
+    // "signs:neon" is the layer signs, lit by neon; a colon before any other word is part of a name.
+    void add(const std::string& entry) {
+        const std::size_t colon = entry.rfind(':');
+        const auto lamp = colon == std::string::npos ? Result<LightSpectrum>(Error{})
+                                                     : parse<LightSpectrum>(entry.substr(colon + 1));
+        names.push_back(lower(lamp ? entry.substr(0, colon) : entry));
+        if (lamp) lamps.emplace_back(names.back(), *lamp);
+    }
+    std::optional<LightSpectrum> lamp_of(const Candidate& c) const {
+        for (const auto& [name, lamp] : lamps)
+            if (is_one_of(c, {name})) return lamp;
+        return {};
     }
     static bool is_one_of(const Candidate& c, const std::vector<std::string>& list) {
         return std::any_of(c.names.begin(), c.names.end(),
@@ -154,6 +168,8 @@ Status check_names(const std::string& path, const Wanted& wanted, const std::vec
             }
             if (!found && refused)
                 return invalid(printable(name) + " cannot be blurred: it is " + refused->refused);
+            if (refused && wanted.lamp_of(*refused) && !(refused->is_colour && refused->is_light))
+                return invalid(printable(name) + " names a lamp: only layers of light have one");
             if (!found)
                 return invalid(printable(name) + ": " + printable(path, 4096) +
                                " has no such layer or channel" + did_you_mean(name, known) +
@@ -164,7 +180,7 @@ Status check_names(const std::string& path, const Wanted& wanted, const std::vec
 }
 
 // Single channels of one part share pictures, three at a time.
-void add(const Candidate& c, std::vector<LayerChoice>& layers) {
+void add(const Candidate& c, std::optional<LightSpectrum> lamp, std::vector<LayerChoice>& layers) {
     if (!c.is_colour && !c.is_light)
         for (LayerChoice& layer : layers) {
             auto* const free = std::find(layer.channels.begin(), layer.channels.begin() + 3, "");
@@ -175,7 +191,7 @@ void add(const Candidate& c, std::vector<LayerChoice>& layers) {
             layer.names.push_back(c.names.front());
             return;
         }
-    layers.push_back({{c.names.front()}, c.part, c.channels, c.is_colour, c.is_light});
+    layers.push_back({{c.names.front()}, c.part, c.channels, c.is_colour, c.is_light, lamp});
 }
 
 }  // namespace
@@ -195,7 +211,7 @@ Result<LayersChoice> choose_layers(const std::string& path, const Layout& layout
                                 : wanted.all || named     ? ""
                                                           : kNotAskedFor;
         if (why.empty())
-            add(c, choice.layers);
+            add(c, wanted.lamp_of(c), choice.layers);
         else
             choice.carried.push_back({c.names.front(), why});
     }

@@ -22,6 +22,7 @@ struct LayerChoice {
     std::array<std::string, 4> channels;
     bool is_colour = false;
     bool is_light = false;  // as far as names tell
+    std::optional<LightSpectrum> spectrum = {};
 };
 
 struct LayersChoice {
@@ -29,7 +30,8 @@ struct LayersChoice {
     std::vector<CarriedLayer> carried;  // those that stay as they are
 };
 
-// options.layers: "all", or names of layers, parts and channels; "-NAME" after "all" leaves one out. Of the
+// options.layers: "all", or names of layers, parts and channels; "-NAME" after "all" leaves one out, and
+// "NAME:LAMP" names the lamp of a colour's light. Of the
 // view of `colour` alone; never the colour or its depth. Left alone unless named: depth, normals, positions,
 // motion, texture coordinates. Left alone by "all" and refused by name: identifiers (whole numbers,
 // Cryptomatte by its metadata or name), subsampled channels, parts that reach beyond the colour's data

@@ -9,6 +9,7 @@
 #include "session/engines.h"
 #include "session/frame.h"
 #include "session/frame_part.h"
+#include "session/lamp_layers.h"
 #include "session/limit.h"
 #include "session/on_grid.h"
 #include "views/plan_view.h"
@@ -286,7 +287,9 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
 
 Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& control) {
     return contents_->unless_cancelled(control, [&](Progress& progress, CancellableWorkers& workers) {
-        auto report = contents_->defocus(job, control.region, progress, workers);
+        auto report = with_lamps(job, [&](const DefocusJob& one) {
+            return contents_->defocus(one, control.region, progress, workers);
+        });
         if (report) limit_by_mask(*report, job, made_pixels(job, control.region), workers);
         return report;
     });

@@ -6,6 +6,7 @@
 
 #include "session/contents.h"
 #include "session/frame_part.h"
+#include "session/lamp_layers.h"
 #include "session/limit.h"
 #include "session/mounted_lens.h"
 
@@ -133,12 +134,15 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                 if (!plate) return plate.error();
                 job.colour = expanded = std::move(*plate);
             }
+            if (const Status fine = check_lamps(job, look); !fine) return fine.error();
             const Rect all = job.place.data_window;
             const Rect asked = control.region ? control.region->intersected(all) : all;
             // Glare spreads over the whole frame: a region of it is cut from that.
             const Rect made = has_glare(look.glare) ? all : asked;
-            auto report =
-                contents_->defocus(job, made == all ? std::nullopt : std::optional(made), progress, workers);
+            const std::optional<Rect> region = made == all ? std::nullopt : std::optional(made);
+            auto report = with_lamps(job, [&](const DefocusJob& one) {
+                return contents_->defocus(one, region, progress, workers);
+            });
             job.place.data_window = made;
             // Buffers that are shown instead of the picture stay as they are.
             if (!report || !report->panels.empty()) return report;

@@ -94,7 +94,8 @@ Result<DefocusJob> rendered(const Shot& shot) {
         job.mask =
             shot.mask.view().part(shot.place.data_window.moved(-shot.mask_window.x0, -shot.mask_window.y0));
     if (!shot.lights.empty()) job.points = &shot.lights;
-    for (const FrameLayer& layer : shot.layers) job.layers.push_back({layer.colour, layer.is_light});
+    for (const FrameLayer& layer : shot.layers)
+        job.layers.push_back({layer.colour, layer.is_light, layer.spectrum});
     job.place = shot.place;
     return job;
 }

@@ -84,6 +84,21 @@ class Layers(CommandLineTest):
         self.assert_sums(out)
         self.assertEqual(out["key.G"][20][4], 0, "held out")
 
+    def test_a_layer_names_a_lamp_in_the_picture_too(self):
+        lens = ["--lens", "uncorrected"]
+        self.succeed("defocus", "in.exr", "-o", "day.exr", "--layers", "key,fill", *lens)
+        said = self.succeed("defocus", "in.exr", "-o", "out.exr", "--layers", "key:sodium,fill", *lens).err
+        self.assertIn("key (sodium)", said)
+        day, out = read_exr(self.path("day.exr"))[0], read_exr(self.path("out.exr"))[0]
+        self.assert_sums(out, 2e-3)  # half floats
+        self.assertTrue(out["key.B"] != day["key.B"] and out["B"] != day["B"])
+        self.assertTrue(out["fill.B"] == day["fill.B"])
+        for flags, says in ((["--layers", "key:sodium"], "ideal lens"),
+                            (["--layers", "matte:neon", *lens], "layers of light"),
+                            (["--layers", "glow:neon", *lens], "no share"),
+                            (["--layers", "key:neon", "--engine", "gaussian"], "gaussian")):
+            self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *flags, says=["--layers", says])
+
     def test_the_picture_knows_nothing_of_its_layers(self):
         self.succeed("defocus", "in.exr", "-o", "alone.exr")
         self.succeed("defocus", "in.exr", "-o", "all.exr", "--layers", "all")
@@ -136,6 +151,7 @@ class Layers(CommandLineTest):
         self.refuse(2, "defocus", "in.exr", "-o", "no.exr", "--layers", "CryptoObject00",
                     says=["--layers", "cryptoobject00", "Cryptomatte"])
         self.refuse(2, "defocus", "in.exr", "-o", "no.exr", "--layers", "keyy", says=["did you mean key?"])
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", "--layers", "key:lamp", says=["key:lamp", "no such layer"])
 
     def test_without_the_flag_the_log_says_what_stays_sharp(self):
         self.assertIn("--layers all", self.succeed("defocus", "in.exr", "-o", "out.exr").err)

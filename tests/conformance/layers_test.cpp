@@ -159,6 +159,44 @@ TEST(ColourLayers, AreCroppedAndFinishedWithThePicture) {
     EXPECT_EQ(all->layers[0](7 + 5, 11 + 5), made->layers[0](5, 5));
 }
 
+// Sodium lamps among daylight: their layer is what the lens makes of sodium, the other stays, and the picture
+// is their sum still.
+TEST(ColourLayers, ThatNameALampAreItsLightInThePictureToo) {
+    const Shot shot = noise_at_several_depths();
+    const Lights lights(shot);
+    for (const char* engine : {"scatter", "gather"}) {
+        DefocusJob job = with_lights(shot.job(engine), lights);
+        job.lens.name = "uncorrected", job.camera = {50, 36, 2, 3};
+        const auto daylight = defocus(job);
+        job.layers[0].spectrum = LightSpectrum::Sodium;
+        const auto made = defocus(job);
+        ASSERT_TRUE(daylight && made) << (made ? "" : made.error().message);
+        job.lens.light = LightSpectrum::Sodium;
+        const auto sodium = defocus(job);  // which its first layer then is anyhow
+        ASSERT_TRUE(sodium);
+        EXPECT_TRUE(same(made->layers[0], sodium->layers[0])) << engine;
+        EXPECT_TRUE(same(made->layers[1], daylight->layers[1])) << engine;
+        EXPECT_FALSE(same(made->layers[0], daylight->layers[0])) << engine;
+        EXPECT_LT(largest_difference(made->image, made->layers[0], made->layers[1]), 2e-4) << engine;
+    }
+}
+
+TEST(ColourLayers, NameLampsOfLightAloneAndWhereThatShows) {
+    const Shot shot = noise_at_several_depths();
+    const Lights lights(shot);
+    DefocusJob job = with_lights(shot.job("scatter"), lights);
+    job.layers[0].spectrum = LightSpectrum::Neon;
+    Session session;
+    const auto ideal = session.take(job, Look{});
+    ASSERT_FALSE(ideal);
+    EXPECT_NE(ideal.error().message.find("lens.light"), std::string::npos) << ideal.error().message;
+    job.lens.name = "doublet", job.camera = {50, 36, 2, 3};
+    job.engine = "gaussian";
+    EXPECT_FALSE(defocus(job));
+    job.engine = "scatter", job.layers[0].is_light = false;
+    EXPECT_FALSE(defocus(job));
+}
+
 TEST(ColourLayers, OfOtherEnginesOrSizesAreRefused) {
     const Shot shot = flat(30, 20, {1, 1, 1, 1}, 3);
     DefocusJob job = shot.job("reference");
