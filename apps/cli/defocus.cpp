@@ -358,7 +358,8 @@ Status Run::render(const DefocusJob& job) {
               " px is larger than the picture: look at the focal length, the focus and the unit of depth"});
     shot_.colour = std::move(done->image);
     for (std::size_t i = 0; i < shot_.layers.size(); ++i) shot_.layers[i].colour = std::move(done->layers[i]);
-    view_.panels = std::move(done->panels);
+    view_.panels = std::move(done->panels), view_.hidden = std::move(done->hidden);
+    if (is_beauty() && shows_radii(look())) view_.coc_radius_px = red_of(shot_.colour);
     return Done{};
 }
 

@@ -42,6 +42,8 @@ ScatterView scatter_view(ViewKind view) {
             return ScatterView::Levels;
         case ViewKind::Highlights:
             return ScatterView::Highlights;
+        case ViewKind::Hidden:
+            return ScatterView::Hidden;
         default:
             return ScatterView::Result;
     }
@@ -68,14 +70,16 @@ void DefocusFlags::add_output_to(Verb& verb) {
                "the result: .exr holds scene-linear light and all else the input held, .png "
                "a display picture",
                parse_text, output)
-        .choice("--view",
-                "the picture (beauty, default); coc, signed blur radius; focus, what is sharp, near and far; "
-                "depth; alpha; of "
-                "--engine gaussian: sharp, blur-small, blur-large, blur-rows, focus-index; of "
-                "scatter: layers, the surfaces seen and found behind them; levels, what each level of detail "
-                "drew; "
-                "highlights, light spread by itself",
-                view_names(), view)
+        .choice(
+            "--view",
+            "the picture (beauty, default); coc, signed blur radius; focus, what is sharp, near and far; "
+            "depth; alpha; of "
+            "--engine gaussian: sharp, blur-small, blur-large, blur-rows, focus-index; of "
+            "scatter: layers, the surfaces seen and found behind them; levels, what each level of detail "
+            "drew; "
+            "highlights, light spread by itself; hidden, all surfaces with what was found behind them as a "
+            "deep EXR",
+            view_names(), view)
         .value("--overscan", "PX",
                "room for light that leaves a data window which ends inside the frame: fit, as far as it "
                "reaches in "
@@ -212,6 +216,8 @@ void DefocusFlags::check_display() const {
                 "which "
                 "are of one view");
     }
+    if (view == ViewKind::Hidden && *kind != FileKind::Exr)
+        throw UsageError("--view hidden is a deep EXR; -o " + output + " is none");
     if (!input.read.layers.empty() && *kind != FileKind::Exr)
         throw UsageError("--layers are written to an EXR; -o " + output + " is none");
     ocio.check(develop, input.transfer);

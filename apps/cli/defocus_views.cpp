@@ -169,6 +169,15 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
                           settings.overwrite);
 }
 
+// What --behind reads.
+Status write_hidden(const Frame& frame, const ViewSource& source, const ViewSettings& settings) {
+    WriteOptions options = exr_options(settings);
+    options.camera = settings.camera;
+    note(std::to_string(source.hidden.sample_count()) + " samples; --behind " + settings.output +
+         " takes them for what the picture hides");
+    return write_deep_exr(settings.output, frame.place, source.hidden, options);
+}
+
 }  // namespace
 
 Plane red_of(const Picture& picture) {
@@ -183,13 +192,13 @@ bool shows_radii(const Look& look) {
 
 const NameTable<ViewKind>& view_names() {
     static const NameTable<ViewKind> table{
-        {"beauty", ViewKind::Beauty},        {"coc", ViewKind::Coc},
-        {"focus", ViewKind::Focus},          {"depth", ViewKind::Depth},
-        {"alpha", ViewKind::Alpha},          {"sharp", ViewKind::Sharp},
-        {"blur-small", ViewKind::BlurSmall}, {"blur-large", ViewKind::BlurLarge},
-        {"blur-rows", ViewKind::BlurRows},   {"focus-index", ViewKind::FocusIndex},
-        {"levels", ViewKind::Levels},        {"layers", ViewKind::Layers},
-        {"highlights", ViewKind::Highlights}};
+        {"beauty", ViewKind::Beauty},         {"coc", ViewKind::Coc},
+        {"focus", ViewKind::Focus},           {"depth", ViewKind::Depth},
+        {"alpha", ViewKind::Alpha},           {"sharp", ViewKind::Sharp},
+        {"blur-small", ViewKind::BlurSmall},  {"blur-large", ViewKind::BlurLarge},
+        {"blur-rows", ViewKind::BlurRows},    {"focus-index", ViewKind::FocusIndex},
+        {"levels", ViewKind::Levels},         {"layers", ViewKind::Layers},
+        {"highlights", ViewKind::Highlights}, {"hidden", ViewKind::Hidden}};
     return table;
 }
 
@@ -224,6 +233,8 @@ Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const V
         case ViewKind::Layers:
         case ViewKind::Highlights:
             return write_panels(frame, source, settings);
+        case ViewKind::Hidden:
+            return write_hidden(frame, source, settings);
         default:
             // Radii have a sign, which display codes have not.
             if (!is_exr(settings) && !source.coc_radius_px.empty()) return write_coc(frame, source, settings);

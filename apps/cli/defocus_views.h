@@ -32,7 +32,8 @@ enum class ViewKind {
     FocusIndex,
     Levels,
     Layers,
-    Highlights
+    Highlights,
+    Hidden
 };
 
 // Those that an engine makes.
@@ -46,6 +47,7 @@ const char* name_of(ViewKind view);
 struct ViewSource {
     Plane coc_radius_px;        // for Coc and Focus; for Beauty where its channels hold radii, and no light
     std::vector<Panel> panels;  // for Levels, Layers, Highlights
+    DeepPicture hidden;         // for Hidden
 };
 
 struct ViewSettings {

@@ -93,6 +93,9 @@ struct DefocusReport {
     Picture image;                // same size as the input, unless options ask for several side by side
     std::vector<Panel> panels;    // then: what lies where
     std::vector<Picture> layers;  // those of the job, with the alpha of `image`
+    // Of ScatterView::Hidden: what the engine takes every pixel for, nearest first, seen and found behind;
+    // `image` is the sharp picture then. Depth in metres, or radii where the job gives those.
+    DeepPicture hidden;
     std::string engine, device, lens;
     double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front
     std::vector<StageTime> stages;

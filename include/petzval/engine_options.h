@@ -25,6 +25,7 @@ enum class ScatterView {
              // number, the depth layer it is composited in
     Levels,  // what each level of detail drew, before it is composited (docs/published.md)
     Highlights,  // the light that is spread by itself: as it was taken out of the picture, and as it is drawn
+    Hidden,      // the surfaces of Layers, all of them, as deep samples: DefocusReport::hidden
 };
 
 struct ScatterOptions {

@@ -15,7 +15,8 @@ constexpr Named<ScatterView> kScatterViews[]{
     {ScatterView::Result, "result", "the picture"},
     {ScatterView::Layers, "layers", "the surfaces seen and found behind them"},
     {ScatterView::Levels, "levels", "what each level of detail drew"},
-    {ScatterView::Highlights, "highlights", "light spread by itself"}};
+    {ScatterView::Highlights, "highlights", "light spread by itself"},
+    {ScatterView::Hidden, "hidden", "the surfaces seen and found behind them, as deep samples"}};
 constexpr Named<GatherStage> kStages[]{
     {GatherStage::Final, "final", "the engine itself"},
     {GatherStage::Coc, "coc", "the published signed radius"},

@@ -66,6 +66,14 @@ float Radii::operator()(float depth) const {
     return finite_radius(coc_ ? coc_->radius_px(engine::finite_depth(double(depth))) : double(depth));
 }
 
+DeepPicture Radii::with_depths(DeepPicture of_radii) const {
+    if (!coc_) return of_radii;
+    for (DeepSample& s : of_radii.samples())
+        for (float* depth : {&s.depth_m, &s.depth_back_m})
+            *depth = float(coc_->depth_from_radius_m(double(*depth)));
+    return of_radii;
+}
+
 float Radii::at_infinity_px() const { return coc_ ? finite_radius(coc_->radius_at_infinity_px()) : 0; }
 
 Plane Radii::of(View<const float> depth, Workers& workers) const {
@@ -103,8 +111,16 @@ Status check_job(const DefocusJob& job) {
     if (job.points && !job.points->empty() && job.engine != "sprites")
         return invalid("given points are drawn by job.engine sprites, not " + job.engine);
     if (job.scatter.view != ScatterView::Result && job.engine != "scatter")
-        return invalid("layers, levels of detail and highlights are those of job.engine scatter, not " +
-                       job.engine);
+        return invalid(
+            "layers, levels of detail, highlights and what is hidden are those of job.engine "
+            "scatter, not " +
+            job.engine);
+    if (job.scatter.view == ScatterView::Hidden && !(job.coc == CocControls{}))
+        return invalid(
+            "hidden surfaces are written by their depth, which radii tell that are not changed by "
+            "focus.range_m, focus.near_scale, focus.far_scale or focus.max_radius_px");
+    if (job.gaussian.along_ray && has_radii(job))
+        return invalid("gaussian.depth_along ray counts metres; radii were given");
     if (!(job.gather.pixel_size_px >= 0 && job.gather.pixel_size_px < 1))
         return invalid("gather.pixel_size_px must be 0 or more, and less than 1");
     if (!(job.sprites.bright_factor > 0)) return invalid("sprites.bright_factor must be more than 0");
@@ -152,7 +168,7 @@ void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, doub
                                        job.deep,     job.behind,          radii};
     samples_ = engine::all_samples(stated, *job.workers);
     plate_ = engine::back_picture(stated, *job.workers);
-    const bool all = job.scatter.view == ScatterView::Layers;
+    const bool all = job.scatter.view == ScatterView::Layers || job.scatter.view == ScatterView::Hidden;
     if (!plate_.empty()) input.plate = {plate_.colour, plate_.coc_px, all};
     if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, *job.workers);
     if (!samples_.first.empty()) input.deep = samples_;

@@ -26,6 +26,8 @@ public:
     // Errors: those of CircleOfConfusion::make.
     static Result<Radii> make(const DefocusJob& job);
     float operator()(float depth) const;
+    // Depths in place of radii, which the controls left as they were.
+    DeepPicture with_depths(DeepPicture of_radii) const;
     float at_infinity_px() const;  // 0 where radii are given
     Plane of(View<const float> depth, Workers& workers) const;
 

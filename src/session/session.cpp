@@ -213,6 +213,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
         report.image = std::move(shown.image);
         report.panels = std::move(shown.panels);
         output->warnings = std::move(shown.warnings);
+        report.hidden = radii.with_depths(std::move(shown.hidden));
     }
     report.layers = std::move(output->layers);
     finish(report, job, asked, seen);

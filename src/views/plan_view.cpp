@@ -12,6 +12,8 @@ std::unique_ptr<PlanView> plan_view(ScatterView view) {
             return std::make_unique<LevelsView>();
         case ScatterView::Highlights:
             return std::make_unique<HighlightsView>();
+        case ScatterView::Hidden:
+            return std::make_unique<HiddenView>();
     }
     return nullptr;
 }
@@ -26,6 +28,8 @@ const char* name_of(ScatterView view) {
             return "levels";
         case ScatterView::Highlights:
             return "highlights";
+        case ScatterView::Hidden:
+            return "hidden";
     }
     return "result";
 }

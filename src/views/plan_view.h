@@ -1,6 +1,7 @@
 // Pictures of what the scatter engine makes on its way, read from the plan of the run that happens.
 #pragma once
 
+#include "petzval/deep.h"
 #include "petzval/engine_options.h"
 #include "petzval/engine_report.h"
 
@@ -17,6 +18,7 @@ struct Shown {
     Picture image;
     std::vector<Panel> panels;
     std::vector<std::string> warnings;
+    DeepPicture hidden;  // depths are radii
 };
 
 // Most bytes a pixel that a view and the run it looks at take.
@@ -41,6 +43,13 @@ const char* name_of(ScatterView view);
 // is composited: 0 about focus, negative in front. Samples that hold no light are left out. At most four
 // rows; a warning says if there is more.
 class LayersView final : public PlanView {
+public:
+    bool read(const engine::Input& input, const engine::CompletedPicture& completed) override;
+};
+
+// All surfaces of every pixel, nearest first; over one another they are the picture. Light of lamps stands on
+// the surface that shows it.
+class HiddenView final : public PlanView {
 public:
     bool read(const engine::Input& input, const engine::CompletedPicture& completed) override;
 };

@@ -55,6 +55,19 @@ class Deep(CommandLineTest):
         for x in range(3, 37):  # the near card over a background that is the same everywhere
             self.assertAlmostEqual(both[x], near[x] + 1 - alpha[x], delta=0.02)
 
+    def test_what_was_found_behind_is_a_deep_file_that_behind_takes(self):
+        write_exr(self.path("in.exr"), picture(40, 30, lambda x, y: 0.2 if x < 16 else 1.0, lambda x, y: 1.0 if x < 16 else 6.0))
+        said = self.succeed("defocus", "in.exr", "-o", "hidden.exr", "--view", "hidden", *CAMERA, "--fstop", "1.4").err
+        self.assertIn("--behind hidden.exr", said)
+        self.defocus("in.exr", "-o", "plain.exr")
+        self.defocus("in.exr", "-o", "given.exr", "--behind", "hidden.exr")
+        for plain, given in zip(self.rows("plain.exr")[15], self.rows("given.exr")[15]):
+            self.assertAlmostEqual(plain, given, delta=0.05)
+        view = ["--view", "hidden", *CAMERA, "--fstop", "2"]
+        self.refuse(2, "defocus", "in.exr", "-o", "no.png", *view, says=["--view hidden", "deep EXR"])
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *view, "--near-scale", "2", says=["--near-scale"])
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *view, "--engine", "gather", says=["--view hidden", "scatter"])
+
     def test_windows_are_joined(self):
         write_exr(self.path("left.exr"), picture(6, 5, 1, 2, alpha=1), display=DISPLAY, origin=(2, 3))
         write_exr(self.path("right.exr"), picture(4, 9, 1, 3, alpha=1), display=DISPLAY, origin=(20, 1))

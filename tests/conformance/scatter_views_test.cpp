@@ -65,6 +65,68 @@ TEST(Layers, OfAPictureThatKnowsWhatIsHiddenAreThose) {
     EXPECT_EQ(panel(report, 4)(33, 23), (Rgba{0.2f, 0.5f, 0.1f, 1}));
 }
 
+// A card before a wall, both textured; the same camera for all.
+struct CardInMetres {
+    Picture colour{96, 64, kBlue};
+    Plane depth_m{96, 64, 5};
+    CardInMetres() {
+        paint_noise(colour, 3);
+        for (int y = 20; y < 44; ++y)
+            for (int x = 30; x < 60; ++x) colour(x, y) = kRed, depth_m(x, y) = 2;
+        for (int y = 20; y < 44; ++y) colour(60, y) = 0.5f * (kRed + kBlue);  // half the card's
+    }
+    DefocusJob job() const {
+        DefocusJob job;
+        job.colour = colour, job.depth_m = depth_m;
+        job.place = Place::whole(colour.rect());
+        job.camera = {85, 10, 1.4, 3};  // radii of -4 and 3 px
+        return job;
+    }
+};
+
+TEST(Hidden, SurfacesComeAsDeepSamplesInMetresThatFlattenToThePicture) {
+    CardInMetres card;
+    card.colour(61, 30) = {40, 20, 5, 1}, card.colour(60, 30) = {20, 10, 2.5f, 1};  // a lamp at the edge
+    DefocusJob job = card.job();
+    job.scatter.view = ScatterView::Hidden;
+    const auto report = defocus(job);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_TRUE(report->panels.empty());
+    const auto inside = report->hidden.at(32, 22);
+    ASSERT_EQ(inside.size(), 2U);
+    EXPECT_NEAR(inside[0].depth_m, 2, 1e-4);
+    EXPECT_NEAR(inside[1].depth_m, 5, 1e-3);
+    EXPECT_EQ(inside[0].colour, kRed);
+    EXPECT_GT(inside[1].colour.a, 0.99f);
+    EXPECT_EQ(report->hidden.at(5, 5).size(), 1U);
+    Picture flat;
+    Plane depth_m;
+    flatten(report->hidden, flat, depth_m);
+    double largest = 0;
+    for (std::size_t i = 0; i < flat.size(); ++i)
+        largest = std::max(largest, std::abs(double(flat.pixels()[i].r - card.colour.pixels()[i].r)));
+    EXPECT_LT(largest, 1e-3);
+}
+
+TEST(Hidden, SurfacesGivenBackAreThePicturesOwn) {
+    const CardInMetres card;
+    DefocusJob job = card.job();
+    const Picture expected = rendered(job);
+    job.scatter.view = ScatterView::Hidden;
+    const auto report = defocus(job);
+    ASSERT_TRUE(report);
+    job.scatter.view = ScatterView::Result;
+    job.behind = &report->hidden;
+    EXPECT_LT(largest_difference(rendered(job), expected), 0.02);
+}
+
+TEST(Hidden, SurfacesOfRadiiThatWereChangedAreRefused) {
+    const CardInMetres card;
+    DefocusJob job = card.job();
+    job.scatter.view = ScatterView::Hidden, job.coc.near_scale = 0.5;
+    EXPECT_FALSE(defocus(job));
+}
+
 TEST(Layers, BeyondTheFourthAreSaidNotToBeShown) {
     Shot shot = flat(16, 16, kBlue, 0);
     shot.behind = DeepPicture::made_of(16, 16, [](int, int, std::vector<DeepSample>& samples) {
