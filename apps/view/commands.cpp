@@ -168,6 +168,14 @@ Status wipe(App& app, const Words& words) {
 }
 
 // Zoom about the middle of what is seen, or about a pixel of the frame that stays where it is.
+// Whatever is moved, the middle of the window stays on the picture.
+void keep_in_sight(App& app) {
+    const Rect frame = app.frame();
+    State& state = app.state;
+    state.centre_x = std::clamp(state.centre_x, double(frame.x0), double(frame.x1));
+    state.centre_y = std::clamp(state.centre_y, double(frame.y0), double(frame.y1));
+}
+
 Status zoom(App& app, const Words& words) {
     const Rect frame = app.frame();
     const double now = app.mapping.scale_y;
@@ -186,6 +194,7 @@ Status zoom(App& app, const Words& words) {
         state.centre_y = *y + frame.y0 + (state.centre_y - *y - frame.y0) * now / *wanted;
     }
     state.zoom = *wanted;
+    keep_in_sight(app);
     return Done{};
 }
 
@@ -198,6 +207,7 @@ Status pan(App& app, const Words& words) {
         state.centre_x = app.mapping.centre_x, state.centre_y = app.mapping.centre_y;
     }
     state.centre_x -= *x, state.centre_y -= *y;
+    keep_in_sight(app);
     return Done{};
 }
 

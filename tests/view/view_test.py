@@ -87,6 +87,10 @@ class ViewTest(window.WindowTest):
             key 2
             wait
             shot again.png
+            zoom 4
+            pan 5000 -5000
+            expect view.centre_x 0 0
+            expect view.centre_y 180 0
         """)
         names = ["colour", "red", "brighter", "depth", "radii", "help", "again"]
         shots = list(self.contents(*[name + ".png" for name in names]))
