@@ -301,7 +301,7 @@ Status Run::compute() {
     if (!sharp) return sharp.error();
     DefocusJob job = flags_.job(std::move(*sharp));
     job.opened_lens = lens_;
-    job.held_bytes = held_bytes_;
+    job.spent_colour = &shot_.colour, job.held_bytes = held_bytes_;
     report_["look"] = look_json(look());
     report_["lens"] = lens_json(look(), "");
     report_["parameters"] = flags_.parameters_json(job);

@@ -38,6 +38,9 @@ struct ColourLayer {
 
 struct DefocusJob {
     View<const Rgba> colour;  // scene-linear, premultiplied
+    // The picture that `colour` shows, where its owner needs it no more: the result may be put in its memory.
+    // Whatever comes of the job, what it holds then is not said.
+    Picture* spent_colour = nullptr;
     View<const float>
         depth_m;  // planar metres, same size; +infinity for a miss. Or, with depth_is_coc, radii
     // The signed radius of every pixel instead of its depth, which stays empty: the camera is not asked, and

@@ -133,6 +133,9 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
     input.colour = job.colour;
     if (!is_finite(job.colour, *job.workers))
         input.colour = repaired_ = finite_picture(job.colour, *job.workers);
+    const bool is_spent = job.spent_colour && job.mask.empty() && job.layers.empty() && !job.colour.empty() &&
+                          job.spent_colour->pixels() == job.colour.row(0);
+    if (is_spent) input.spent = job.spent_colour;
     for (const ColourLayer& layer : job.layers) {
         input.layers.push_back({layer.colour, layer.is_light});
         if (is_finite(layer.colour, *job.workers)) continue;

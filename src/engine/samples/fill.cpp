@@ -21,8 +21,8 @@ constexpr float kOneSided = 10;       // what a surface met on one side counts, 
 float square(Rgba c) { return c.r * c.r + c.g * c.g + c.b * c.b; }
 
 // The end of a search: a pixel of the surface that was met.
-constexpr int kHits = 2;      // per direction
-constexpr int kSurfaces = 3;  // behind one pixel
+constexpr int kHits = 2;  // per direction
+constexpr int kSurfaces = HiddenLayers::kMost;
 struct Found {
     bool found = false;
     int x = 0, y = 0;
@@ -315,7 +315,7 @@ private:
     float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
 };
 
-constexpr int kLargestSquare = 8;
+constexpr int kLargestSquare = HiddenLayers::kBand;
 
 // What is hidden is seen through its own blur: pixels of one surface share what was found for the first of
 // them in a square of so many on a side.
@@ -326,7 +326,13 @@ int shared_square(std::span<const Hidden> hidden, float shared_from_px) {
     return blur < 1 ? 1 : blur < 2 ? 2 : blur < 6 ? 4 : kLargestSquare;
 }
 
-using Range = HiddenLayers::Range;  // at first in the samples of its band of rows
+using Range = HiddenLayers::Range;
+
+Range range(std::size_t begin, std::size_t end) {
+    Range r{};
+    r.begin = begin & ((1U << 30) - 1), r.count = (end - begin) & HiddenLayers::kMost;
+    return r;
+}
 
 // What was found in a square of kLargestSquare pixels so far.
 class Answers {
@@ -372,11 +378,11 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
     const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, white, workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
-    std::vector<std::vector<Hidden>> found(static_cast<std::size_t>(bands));
+    layers.bands.resize(std::size_t(bands));
     layers.ranges = Image<Range>::uninitialised(width, height);
     Image<Range>& ranges = layers.ranges;
     parallel_for(bands, workers, [&](int band) {
-        std::vector<Hidden>& here = found[std::size_t(band)];
+        std::vector<Hidden>& here = layers.bands[std::size_t(band)];
         Answers answers;
         for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
             const Rect square =
@@ -394,21 +400,12 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                     }
                     const std::size_t begin = here.size();
                     filler.fill(x, y, here);
-                    ranges(x, y) = {std::uint32_t(begin), std::uint32_t(here.size() - begin)};
+                    ranges(x, y) = range(begin, here.size());
                     if (here.size() == begin) continue;  // its neighbours may lie closer to the silhouette
                     answers.add(x, y, coc(x, y),
                                 shared_square(std::span(here).subspan(begin), shared_from_px), ranges(x, y));
                 }
         }
-    });
-    std::vector<std::size_t> starts;
-    for (const auto& band : found) {
-        starts.push_back(layers.samples.size());
-        layers.samples.insert(layers.samples.end(), band.begin(), band.end());
-    }
-    parallel_for(height, workers, [&](int y) {
-        const auto start = std::uint32_t(starts[std::size_t(y / kLargestSquare)]);
-        for (int x = 0; x < width; ++x) ranges(x, y).begin += start;
     });
     return layers;
 }

@@ -70,14 +70,18 @@ struct Hidden {
 
 // Hidden samples of every pixel, nearest first; pixels may share theirs.
 struct HiddenLayers {
+    static constexpr int kBand = 8;  // rows
+    static constexpr int kMost = 3;  // samples of a pixel
+    // In the samples of the pixel's band.
     struct Range {
-        std::uint32_t begin = 0, count = 0;
+        std::uint32_t begin : 30, count : 2;
     };
     Image<Range> ranges;  // empty: nothing is hidden anywhere
-    std::vector<Hidden> samples;
+    std::vector<std::vector<Hidden>> bands;
     std::span<const Hidden> at(int x, int y) const {
         if (ranges.empty()) return {};
-        return {samples.data() + ranges(x, y).begin, ranges(x, y).count};
+        const Range range = ranges(x, y);
+        return {bands[std::size_t(y / kBand)].data() + range.begin, range.count};
     }
 };
 

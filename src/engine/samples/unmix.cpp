@@ -208,13 +208,15 @@ Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> c
             if (touching(x, y)) rows[std::size_t(y)].push_back(taken_apart(picture, coc, touching, x, y));
         }
     });
-    std::vector<int> before;
-    for (const auto& row : rows) {
-        before.push_back(int(mixtures.values.size()));
+    std::vector<int> before{0};
+    for (const auto& row : rows) before.push_back(before.back() + int(row.size()));
+    mixtures.values.reserve(std::size_t(before.back()));
+    for (auto& row : rows) {
         mixtures.values.insert(mixtures.values.end(), row.begin(), row.end());
+        row = {};
     }
     parallel_for(height, workers, [&](int y) {
-        if (rows[std::size_t(y)].empty()) return;
+        if (before[std::size_t(y)] == before[std::size_t(y) + 1]) return;
         for (int x = 0; x < width; ++x)
             if (mixtures.index(x, y) >= 0) mixtures.index(x, y) += before[std::size_t(y)];
     });

@@ -136,6 +136,12 @@ public:
         watch_.lap("split", {bytes_of(frame.colour) + bytes_of(frame.coc_px)});
     }
     Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_); }
+    // Of all the frame; its colour is not asked for after this where it is done as one strip.
+    Picture memory_for_result(bool one_strip) const {
+        Picture* const spent = frame_.spent;
+        if (one_strip && spent && spent->rect() == frame_.colour.rect()) return std::move(*spent);
+        return Picture::uninitialised(frame_.width(), frame_.height());
+    }
 
     // Draws `rows` of the frame. `share`: of the progress.
     void draw(const Rect& rows, int halo, double share, Output& out) {
@@ -145,6 +151,7 @@ public:
         Strip strip = complete(input, rows, first);
         const CocSamples seen = input.layers.empty() ? CocSamples{} : strip.completed->all();
         planned(strip, [&](const PlannedStrip& p) {
+            if (out.image.empty()) out.image = memory_for_result(rows == frame_.colour.rect());
             draw(p, share, out.image);
             for (std::size_t i = 0; i < input.layers.size(); ++i)
                 draw_layer(strip, p, seen, input.layers[i], share, out.layers[i]);
@@ -297,11 +304,10 @@ Result<Output> run_scatter(const Input& input) {
     }
     const Result<StripPlan> strips = run.strips();
     if (!strips) return strips.error();
-    output.image = Picture::uninitialised(input.width(), input.height());
     for (std::size_t i = 0; i < input.layers.size(); ++i)
         output.layers.push_back(Picture::uninitialised(input.width(), input.height()));
     for (int y = 0; y < input.height() && !input.progress->cancelled(); y += strips->rows) {
-        const Rect rows = Rect{0, y, input.width(), y + strips->rows}.intersected(output.image.rect());
+        const Rect rows = Rect{0, y, input.width(), y + strips->rows}.intersected(input.colour.rect());
         run.draw(rows, strips->halo, double(rows.height()) / input.height(), output);
     }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};

@@ -122,6 +122,9 @@ struct Input : LensOnPicture {
     };
     View<const Rgba> colour;   // premultiplied; the front view of `deep` where that is given
     View<const float> coc_px;  // signed radius, + behind focus
+    // Of this size, where nobody asks for `colour` once the samples are made: the result may be put in its
+    // memory. Null: none.
+    Picture* spent = nullptr;
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
     // then colour and coc_px are not all there is to hit. Empty otherwise.
     CocSamplesView deep;
