@@ -107,7 +107,7 @@ float HighlightSplit::floor_at(int x, int y, float coc_px) const {
 }
 
 Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
-    const float brightness = luminance(light), least = white_ * rule_.lamp_floor * light.a;
+    const float brightness = luminance(light), least = least_of_lamps() * light.a;
     if (brightness <= least || light.a <= kLeastAlpha) return light;
     const float around = light.a * surroundings_(x / kCell, y / kCell);
     const float bound = least + rule_.lamp_factor * around;

@@ -63,6 +63,8 @@ public:
     // Where the light of a lamp in pixel (x, y) stands: where the brightest pixel around does, unless that is
     // another surface, which is for those who take silhouettes apart. Samples of a deep picture know it.
     float radius_of_light(int x, int y, float coc_px) const;
+    // Up to this luminance, times its coverage, dim() leaves light as it is.
+    float least_of_lamps() const { return white_ * rule_.lamp_floor; }
     float white() const { return white_; }
     const HighlightRule& rule() const { return rule_; }
     // Whether light so bright, left over at this place and radius, may stay whatever surrounds it.

@@ -9,7 +9,6 @@
 #include "engine/samples/out_of_sight.h"
 #include "engine/samples/plate.h"
 #include "engine/samples/sample_source.h"
-#include "engine/samples/white.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,10 +89,9 @@ public:
         const LitPicture picture{input.colour, dim};
         mixtures_ = unmix_silhouettes(picture, input.coc_px, connected, *input.workers);
         const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
-        const float white = dim ? white_of(input.all().colour, *input.workers) : 0;
         if (input.fill != Fill::Off)
             hidden_ = fill_hidden(picture, input.coc_px, connected, mixtures_, input.nearest_coc_px,
-                                  input.farthest_coc_px, shared_from_px, white, *input.workers);
+                                  input.farthest_coc_px, shared_from_px, dim.white, *input.workers);
         unmix_nearer(mixtures_, picture, hidden_, *input.workers);
         if (back) unmix_before_plate(mixtures_, picture, input.coc_px, input.plate, *input.workers);
         if (dim && !back && input.fill == Fill::Full)

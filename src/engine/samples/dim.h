@@ -6,7 +6,18 @@
 
 namespace petzval::engine {
 
-// Light of pixel (x, y) without what a lamp adds to it (engine/lights: HighlightSplit::dim).
-using Dim = std::function<Rgba(int x, int y, Rgba light)>;
+// What lamps add to the light of a picture's pixels (engine/lights: HighlightSplit::dim).
+struct Dim {
+    // Light of pixel (x, y) without that. Empty: there are no lamps.
+    std::function<Rgba(int x, int y, Rgba light)> of;
+    // Light of luminance up to least * its coverage stays as it is: most of a picture is told so at once.
+    float least = 0;
+    float white = 0;  // scene-linear luminance that counts as bright; 0: none does
+
+    explicit operator bool() const { return bool(of); }
+    Rgba operator()(int x, int y, Rgba light) const {
+        return luminance(light) <= least * light.a ? light : of(x, y, light);
+    }
+};
 
 }  // namespace petzval::engine

@@ -5,8 +5,10 @@
 #include "engine/scatter/sources.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace petzval::engine {
@@ -108,7 +110,24 @@ private:
                 }
             }
         }
-        std::sort(keys_.begin(), keys_.end());
+        sort_by_layer();
+    }
+    // By those bits of the layer that differ, a few at a time; the order found stays.
+    void sort_by_layer() {
+        std::uint64_t differ = 0;
+        for (const std::uint64_t key : keys_) differ |= key ^ keys_.front();
+        constexpr int kBits = 11;
+        constexpr std::size_t kDigits = std::size_t(1) << kBits;
+        for (int shift = 32; shift < 64; shift += kBits) {
+            const auto digit = [shift](std::uint64_t key) { return std::size_t(key >> shift) % kDigits; };
+            if (digit(differ) == 0) continue;
+            std::array<std::uint32_t, kDigits + 1> start{};
+            for (const std::uint64_t key : keys_) ++start[digit(key) + 1];
+            std::partial_sum(start.begin(), start.end(), start.begin());
+            sorted_.resize(keys_.size());
+            for (const std::uint64_t key : keys_) sorted_[start[digit(key)]++] = key;
+            std::swap(keys_, sorted_);
+        }
     }
     std::size_t end_of_layer(std::size_t begin) const {
         std::size_t end = begin;
@@ -157,7 +176,7 @@ private:
     const ScatterKernels& kernels_;
     AskMarks& marks_;
     std::vector<Found> found_;
-    std::vector<std::uint64_t> keys_;
+    std::vector<std::uint64_t> keys_, sorted_;
 };
 
 // Where the drafts of tiles go in the plan's lists; the last entry is the end.
@@ -222,7 +241,8 @@ void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& work
 }  // namespace
 
 float LevelRule::position(float coc_px) const {
-    const float octaves = std::log2(std::max(1.0f, std::abs(coc_px) / largest_cells));
+    if (std::abs(coc_px) <= largest_cells) return 0;
+    const float octaves = std::log2(std::abs(coc_px) / largest_cells);
     return std::min(octaves / kOctavesPerLevel, octaves + 1);
 }
 

@@ -182,7 +182,8 @@ private:
                     {}};
         strip.completed = std::make_shared<CompletedPicture>(
             input, strip.connected,
-            [&](int x, int y, Rgba light) { return split_.dim(x, first_row + y, light); });
+            Dim{[&](int x, int y, Rgba light) { return split_.dim(x, first_row + y, light); },
+                split_.least_of_lamps(), split_.white()});
         strip.sample_bytes = strip.completed->sample_count() * sizeof(CocSample) +
                              std::size_t(input.width()) * std::size_t(input.height()) * sizeof(std::size_t);
         watch_.lap("complete", {bytes_of(input.colour) + bytes_of(input.coc_px) + strip.connected.bytes()});
