@@ -73,7 +73,7 @@ private:
         Rgba colour;
         float coc_px, weight, light;
     };
-    std::array<Vote, kDirections> votes_;
+    std::array<Vote, kDirections + kDirections / 2> votes_;
     int count_ = 0;
     float roots_ = 0, weight_ = 0;
 };
@@ -107,7 +107,7 @@ public:
             hits[k] = search(x, y, own, slope, paths_[k]);
             any = any || hits[k][0].found;
         }
-        if (any) stack(hits, hidden);
+        if (any) stack(x, y, hits, hidden);
     }
 
 private:
@@ -247,7 +247,7 @@ private:
 
     // The surfaces that were met, nearest first. The farthest fills all there is; a nearer one only the share
     // of the surroundings that it has: a wire behind a leaf goes on as a wire.
-    void stack(Hits& hits, std::vector<Hidden>& hidden) const {
+    void stack(int x, int y, Hits& hits, std::vector<Hidden>& hidden) const {
         float share_behind = 0;
         std::array<Hidden, kSurfaces> surfaces{};
         int n = 0;
@@ -259,7 +259,7 @@ private:
                     if (f.found) farthest = std::max(farthest, f.coc_px);
             if (farthest < -1e29f) break;
             float share = 0;
-            surfaces[std::size_t(n)] = surface(hits, farthest, share);
+            surfaces[std::size_t(n)] = surface(x, y, hits, farthest, share);
             share_behind += share;
             surfaces[std::size_t(n)].share = sharpened(share / share_behind);
             surfaces[std::size_t(n)].colour *= surfaces[std::size_t(n)].share;
@@ -267,42 +267,50 @@ private:
         for (int i = n - 1; i >= 0; --i) hidden.push_back(surfaces[std::size_t(i)]);
     }
 
-    // What the hits at `coc_px` agree on; they are used up. share: their weight, the sum of 1/distance.
-    Hidden surface(Hits& hits, float coc_px, float& share) const {
+    // What the hits at `coc_px` agree on, behind (x, y); they are used up. share: their weight, the sum of
+    // 1/distance.
+    Hidden surface(int x, int y, Hits& hits, float coc_px, float& share) const {
         Votes votes;
         const auto take = [&](std::size_t k) -> Found* {
             for (Found& f : hits[k])
                 if (f.found && one_surface(f.coc_px, coc_px)) return &f;
             return nullptr;
         };
-        const auto colour_of = [&](const Found& f) { return known_.colour(f.x, f.y); };
+        const auto passes = [&](const Found* f) {
+            return f ? known_.passes({f->x, f->y, f->coc_px}, x, y) : 0;
+        };
         float nearest = 1e9f;
         for (std::size_t k = 0; k < kDirections; ++k)
             if (const Found* f = take(k)) nearest = std::min(nearest, f->distance_px);
         constexpr std::size_t kPairs = kDirections / 2;
         for (std::size_t k = 0; k < kPairs; ++k) {
             Found *a = take(k), *b = take(k + kPairs);
-            // Seen on both sides, it most likely goes on between them.
+            // Seen on both sides, it most likely goes on between them, unless an edge cuts one side off.
             if (a && b) share += 2 / a->distance_px + 2 / b->distance_px;
             if (!a != !b) share += 0.5f / (a ? a : b)->distance_px;
-            if (a && b) {
-                const float total = a->distance_px + b->distance_px;
-                const float wa = b->distance_px / total, wb = a->distance_px / total;
-                const float alike = likeness(*a, paths_[k].direction, *b, paths_[k + kPairs].direction);
-                const float closeness = 1 / a->distance_px + 1 / b->distance_px;
-                votes.add(wa * colour_of(*a) + wb * colour_of(*b), wa * a->coc_px + wb * b->coc_px,
-                          closeness * std::sqrt(closeness) * alike);
-            } else if (a || b) {
-                const Found& one = a ? *a : *b;
-                const Direction d = paths_[a ? k : k + kPairs].direction;
-                const float away = one.distance_px * one.distance_px;
-                votes.add(known_.going_on({one.x, one.y, one.coc_px}, d, one.distance_px), one.coc_px,
-                          kOneSided * nearest / (away * one.distance_px));
-            }
+            const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
+            if (a && b) add_pair(*a, *b, k, both, votes);
+            if (a && from_a > both) add_alone(*a, k, nearest, from_a - both, votes);
+            if (b && from_b > both) add_alone(*b, k + kPairs, nearest, from_b - both, votes);
             if (a) a->found = false;
             if (b) b->found = false;
         }
         return votes.result();
+    }
+    // What was met in direction k and against it.
+    void add_pair(const Found& a, const Found& b, std::size_t k, float weight, Votes& votes) const {
+        const float total = a.distance_px + b.distance_px;
+        const float wa = b.distance_px / total, wb = a.distance_px / total;
+        const float alike = likeness(a, paths_[k].direction, b, paths_[k + kDirections / 2].direction);
+        const float closeness = 1 / a.distance_px + 1 / b.distance_px;
+        votes.add(wa * known_.colour(a.x, a.y) + wb * known_.colour(b.x, b.y), wa * a.coc_px + wb * b.coc_px,
+                  weight * (closeness * std::sqrt(closeness) * alike));
+    }
+    // What was met in direction k.
+    void add_alone(const Found& one, std::size_t k, float nearest_px, float weight, Votes& votes) const {
+        const float away = one.distance_px * one.distance_px;
+        votes.add(known_.going_on({one.x, one.y, one.coc_px}, paths_[k].direction, one.distance_px),
+                  one.coc_px, weight * (kOneSided * nearest_px / (away * one.distance_px)));
     }
 
     KnownSurfaces known_;

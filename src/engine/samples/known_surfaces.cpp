@@ -15,21 +15,26 @@ float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
 // 0 up to `from`, 1 at twice that.
 float above(float value, float from) { return std::clamp(value / from - 1, 0.0f, 1.0f); }
 
+Plane known_radii(View<const float> coc, const Sparse<Mixture>& mixtures, Workers& workers) {
+    Plane radii = Plane::uninitialised(coc.width(), coc.height());
+    parallel_for(coc.height(), workers, [&](int y) {
+        for (int x = 0; x < coc.width(); ++x) {
+            const Mixture* m = mixtures.at(x, y);
+            radii(x, y) = !m ? coc(x, y) : m->shows_far ? m->far_coc_px : -1e30f;
+        }
+    });
+    return radii;
+}
+
 }  // namespace
 
 KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc,
                              const Sparse<Mixture>& mixtures, float white, Workers& workers)
     : picture_(picture),
       mixtures_(mixtures),
-      radii_(Plane::uninitialised(coc.width(), coc.height())),
-      white_(white) {
-    parallel_for(coc.height(), workers, [&](int y) {
-        for (int x = 0; x < coc.width(); ++x) {
-            const Mixture* m = mixtures_.at(x, y);
-            radii_(x, y) = !m ? coc(x, y) : m->shows_far ? m->far_coc_px : -1e30f;
-        }
-    });
-}
+      radii_(known_radii(coc, mixtures, workers)),
+      white_(white),
+      edges_(picture, radii_, mixtures, white, workers) {}
 
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
     // Times white: what is darker is no light, a bright wall may go on as long as it likes.
@@ -46,15 +51,19 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
 }
 
 Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
+    const CutEdges::Point hidden{at.x - int(std::lround(distance_px * outwards.x)),
+                                 at.y - int(std::lround(distance_px * outwards.y))};
     Rgba sum = colour(at.x, at.y);
-    float n = 1;
+    float total = 1;
     for (const float aside : {-0.2f, -0.1f, 0.1f, 0.2f}) {
         const float far = aside * distance_px;
         const int dx = -int(std::lround(far * outwards.y)), dy = int(std::lround(far * outwards.x));
-        if ((dx != 0 || dy != 0) && shows(at.x + dx, at.y + dy, at.coc_px))
-            sum += colour(at.x + dx, at.y + dy), ++n;
+        const int x = at.x + dx, y = at.y + dy;
+        if ((dx == 0 && dy == 0) || !shows(x, y, at.coc_px)) continue;
+        const float weight = edges_.passes({x, y}, hidden, at.coc_px);
+        sum += weight * colour(x, y), total += weight;
     }
-    return sum * (1 / n);
+    return sum * (1 / total);
 }
 
 // What shows of the surface from `from` to once the distance, dark things before bright ones: what shows

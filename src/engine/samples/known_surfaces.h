@@ -2,6 +2,7 @@
 // something nearer hides them.
 #pragma once
 
+#include "engine/samples/cut_edges.h"
 #include "engine/samples/hidden.h"
 
 #include <cmath>
@@ -46,6 +47,11 @@ public:
     // falls to that of the surface beyond it (from here, outwards), the more so the smaller it is beside the
     // distance. So what an edge cuts fades as it slips behind that edge.
     Rgba going_on(Place from, Direction outwards, float distance_px) const;
+    // What the colour there says of the hidden pixel (x, y), 0…1: little behind an edge that goes on between
+    // them.
+    float passes(Place from, int x, int y) const {
+        return edges_.passes({from.x, from.y}, {x, y}, from.coc_px);
+    }
 
 private:
     Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
@@ -55,6 +61,7 @@ private:
     const Sparse<Mixture>& mixtures_;
     Plane radii_;
     float white_;
+    CutEdges edges_;
 };
 
 // fill_hidden() that continues nothing bright farther than it shows.

@@ -1,0 +1,40 @@
+// Edges of what a picture shows that something nearer cuts: behind it they go on, straight.
+#pragma once
+
+#include "engine/samples/hidden.h"
+
+#include <vector>
+
+namespace petzval::engine {
+
+class CutEdges {
+public:
+    // radii_px: of what each pixel shows, as KnownSurfaces has them. white: what counts as bright,
+    // scene-linear luminance; 0: no edge is looked for.
+    CutEdges(const LitPicture& picture, View<const float> radii_px, const Sparse<Mixture>& mixtures,
+             float white, Workers& workers);
+
+    struct Point {
+        int x, y;
+    };
+    // What a colour that shows at `shown`, of a surface at coc_px, says of a point where that is hidden: 1 if
+    // nothing stands between them, kCut behind an edge that goes on there.
+    float passes(Point shown, Point hidden, float coc_px) const;
+    static constexpr float kCut = 1e-3f;  // not 0: where all is behind some edge all counts alike
+
+    struct Edge {
+        Point at;                // where it is cut: so far from the middle of this pixel
+        float off_x, off_y;      // (whole pixels apart, so that places in strips of a frame round alike)
+        float into_x, into_y;    // where it goes on; of length 1
+        float coc_px, strength;  // 0…1
+    };
+
+private:
+    void sort_into_cells(int width, int height);
+
+    std::vector<Edge> edges_;
+    int columns_ = 0;
+    std::vector<std::vector<int>> near_;  // numbers of edges that may reach into each cell
+};
+
+}  // namespace petzval::engine
