@@ -151,7 +151,7 @@ Status run_layers(const engine::Engine& chosen, const engine::Input& drawn, engi
                 colour(x, y).a = drawn.colour(x, y).a;
             }
         engine::Input input = drawn;
-        input.colour = colour;
+        input.colour = colour, input.picture = drawn.colour;
         Result<engine::Output> blurred = chosen.run(input);
         if (!blurred) return blurred.error();
         output.layers.push_back(std::move(blurred->image));

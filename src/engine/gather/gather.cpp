@@ -26,16 +26,16 @@ struct Strips {
 };
 
 Strips plan_strips(const Input& input, const RingSizes& sizes) {
-    constexpr std::size_t kBytesPerPixel = 94;  // of cells, light and blocks, where many depths meet
+    constexpr std::size_t kBytesPerPixel = 122;  // of cells, light and what is hidden, where many depths meet
     const int cell = 1 << (sizes.levels() - 1);
-    const int unit = std::max({GatherPlan::kTile, cell, BlockFill::block_px(input.nearest_coc_px)});
+    const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.nearest_coc_px)});
     const auto whole_units = [unit](double rows) {
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
     };
     const double largest = double(std::max(-input.nearest_coc_px, input.farthest_coc_px));
     Strips strips{whole_units(input.height()),
                   whole_units(1.05 * input.lens(0).reach_px(largest) +
-                              double(BlockFill::reach_px(input.nearest_coc_px)) + 4.0 * cell + 8)};
+                              double(fill_reach_px(input.nearest_coc_px)) + 4.0 * cell + 8)};
     const std::size_t row_bytes = kBytesPerPixel * std::size_t(input.width());
     const std::size_t held =
         held_bytes(input) + sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());

@@ -7,7 +7,7 @@
 
 #include "engine/gather/gather_fill.h"
 #include "engine/gather/gather_rings.h"
-#include "engine/samples/bright_rims.h"
+#include "engine/samples/rims.h"
 #include "engine/waist/engine.h"
 
 #include <span>
@@ -71,8 +71,8 @@ private:
 
 // What one picture does not say, as far as a preview guesses it.
 struct Guessed {
-    BlockFill fill;
-    BrightRims rims;
+    HiddenFill fill;
+    Rims rims;
 };
 
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
@@ -81,13 +81,13 @@ void for_each_sample(const Input& input, const Guessed& guessed, int x, int y, c
     SeenFirst take(emit);
     if (input.deep.empty()) {
         const float coc = input.coc_px(x, y);
-        if (const BrightRim* const rim = guessed.rims.at(x, y)) {
+        if (const Rim* const rim = guessed.rims.at(x, y)) {
             take(rim->near, rim->near_coc_px, rim->share);
             take(rim->far, coc, 1.0f);
         } else {
             emit(input.colour(x, y), coc, 1.0f, false);
         }
-        if (const auto hidden = guessed.fill.behind(x, y, coc))
+        if (const CocSample* const hidden = guessed.fill.at(x, y))
             emit(hidden->colour, hidden->coc_px, 1.0f, is_hidden(coc, hidden->coc_px));
         return;
     }

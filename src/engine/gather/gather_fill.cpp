@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace petzval::engine {
 namespace {
@@ -18,21 +20,20 @@ bool one_surface(float coc_a, float coc_b) {
     return std::abs(coc_a - coc_b) < 1.5f + 0.1f * std::max(std::abs(coc_a), std::abs(coc_b));
 }
 
-// What lamps count in a mean of what is dim: next to nothing where they are brighter than kLampContrast times
-// the usual light, the square of the mean root.
+// What lamps count in a mean of what is dim: little where they are brighter than kLampContrast times the
+// usual light, the square of the mean root, and next to nothing where nothing bright may be made up.
 class WithoutLamps {
 public:
     explicit WithoutLamps(Fill fill) : dim_(fill == Fill::Dim) {}
     void see(Rgba colour, float weight) {
-        if (dim_) roots_ += weight * std::sqrt(std::max(0.0f, luminance(colour))), weight_ += weight;
+        roots_ += weight * std::sqrt(std::max(0.0f, luminance(colour))), weight_ += weight;
     }
     // Of one that was seen.
     float share(Rgba colour) const {
-        if (!dim_) return 1;
         constexpr float kLampContrast = 4;
         const float usual = kLampContrast * (roots_ / weight_) * (roots_ / weight_) + 1e-6f;
-        const float excess = std::max(0.0f, luminance(colour)) / usual;
-        return 1 / (1 + excess * excess * excess * excess);
+        const float excess = std::max(0.0f, luminance(colour)) / usual, squared = excess * excess;
+        return 1 / (1 + (dim_ ? squared * squared : squared));
     }
 
 private:
@@ -43,7 +44,7 @@ private:
 // The nearest radius in a block, and the mean of its farthest surface.
 struct Block {
     float nearest_px = 1e30f, farthest_px = -1e30f;
-    Rgba colour;
+    Rgba colour, judged;
 };
 
 Block block_of(const Input& input, const Rect& area) {
@@ -57,67 +58,77 @@ Block block_of(const Input& input, const Rect& area) {
     const auto visit_surface = [&](const auto& visit) {
         for (int y = area.y0; y < area.y1; ++y)
             for (int x = area.x0; x < area.x1; ++x)
-                if (one_surface(input.coc_px(x, y), block.farthest_px))
-                    visit(input.colour(x, y), input.coc_px(x, y));
+                if (one_surface(input.coc_px(x, y), block.farthest_px)) visit(x, y);
     };
-    visit_surface([&](Rgba colour, float) { lamps.see(colour, 1); });
+    const bool dim = input.fill == Fill::Dim;
+    const View<const Rgba> judged = input.judged();
+    if (dim) visit_surface([&](int x, int y) { lamps.see(judged(x, y), 1); });
     float count = 0, coc = 0, shares = 0;
-    visit_surface([&](Rgba colour, float coc_px) {
-        const float share = lamps.share(colour);
-        block.colour += share * colour, shares += share, coc += coc_px, count += 1;
+    visit_surface([&](int x, int y) {
+        const float share = dim ? lamps.share(judged(x, y)) : 1;
+        block.colour += share * input.colour(x, y), block.judged += share * judged(x, y);
+        shares += share, coc += input.coc_px(x, y), count += 1;
     });
-    block.colour *= 1 / shares;
+    block.colour *= 1 / shares, block.judged *= 1 / shares;
     block.farthest_px = coc / count;
     return block;
 }
+
+// A piece of a surface: its colour, and that which is judged.
+struct Seen {
+    Rgba colour, judged;
+    float coc_px = 0;
+};
 
 // What was met: the surface that most of it belongs to wins, its pieces are averaged.
 class Votes {
 public:
     explicit Votes(Fill fill) : fill_(fill) {}
-    void add(const Block& block, float distance) {
-        votes_[std::size_t(count_++)] = {&block, 1 / (distance * distance)};
+    void add(const Seen& seen, float weight) {
+        votes_[std::size_t(count_++)] = {seen, weight};
+        all_ += weight;
     }
-    bool result(CocSample& out) const {
+    bool empty() const { return count_ == 0; }
+    // Of some.
+    Seen result() const {
         float best = 0;
-        for (int i = 0; i < count_; ++i) {
+        Seen out;
+        for (int i = 0; i < count_ && best < 0.5f * all_; ++i) {
             float sum = 0;
-            const CocSample mean = mean_like(votes_[std::size_t(i)].block->farthest_px, sum);
+            const Seen mean = mean_like(votes_[std::size_t(i)].seen.coc_px, sum);
             if (sum > best) best = sum, out = mean;
         }
-        return best > 0;
+        return out;
     }
 
 private:
-    CocSample mean_like(float coc_px, float& sum) const {
-        CocSample mean;
+    Seen mean_like(float coc_px, float& sum) const {
+        Seen mean;
         WithoutLamps lamps(fill_);
-        visit_like(coc_px, [&](const Block& block, float weight) { lamps.see(block.colour, weight); });
+        visit_like(coc_px, [&](const Vote& vote) { lamps.see(vote.seen.judged, vote.weight); });
         float shares = 0;
-        visit_like(coc_px, [&](const Block& block, float weight) {
-            const float share = weight * lamps.share(block.colour);
-            mean.colour += share * block.colour, shares += share;
-            mean.coc_px += weight * block.farthest_px, sum += weight;
+        visit_like(coc_px, [&](const Vote& vote) {
+            const float share = vote.weight * lamps.share(vote.seen.judged);
+            mean.colour += share * vote.seen.colour, mean.judged += share * vote.seen.judged;
+            mean.coc_px += vote.weight * vote.seen.coc_px, shares += share, sum += vote.weight;
         });
-        mean.colour *= 1 / shares;
-        mean.coc_px /= sum, mean.coc_back_px = mean.coc_px;
+        mean.colour *= 1 / shares, mean.judged *= 1 / shares, mean.coc_px /= sum;
         return mean;
     }
     template <typename Visit>
     void visit_like(float coc_px, const Visit& visit) const {
-        for (int i = 0; i < count_; ++i) {
-            const auto& [block, weight] = votes_[std::size_t(i)];
-            if (one_surface(block->farthest_px, coc_px)) visit(*block, weight);
-        }
+        for (int i = 0; i < count_; ++i)
+            if (one_surface(votes_[std::size_t(i)].seen.coc_px, coc_px)) visit(votes_[std::size_t(i)]);
     }
 
     struct Vote {
-        const Block* block;
+        Seen seen;
         float weight;
     };
     Fill fill_;
     std::array<Vote, kDirections + 1> votes_;
     int count_ = 0;
+    float all_ = 0;
 };
 
 struct Offset {
@@ -136,80 +147,156 @@ std::array<std::vector<Offset>, kDirections> search_paths() {
     return paths;
 }
 
+class BlockFill {
+public:
+    explicit BlockFill(const Input& input)
+        : fill_(input.fill),
+          block_(fill_block_px(input.nearest_coc_px)),
+          blocks_((input.width() + block_ - 1) / block_, (input.height() + block_ - 1) / block_),
+          fills_(blocks_.width(), blocks_.height()) {
+        parallel_for(blocks_.height(), *input.workers, [&](int y) {
+            for (int x = 0; x < blocks_.width(); ++x)
+                blocks_(x, y) = block_of(
+                    input, Rect{x * block_, y * block_, (x + 1) * block_, (y + 1) * block_}.intersected(
+                               input.colour.rect()));
+        });
+        const auto paths = search_paths();
+        parallel_for(blocks_.height(), *input.workers, [&](int y) {
+            for (int x = 0; x < blocks_.width(); ++x)
+                if (blocks_(x, y).nearest_px <= -kBlurredPx) fills_(x, y) = fill(x, y, paths);
+        });
+    }
+
+    // The blocks around a pixel vote, if what they found is farther than it by a pixel of radius.
+    void vote(int x, int y, float coc_px, Votes& votes) const {
+        constexpr float kCountsPx = 2.8f;  // as what a pixel finds at this distance
+        const float u = (float(x) + 0.5f) / float(block_) - 0.5f,
+                    v = (float(y) + 0.5f) / float(block_) - 0.5f;
+        const int left = int(std::floor(u)), top = int(std::floor(v));
+        const View<const Fill> fills = fills_;
+        for (int j = top; j <= top + 1; ++j)
+            for (int i = left; i <= left + 1; ++i) {
+                const Fill& fill = fills.clamped(i, j);
+                if (!fill.found || fill.seen.coc_px <= coc_px + 1) continue;
+                const float weight = (1 - std::abs(u - float(i))) * (1 - std::abs(v - float(j)));
+                votes.add(fill.seen, weight / (kCountsPx * kCountsPx));
+            }
+    }
+    // Whether anything farther lies within two blocks of a pixel with a fill.
+    bool is_by_edge(int x, int y) const { return fills_(x / block_, y / block_).by_edge; }
+
+private:
+    struct Fill {
+        Seen seen;
+        bool found = false, by_edge = false;
+    };
+
+    Fill fill(int x, int y, const std::array<std::vector<Offset>, kDirections>& paths) const {
+        const float own = blocks_(x, y).nearest_px, step_up = 1 + kSteepest * float(block_);
+        Fill filled;
+        Votes votes(fill_);
+        const auto add = [&](const Block& met, float distance) {
+            votes.add({met.colour, met.judged, met.farthest_px}, 1 / (distance * distance));
+            filled.by_edge = filled.by_edge || distance <= 2;
+        };
+        if (blocks_(x, y).farthest_px > own + step_up) add(blocks_(x, y), 0.5f);
+        const int steps = std::min(kLongestSearch, 2 + int(std::ceil(-own / float(block_))));
+        for (const auto& path : paths) {
+            float surface = own;
+            for (int t = 0; t < steps; ++t) {
+                const Offset& o = path[std::size_t(t)];
+                if (!blocks_.rect().contains(x + o.x, y + o.y)) break;
+                const Block& met = blocks_(x + o.x, y + o.y);
+                if (met.farthest_px > surface + step_up) {
+                    add(met, o.distance);
+                    break;
+                }
+                surface = std::max(surface, met.farthest_px);
+            }
+        }
+        filled.found = !votes.empty();
+        if (filled.found) filled.seen = votes.result();
+        return filled;
+    }
+
+    petzval::Fill fill_;
+    int block_;
+    Image<Block> blocks_;
+    Image<Fill> fills_;
+};
+
+class PixelFill {
+public:
+    PixelFill(const Input& input, View<const Touched> touched)
+        : input_(input), judged_(input.judged()), touched_(touched), blocks_(input) {}
+
+    std::optional<CocSample> at(int x, int y) const {
+        const float own = input_.coc_px(x, y);
+        if (own > -kBlurredPx) return std::nullopt;
+        Votes votes(input_.fill);
+        blocks_.vote(x, y, own, votes);
+        if (votes.empty()) return std::nullopt;
+        if (blocks_.is_by_edge(x, y))
+            for (int k = 0; k < 8; ++k) look(x, y, k, votes);
+        const Seen hidden = votes.result();
+        return CocSample{.colour = hidden.colour, .coc_px = hidden.coc_px, .coc_back_px = hidden.coc_px};
+    }
+
+private:
+    // What is met first that is farther, past its rim. What is so little farther that blur hardly parts the
+    // two goes on as what hides it.
+    void look(int x, int y, int direction, Votes& votes) const {
+        constexpr int kReach = 8;
+        constexpr float kFarther = 0.5f;                                        // of the own radius
+        constexpr std::array<int, 10> kSteps{1, 1, 0, -1, -1, -1, 0, 1, 1, 1};  // across; down two later
+        const int dx = kSteps[std::size_t(direction)], dy = kSteps[std::size_t(direction) + 2];
+        const float step = dx != 0 && dy != 0 ? float(M_SQRT2) : 1.0f;
+        float surface = input_.coc_px(x, y);
+        const float step_up = std::max(kUnlikePx, kFarther * std::abs(surface));
+        for (int t = 1; float(t) * step <= kReach; ++t) {
+            int u = x + t * dx, v = y + t * dy;
+            if (!touched_.rect().contains(u, v)) return;
+            const float met = input_.coc_px(u, v);
+            if (met - surface <= step_up) {
+                surface = std::max(surface, met);
+                continue;
+            }
+            if (touched_(u, v) == Touched::ByNearer && touched_.rect().contains(u + dx, v + dy) &&
+                std::abs(input_.coc_px(u + dx, v + dy) - met) <= kUnlikePx)
+                u += dx, v += dy;
+            votes.add({input_.colour(u, v), judged_(u, v), input_.coc_px(u, v)},
+                      1 / (float(t * t) * step * step));
+            return;
+        }
+    }
+
+    const Input& input_;
+    View<const Rgba> judged_;
+    View<const Touched> touched_;
+    BlockFill blocks_;
+};
+
 }  // namespace
 
-int BlockFill::block_px(float nearest_coc_px) {
+int fill_block_px(float nearest_coc_px) {
     int size = kLeastBlock;
     while (-nearest_coc_px + 2 > float(size * (kLongestSearch - 2))) size *= 2;
     return size;
 }
 
-int BlockFill::reach_px(float nearest_coc_px) {
+int fill_reach_px(float nearest_coc_px) {
     if (nearest_coc_px > -kBlurredPx) return 0;
-    return int(std::ceil(-nearest_coc_px)) + 5 * block_px(nearest_coc_px);
+    return int(std::ceil(-nearest_coc_px)) + 5 * fill_block_px(nearest_coc_px);
 }
 
-BlockFill BlockFill::make(const Input& input) {
+HiddenFill fill_hidden(const Input& input, View<const Touched> touched) {
     const float nearest = input.nearest_coc_px, farthest = input.farthest_coc_px;
-    BlockFill fill;
-    if (nearest > -kBlurredPx || farthest < nearest + 1) return fill;
-    fill.block_ = block_px(nearest);
-    const int b = fill.block_;
-    Image<Block> blocks((input.width() + b - 1) / b, (input.height() + b - 1) / b);
-    parallel_for(blocks.height(), *input.workers, [&](int y) {
-        for (int x = 0; x < blocks.width(); ++x)
-            blocks(x, y) =
-                block_of(input, Rect{x * b, y * b, x * b + b, y * b + b}.intersected(input.colour.rect()));
+    if (nearest > -kBlurredPx || farthest < nearest + 1) return {};
+    const PixelFill pixels(input, touched);
+    return HiddenFill(input.width(), input.height(), *input.workers, [&](int y, const auto& emit) {
+        for (int x = 0; x < input.width(); ++x)
+            if (const auto hidden = pixels.at(x, y)) emit(x, *hidden);
     });
-    const auto paths = search_paths();
-    fill.fills_ = Image<Fill>(blocks.width(), blocks.height());
-    parallel_for(blocks.height(), *input.workers, [&](int y) {
-        for (int x = 0; x < blocks.width(); ++x) {
-            const float own = blocks(x, y).nearest_px;
-            if (own > -kBlurredPx) continue;
-            Votes votes(input.fill);
-            const float step_up = 1 + kSteepest * float(b);
-            if (blocks(x, y).farthest_px > own + step_up) votes.add(blocks(x, y), 0.5f);
-            const int steps = std::min(kLongestSearch, 2 + int(std::ceil(-own / float(b))));
-            for (const auto& path : paths) {
-                float surface = own;
-                for (int t = 0; t < steps; ++t) {
-                    const Offset& o = path[std::size_t(t)];
-                    if (!blocks.rect().contains(x + o.x, y + o.y)) break;
-                    const Block& met = blocks(x + o.x, y + o.y);
-                    if (met.farthest_px > surface + step_up) {
-                        votes.add(met, o.distance);
-                        break;
-                    }
-                    surface = std::max(surface, met.farthest_px);
-                }
-            }
-            fill.fills_(x, y).found = votes.result(fill.fills_(x, y).sample);
-        }
-    });
-    return fill;
-}
-
-std::optional<CocSample> BlockFill::blended(int x, int y, float coc_px) const {
-    const float u = (float(x) + 0.5f) / float(block_) - 0.5f, v = (float(y) + 0.5f) / float(block_) - 0.5f;
-    const int left = int(std::floor(u)), top = int(std::floor(v));
-    const View<const Fill> fills = fills_;
-    const Fill& own = fills(x / block_, y / block_);
-    if (!own.found || own.sample.coc_px <= coc_px + 1) return std::nullopt;
-    CocSample sum;
-    float total = 0;
-    for (int j = top; j <= top + 1; ++j)
-        for (int i = left; i <= left + 1; ++i) {
-            const Fill& fill = fills.clamped(i, j);
-            if (!fill.found || !one_surface(fill.sample.coc_px, own.sample.coc_px)) continue;
-            const float weight = (1 - std::abs(u - float(i))) * (1 - std::abs(v - float(j)));
-            sum.colour += weight * fill.sample.colour, sum.coc_px += weight * fill.sample.coc_px;
-            total += weight;
-        }
-    if (total <= 0) return own.sample;
-    sum.colour *= 1 / total;
-    sum.coc_px /= total, sum.coc_back_px = sum.coc_px;
-    return sum;
 }
 
 }  // namespace petzval::engine

@@ -1,40 +1,24 @@
-// What a near thing hides just inside its edge, guessed per block of pixels: enough for the soft edge of a
-// preview. (engine/samples/hidden.h does it per pixel, for final frames.)
+// What a near thing hides just inside its edge, guessed: enough for the soft edge of a preview.
+// (engine/samples/hidden.h does it for final frames.)
 #pragma once
 
+#include "engine/samples/rims.h"
+#include "engine/samples/sparse_rows.h"
 #include "engine/waist/engine.h"
-
-#include <optional>
 
 namespace petzval::engine {
 
-class BlockFill {
-public:
-    // Nothing is hidden anywhere.
-    BlockFill() = default;
-    // Looks from every block that holds something in front of focus, in 16 directions as far as its blur
-    // reaches, for farther surfaces around; the one met most, by 1/distance^2, goes on behind.
-    static BlockFill make(const Input& input);
-    // Pixels a side of its blocks (a power of two), and how far what decides a fill may lie from it.
-    static int block_px(float nearest_coc_px);
-    static int reach_px(float nearest_coc_px);
+// The sample behind the visible one of a pixel, covering all of it.
+using HiddenFill = SparseRows<CocSample>;
 
-    // The sample behind the visible one, covering its pixel, blended from the blocks around; none if nothing
-    // is farther by a pixel of radius.
-    std::optional<CocSample> behind(int x, int y, float coc_px) const {
-        if (fills_.empty() || coc_px > -1) return std::nullopt;
-        return blended(x, y, coc_px);
-    }
+// Looks from every block of pixels that holds something in front of focus, in 16 directions as far as its
+// blur reaches, for farther surfaces around; the one met most, by 1/distance^2, goes on behind, blended from
+// block to block. Beside edges each pixel looks for itself, in 8 directions: so the texture of what is in
+// focus goes on behind a wire.
+HiddenFill fill_hidden(const Input& input, View<const Touched> touched);
 
-private:
-    std::optional<CocSample> blended(int x, int y, float coc_px) const;
-
-    struct Fill {
-        CocSample sample;
-        bool found;
-    };
-    int block_ = 4;
-    Image<Fill> fills_;
-};
+// Pixels a side of the blocks (a power of two), and how far what decides a fill may lie from it.
+int fill_block_px(float nearest_coc_px);
+int fill_reach_px(float nearest_coc_px);
 
 }  // namespace petzval::engine

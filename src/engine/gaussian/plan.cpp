@@ -1,6 +1,6 @@
 #include "engine/gaussian/plan.h"
 
-#include "engine/samples/bright_rims.h"
+#include "engine/samples/rims.h"
 #include "engine/waist/cells.h"
 
 #include <algorithm>
@@ -102,8 +102,9 @@ GaussianPlan plan_gaussian(const Input& input) {
     plan.view = options.view, plan.colour = input.colour, plan.coc_px = input.coc_px;
     if (options.style == GaussianStyle::Layered && options.view == GaussianView::Result) {
         plan_layers(input, band_px, plan);
-        const BrightRims rims = BrightRims::find(input.colour, input.coc_px, *input.workers);
-        if (!rims.empty()) plan.own_radii = rims.radii(input.coc_px), plan.coc_px = plan.own_radii;
+        const Rims rims = find_bright_rims(input.judged(), input.coc_px,
+                                           find_touched(input.coc_px, *input.workers), *input.workers);
+        if (!rims.empty()) plan.own_radii = radii_of_rims(rims, input.coc_px), plan.coc_px = plan.own_radii;
         return plan;
     }
     const auto add = [&](float radius_px) {

@@ -125,6 +125,8 @@ struct Input : LensOnPicture {
     // Of this size, where nobody asks for `colour` once the samples are made: the result may be put in its
     // memory. Null: none.
     Picture* spent = nullptr;
+    // Where `colour` is a layer of a picture: that picture. Empty otherwise.
+    View<const Rgba> picture;
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
     // then colour and coc_px are not all there is to hit. Empty otherwise.
     CocSamplesView deep;
@@ -174,6 +176,8 @@ struct Input : LensOnPicture {
 
     int width() const { return colour.width(); }
     int height() const { return colour.height(); }
+    // What decisions look at, so that those of all layers agree.
+    View<const Rgba> judged() const { return picture.empty() ? colour : picture; }
     const Input& all() const { return whole ? *whole : *this; }
     // Rows y0…y1-1 as an input of their own, while this one lasts. The edges towards the other rows count as
     // open.
@@ -182,6 +186,7 @@ struct Input : LensOnPicture {
         part.whole = &all();
         const Rect r{0, y0, width(), y1};
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
+        if (!picture.empty()) part.picture = picture.part(r);
         if (!depth_m.empty()) part.depth_m = depth_m.part(r);
         if (!plate.empty()) part.plate = {plate.colour.part(r), plate.coc_px.part(r), plate.all};
         for (Layer& layer : part.layers) layer.colour = layer.colour.part(r);
@@ -207,7 +212,7 @@ struct Output {
 enum class Layers {
     None,
     ByPlan,    // drawn by the picture's own plan
-    OneByOne,  // looks at depth and alpha alone when it decides: each layer is run as the picture
+    OneByOne,  // decides by depth, alpha and Input::judged(): each layer is run as the picture
 };
 
 struct Engine {
