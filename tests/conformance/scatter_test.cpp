@@ -58,6 +58,24 @@ TEST(Scatter, WhatNoRayReachesBehindASlopeDoesNotMatter) {
     }
 }
 
+// A bar, a dark wall behind it and a bright sky behind that: the wall behind the bar and the wall beside it
+// are one.
+TEST(Scatter, ASurfaceThatGoesOnBehindABarLetsNothingThrough) {
+    constexpr float kBarPx = 4.2f, kWallPx = 7, kSkyPx = 8.1f;
+    const Rgba wall{0.02f, 0.02f, 0.02f, 1}, sky{6, 6, 6, 1};
+    const auto is_bar = [](int y) { return y >= 36 && y < 46; };
+    Shot shot = flat(96, 84, wall, kWallPx);
+    for (int y = 0; y < 84; ++y)
+        for (int x = 0; x < 96 && is_bar(y); ++x)
+            shot.colour(x, y) = {0.3f, 0.3f, 0.3f, 1}, shot.coc_px(x, y) = kBarPx;
+    shot.behind = DeepPicture::made_of(96, 84, [&](int, int y, std::vector<DeepSample>& samples) {
+        if (is_bar(y)) samples.push_back({wall, kWallPx, kWallPx});
+        samples.push_back({sky, kSkyPx, kSkyPx});
+    });
+    const Picture image = rendered(shot.job("scatter"));
+    for (int y = 24; y < 58; ++y) EXPECT_LT(image(48, y).g, 0.31f) << "row " << y;
+}
+
 // A near curtain of upright threads, a farther one of threads across it, a white wall behind both: the shares
 // of the lens that each leaves open multiply, for neither knows of the other's threads.
 TEST(Scatter, WhatOneSurfaceLeavesOpenIsSharedByThoseBehindIt) {
