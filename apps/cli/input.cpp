@@ -87,7 +87,7 @@ std::vector<std::string> InputFlags::files() const {
 }
 
 ShotSource InputFlags::source(const CameraFlags& user) const {
-    ShotSource source = *this;
+    auto source = static_cast<const ShotSource&>(*this);
     source.read.transfer = transfer.value_or(Transfer::Srgb);
     source.depth.kind = depth_kind.value_or(DepthKind::Planar);
     source.depth_kind_given = depth_kind.has_value();

@@ -34,7 +34,7 @@ struct InputFlags : ShotSource {
     // Files that are read.
     std::vector<std::string> files() const;
     // Where the shot is, with the user's camera.
-    ShotSource source(const CameraFlags& camera = {}) const;
+    ShotSource source(const CameraFlags& user = {}) const;
 };
 
 // read_shot() that an interrupt ends.

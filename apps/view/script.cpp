@@ -81,13 +81,14 @@ Result<Script> Script::read(const std::string& path) {
     Script script;
     script.path_ = path;
     int number = 0;
+    const auto here = [&] { return path + ":" + std::to_string(number) + ": "; };
     for (std::string text; std::getline(file, text);) {
         ++number;
         text.erase(comment_of(text));
         Words words = words_of(text);
         if (words.empty()) continue;
         if (const std::string why = why_refused(words); !why.empty())
-            return Error{ErrorCode::InvalidFile, path + ":" + std::to_string(number) + ": " + why};
+            return Error{ErrorCode::InvalidFile, here() + why};
         script.lines_.push_back({number, std::move(words), text});
     }
     return script;

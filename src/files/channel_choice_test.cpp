@@ -65,6 +65,7 @@ TEST(ChannelChoice, NamesThatCanBeTypedAreListed) {
         layout({part("rgba", {"R", "G", "B", "left.R", "left.G", "left.B"}, "", {"right", "left"})},
                {"right", "left"});
     EXPECT_THAT(red_of(stereo, options), HasSubstr("it has 'right', 'left'"));
+    EXPECT_THAT(red_of(layout({part("", {"R", "G", "B"})}), options), HasSubstr("its colour has no name"));
     EXPECT_THAT(red_of(layout({part("", {"G"})})), HasSubstr("all of R, G and B are needed, or Y"));
 }
 

@@ -87,7 +87,7 @@ std::vector<std::string> names_to_type(const std::vector<ChannelGroup>& groups, 
             return true;
         };
         const auto own = std::find_if(all[i].begin(), all[i].end(), is_own);
-        names.push_back(own != all[i].end() ? *own : all[i].empty() ? "(unnamed)" : all[i].front());
+        names.push_back(own != all[i].end() ? *own : all[i].empty() ? kUnnamed : all[i].front());
     }
     return names;
 }

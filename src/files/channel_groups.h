@@ -30,7 +30,8 @@ std::vector<ChannelGroup> groups_of(const Layout& layout);
 // What a user may call a group: the layer, the part, or both.
 std::vector<std::string> names_of(const ChannelGroup& group, const Part& part);
 bool is_called(const ChannelGroup& group, const Part& part, const std::string& wanted);
-// What to call each group: the first of its names that is its own, else its first, else "(unnamed)".
+inline constexpr const char* kUnnamed = "(unnamed)";
+// What to call each group: the first of its names that is its own, else its first, else kUnnamed.
 std::vector<std::string> names_to_type(const std::vector<ChannelGroup>& groups, const Layout& layout);
 
 // The last component of its layer, or the label of its part; lower case.

@@ -49,12 +49,14 @@ Result<std::vector<ChannelGroup>> of_wanted_layer(const std::string& path, const
     std::vector<ChannelGroup> kept;
     for (const ChannelGroup& g : groups)
         if (is_called(g, layout.parts[g.part], layer)) kept.push_back(g);
-    const std::vector<std::string> names = names_to_type(groups, layout);
-    if (kept.empty())
-        return Error{ErrorCode::InvalidArgument, printable(path, 4096) + ": has no colour layer or part '" +
-                                                     printable(layer) + "'" + did_you_mean(layer, names) +
-                                                     "; it has " + listed(names)};
-    return kept;
+    if (!kept.empty()) return kept;
+    std::vector<std::string> names = names_to_type(groups, layout);
+    std::erase(names, kUnnamed);
+    return Error{ErrorCode::InvalidArgument,
+                 printable(path, 4096) + ": has no colour layer or part '" + printable(layer) + "'" +
+                     did_you_mean(layer, names) +
+                     (names.empty() ? "; its colour has no name, and is read where none is asked for"
+                                    : "; it has " + listed(names))};
 }
 
 std::string reason(const ChannelGroup& g, const Part& part, const ReadOptions& options,

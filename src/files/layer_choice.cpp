@@ -78,7 +78,7 @@ private:
             Candidate c;
             c.part = group.part, c.is_colour = true;
             c.names = names_of(group, part);
-            if (c.names.empty()) c.names.emplace_back("(unnamed)");
+            if (c.names.empty()) c.names.emplace_back(kUnnamed);
             c.channels = {channel("r"), channel("g"), channel("b"), group.has("a") ? channel("a") : ""};
             const std::string name = name_of_layer(group, part);
             c.is_light = !is_surface_name(name) && !is_data_name(name);
