@@ -111,7 +111,7 @@ private:
         return rims;
     }
 
-    void add_to_rim(const RowOfLight& from, Rim& rim, int row, float share) const {
+    static void add_to_rim(const RowOfLight& from, Rim& rim, int row, float share) {
         if (rim.row < 0) rim.row = row, rim.light.resize(from.cells()), rim.covered.resize(from.cells());
         from.add_to(rim.light.data(), rim.covered.data(), rim.lit, share);
     }
