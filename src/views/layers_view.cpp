@@ -61,7 +61,7 @@ bool LayersView::read(const Input& input, const engine::CompletedPicture& comple
     parallel_for(height, *input.workers, [&](int y) {
         for (int x = 0; x < width; ++x) {
             for (int n = 0; n < int(ranks); ++n) atlas(width + x, n * height + y) = {kNoNumber, 0, 0, 1};
-            engine::LayersOfPixel layers;
+            engine::LayersOfPixel layers(!input.deep.empty());
             int n = 0;
             for (const CocSample& s : samples.at(x, y)) {
                 const int number = layers.next(s) / engine::kNextLayer;

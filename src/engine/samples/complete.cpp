@@ -228,7 +228,7 @@ void share_lens_area(CocSamples& samples, Workers& workers) {
         for (std::size_t i = row; i < row + std::size_t(samples.width); ++i) {
             float open = 1;
             LensLeft left;
-            LayersOfPixel layers;
+            LayersOfPixel layers(true);
             bool dimmed_in_layer = false, full_in_layer = false;
             int layer = std::numeric_limits<int>::min();
             for (std::size_t k = samples.first[i]; k < samples.first[i + 1]; ++k) {

@@ -265,6 +265,7 @@ LevelRule level_rule(const Input& input) {
             rule = {.largest_cells = 12, .surfaces_for_sectors = 2, .inner_sectors = 1, .outer_sectors = 5};
             break;
     }
+    rule.hidden_known = !input.deep.empty();
     return rule;
 }
 

@@ -26,6 +26,7 @@ struct LevelRule {
     // One budget for the whole lens does not know which part of it each of three surfaces takes: where at
     // least this many reach a tile, sectors of the pupil are composited each on its own.
     int surfaces_for_sectors = 3;
+    bool hidden_known = false;  // what lies behind is given, not guessed (samples/layers.h)
     // Sectors of equal light that the pupil is taken in: in the middle, and around that.
     int inner_sectors = 0, outer_sectors = 4;
     int sectors() const { return inner_sectors + outer_sectors; }

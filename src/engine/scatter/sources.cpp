@@ -107,7 +107,7 @@ public:
     template <typename Put>
     void visit(int x, int y, const Put& put) const {
         const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
-        LayersOfPixel layers;
+        LayersOfPixel layers(rule_.hidden_known);
         for (const CocSample& s : samples_.at(u, v - first_row_)) {
             const int layer = layers.next(s);
             // Only what is seen has a known slope.
