@@ -44,22 +44,12 @@ constexpr std::array kPrograms{
 }
 
 VkDevice open_device(const Functions& vk, const Candidate& candidate) {
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue = {};
-    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueFamilyIndex = candidate.queue_family;
-    queue.queueCount = 1, queue.pQueuePriorities = &priority;
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR tells = {};
     tells.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
     tells.pipelineExecutableInfo = VK_TRUE;
     const char* const extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
-    VkDeviceCreateInfo info = {};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, info.pNext = &tells;
-    info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = 1, info.ppEnabledExtensionNames = &extension;
-    VkDevice device = VK_NULL_HANDLE;
-    if (vk.vkCreateDevice(candidate.handle, &info, nullptr, &device) != VK_SUCCESS)
-        fail(candidate.name + " says nothing of programs (" + extension + ")");
+    VkDevice device = start_device(vk, candidate, extension, &tells);
+    if (!device) fail(candidate.name + " says nothing of programs (" + extension + ")");
     return device;
 }
 

@@ -7,7 +7,7 @@ import struct
 import subprocess
 
 import window
-from window import PETZVAL, TIME_LIMIT_S
+from window import PETZVAL
 
 
 class SceneTest(window.WindowTest):
@@ -136,8 +136,7 @@ class SceneTest(window.WindowTest):
         os.utime(path, (1, 1))
         self.assertIn("gather", window.stdout.readline())
         os.remove(path)
-        _, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, 0, err)
+        self.finish(window)
 
     def buffers_of(self, scene, buffers, before=""):
         """Shows every buffer of an article; all are different pictures."""

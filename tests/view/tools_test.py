@@ -130,8 +130,7 @@ class ToolsTest(window.WindowTest):
                          packet(6, b"\0", "beauty", 4, *names, 0, 0, 40, 30, offsets, floats[:-4]),
                          packet(3, b"\0", "nobody", "R", 0, 0, 1, 1, floats[:4]), packet(4, b"\1", "cut")[:9]):
             self.push(port, nonsense)
-        out, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, 0, err)
+        out, _ = self.finish(window)
         self.assertEqual(out.strip(), "40")
 
     def test_without_a_file_it_waits_for_a_renderer_and_shows_what_is_pushed(self):
@@ -153,8 +152,7 @@ class ToolsTest(window.WindowTest):
         self.push(port, packet(4, b"\1", "beauty", 40, 30, 4, *names),
                   packet(6, b"\0", "beauty", 4, *names, 0, 0, 40, 30, offsets,
                          struct.pack("<4f", 0.5, 0.4, 0.3, 2.0) * (40 * 30)))
-        out, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, 0, err)
+        out, _ = self.finish(window)
         self.assertIn("depth", out)
         self.assertTrue(os.path.exists(os.path.join(self.shared, "pushed.exr")))
         done = subprocess.run([PETZVAL, "view"], capture_output=True, text=True)

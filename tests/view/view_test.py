@@ -115,8 +115,7 @@ class ViewTest(window.WindowTest):
         window = self.start("fleeting.exr", "--engine", "gather", "--script", "fleeting.txt")
         self.assertIn("gather", window.stdout.readline())
         os.remove(path)
-        _, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, 0, err)
+        self.finish(window)
 
     def test_panels_and_wipe_answer_the_mouse(self):
         self.do("""
@@ -282,8 +281,7 @@ class ViewTest(window.WindowTest):
 
     def test_without_a_display_there_is_one_line(self):
         window = self.start("table.exr", display=":nowhere")
-        _, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, 2, err)
+        _, err = self.finish(window, code=2)
         self.assertIn("no window", err)
         self.assertEqual(len(err.strip().splitlines()), 1, err)
 
@@ -298,8 +296,7 @@ class ViewTest(window.WindowTest):
             subprocess.run(["xdotool", *words], env=env, check=True, timeout=TIME_LIMIT_S)
             time.sleep(0.1)
         self.assertTrue(found.stdout.strip())
-        _, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, 0, err)
+        self.finish(window)
 
 
 if __name__ == "__main__":

@@ -82,13 +82,18 @@ class WindowTest(unittest.TestCase):
         self.addCleanup(lambda: (window.kill(), window.communicate()))
         return window
 
+    def finish(self, window, code=0):
+        """Waits for its end; returns its standard output and standard error."""
+        out, err = window.communicate(timeout=TIME_LIMIT_S)
+        self.assertEqual(window.returncode, code, err)
+        return out, err
+
     def do(self, script, *arguments, code=0):
         """Runs a script; returns its standard output and standard error."""
         with open(os.path.join(self.shared, "script.txt"), "w") as file:
             file.write(script)
         window = self.start(*(arguments or ["table.exr"]), "--script", "script.txt")
-        out, err = window.communicate(timeout=TIME_LIMIT_S)
-        self.assertEqual(window.returncode, code, err)
+        out, err = self.finish(window, code)
         if code == 0:
             print(self.id().split(".")[-1] + ":", err.strip().splitlines()[-1])
         return out, err

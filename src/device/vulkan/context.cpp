@@ -17,19 +17,9 @@ Result<std::shared_ptr<Context>> Context::open(std::shared_ptr<Instance> instanc
 
 Status Context::create(std::size_t number) {
     opened_.name = "gpu:" + std::to_string(number);
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue = {};
-    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueFamilyIndex = candidate_.queue_family;
-    queue.queueCount = 1, queue.pQueuePriorities = &priority;
-    VkDeviceCreateInfo info = {};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
     vk_ = instance_->functions();
-    if (vk_.vkCreateDevice(candidate_.handle, &info, nullptr, &opened_.device) != VK_SUCCESS) {
-        opened_.device = VK_NULL_HANDLE;
-        return Error{ErrorCode::Unsupported, candidate_.name + " does not start"};
-    }
+    opened_.device = start_device(vk_, candidate_);
+    if (!opened_.device) return Error{ErrorCode::Unsupported, candidate_.name + " does not start"};
     find_functions(vk_, opened_.device);
     opened_.vk = &vk_;
     vk_.vkGetDeviceQueue(opened_.device, candidate_.queue_family, 0, &queue_);

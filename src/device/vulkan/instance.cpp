@@ -116,6 +116,22 @@ VkBool32 Instance::note(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMess
     return VK_FALSE;
 }
 
+VkDevice start_device(const Functions& vk, const Candidate& candidate, const char* extension,
+                      const void* next) {
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue = {};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = candidate.queue_family;
+    queue.queueCount = 1, queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, info.pNext = next;
+    info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = extension ? 1 : 0, info.ppEnabledExtensionNames = &extension;
+    VkDevice device = VK_NULL_HANDLE;
+    const VkResult started = vk.vkCreateDevice(candidate.handle, &info, nullptr, &device);
+    return started == VK_SUCCESS ? device : VK_NULL_HANDLE;
+}
+
 std::string Instance::complaints() {
     const std::lock_guard lock(mutex_);
     return std::exchange(complaints_, {});

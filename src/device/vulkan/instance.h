@@ -25,6 +25,11 @@ struct Candidate {
     std::uint32_t timestamp_bits = 0;
 };
 
+// A device with one queue, and with `extension` and the features chained to `next` if one is named; null: it
+// does not start.
+VkDevice start_device(const Functions& vk, const Candidate& candidate, const char* extension = nullptr,
+                      const void* next = nullptr);
+
 // Opened once and kept: drivers take long to start.
 class Instance {
 public:
