@@ -13,9 +13,9 @@ namespace petzval {
 
 // A page with its figures inside (SVG, PNG as data: URIs, CSS; no scripts), XHTML so that any XML reader
 // takes it; the same bytes every time. Errors: those of lens_facts() and of mounting the lens at its own
-// aperture. Drawn by `workers`, those of a host, or by our own `threads` (0: all).
+// aperture. Drawn by the workers `lent` by a host, or by our own `threads` (0: all).
 PETZVAL_API Result<std::string> lens_report(const std::string& name_or_file, int threads = 0,
-                                            Workers* workers = nullptr);
+                                            Workers* lent = nullptr);
 
 // What stands for a lens on sheets of many.
 struct LensCard {
@@ -27,7 +27,7 @@ struct LensCard {
     std::string texture;                       // SVG: the bokeh texture
 };
 PETZVAL_API Result<LensCard> lens_card(const std::string& name_or_file, int threads = 0,
-                                       Workers* workers = nullptr);
+                                       Workers* lent = nullptr);
 
 // HTML pages that link to NAME.html for each card: the contact sheet; and one row per lens with its curve,
 // rays, texture, discs and numbers.

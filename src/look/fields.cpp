@@ -53,8 +53,9 @@ Field kernel_image(const char* path) {
             },
             [](Look& look, const Json& json) -> Status {
                 const bool texts = json.is_array() && json.size() <= 2 &&
-                                   std::all_of(json.begin(), json.end(),
-                                               [](const Json& j) { return j.is_string() && j != ""; });
+                                   std::all_of(json.begin(), json.end(), [](const Json& j) {
+                                       return j.is_string() && !j.get_ref<const std::string&>().empty();
+                                   });
                 if (!texts) return must_be("a list of file names: none, one, or far and near", json);
                 look.kernel_image_far = json.empty() ? "" : json[0].get<std::string>();
                 look.kernel_image_near = json.size() < 2 ? "" : json[1].get<std::string>();
@@ -63,6 +64,8 @@ Field kernel_image(const char* path) {
 }
 
 // clang-format off
+// A member as a function of a Look or of a const one: no template parameter can name a path of members.
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage, bugprone-macro-parentheses)
 #define MEMBER(member) [](auto& look) -> auto& { return look.member; }
 // clang-format on
 

@@ -137,7 +137,7 @@ private:
     bool passes(float coc_px, const Place& p) const { return std::abs(coc_px) >= kTie * distance_px(p); }
 
     TapsFigure figure(const HalfPicture& half) const {
-        const auto cell = [](int pixel) { return float(pixel / 2); };
+        const auto cell = [](int pixel) { return std::floor(float(pixel) / 2); };
         return {each([&](int x, int y) { return in_.colour(x, y); }),
                 [&half, cell, this](int x, int y, float u, float v) {
                     return read(half, cell(x), cell(y), {u, v}).colour;

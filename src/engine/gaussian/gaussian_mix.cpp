@@ -42,13 +42,13 @@ DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_
         offset_ = float(o.depth_offset.value_or(0));
         return;
     }
-    if (o.along_ray) field_ = input, tan_per_field_ = input.tan_per_field;
+    if (o.along_ray) field_ = static_cast<const PixelField&>(input), tan_per_field_ = input.tan_per_field;
     double near = o.depth_near_m, far = o.depth_far_m;
     if (near == 0 && far == 0) {
         near = std::numeric_limits<double>::infinity();
         const View<const float> depth_m = input.all().depth_m;
         DepthMix whole;
-        whole.field_ = input.all(), whole.tan_per_field_ = tan_per_field_;
+        whole.field_ = static_cast<const PixelField&>(input.all()), whole.tan_per_field_ = tan_per_field_;
         for (int y = 0; y < depth_m.height(); ++y)
             for (int x = 0; x < depth_m.width(); ++x) {
                 const double z = double(depth_m(x, y) * whole.ray_length(x, y));
