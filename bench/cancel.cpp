@@ -5,6 +5,8 @@
 #include "petzval/files.h"
 #include "petzval/session.h"
 
+#include "process.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -17,12 +19,8 @@
 namespace {
 
 using namespace petzval;
+using bench::fail;
 using Clock = std::chrono::steady_clock;
-
-[[noreturn]] void fail(const std::string& message) {
-    std::fprintf(stderr, "petzval_bench_cancel: %s\n", message.c_str());
-    std::exit(2);
-}
 
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 

@@ -5,6 +5,8 @@
 #include "petzval/develop.h"
 #include "petzval/files.h"
 
+#include "process.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -14,13 +16,9 @@
 namespace {
 
 using namespace petzval;
+using bench::fail;
 
 constexpr int kSquare = 48, kStep = 8, kCrops = 12;
-
-[[noreturn]] void fail(const std::string& message) {
-    std::fprintf(stderr, "petzval_bench_crops: %s\n", message.c_str());
-    std::exit(2);
-}
 
 Picture read(const char* path) {
     ReadOptions options;

@@ -7,18 +7,16 @@
 #include "petzval/develop.h"
 #include "petzval/files.h"
 
+#include "process.h"
+
 #include <cstdio>
 #include <cstdlib>
 
 namespace {
 
 using namespace petzval;
+using bench::fail;
 using flicker::Frames;
-
-[[noreturn]] void fail(const std::string& message) {
-    std::fprintf(stderr, "petzval_bench_flicker: %s\n", message.c_str());
-    std::exit(2);
-}
 
 struct NamedShot {
     const char* name;

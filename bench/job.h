@@ -5,6 +5,8 @@
 #include "petzval/files.h"
 #include "petzval/names.h"
 
+#include "process.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,11 +16,6 @@
 #include <vector>
 
 namespace petzval::bench {
-
-[[noreturn]] inline void fail(const std::string& message) {
-    std::fprintf(stderr, "petzval_bench: %s\n", message.c_str());
-    std::exit(2);
-}
 
 struct Asked {
     std::string file, engine = "scatter", lens = "ideal";

@@ -3,22 +3,17 @@
 
 #include "kernel/keep/bank.h"
 #include "kernel/lenses/make_lens.h"
+#include "process.h"
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <string>
 
 namespace {
 
 using namespace petzval;
-
-double cpu_seconds() {
-    std::timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
+using bench::cpu_seconds;
 
 }  // namespace
 

@@ -5,27 +5,18 @@
 #include "petzval/files.h"
 #include "petzval/session.h"
 
+#include "process.h"
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <sys/resource.h>
 
 namespace {
 
 using namespace petzval;
-
-[[noreturn]] void fail(const std::string& message) {
-    std::fprintf(stderr, "petzval_bench_pull: %s\n", message.c_str());
-    std::exit(2);
-}
-
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](timeval t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
+using bench::cpu_seconds;
+using bench::fail;
 
 }  // namespace
 

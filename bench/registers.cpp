@@ -2,6 +2,7 @@
 // is run, so that a driver without its hardware serves as well: bench/gpu.py names one. Prints a JSON object.
 #include "device/failure.h"
 #include "device/vulkan/pipeline.h"
+#include "process.h"
 
 #include <array>
 #include <cstdint>
@@ -13,6 +14,7 @@
 namespace {
 
 using namespace petzval::device::vulkan;
+using petzval::bench::fail;
 
 struct Named {
     Shader shader;
@@ -37,11 +39,6 @@ constexpr std::array kPrograms{
     Named{Shader::RealtimeGather, "realtime gather"},
     Named{Shader::RealtimeCombine16, "realtime combine"},
 };
-
-[[noreturn]] void fail(const std::string& what) {
-    std::fprintf(stderr, "bench registers: %s\n", what.c_str());
-    std::exit(1);
-}
 
 VkDevice open_device(const Functions& vk, const Candidate& candidate) {
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR tells = {};

@@ -16,12 +16,12 @@
 #include <cstring>
 #include <fstream>
 #include <string>
-#include <sys/resource.h>
 #include <vector>
 
 namespace {
 
 using namespace petzval;
+using bench::cpu_seconds;
 using bench::fail;
 
 struct Options : bench::Asked {
@@ -55,13 +55,6 @@ Image<T> mirrored(const Image<T>& one, int times) {
     for (int y = 0; y < all.height(); ++y)
         for (int x = 0; x < all.width(); ++x) all(x, y) = one(fold(x, one.width()), fold(y, one.height()));
     return all;
-}
-
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](timeval t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 // The peak since this was called, MiB; Linux alone can forget an earlier one.

@@ -4,16 +4,18 @@
 #include "petzval/files.h"
 
 #include "baselines/baseline.h"
+#include "process.h"
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <sys/resource.h>
 
 namespace {
 
 using namespace petzval;
+using bench::cpu_seconds;
+using bench::fail;
 
 struct Method {
     const char* name;
@@ -28,18 +30,6 @@ constexpr Method kMethods[] = {
     {"layered-fft", baselines::layered_fft},
 #endif
 };
-
-[[noreturn]] void fail(const std::string& message) {
-    std::fprintf(stderr, "petzval_bench_baselines: %s\n", message.c_str());
-    std::exit(2);
-}
-
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](timeval t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 }  // namespace
 
