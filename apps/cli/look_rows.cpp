@@ -1,6 +1,7 @@
 #include "look_rows.h"
 
 #include "petzval/defocus.h"
+#include "petzval/look_check.h"
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 
@@ -295,13 +296,15 @@ std::string typed_text(const std::string& json) { return typed(Json::parse(json)
 
 std::vector<std::string> words_of(const Look& look) {
     const Json now = Json::parse(look_to_json(look)), unset = Json::parse(look_to_json(Look{}));
-    std::vector<std::string> words;
+    std::vector<std::string> words, idle;
+    for (const Error& one : check(look).idle) idle.push_back(one.field);
     for (const LookRow& row : look_rows()) {
         const std::string field = row.field;
         const Json &value = at_path(now, field), &other = at_path(unset, field);
         if (value == other) continue;
-        // A shift is a mode of its own, said by its flag.
+        // A shift is a mode of its own, said by its flag; what changes nothing would be refused.
         if (field == "lens.focus_mode" && value == "shift") continue;
+        if (std::find(idle.begin(), idle.end(), field) != idle.end()) continue;
         if (row.placeholder.empty()) {
             words.push_back(row.flag + std::string(value == true ? "" : "=off"));
             continue;

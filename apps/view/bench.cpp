@@ -82,6 +82,28 @@ Status make_discs(const Lens& lens, LensMade& made) {
     return Done{};
 }
 
+// The least mean square of blur: zones count by their area times the square of their height.
+double best_focus_mm(const LongitudinalAberrationFacts& curves, double open_share) {
+    double sum = 0, weights = 0;
+    for (const auto& curve : curves.shift_mm)
+        for (std::size_t z = 0; z < curve.size(); ++z) {
+            const double zone = curves.zones[z];
+            if (!std::isfinite(curve[z]) || zone > open_share) continue;
+            sum += zone * zone * zone * curve[z], weights += zone * zone * zone;
+        }
+    return weights > 0 ? sum / weights : 0;
+}
+
+void note_facts(const LensFacts& facts, LensMade& made) {
+    made.curves = facts.longitudinal_aberration;
+    if (!(facts.efl_mm > 0)) return;
+    const Camera& camera = made.of.mount.camera;
+    const double scale = camera.focal_length_mm / facts.efl_mm;
+    made.best_focus_mm = scale * best_focus_mm(made.curves, facts.f_number / camera.f_number);
+    if (!facts.has_prescription) return;
+    made.opens_to = facts.f_number, made.pupil_z_mm = scale * facts.entrance_pupil_position_mm;
+}
+
 Status measure(LensMade& made) {
     const LensWish& wish = made.of;
     const auto lens = Lens::open(wish.choice);
@@ -91,7 +113,7 @@ Status measure(LensMade& made) {
     made.coc_px = std::clamp(coc->radius_px(wish.depth_m), -400.0, 400.0);
     made.side_px = std::max(40.0, std::abs(made.coc_px));
     if (Status done = make_discs(*lens, made); !done) return done;
-    if (const auto facts = lens_facts(*lens)) made.curves = facts->longitudinal_aberration;
+    if (const auto facts = lens_facts(*lens)) note_facts(*facts, made);
     auto section = lens_section(*lens, wish.mount, wish.depth_m, wish.field_x, wish.field_y);
     if (!section) return section.error();
     made.section = std::move(*section);

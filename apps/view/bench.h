@@ -44,7 +44,10 @@ struct LensMade {
     LensCodes disc, front, behind;  // of the pixel; at its place in front of focus, and behind
     LensCodes strip;                // on the axis, from -60 to +60 px
     LongitudinalAberrationFacts curves;
-    std::string words;  // what the lens is
+    double opens_to = 0;       // the least f-number; 0: any
+    double pupil_z_mm = 0;     // of the section: where the entrance pupil stands
+    double best_focus_mm = 0;  // from the paraxial focus: about where blur is least, by the curves
+    std::string words;         // what the lens is
 };
 
 class LensBench {

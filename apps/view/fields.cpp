@@ -1,5 +1,6 @@
 #include "fields.h"
 
+#include "petzval/look_check.h"
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 
@@ -350,6 +351,11 @@ Status set_field(App& app, const std::string& name, const std::string& text) {
     }
     auto changed = look_with(app.state.choice.look, path, json);
     if (!changed) return changed.error();
+    // A shift is a mode of its own.
+    if (path == "lens.focus_shift_mm") changed->lens.focus_mode = FocusMode::Shift;
+    if (path == "lens.focus_mode") changed->lens.focus_shift_mm = 0;
+    for (const Error& idle : check(*changed, {path}).idle)
+        if (idle.field == path) app.notice = idle.message;
     app.state.choice.look = std::move(*changed);
     return Done{};
 }

@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "fields.h"
+#include "section_panel.h"
 #include "widgets.h"
 
 #include <algorithm>
@@ -15,15 +16,8 @@
 namespace petzval::view {
 namespace {
 
-constexpr ImU32 kGlass = IM_COL32(70, 110, 140, 90), kFlint = IM_COL32(90, 100, 140, 130);
-constexpr ImU32 kRay = IM_COL32(150, 190, 120, 110), kLit = IM_COL32(255, 220, 90, 230);
+constexpr ImU32 kLit = IM_COL32(255, 220, 90, 230);
 constexpr ImU32 kLine = IM_COL32(150, 150, 150, 160);
-
-struct Box {
-    ImVec2 from, to;
-    float width() const { return to.x - from.x; }
-    float height() const { return to.y - from.y; }
-};
 
 Box box_of(const char* name, const ImVec2& size) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
@@ -37,79 +31,12 @@ ImTextureID id_of(const Texture& texture) {
     return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));  // NOLINT: as the backend has it
 }
 
-// From millimetres to the screen: all of the section, the same scale both ways.
-struct SectionFrame {
-    double scale = 1, left = 0, middle = 0, z0 = 0;
-
-    SectionFrame(const LensSection& section, const Box& box) {
-        double first = 0, tallest = std::max(1.0, section.stop_radius_mm);
-        for (const SectionGlass& glass : section.glass)
-            for (const SectionPoint& p : glass.outline) tallest = std::max(tallest, std::abs(p.y_mm));
-        for (const SectionRay& ray : section.rays) first = std::min(first, ray.path.front().z_mm);
-        tallest = std::max(tallest, std::abs(section.image_y_mm));
-        const double length = std::max(1.0, section.sensor_z_mm - first);
-        scale = std::min(0.94 * double(box.width()) / length, 0.44 * double(box.height()) / tallest);
-        z0 = first + 0.5 * length;
-        left = double(box.from.x) + 0.5 * double(box.width()),
-        middle = double(box.from.y) + 0.5 * double(box.height());
-    }
-    ImVec2 operator()(const SectionPoint& p) const {
-        return {float(left + (p.z_mm - z0) * scale), float(middle - p.y_mm * scale)};
-    }
-};
-
-void draw_path(const SectionFrame& at, const SectionRay& ray, ImU32 colour, float width) {
-    std::vector<ImVec2> line;
-    for (const SectionPoint& p : ray.path) line.push_back(at(p));
-    ImGui::GetWindowDrawList()->AddPolyline(line.data(), int(line.size()), colour, 0, width);
-}
-
-void draw_glass(const SectionFrame& at, const LensSection& section) {
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    for (const SectionGlass& glass : section.glass) {
-        std::vector<ImVec2> outline;
-        for (const SectionPoint& p : glass.outline) outline.push_back(at(p));
-        // Not convex: two halves of slices from front to back are.
-        const std::size_t half = outline.size() / 2;
-        for (std::size_t i = 0; i + 1 < half; ++i)
-            list->AddQuadFilled(outline[i], outline[i + 1], outline[outline.size() - 2 - i],
-                                outline[outline.size() - 1 - i], glass.is_flint ? kFlint : kGlass);
-        list->AddPolyline(outline.data(), int(outline.size()), kLine, ImDrawFlags_Closed, 1);
-    }
-}
-
-void draw_section(const App& app, const Box& box) {
-    const LensSection& section = app.lens_made().section;
-    if (section.rays.empty()) return;
-    const SectionFrame at(section, box);
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    list->PushClipRect(box.from, box.to, true);
-    list->AddLine({box.from.x, float(at.middle)}, {box.to.x, float(at.middle)}, IM_COL32(90, 90, 90, 120));
-    draw_glass(at, section);
-    const std::vector<std::size_t> lit = lit_rays(app);
-    for (const SectionRay& ray : section.rays)
-        if (std::abs(ray.off_plane) < 1e-6)
-            draw_path(at, ray, lit.empty() ? kRay : IM_COL32(150, 190, 120, 50), 1);
-    for (const std::size_t i : lit) draw_path(at, section.rays[i], kLit, 1.2f);
-    for (const double side : {-1.0, 1.0})
-        list->AddLine(at({section.stop_z_mm, side * section.stop_radius_mm}),
-                      at({section.stop_z_mm, side * 1.35 * section.stop_radius_mm}),
-                      IM_COL32(235, 235, 235, 255), 2);
-    const double half = std::max(std::abs(section.image_y_mm) * 1.1, 2.0);
-    list->AddLine(at({section.sensor_z_mm, -half}), at({section.sensor_z_mm, half}),
-                  IM_COL32(235, 235, 235, 255), 2);
-    if (!section.has_surfaces)
-        list->AddLine(at({0, -section.stop_radius_mm}), at({0, section.stop_radius_mm}),
-                      IM_COL32(120, 170, 210, 200), 3);
-    list->PopClipRect();
-}
-
 // The disc fills the box, its middle in the middle; one of its pixels is `scale` wide.
 float draw_disc(const Box& box, const Texture& texture, const LensCodes& codes) {
     if (texture.empty() || codes.width == 0) return 1;
     const float scale = std::min(
         {box.width() / float(codes.width), box.height() / float(codes.height), 2 * ImGui::GetFontSize()});
-    const ImVec2 middle{0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y)};
+    const ImVec2 middle = box.middle();
     const ImVec2 half{0.5f * scale * float(codes.width), 0.5f * scale * float(codes.height)};
     ImGui::GetWindowDrawList()->AddImage(id_of(texture), {middle.x - half.x, middle.y - half.y},
                                          {middle.x + half.x, middle.y + half.y});
@@ -136,7 +63,7 @@ void picked_disc(App& app, float side) {
     // Of a pixel of the picture, on the screen.
     const float scale = float(made.fine) * draw_disc(box, app.lens_pictures()[0], made.disc);
     note_in(box, {"radius " + pixels_text(made.coc_px), pixels_text(made.coc_px)});
-    const ImVec2 middle{0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y)};
+    const ImVec2 middle = box.middle();
     if (scale > 6 && scale < box.width())  // the pixel itself
         ImGui::GetWindowDrawList()->AddRect({middle.x - 0.5f * scale, middle.y - 0.5f * scale},
                                             {middle.x + 0.5f * scale, middle.y + 0.5f * scale},
@@ -220,6 +147,40 @@ void draw_curves(App& app, const Box& box) {
     note_in(box, {"focus by zone, " + range, range});
 }
 
+// What the discs are made of, to be dragged beside them. The ideal lens has no aberrations of its own to
+// vary.
+void draw_numbers(App& app) {
+    struct Number {
+        const char *path, *label;
+        float letters;
+    };
+    const bool has_own = app.state.choice.look.lens.name != "ideal";
+    const Number all[]{{"lens.blades", "blades", 3},
+                       {has_own ? "lens.spherical" : "lens.added_spherical_waves", "spherical", 4},
+                       {has_own ? "lens.axial_colour" : "lens.added_axial_colour_mm", "colour", 4},
+                       {"lens.focus_shift_mm", "focus shift", 4},
+                       {"lens.cats_eye", "cat's eye", 4},
+                       {"lens.barrel", "barrel", 6},
+                       {"lens.dust", "dust", 4}};
+    const float letter = ImGui::GetFontSize();
+    ImGui::PushID("numbers");
+    for (const Number& number : all) {
+        if (!has_own && std::string(number.path) == "lens.focus_shift_mm") continue;
+        const auto row = std::find_if(app.setup().fields.begin(), app.setup().fields.end(),
+                                      [&](const FieldRow& r) { return r.path == number.path; });
+        if (row == app.setup().fields.end()) continue;
+        if (&number != all)
+            flow(number.letters * letter + ImGui::CalcTextSize(number.label).x +
+                 ImGui::GetStyle().ItemInnerSpacing.x);
+        ImGui::SetNextItemWidth(number.letters * letter);
+        const ImVec2 from = ImGui::GetCursorScreenPos();
+        row_widget(app, *row, number.label);
+        app.widgets[number.path] = {int(from.x), int(from.y), int(from.x + number.letters * letter),
+                                    int(from.y + ImGui::GetFrameHeight())};  // without its label
+    }
+    ImGui::PopID();
+}
+
 }  // namespace
 
 std::vector<std::size_t> lit_rays(const App& app) {
@@ -241,8 +202,11 @@ void draw_lens(App& app) {
     const LensMade& made = app.lens_made();
     const ImVec2 all = ImGui::GetContentRegionAvail();
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float strip = std::min(0.22f * all.y, all.x / float(kStripDiscs));
-    const float high = std::max(8.0f, all.y - strip - 3.4f * ImGui::GetTextLineHeightWithSpacing());
+    const float strip = std::min(0.2f * all.y, all.x / float(kStripDiscs));
+    const float top = ImGui::GetCursorPosY();
+    draw_numbers(app);
+    const float used = ImGui::GetCursorPosY() - top;
+    const float high = std::max(8.0f, all.y - used - strip - 3.4f * ImGui::GetTextLineHeightWithSpacing());
     const float side = std::min(high, 0.3f * all.x), small = 0.5f * (high - gap);
     const Box section = box_of("section", {all.x - side - 2 * small - 3 * gap, high});
     draw_section(app, section);
@@ -251,9 +215,11 @@ void draw_lens(App& app) {
     ImGui::SameLine();
     ImGui::BeginGroup();
     const Box front = box_of("front", {small, small});
+    drag_blades(app, front, "in front");
     draw_disc(front, app.lens_pictures()[1], made.front);
     note_in(front, {"in front", "front"});
     const Box behind = box_of("behind", {small, small});
+    drag_blades(app, behind, "behind");
     draw_disc(behind, app.lens_pictures()[2], made.behind);
     note_in(behind, {"behind"});
     ImGui::EndGroup();

@@ -129,9 +129,10 @@ void Script::begin_drag(App& app, const Words& words) {
     if (words.size() == 5) {
         to = *place_of(app, words, 3);
     } else {
-        const auto by = number_of(words[2]);
-        if (!by) return fail("drag: " + by.error().message);
-        to.first += *by;
+        const auto right = number_of(words[2]);
+        const auto down = words.size() > 3 ? number_of(words[3]) : Result<double>(0.0);
+        if (!right || !down) return fail("drag: not a number of pixels");
+        to.first += *right, to.second += *down;
     }
     Hand at;
     at.x = from->first, at.y = from->second;

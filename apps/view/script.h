@@ -2,7 +2,7 @@
 //
 // One step a line, a word that begins with '#' a comment. Besides all commands (commands.h):
 //   click X Y | click NAME          a pixel of the frame, or a widget
-//   drag X Y X2 Y2 | drag NAME DX   held down over eight ticks
+//   drag X Y X2 Y2 | drag NAME DX [DY]   held down over eight ticks
 //   move X Y, wheel N, key KEY      as "key shift+e"
 //   wait [SECONDS]                  until nothing is being made (at most so long, 60), or fail
 //   sleep SECONDS                   whatever is being made

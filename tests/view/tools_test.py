@@ -1,6 +1,7 @@
 """What one does beside a picture in the window: bends curves, loads tracks, pushes pictures and takes them."""
 import json
 import os
+import shlex
 import shutil
 import socket
 import struct
@@ -70,6 +71,66 @@ class ToolsTest(window.WindowTest):
         self.assertAlmostEqual(curves["curves"][0]["shift"][-1], float(rim_mm), 4)
         subprocess.run([PETZVAL, "defocus", "table.exr", "-o", "bent.exr", "--lens", "bent.json", "--quality", "draft"],
                        cwd=self.shared, check=True, capture_output=True)
+
+    def test_stop_sensor_rims_and_blades_are_dragged_where_they_are_drawn(self):
+        out, _ = self.do("""
+            wait
+            set lens double-gauss
+            set fstop 4
+            pick 250 40
+            key l
+            wait
+            say lens.disc_px
+            drag stop 0 -6
+            wait
+            say fstop
+            say lens.disc_px
+            drag stop 0 -200
+            wait
+            expect no error
+            expect fstop 2.03 0.01
+            set lens doublet
+            wait
+            shot still.png
+            drag sensor 40
+            wait
+            expect lens.focus_mode shift
+            say lens.focus_shift_mm
+            shot shifted.png
+            set lens.focus_mode best
+            set lens.barrel 20,30
+            wait
+            drag "rim 1" -20 -4
+            wait
+            say lens.barrel
+            drag behind 42
+            say lens.blades
+            drag lens.spherical 40
+            say lens.spherical
+            set lens.axial_colour 0
+            set lens ideal
+            drag sensor 40
+            wait
+            expect lens.focus_mode best
+            set lens.axial_colour 0.5
+            expect notice axial_colour
+            copy
+            say copied
+        """, "table.exr", "--engine", "gaussian")
+        small_px, fstop, large_px, shift_mm, rim, blades, spherical, command = out.strip().splitlines()
+        self.assertLess(float(fstop), 3.9)
+        self.assertGreater(int(large_px), int(small_px))
+        self.assertGreater(float(shift_mm), 0.2)
+        still, shifted = self.contents("still.png", "shifted.png")
+        self.assertNotEqual(still, shifted)
+        radius_mm, distance_mm = map(float, rim.split(","))
+        self.assertGreater(radius_mm, 20.2)
+        self.assertGreater(distance_mm, 31)
+        self.assertGreaterEqual(int(blades), 3)
+        self.assertGreater(float(spherical), 1.05)
+        self.assertNotIn("colour", command)  # it has no effect, and would be refused
+        done = subprocess.run([PETZVAL, *shlex.split(command)[1:], "--quiet"], cwd=self.shared, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_track_is_loaded_with_its_keys(self):
         for number in range(1, 6):
