@@ -35,7 +35,7 @@ ALLOWED = {
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": LENS | {"engine/waist"},
     "views": WAIST | {"device/cpu", "engine/lights", "engine/scatter"},
-    "glare": LENS,
+    "glare": LENS | {"device", "device/cpu"},
     "names": {"base", "optics", "depth", "colour", "engine/waist", "glare"},
     "look": {"base", "image", "optics", "colour", "engine/waist", "glare", "names"},
     "scene": PIXELS | {"optics"},
@@ -58,7 +58,7 @@ TESTS = {
     "session": {"lens_facts"},
 }
 # Devices know plans, the data that engines leave, and nothing else of engines.
-PLANS = re.compile(r"engine/\w+/(\w+_)?plan\.h")
+PLANS = re.compile(r"(engine/\w+|glare)/(\w+_)?plan\.h")
 # The room that implements each public header: including it is knowing that room.
 PUBLIC = {
     "camera": "optics",

@@ -344,8 +344,8 @@ Status Run::render(const DefocusJob& job) {
     warn(done->warnings);
     report_["kernels_from_cache"] = done->kernels_from_cache;
     if (is_beauty()) report_["glare"] = glare_json(look());
-    report_["engine"] = done->engine;
-    report_["device"] = done->device;
+    report_["engine"] = done->engine, report_["device"] = done->device;
+    if (!done->glare_device.empty()) report_["glare_device"] = done->glare_device;
     report_["lens"]["description"] = done->lens;
     report_["radius_px"] = {{"farthest_behind", number(done->largest_radius_px)},
                             {"farthest_in_front", number(done->smallest_radius_px)}};

@@ -100,6 +100,7 @@ struct DefocusReport {
     // `image` is the sharp picture then. Depth in metres, or radii where the job gives those.
     DeepPicture hidden;
     std::string engine, device, lens;
+    std::string glare_device;  // who drew glare, as `device`; empty where there is none
     double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front
     std::vector<StageTime> stages;
     std::vector<std::string> warnings;

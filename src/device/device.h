@@ -18,6 +18,9 @@ struct LightsPlan;
 struct RealtimePlan;
 struct ScatterPlan;
 }  // namespace petzval::engine
+namespace petzval::glare {
+struct GlarePlan;
+}
 
 namespace petzval::device {
 
@@ -78,6 +81,8 @@ public:
     // Adds to the plan's rows of `out`, the whole frame.
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
                             const Control& control) const = 0;
+    // Moves the plan's light within a picture. False: this device cannot, and nothing was done.
+    virtual bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers) const = 0;
 };
 
 }  // namespace petzval::device

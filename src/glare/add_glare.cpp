@@ -2,16 +2,18 @@
 #include "petzval/glare.h"
 
 #include "base/parallel.h"
+#include "device/cpu/cpu_device.h"
 #include "glare/bloom.h"
 #include "glare/ghosts.h"
 #include "glare/kept_stars.h"
-#include "glare/light.h"
+#include "glare/plan.h"
 #include "glare/streaks.h"
 #include "kernel/draw/pupil.h"
 #include "kernel/lenses/opened_lens.h"
 
+#include <algorithm>
 #include <sstream>
-#include <vector>
+#include <utility>
 
 namespace petzval {
 namespace {
@@ -64,53 +66,7 @@ Status check(const GlareSettings& s) {
     return Done{};
 }
 
-Picture without_alpha(View<const Rgba> picture, Workers& workers) {
-    Picture light = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(light.height(), workers, [&](int y) {
-        for (int x = 0; x < light.width(); ++x) light(x, y) = usable(picture(x, y));
-    });
-    return light;
-}
-
-// What stays: finite colour, less what the parts take.
-Picture remaining(View<const Rgba> picture, View<const Rgba> highlights, const GlareSettings& s,
-                  Workers& workers) {
-    const float of_all = float(s.bloom + s.veil), of_highlights = float(s.star + s.ghosts);
-    Picture out = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(out.height(), workers, [&](int y) {
-        for (int x = 0; x < out.width(); ++x) {
-            const Rgba c = picture(x, y);
-            const auto finite = [](float v) { return std::isfinite(v) ? v : 0.0f; };
-            Rgba left = Rgba{finite(c.r), finite(c.g), finite(c.b), 0} - of_all * usable(c);
-            if (!highlights.empty()) left -= of_highlights * highlights(x, y);
-            out(x, y) = {left.r, left.g, left.b, c.a};
-        }
-    });
-    return out;
-}
-
-// Adds to colour; alpha stays.
-void add(Picture& out, const Picture& light, float amount, Workers& workers) {
-    parallel_for(out.height(), workers, [&](int y) {
-        for (int x = 0; x < out.width(); ++x) {
-            const Rgba c = amount * light(x, y);
-            out(x, y) += Rgba{c.r, c.g, c.b, 0};
-        }
-    });
-}
-
-void add_veil(Picture& out, const Picture& light, float amount) {
-    double r = 0, g = 0, b = 0;
-    for (std::size_t i = 0; i < light.size(); ++i) {
-        const Rgba& c = light.pixels()[i];
-        r += double(c.r), g += double(c.g), b += double(c.b);
-    }
-    const double n = double(light.size());
-    const Rgba mean = amount * Rgba{float(r / n), float(g / n), float(b / n), 0};
-    for (std::size_t i = 0; i < out.size(); ++i) out.pixels()[i] += mean;
-}
-
-Result<GhostModel> ghosts_of(const GlareSettings& s, double height_px, int width_px) {
+Result<GhostModel> ghost_model(const GlareSettings& s, double height_px, int width_px) {
     const auto lens = s.opened_lens ? Result<Lens>(*s.opened_lens) : Lens::open(s.lens);
     if (!lens) return lens.error();
     if (const optics::Prescription* surfaces = kernel::prescription_of(*lens))
@@ -118,63 +74,67 @@ Result<GhostModel> ghosts_of(const GlareSettings& s, double height_px, int width
     return sprite_ghosts(s.lens.aperture, height_px, s.place.pixel_aspect);
 }
 
+Picture highlights(View<const Rgba> picture, float threshold, Workers& workers) {
+    Picture bright = Picture::uninitialised(picture.width(), picture.height());
+    parallel_for(bright.height(), workers, [&](int y) {
+        for (int x = 0; x < bright.width(); ++x) bright(x, y) = highlight(picture(x, y), threshold);
+    });
+    return bright;
+}
+
+// All but the light of ghosts. height: of the display window, in widths of a pixel.
+GlarePlan plan_of(const GlareSettings& s, double height, View<const Rgba> picture, KeptStars& stars,
+                  Workers& workers) {
+    GlarePlan plan;
+    plan.bloom = float(s.bloom), plan.star = float(s.star), plan.ghosts = float(s.ghosts);
+    plan.veil = float(s.veil), plan.threshold = float(s.threshold);
+    plan.of_all = float(s.bloom + s.veil), plan.of_highlights = float(s.star + s.ghosts);
+    const ApertureShape& aperture = s.lens.aperture;
+    if (s.bloom > 0) plan.bloom_layers = plan_bloom(s.bloom_radius * height, s.place.pixel_aspect);
+    if (s.star > 0 && s.star_quality == StarQuality::Draft)
+        plan.streaks = plan_streaks(aperture, s.star_radius * height, s.place.pixel_aspect);
+    if (s.star > 0 && s.star_quality == StarQuality::Final)
+        plan.filter = stars.star(aperture, std::max(2.0, s.star_radius * height), s.diffraction_px,
+                                 s.place.pixel_aspect, picture.width(), picture.height(), workers);
+    return plan;
+}
+
 }  // namespace
 
 Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings) {
+    Picture lit = Picture::uninitialised(picture.width(), picture.height());
+    for (int y = 0; y < lit.height(); ++y) std::copy_n(picture.row(y), std::size_t(lit.width()), lit.row(y));
     glare::KeptStars stars;
-    return glare::add_glare(picture, settings, stars);
+    return glare::add_glare(std::move(lit), settings, stars, device::cpu_device());
 }
 
 namespace glare {
 
-Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings, KeptStars& stars) {
+Result<Picture> add_glare(Picture picture, const GlareSettings& settings, KeptStars& stars,
+                          const device::Device& device) {
     GlareSettings s = settings;
     if (s.opened_lens) s.lens = s.opened_lens->choice();
     if (picture.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
     if (const Status fine = check(s); !fine) return fine.error();
-    if (s.bloom == 0 && s.star == 0 && s.ghosts == 0 && s.veil == 0) {
-        Picture same = Picture::uninitialised(picture.width(), picture.height());
-        for (int y = 0; y < same.height(); ++y)
-            std::copy_n(picture.row(y), std::size_t(same.width()), same.row(y));
-        return same;
-    }
+    if (s.bloom == 0 && s.star == 0 && s.ghosts == 0 && s.veil == 0) return picture;
     Rect display = s.place.display_window, data = s.place.data_window;
     if (display.empty()) display = data = picture.rect();
     const double height = display.height() / s.place.pixel_aspect;  // in widths of a pixel, as radii are
 
-    GhostModel ghosts;
-    if (s.ghosts > 0) {
-        auto model = ghosts_of(s, height, display.width());
-        if (!model) return model.error();
-        ghosts = std::move(*model);
-    }
     const std::shared_ptr<Workers> workers = workers_of(s.threads, s.workers);
-    const Picture light = without_alpha(picture, *workers);
-    Picture bright;
-    if (s.star > 0 || s.ghosts > 0) {
-        bright = Picture::uninitialised(light.width(), light.height());
-        for (std::size_t i = 0; i < light.size(); ++i)
-            bright.pixels()[i] = highlight(light.pixels()[i], float(s.threshold));
-    }
-    Picture out = remaining(picture, bright, s, *workers);
-    if (s.bloom > 0)
-        add(out, bloom(light, s.bloom_radius * height, s.place.pixel_aspect, *workers), float(s.bloom),
-            *workers);
-    if (s.star > 0 && s.star_quality == StarQuality::Draft)
-        add_streaks(out, bright, s.lens.aperture, s.star_radius * height, s.place.pixel_aspect, float(s.star),
-                    *workers);
-    if (s.star > 0 && s.star_quality == StarQuality::Final)
-        add_convolved(out, bright,
-                      *stars.star(s.lens.aperture, std::max(2.0, s.star_radius * height), s.diffraction_px,
-                                  s.place.pixel_aspect, bright.width(), bright.height(), *workers),
-                      float(s.star), *workers);
+    Picture thrown;
     if (s.ghosts > 0) {
+        const auto model = ghost_model(s, height, display.width());
+        if (!model) return model.error();
         const kernel::Point middle{display.x0 - data.x0 + 0.5 * display.width(),
                                    display.y0 - data.y0 + 0.5 * display.height()};
-        add_ghosts(out, bright, ghosts, middle, float(s.ghosts), *workers);
+        thrown = ghosts_of(highlights(picture, float(s.threshold), *workers), *model, middle, *workers);
     }
-    if (s.veil > 0) add_veil(out, light, float(s.veil));
-    return out;
+    GlarePlan plan = plan_of(s, height, picture, stars, *workers);
+    plan.ghost_light = thrown;
+    if (!device.add_glare(plan, picture.view(), *workers))
+        device::cpu_device().add_glare(plan, picture.view(), *workers);
+    return picture;
 }
 
 }  // namespace glare

@@ -113,21 +113,22 @@ GhostModel sprite_ghosts(const ApertureShape& aperture, double height_px, double
     };
 }
 
-void add_ghosts(View<Rgba> out, View<const Rgba> light, const GhostModel& model, Point middle, float amount,
-                Workers& workers) {
-    kernel::CoverageBuffer<Light> buffer(out.rect());
+Picture ghosts_of(View<const Rgba> light, const GhostModel& model, Point middle, Workers& workers) {
+    kernel::CoverageBuffer<Light> buffer(light.rect());
     const auto lights = sources(light, middle);
     std::vector<std::vector<GhostShape>> ghosts(lights.size());
     parallel_for(int(lights.size()), workers,
                  [&](int i) { ghosts[std::size_t(i)] = model(lights[std::size_t(i)].place_px); });
     for (std::size_t i = 0; i < lights.size(); ++i)  // in order: sums are the same for any thread count
         for (const GhostShape& ghost : ghosts[i]) draw(buffer, ghost, middle, lights[i].light);
-    parallel_for(out.height(), workers, [&](int y) {
+    Picture thrown = Picture::uninitialised(light.width(), light.height());
+    parallel_for(thrown.height(), workers, [&](int y) {
         const Light* row = buffer.resolve_row(y);
         const auto positive = [](double v) { return float(std::max(v, 0.0)); };
-        for (int x = 0; x < out.width(); ++x)
-            out(x, y) += amount * Rgba{positive(row[x].r), positive(row[x].g), positive(row[x].b), 0};
+        for (int x = 0; x < thrown.width(); ++x)
+            thrown(x, y) = {positive(row[x].r), positive(row[x].g), positive(row[x].b), 0};
     });
+    return thrown;
 }
 
 }  // namespace petzval::glare

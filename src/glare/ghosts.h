@@ -30,8 +30,7 @@ GhostModel sprite_ghosts(const ApertureShape& aperture, double height_px, double
 Result<GhostModel> prescription_ghosts(const optics::Prescription& lens, const GlareSettings& settings,
                                        int width_px);
 
-// out += amount * ghosts of `light`. middle: of the frame, in pixels of the view.
-void add_ghosts(View<Rgba> out, View<const Rgba> light, const GhostModel& model, kernel::Point middle,
-                float amount, Workers& workers);
+// The ghosts of `light`. middle: of the frame, in pixels of the view.
+Picture ghosts_of(View<const Rgba> light, const GhostModel& model, kernel::Point middle, Workers& workers);
 
 }  // namespace petzval::glare

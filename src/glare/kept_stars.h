@@ -4,7 +4,8 @@
 #include "petzval/glare.h"
 #include "petzval/workers.h"
 
-#include "glare/convolve.h"
+#include "device/device.h"
+#include "glare/filter.h"
 
 #include <cstddef>
 #include <list>
@@ -40,7 +41,9 @@ private:
     std::list<std::pair<StarShape, std::shared_ptr<const Filter>>> stars_;  // the last used first
 };
 
-// petzval::add_glare() with stars of frames before.
-Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings, KeptStars& stars);
+// petzval::add_glare() with stars of frames before, on this device, or on the CPU where that cannot. Throws
+// what a device does.
+Result<Picture> add_glare(Picture picture, const GlareSettings& settings, KeptStars& stars,
+                          const device::Device& device);
 
 }  // namespace petzval::glare

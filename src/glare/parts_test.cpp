@@ -2,6 +2,7 @@
 #include "petzval/glare.h"
 
 #include "base/parallel.h"
+#include "device/cpu/bloom.h"
 #include "glare/bloom.h"
 #include "glare/ghosts.h"
 #include "kernel/draw/outline.h"
@@ -22,7 +23,7 @@ Picture point_of_light(int width, int height) {
 
 TEST(Bloom, MeanSquareWidthIsThatOfItsLayers) {
     // Layers of 12, 6, 3 and 1.5 px: mean variance (144 + 36 + 9 + 2.25) / 4, per axis.
-    const Picture glow = bloom(point_of_light(257, 255), 12, 1, one_thread());
+    const Picture glow = device::bloom(point_of_light(257, 255), plan_bloom(12, 1), one_thread());
     double sum = 0, xx = 0, yy = 0, x1 = 0;
     for (int y = 0; y < glow.height(); ++y)
         for (int x = 0; x < glow.width(); ++x) {
@@ -36,12 +37,12 @@ TEST(Bloom, MeanSquareWidthIsThatOfItsLayers) {
 }
 
 TEST(Bloom, IsBrightestInTheMiddleAndFallsEverywhere) {
-    const Picture glow = bloom(point_of_light(255, 255), 20, 1, one_thread());
+    const Picture glow = device::bloom(point_of_light(255, 255), plan_bloom(20, 1), one_thread());
     for (int d = 1; d < 90; ++d) EXPECT_LT(glow(127 + d, 127).r, glow(126 + d, 127).r) << d;
 }
 
 TEST(Bloom, FollowsThePixelAspect) {
-    const Picture glow = bloom(point_of_light(257, 257), 8, 2, one_thread());
+    const Picture glow = device::bloom(point_of_light(257, 257), plan_bloom(8, 2), one_thread());
     double xx = 0, yy = 0;
     for (int y = 0; y < 257; ++y)
         for (int x = 0; x < 257; ++x) {

@@ -1,7 +1,9 @@
 // The star is the aperture's diffraction: as many spikes as its edges ask for, as long as the wavelength.
 #include "base/fft.h"
 #include "base/parallel.h"
-#include "glare/convolve.h"
+#include "device/cpu/convolve.h"
+#include "device/cpu/streaks.h"
+#include "glare/filter.h"
 #include "glare/star_kernel.h"
 #include "glare/streaks.h"
 
@@ -112,7 +114,7 @@ TEST(QuickStar, IsAStarNextToTheLampToo) {
         Picture light(201, 201), out(201, 201);
         const int middle = 98 + off;
         light(middle, middle) = {1000, 1000, 1000, 0};
-        add_streaks(out.view(), light.view(), blades(6, 30), 100, 1, 1, one_thread());
+        device::add_streaks(out.view(), light.view(), plan_streaks(blades(6, 30), 100, 1), 1, one_thread());
         const auto at = [&](double r, double degrees) {
             return double(out(middle + int(std::lround(r * std::cos(degrees * kPi / 180))),
                               middle - int(std::lround(r * std::sin(degrees * kPi / 180))))
@@ -129,7 +131,7 @@ TEST(QuickStar, IsAStarNextToTheLampToo) {
 TEST(QuickStar, KeepsTheLightOfEachChannelInsideTheFrame) {
     Picture light(301, 301), out(301, 301);
     light(150, 150) = {500, 700, 900, 0};
-    add_streaks(out.view(), light.view(), blades(5, 8), 60, 1, 0.5f, one_thread());
+    device::add_streaks(out.view(), light.view(), plan_streaks(blades(5, 8), 60, 1), 0.5f, one_thread());
     Rgba sum;
     for (std::size_t i = 0; i < out.size(); ++i) sum += out.pixels()[i];
     EXPECT_NEAR(sum.r, 250, 0.25);
@@ -205,7 +207,7 @@ TEST(Convolution, EqualsTheDirectSumAcrossTilesAndAtTheEdges) {
         for (int x = 0; x < 41; ++x)
             if ((x * 7 + y * 3) % 5 == 0) light(x, y) = {float(x), float(y), float(x + y), 0};
     const Filter filter = filter_of(k, transform_size(3, 41, 23), one_thread());
-    add_convolved(out.view(), light.view(), filter, 0.5f, one_thread());
+    device::add_convolved(out.view(), light.view(), filter, 0.5f, one_thread());
     for (int y = 0; y < 23; ++y)
         for (int x = 0; x < 41; ++x) {
             Rgba sum;

@@ -1,19 +1,15 @@
 #include "glare/streaks.h"
 
-#include "base/parallel.h"
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <tuple>
 
 namespace petzval::glare {
 namespace {
 
-constexpr int kSamples = 4;      // a pass
-constexpr int kTile = 16;        // pixels that are dark together are passed over together
-constexpr double kFallen = 4.6;  // e-foldings at the end: about 1/100
+constexpr int kSamples = 4;                            // a pass
+constexpr double kFallen = 4.6;                        // e-foldings at the end: about 1/100
 constexpr double kWavelength_nm[3] = {610, 550, 465};  // of red, green and blue primaries, about
 constexpr double kReddest_nm = 700;                    // as the final star: radius_px is its length there
 
@@ -26,47 +22,9 @@ struct Length {
 };
 constexpr Length kLengths[] = {{1, 2}, {1.0 / 4, 2}, {1.0 / 16, 1}};
 
-// A picture, and which of its tiles hold any light.
-struct Lit {
-    Picture light;
-    Image<std::uint8_t> tiles;
-
-    Lit(int width, int height)
-        : light(width, height), tiles((width + kTile - 1) / kTile, (height + kTile - 1) / kTile) {}
-    // Any light in the tile at (column, row), moved by so many pixels?
-    bool any(int column, int row, int dx, int dy) const {
-        const auto tile = [](int px) { return int(std::floor(double(px) / kTile)); };
-        for (int j = tile(row * kTile + dy); j <= tile((row + 1) * kTile - 1 + dy); ++j)
-            for (int i = tile(column * kTile + dx); i <= tile((column + 1) * kTile - 1 + dx); ++i)
-                if (tiles.rect().contains(i, j) && tiles(i, j)) return true;
-        return false;
-    }
-};
-
-Lit reduced(View<const Rgba> light, int factor, Workers& workers) {
-    Lit small((light.width() + factor - 1) / factor, (light.height() + factor - 1) / factor);
-    parallel_for(small.tiles.height(), workers, [&](int row) {
-        for (int y = row * kTile; y < std::min((row + 1) * kTile, small.light.height()); ++y)
-            for (int j = factor * y; j < std::min(factor * (y + 1), light.height()); ++j)
-                for (int i = 0; i < light.width(); ++i) {
-                    const Rgba& c = light(i, j);
-                    if (c.r == 0 && c.g == 0 && c.b == 0) continue;
-                    small.light(i / factor, y) += 1.0f / float(factor * factor) * c;
-                    small.tiles(i / factor / kTile, row) = 1;
-                }
-    });
-    return small;
-}
-
-// out(x, y) += weight * in(x + dx, y + dy)
-struct Tap {
-    int dx, dy;
-    Rgba weight;
-};
-
 // The picture shifted by `first` and the next three strides along the spike, ever weaker; between pixels.
-std::vector<Tap> taps_of(kernel::Point stride, int first, const Rgba weights[kSamples]) {
-    std::vector<Tap> taps;
+std::vector<StarTap> taps_of(kernel::Point stride, int first, const Rgba weights[kSamples]) {
+    std::vector<StarTap> taps;
     for (int k = 0; k < kSamples; ++k) {
         const double x = -(k + first) * stride.x, y = -(k + first) * stride.y;
         const int i = int(std::floor(x)), j = int(std::floor(y));
@@ -76,32 +34,6 @@ std::vector<Tap> taps_of(kernel::Point stride, int first, const Rgba weights[kSa
             if (w > 0) taps.push_back({i + dx, j + dy, w * weights[k]});
     }
     return taps;
-}
-
-// One tile of one tap; nothing beyond the frame.
-void add_tap(Picture& out, const Picture& in, int column, int row, const Tap& tap) {
-    const int x0 = std::max(column * kTile, -tap.dx),
-              x1 = std::min({(column + 1) * kTile, out.width(), out.width() - tap.dx});
-    const int y0 = std::max(row * kTile, -tap.dy),
-              y1 = std::min({(row + 1) * kTile, out.height(), out.height() - tap.dy});
-    for (int y = y0; y < y1; ++y) {
-        const Rgba* from = in.row(y + tap.dy) + tap.dx;
-        Rgba* to = out.row(y);
-        for (int x = x0; x < x1; ++x) to[x] += tap.weight * from[x];
-    }
-}
-
-Lit spread(const Lit& in, const std::vector<Tap>& taps, Workers& workers) {
-    Lit out(in.light.width(), in.light.height());
-    parallel_for(out.tiles.height(), workers, [&](int row) {
-        for (int column = 0; column < out.tiles.width(); ++column)
-            for (const Tap& tap : taps)
-                if (in.any(column, row, tap.dx, tap.dy)) {
-                    add_tap(out.light, in.light, column, row, tap);
-                    out.tiles(column, row) = 1;
-                }
-    });
-    return out;
 }
 
 void pass_weights(double stride, double radius, Rgba weights[kSamples]) {
@@ -116,39 +48,14 @@ void pass_weights(double stride, double radius, Rgba weights[kSamples]) {
 }
 
 // From one cell beside the light on: what stays in its own has not moved.
-Lit one_streak(const Lit& light, kernel::Point direction, double radius, Workers& workers) {
-    Lit streak(0, 0);
+std::vector<std::vector<StarTap>> passes_of(kernel::Point direction, double radius) {
+    std::vector<std::vector<StarTap>> passes;
     for (double stride = 1; stride == 1 || stride < radius; stride *= kSamples) {
         Rgba weights[kSamples];
         pass_weights(stride, radius, weights);
-        const bool first = stride == 1;
-        streak = spread(first ? light : streak, taps_of(stride * direction, first, weights), workers);
+        passes.push_back(taps_of(stride * direction, stride == 1, weights));
     }
-    return streak;
-}
-
-void add_lit(Picture& sum, const Lit& streak, float share, Workers& workers) {
-    parallel_for(streak.tiles.height(), workers, [&](int row) {
-        for (int column = 0; column < streak.tiles.width(); ++column)
-            if (streak.tiles(column, row))
-                add_tap(sum, streak.light, column, row, {0, 0, {share, share, share, 0}});
-    });
-}
-
-void add_enlarged(View<Rgba> out, const Picture& small, int factor, Workers& workers) {
-    const View<const Rgba> view = small.view();
-    parallel_for(out.height(), workers, [&](int y) {
-        const double sy = (y + 0.5) / factor - 0.5;
-        const int j = int(std::floor(sy));
-        const float t = float(sy - j);
-        for (int x = 0; x < out.width(); ++x) {
-            const double sx = (x + 0.5) / factor - 0.5;
-            const int i = int(std::floor(sx));
-            const float s = float(sx - i);
-            out(x, y) += (1 - t) * ((1 - s) * view.clamped(i, j) + s * view.clamped(i + 1, j)) +
-                         t * ((1 - s) * view.clamped(i, j + 1) + s * view.clamped(i + 1, j + 1));
-        }
-    });
+    return passes;
 }
 
 }  // namespace
@@ -167,23 +74,20 @@ std::vector<kernel::Point> spike_directions(const ApertureShape& aperture, doubl
     return directions;
 }
 
-void add_streaks(View<Rgba> out, View<const Rgba> light, const ApertureShape& aperture, double radius_px,
-                 double pixel_aspect, float amount, Workers& workers) {
+std::vector<Streak> plan_streaks(const ApertureShape& aperture, double radius_px, double pixel_aspect) {
     const auto directions = spike_directions(aperture, pixel_aspect);
     double shares = 0;
     for (const Length& length : kLengths) shares += 1 / length.share;
-    for (const int reduction : {1, 2}) {
-        const Lit small = reduced(light, reduction, workers);
-        Picture sum(small.light.width(), small.light.height());
+    std::vector<Streak> streaks;
+    for (const int reduction : {1, 2})
         for (const Length& length : kLengths) {
             if (length.reduction != reduction) continue;
             const double radius = std::max(1.0, radius_px / reduction * length.share);
-            const float share = amount / float(length.share * shares * double(directions.size()));
+            const float parts = float(length.share * shares * double(directions.size()));
             for (const kernel::Point& direction : directions)
-                add_lit(sum, one_streak(small, direction, radius, workers), share, workers);
+                streaks.push_back({reduction, parts, passes_of(direction, radius)});
         }
-        add_enlarged(out, sum, reduction, workers);
-    }
+    return streaks;
 }
 
 }  // namespace petzval::glare

@@ -52,6 +52,12 @@ public:
         return device_.add_lights(plan, atlas, out, control);
     }
 
+    bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers) const override {
+        const bool done = device_.add_glare(plan, picture, workers);
+        if (done) note();
+        return done;
+    }
+
     // Who drew: "gpu:0 its name", or "cpu": what engines draw without a device.
     std::string drawn_by() const;
 

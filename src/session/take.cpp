@@ -23,6 +23,12 @@ double diffraction_px(const Camera& camera, int width_px) {
     return 550e-6 * camera.f_number * width_px / camera.sensor_width_mm;
 }
 
+// What glare is made with.
+struct Light {
+    glare::KeptStars& stars;
+    const device::Device& device;
+};
+
 bool has_glare(const GlareAmounts& glare) {
     return glare.bloom > 0 || glare.star > 0 || glare.ghosts > 0 || glare.veil > 0;
 }
@@ -36,8 +42,7 @@ Result<Picture> with_falloff(Picture picture, const DefocusJob& job, const Look&
                                  .workers = job.workers});
 }
 
-Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look,
-                           glare::KeptStars& stars) {
+Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look, const Light& by) {
     if (!has_glare(look.glare)) return picture;
     GlareSettings settings;
     static_cast<GlareAmounts&>(settings) = look.glare;
@@ -46,13 +51,13 @@ Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& l
     settings.opened_lens = job.opened_lens;
     settings.place = job.place;
     settings.workers = job.workers;
-    return glare::add_glare(picture, settings, stars);
+    return glare::add_glare(std::move(picture), settings, by.stars, by.device);
 }
 
-Result<Picture> lit(Picture picture, const DefocusJob& job, const Look& look, glare::KeptStars& stars) {
+Result<Picture> lit(Picture picture, const DefocusJob& job, const Look& look, const Light& by) {
     auto dimmed = with_falloff(std::move(picture), job, look);
     if (!dimmed) return dimmed;
-    return with_glare(std::move(*dimmed), job, look, stars);
+    return with_glare(std::move(*dimmed), job, look, by);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -60,15 +65,18 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // What the lens does to all light of a frame. Glare is of all of it together and goes to the picture alone.
-Status light(DefocusReport& report, const DefocusJob& job, const Look& look, glare::KeptStars& stars) {
+Status light(DefocusReport& report, const DefocusJob& job, const Look& look, glare::KeptStars& stars,
+             const device::Device& device) {
     for (Picture& layer : report.layers) {
         auto dimmed = with_falloff(std::move(layer), job, look);
         if (!dimmed) return dimmed.error();
         layer = std::move(*dimmed);
     }
-    auto image = lit(std::move(report.image), job, look, stars);
+    const NotingDevice drawing(device);
+    auto image = lit(std::move(report.image), job, look, {stars, drawing});
     if (!image) return image.error();
     report.image = std::move(*image);
+    if (has_glare(look.glare)) report.glare_device = drawing.drawn_by();
     return Done{};
 }
 
@@ -111,7 +119,9 @@ Result<Picture> Session::add_light(Picture picture, const DefocusJob& rendered, 
         DefocusJob job = with_look(rendered, look);
         job.workers = &workers;
         if (const Status opened = open_lens(job); !opened) return opened.error();
-        auto made = lit(std::move(picture), job, look, contents_->stars);
+        const auto device = contents_->opened_device();
+        if (!device) return device.error();
+        auto made = lit(std::move(picture), job, look, {contents_->stars, **device});
         contents_->trim(contents_->most_kept_bytes());
         return made;
     };
@@ -147,7 +157,10 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             // Buffers that are shown instead of the picture stay as they are.
             if (!report || !report->panels.empty()) return report;
             const auto blurred = std::chrono::steady_clock::now();
-            if (const Status done = light(*report, job, look, contents_->stars); !done) return done.error();
+            const auto device = contents_->opened_device();
+            if (!device) return device.error();
+            if (const Status done = light(*report, job, look, contents_->stars, **device); !done)
+                return done.error();
             contents_->trim(contents_->most_kept_bytes());
             if (made != asked) {
                 const Rect pixels = asked.moved(-made.x0, -made.y0);

@@ -1,7 +1,5 @@
 // Laws of every device but the CPU: it draws what the CPU draws, twice the same, whatever the size.
-#include "petzval/devices.h"
-#include "petzval/session.h"
-
+#include "gpus.h"
 #include "shots.h"
 
 #include <array>
@@ -15,23 +13,10 @@
 namespace petzval::conformance {
 namespace {
 
-std::vector<std::string> gpus() {
-    std::vector<std::string> names;
-    for (const DeviceFacts& device : devices())
-        if (device.name != "cpu" && device.lacks.empty()) names.push_back(device.name);
-    return names;
-}
-
 std::string title_of(const std::string& name) {
     for (const DeviceFacts& device : devices())
         if (device.name == name) return device.title;
     return {};
-}
-
-Session session_on(const std::string& device) {
-    SessionSettings settings;
-    settings.device = device;
-    return Session(settings);
 }
 
 Picture drawn(Session& session, const DefocusJob& job, const std::string& by) {
@@ -40,17 +25,6 @@ Picture drawn(Session& session, const DefocusJob& job, const std::string& by) {
     if (!report) return {};
     EXPECT_TRUE(report->device.starts_with(by)) << "drawn by " << report->device;
     return std::move(report->image);
-}
-
-// Of all channels, of the brighter picture's peak.
-double psnr(const Picture& a, const Picture& b) {
-    double peak = 0, squares = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const Rgba d = a.pixels()[i] - b.pixels()[i], p = a.pixels()[i];
-        for (const float v : {d.r, d.g, d.b, d.a}) squares += double(v) * double(v);
-        for (const float v : {p.r, p.g, p.b, p.a}) peak = std::max(peak, double(std::abs(v)));
-    }
-    return squares == 0 ? 1e3 : 10 * std::log10(peak * peak * 4 * double(a.size()) / squares);
 }
 
 // Several depths, a lamp, and hidden layers behind, on a picture whose size fits no tile.

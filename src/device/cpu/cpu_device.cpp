@@ -4,6 +4,7 @@
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
 #include "device/cpu/gather.h"
+#include "device/cpu/glare.h"
 #include "device/cpu/mix.h"
 #include "device/cpu/stamp_lights.h"
 #include "device/failure.h"
@@ -50,6 +51,10 @@ public:
         if (!plan.masks.empty())
             return stamp_planned_lights(plan, dynamic_cast<const StampAtlas&>(atlas), out, control);
         return add_planned_lights(plan, dynamic_cast<const SpreadAtlas&>(atlas), out, control);
+    }
+    bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers) const override {
+        add_planned_glare(plan, picture, workers);
+        return true;
     }
 };
 

@@ -15,7 +15,6 @@ namespace {
 using engine::Blur;
 using engine::GaussianPlan;
 
-constexpr std::uint32_t kMostGroups = 65535;
 constexpr int kWideLevel = 3;  // cells from which on a group fills each
 
 struct Push {
@@ -31,13 +30,6 @@ struct Span {
     int begin = 0, end = 0;
     int size() const { return end - begin; }
 };
-
-// One invocation or group each, in rows of the most groups that any device takes.
-Groups groups_of(std::size_t groups) {
-    return {std::uint32_t(std::min<std::size_t>(groups, kMostGroups)),
-            std::uint32_t((groups + kMostGroups - 1) / kMostGroups)};
-}
-Groups invocations(std::size_t count) { return groups_of((count + 255) / 256); }
 
 class Mixer {
 public:

@@ -3,6 +3,7 @@
 
 #include "device/vulkan/context.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <initializer_list>
@@ -16,6 +17,13 @@ namespace petzval::device::vulkan {
 struct Groups {
     std::uint32_t x = 1, y = 1, z = 1;
 };
+// In rows of the most groups that any device takes.
+inline Groups groups_of(std::size_t groups) {
+    constexpr std::size_t kMost = 65535;
+    return {std::uint32_t(std::min(groups, kMost)), std::uint32_t((groups + kMost - 1) / kMost)};
+}
+// Of 256 each.
+inline Groups invocations(std::size_t count) { return groups_of((count + 255) / 256); }
 
 // Passes that follow each other see what those before them wrote. Throws Failed.
 class Recording {
@@ -58,7 +66,7 @@ private:
     void order(VkPipelineStageFlags to, VkAccessFlags access);
     void note_times();
 
-    static constexpr std::uint32_t kMostPasses = 32;
+    static constexpr std::uint32_t kMostPasses = 64;
     Context& context_;
     const Functions& vk_;
     VkCommandPool pool_ = VK_NULL_HANDLE;

@@ -36,6 +36,45 @@ constexpr std::uint32_t kBlurCells[] =
 constexpr std::uint32_t kMixBlurs[] =
 #include "mix_blurs.comp.inc"
     ;
+constexpr std::uint32_t kGlareLight[] =
+#include "glare_light.comp.inc"
+    ;
+constexpr std::uint32_t kGlareHalve[] =
+#include "glare_halve.comp.inc"
+    ;
+constexpr std::uint32_t kGlareBlur[] =
+#include "glare_blur.comp.inc"
+    ;
+constexpr std::uint32_t kGlareEnlarge[] =
+#include "glare_enlarge.comp.inc"
+    ;
+constexpr std::uint32_t kGlareSum[] =
+#include "glare_sum.comp.inc"
+    ;
+constexpr std::uint32_t kGlareAdd[] =
+#include "glare_add.comp.inc"
+    ;
+constexpr std::uint32_t kStarReduce[] =
+#include "star_reduce.comp.inc"
+    ;
+constexpr std::uint32_t kStarStreak[] =
+#include "star_streak.comp.inc"
+    ;
+constexpr std::uint32_t kStarEnlarge[] =
+#include "star_enlarge.comp.inc"
+    ;
+constexpr std::uint32_t kStarLoad[] =
+#include "star_load.comp.inc"
+    ;
+constexpr std::uint32_t kStarTransform[] =
+#include "star_transform.comp.inc"
+    ;
+constexpr std::uint32_t kStarFilter[] =
+#include "star_filter.comp.inc"
+    ;
+constexpr std::uint32_t kStarAdd[] =
+#include "star_add.comp.inc"
+    ;
 constexpr std::uint32_t kRealtimeMeasure[] =
 #include "realtime_measure.comp.inc"
     ;
@@ -71,41 +110,39 @@ std::span<const VkDescriptorType> buffers(std::size_t count) { return std::span(
 }  // namespace
 
 ShaderWords words_of(Shader shader) {
-    switch (shader) {
-        case Shader::Composite:
-            return {kComposite, buffers(7), 48};
-        case Shader::AddSectors:
-            return {kAddSectors, buffers(4), 4};
-        case Shader::CoverPupil:
-            return {kCoverPupil, buffers(3), 8};
-        case Shader::OpenPupil:
-            return {kOpenPupil, buffers(3), 4};
-        case Shader::AddLights:
-            return {kAddLights, buffers(6), 36};
-        case Shader::AddCells:
-            return {kAddCells, buffers(3), 8};
-        case Shader::Gather:
-            return {kGather, buffers(4), 36};
-        case Shader::SpreadCells:
-            return {kSpreadCells, buffers(5), 84};
-        case Shader::BlurCells:
-            return {kBlurCells, buffers(5), 84};
-        case Shader::MixBlurs:
-            return {kMixBlurs, buffers(6), 84};
-        case Shader::RealtimeMeasure:
-            return {kRealtimeMeasure, kOfMeasure, 36};
-        case Shader::RealtimeSplit:
-            return {kRealtimeSplit, kOfSplit, 36};
-        case Shader::RealtimeReach:
-            return {kRealtimeReach, buffers(4), 36};
-        case Shader::RealtimeGather:
-            return {kRealtimeGather, kOfGather, 36};
-        case Shader::RealtimeCombine16:
-            return {kRealtimeCombine16, kOfCombine, 36};
-        case Shader::RealtimeCombine32:
-            break;
-    }
-    return {kRealtimeCombine32, kOfCombine, 36};
+    // In the order of Shader.
+    static const std::array kWords{
+        ShaderWords{kComposite, buffers(7), 48},
+        ShaderWords{kAddSectors, buffers(4), 4},
+        ShaderWords{kCoverPupil, buffers(3), 8},
+        ShaderWords{kOpenPupil, buffers(3), 4},
+        ShaderWords{kAddLights, buffers(6), 36},
+        ShaderWords{kAddCells, buffers(3), 8},
+        ShaderWords{kGather, buffers(4), 36},
+        ShaderWords{kSpreadCells, buffers(5), 84},
+        ShaderWords{kBlurCells, buffers(5), 84},
+        ShaderWords{kMixBlurs, buffers(6), 84},
+        ShaderWords{kGlareLight, buffers(2), 16},
+        ShaderWords{kGlareHalve, buffers(2), 8},
+        ShaderWords{kGlareBlur, buffers(3), 28},
+        ShaderWords{kGlareEnlarge, buffers(2), 12},
+        ShaderWords{kGlareSum, buffers(2), 4},
+        ShaderWords{kGlareAdd, buffers(5), 40},
+        ShaderWords{kStarReduce, buffers(2), 24},
+        ShaderWords{kStarStreak, buffers(3), 24},
+        ShaderWords{kStarEnlarge, buffers(2), 24},
+        ShaderWords{kStarLoad, buffers(2), 52},
+        ShaderWords{kStarTransform, buffers(3), 52},
+        ShaderWords{kStarFilter, buffers(4), 52},
+        ShaderWords{kStarAdd, buffers(2), 52},
+        ShaderWords{kRealtimeMeasure, kOfMeasure, 36},
+        ShaderWords{kRealtimeSplit, kOfSplit, 36},
+        ShaderWords{kRealtimeReach, buffers(4), 36},
+        ShaderWords{kRealtimeGather, kOfGather, 36},
+        ShaderWords{kRealtimeCombine16, kOfCombine, 36},
+        ShaderWords{kRealtimeCombine32, kOfCombine, 36},
+    };
+    return kWords[std::size_t(shader)];
 }
 
 }  // namespace petzval::device::vulkan

@@ -4,6 +4,7 @@
 #include "device/vulkan/add_lights.h"
 #include "device/vulkan/composite.h"
 #include "device/vulkan/gather.h"
+#include "device/vulkan/glare.h"
 #include "device/vulkan/mix.h"
 #include "device/vulkan/realtime.h"
 #include "device/vulkan/recording.h"
@@ -52,6 +53,10 @@ public:
         const auto& packed = dynamic_cast<const PackedAtlas&>(atlas);
         return plan.masks.empty() ? add_planned_lights(*context_, plan, packed, out, control)
                                   : stamp_planned_lights(*context_, plan, packed, out, control);
+    }
+
+    bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers&) const override {
+        return add_planned_glare(*context_, plan, picture);
     }
 
     Context& context() const { return *context_; }

@@ -1,0 +1,14 @@
+// Glare laid over a picture, by its plan.
+#pragma once
+
+#include "petzval/image.h"
+#include "petzval/workers.h"
+
+#include "glare/plan.h"
+
+namespace petzval::device {
+
+// In place: what each part takes is subtracted where it was, what each throws is added.
+void add_planned_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers);
+
+}  // namespace petzval::device

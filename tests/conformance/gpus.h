@@ -1,0 +1,38 @@
+// Devices that are no CPU, and how near what they draw is.
+#pragma once
+
+#include "petzval/devices.h"
+#include "petzval/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace petzval::conformance {
+
+inline std::vector<std::string> gpus() {
+    std::vector<std::string> names;
+    for (const DeviceFacts& device : devices())
+        if (device.name != "cpu" && device.lacks.empty()) names.push_back(device.name);
+    return names;
+}
+
+inline Session session_on(const std::string& device) {
+    SessionSettings settings;
+    settings.device = device;
+    return Session(settings);
+}
+
+// Of all channels, of the brighter picture's peak.
+inline double psnr(const Picture& a, const Picture& b) {
+    double peak = 0, squares = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Rgba d = a.pixels()[i] - b.pixels()[i], p = a.pixels()[i];
+        for (const float v : {d.r, d.g, d.b, d.a}) squares += double(v) * double(v);
+        for (const float v : {p.r, p.g, p.b, p.a}) peak = std::max(peak, double(std::abs(v)));
+    }
+    return squares == 0 ? 1e3 : 10 * std::log10(peak * peak * 4 * double(a.size()) / squares);
+}
+
+}  // namespace petzval::conformance
