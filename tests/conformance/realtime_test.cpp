@@ -242,6 +242,56 @@ TEST_F(Realtime, ALampIsCutByWhatStandsBeforeFocus) {
     }
 }
 
+// A lamp before focus and a bar twice as near on its left: what passes the bar there lands on the right.
+TEST_F(Realtime, ALampBeforeFocusIsCutByWhatIsNearer) {
+    const auto scene = [](bool has_bar) {
+        Shot shot = flat(120, 80, {0.01f, 0.01f, 0.01f, 1}, 0);
+        for (int y = 0; y < 80; ++y)
+            for (int x = 46; x < 64; ++x) {
+                if (has_bar && x < 55) shot.coc_px(x, y) = -28;
+                if (x > 56 && y > 36 && y < 44) shot.coc_px(x, y) = -14;
+            }
+        shot.colour(60, 40) = {900, 900, 900, 1};
+        return shot;
+    };
+    const Shot shot = scene(false), barred = scene(true);
+    const auto share_left = [](const Picture& open, const Picture& cut, int x) {
+        return (cut(x, 40).g - 0.01f) / (open(x, 40).g - 0.01f);
+    };
+    const auto open = defocus(shot.job("scatter")), cut = defocus(barred.job("scatter"));
+    ASSERT_TRUE(open && cut);
+    for (Session& session : sessions_) {
+        const Picture all = drawn(session, shot), made = drawn(session, barred);
+        for (const int x : {50, 57, 63, 70})
+            EXPECT_NEAR(share_left(all, made, x), share_left(open->image, cut->image, x), 0.1) << x;
+        EXPECT_LT(share_left(all, made, 70), 0.1);
+    }
+}
+
+// More wide discs than a pixel adds: lamps of a tile are merged, and nobody sees it.
+TEST_F(Realtime, LampsThatAreTooManyKeepTheirLightAndTheirShape) {
+    Shot shot = flat(176, 160, {1e-3f, 1e-3f, 1e-3f, 1}, 60);
+    unsigned state = 1;
+    const auto random = [&](unsigned n) {
+        return int((state = state * 1664525u + 1013904223u) / 65536u % n);
+    };
+    for (int i = 0; i < 8 * 6 * 6; ++i) {
+        const int x = 40 + i % 6 * 16 + random(16), y = 32 + i / 6 % 6 * 16 + random(16);
+        shot.colour(x, y) = {400, 300 + 10 * float(random(20)), 200, 1};
+    }
+    const auto final = defocus(shot.job("scatter"));
+    ASSERT_TRUE(final) << final.error().message;
+    for (Session& session : sessions_) {
+        const Picture made = drawn(session, shot);
+        double different = 0;
+        for (std::size_t i = 0; i < made.size(); ++i)
+            different += double(std::abs(made.pixels()[i].g - final->image.pixels()[i].g));
+        EXPECT_NEAR(sum_of(made) / sum_of(final->image), 1, 0.01);
+        EXPECT_LT(different / sum_of(final->image), 0.02);
+        EXPECT_EQ(largest_difference(made, drawn(session, shot)), 0) << "not twice the same bits";
+    }
+}
+
 // A lamp behind, half covered by a leaf before focus whose depth its pixel has: its disc is not the leaf's,
 // which is wider.
 TEST_F(Realtime, ALampBesideALeafHasTheRadiusOfWhatIsBehind) {

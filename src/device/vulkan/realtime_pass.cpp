@@ -56,6 +56,7 @@ void RealtimePass::make() {
     lamps_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
     reach_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
     boxes_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::int32_t));
+    kept_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
     lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
     make_sampler(VK_FILTER_NEAREST, nearest_);
     make_sampler(VK_FILTER_LINEAR, linear_);
@@ -144,6 +145,8 @@ void RealtimePass::write_own(const Slot& slot) const {
     write_buffer(slot.sets[kReach], 1, reach_);
     write_buffer(slot.sets[kReach], 2, lamps_);
     write_buffer(slot.sets[kReach], 3, boxes_);
+    write_buffer(slot.sets[kReach], 4, kept_);
+    write_image(slot.sets[kReach], 5, kStored, {VK_NULL_HANDLE, cells_.level(0), kLayout});
     write_image(slot.sets[kGather], 0, kSampled, {linear_, cells_.view(), kLayout});
     write_buffer(slot.sets[kGather], 1, lens_);
     write_buffer(slot.sets[kGather], 2, reach_);
@@ -151,7 +154,7 @@ void RealtimePass::write_own(const Slot& slot) const {
     write_image(slot.sets[kCombine], 3, kSampled, {linear_, gathered_.view(), kLayout});
     write_image(slot.sets[kCombine], 1, kSampled, {linear_, cells_.view(), kLayout});
     write_buffer(slot.sets[kCombine], 5, lens_);
-    write_buffer(slot.sets[kCombine], 6, lamps_);
+    write_buffer(slot.sets[kCombine], 6, kept_);
     write_buffer(slot.sets[kCombine], 7, boxes_);
     write_buffer(slot.sets[kCombine], 8, reach_);
 }
@@ -189,7 +192,7 @@ std::uint64_t RealtimePass::least_bytes(Step step) const {
         case kSplit:
             return pixels * (colour + depth) + all_cells + radii + tiles * (8 + 8 + 16);
         case kReach:
-            return tiles * (8 + 16 + 8 + 16);
+            return tiles * (8 + 16 + 8 + 16 + 16);
         case kGather:
             return all_cells + gathered + tiles * 8;
         default:

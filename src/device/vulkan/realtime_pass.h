@@ -85,7 +85,7 @@ private:
     const RealtimeSettings settings_;
     Heap heap_;
     DeviceImage cells_, gathered_;
-    Piece surroundings_, tiles_, lamps_, reach_, boxes_, lens_;
+    Piece surroundings_, tiles_, lamps_, reach_, boxes_, kept_, lens_;
     VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
     std::array<Program, kSteps> programs_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;

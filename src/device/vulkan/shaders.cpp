@@ -101,6 +101,7 @@ constexpr std::array kBuffers{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuff
 constexpr std::array kOfMeasure{kSampled, kBuffer};
 constexpr std::array kOfSplit{kSampled, kSampled, kStored, kStored, kStored,
                               kStored,  kBuffer,  kBuffer, kBuffer};
+constexpr std::array kOfReach{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kStored};
 constexpr std::array kOfGather{kSampled, kBuffer, kBuffer, kStored};
 constexpr std::array kOfCombine{kSampled, kSampled, kSampled, kSampled, kStored,
                                 kBuffer,  kBuffer,  kBuffer,  kBuffer};
@@ -137,7 +138,7 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kStarAdd, buffers(2), 52},
         ShaderWords{kRealtimeMeasure, kOfMeasure, 36},
         ShaderWords{kRealtimeSplit, kOfSplit, 36},
-        ShaderWords{kRealtimeReach, buffers(4), 36},
+        ShaderWords{kRealtimeReach, kOfReach, 36},
         ShaderWords{kRealtimeGather, kOfGather, 36},
         ShaderWords{kRealtimeCombine16, kOfCombine, 36},
         ShaderWords{kRealtimeCombine32, kOfCombine, 36},

@@ -9,7 +9,8 @@ layout(push_constant) uniform Push {
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
-// Of the finest alone: a quarter of its light; place in the cell, signed radius; signed radii of its four pixels.
+// Of the finest alone: a lamp's light, but for a factor; its place from the cell's corner, signed radius, that factor; signed
+// radii of the cell's four pixels.
 const int kLampLight = 4, kLampPlace = 5, kRadii = 6;
 const int kGatheredBack = 0, kGatheredNear = 1, kGatheredArea = 2;            // of what is gathered
 

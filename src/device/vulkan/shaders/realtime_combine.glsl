@@ -71,8 +71,8 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
 }
 
 void main() {
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, at.size))) return;
+    // A group whole or not at all: its invocations look for lamps together.
+    const ivec2 place_of_group = ivec2(gl_GlobalInvocationID.xy), pixel = min(place_of_group, at.size - 1);
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 / vec2(8 * at.tiles);
     const ivec2 tile = pixel / kTile;
     const float radius = radius_at(pixel);
@@ -98,5 +98,5 @@ void main() {
         const vec4 layer = texelFetch(over, pixel, 0);
         made = layer + (1 - layer.a) * made;
     }
-    imageStore(result, pixel, made);
+    if (pixel == place_of_group) imageStore(result, pixel, made);
 }

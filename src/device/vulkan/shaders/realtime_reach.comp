@@ -1,5 +1,5 @@
 // The largest radius in front of focus that reaches a tile, from whatever tile it comes, and the box of tiles whose lamps
-// reach it.
+// reach it. Where more reach it than a pixel is to add, its own lamps are merged.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
@@ -8,7 +8,68 @@ layout(std430, binding = 0) readonly buffer Tiles { vec2 tiles[]; };
 layout(std430, binding = 1) writeonly buffer Reach { vec2 reach[]; };  // in front of focus; of what is blurred pixel by pixel
 layout(std430, binding = 2) readonly buffer Lamps { uvec4 lamps[]; };
 layout(std430, binding = 3) writeonly buffer Boxes { ivec4 boxes[]; };  // first and last column and row; empty: last < first
+layout(std430, binding = 4) writeonly buffer Kept { uvec4 kept[]; };    // the lamps that are left, as in `lamps`
+layout(binding = 5, rgba16f) uniform image2DArray cells;                // the finest
 #include "realtime.glsl"
+
+const uint kMostLamps = 256;  // that reach a tile before its own are merged
+
+// Cells with a lamp, 32 to a word (four rows of eight), of which squares of `side` cells hold any: at the square's first.
+uvec2 squares_of(uvec2 mask, int side) {
+    if (side >= 2) mask = (mask | mask >> 1 | mask >> 8 | mask >> 9) & 0x00550055u;
+    if (side >= 4) mask = (mask | mask >> 2 | mask >> 16 | mask >> 18) & 0x00000011u;
+    if (side >= 8) mask = uvec2((mask.x | mask.x >> 4 | mask.y | mask.y >> 4) & 1u, 0u);
+    return mask;
+}
+
+// Lamps on one side of focus become one: all their light, from its middle, over their mean radius.
+struct Merged {
+    vec3 light, place;  // place, signed radius: times brightness
+    float bright;
+};
+void put(Merged lamp, ivec2 tile, int cell, inout uvec2 left) {
+    if (lamp.bright == 0) return;
+    // Times a power of two, where halves would not hold it.
+    const float most = max(lamp.light.r, max(lamp.light.g, lamp.light.b)), factor = exp2(ceil(max(0.0, log2(most / (4 * kMostLight)))));
+    const ivec3 at_cell = ivec3(8 * tile + ivec2(cell % 8, cell / 8), kLampLight);
+    const vec3 place = lamp.place / lamp.bright;
+    imageStore(cells, at_cell, vec4(lamp.light / (4 * factor), 0));
+    imageStore(cells, ivec3(at_cell.xy, kLampPlace), vec4(place.xy - 2 * vec2(at_cell.xy - 8 * tile), place.z, 4 * factor));
+    left[cell / 32] |= 1u << (cell % 32);
+}
+uvec2 merge(ivec2 tile, uvec2 mask, int side) {
+    uvec2 left = uvec2(0);
+    const uvec2 squares = squares_of(mask, side);
+    for (int square = 0; square < 64; ++square) {
+        if ((squares[square / 32] >> (square % 32) & 1u) == 0u) continue;
+        Merged behind = Merged(vec3(0), vec3(0), 0), before = behind;
+        for (int i = 0; i < side * side; ++i) {
+            const int cell = square + i / side * 8 + i % side;
+            if ((mask[cell / 32] >> (cell % 32) & 1u) == 0u) continue;
+            const ivec2 own = ivec2(cell % 8, cell / 8);
+            const vec4 lamp = imageLoad(cells, ivec3(8 * tile + own, kLampPlace));
+            const vec3 light = lamp.w * imageLoad(cells, ivec3(8 * tile + own, kLampLight)).rgb;
+            const float bright = brightness(vec4(light, 0));
+            const vec3 place = bright * vec3(2 * vec2(own) + lamp.xy, lamp.z);
+            if (lamp.z < 0) before.light += light, before.place += place, before.bright += bright;
+            else behind.light += light, behind.place += place, behind.bright += bright;
+        }
+        put(behind, tile, square, left), put(before, tile, square + 1, left);
+    }
+    return left;
+}
+
+// So many that, were all tiles around like this one, no more than kMostLamps were left: one on each side of focus at least.
+uvec2 thinned(ivec2 tile, uvec2 mask, uint all) {
+    const uint own = uint(bitCount(mask.x) + bitCount(mask.y)), most = max(1u, own * kMostLamps / max(all, 1u));
+    if (own <= most) return mask;
+    int side = 2;
+    for (; side < 8; side *= 2) {
+        const uvec2 squares = squares_of(mask, side);
+        if (uint(bitCount(squares.x) + bitCount(squares.y)) <= most) break;
+    }
+    return merge(tile, mask, side);
+}
 
 // The largest radius that is blurred pixel by pixel, among all between these.
 float pixelwise(vec2 range) {
@@ -24,6 +85,7 @@ void main() {
     const ivec2 far = ivec2((kLampReach * vec2(at.most_px, at.most_px * at.aspect) + kBorder) / float(kTile)) + 1;
     const ivec2 low = max(tile - far, ivec2(0)), high = min(tile + far, at.tiles - 1);
     float most = 0, fine = 0;
+    uint all = 0;
     ivec4 box = ivec4(at.tiles, -1, -1);
     for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
@@ -36,9 +98,12 @@ void main() {
             if (gap == vec2(0)) fine = max(fine, pixelwise(range));
             const uvec4 lamp = lamps[y * at.tiles.x + x];
             const float wide = kLampReach * uintBitsToFloat(lamp.z) + kBorder;
-            if ((lamp.x | lamp.y) != 0u && max(gap.x, gap.y) <= wide)
-                box = ivec4(min(box.xy, ivec2(x, y)), max(box.zw, ivec2(x, y)));
+            if ((lamp.x | lamp.y) == 0u || max(gap.x, gap.y) > wide) continue;
+            box = ivec4(min(box.xy, ivec2(x, y)), max(box.zw, ivec2(x, y)));
+            all += uint(bitCount(lamp.x) + bitCount(lamp.y));
         }
     boxes[own] = box;
     reach[own] = vec2(most, fine);
+    const uvec4 lamp = lamps[own];
+    kept[own] = uvec4(all > kMostLamps ? thinned(tile, lamp.xy, all) : lamp.xy, lamp.zw);
 }

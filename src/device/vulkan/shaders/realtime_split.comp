@@ -48,7 +48,7 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     if (bright > 0) {
         const float found = lamp_radius(cell), radius = found < 0 ? min(found, -0.5) : max(found, 0.5);
         imageStore(cells_1, ivec3(cell, kLampLight), 0.25 * light);
-        imageStore(cells_1, ivec3(cell, kLampPlace), vec4(place / bright, radius, 0));
+        imageStore(cells_1, ivec3(cell, kLampPlace), vec4(place / bright, radius, 4));
         atomicOr(lamp_cells[own / 32u], 1u << (own % 32u));
         atomicMax(lamp_px, floatBitsToUint(abs(radius)));
     }

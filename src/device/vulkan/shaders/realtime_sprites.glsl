@@ -1,6 +1,6 @@
 // Lamps as sprites: each with the lens's own kernel, at its own place and radius.
 layout(std430, binding = 5) readonly buffer Lens { vec4 lens[]; };    // engine/gather/realtime_plan.h
-layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_split.comp
+layout(std430, binding = 6) readonly buffer Lamps { uvec4 lamps[]; };  // realtime_reach.comp: kept
 layout(std430, binding = 7) readonly buffer Boxes { ivec4 boxes[]; };  // realtime_reach.comp
 
 const int kLampSteps = 14, kFirstStep = 127 + 64 + 2 * 64 * 64;
@@ -37,18 +37,24 @@ float seen(vec2 from, vec2 to, float radius) {
     return 1 - min(hidden, 1.0);
 }
 
-// And what things in front of focus let through, `near_px` at most: beyond the pixel light goes on to where it would have
-// the radius of what stands there.
+// And what things in front of focus let through, `near_px` at most: light of a lamp behind goes on beyond the pixel, to where
+// it would have the radius of what stands there; that of a lamp before focus passes what is nearer still on the lamp's
+// other side. One loop for both: drivers that compute on the CPU run either side of a branch.
 float let_through(vec2 from, vec2 to, float radius, float near_px) {
     const int kSteps = 8;
-    const float step_of = near_px / (radius * float(kSteps));
-    const float level = clamp(log2(0.5 * step_of * length(to - from)), 0.0, 3.0);
+    const bool is_near = radius < 0;
+    const float begin = is_near ? 1.0 : 0.0, step_of = (near_px / abs(radius) - begin) / float(kSteps);
+    if (step_of <= 0) return 1;
+    const vec2 start = is_near ? from : to, way_px = is_near ? from - to : to - from;
+    const float level = clamp(log2(0.5 * step_of * length(way_px)), 0.0, 3.0);
     float hidden = 0;
     for (int i = 1; i <= kSteps; ++i) {
         const float way = float(i) * step_of;
-        const vec2 place = mix(from, to, 1 + way) * 0.5 / vec2(8 * at.tiles);
+        const vec2 place = (start + way * way_px) * 0.5 / vec2(8 * at.tiles);
         const vec2 near = textureLod(cells, vec3(place, kNear), level).xy;
-        if (near.x > 1e-3) hidden += near.x * max(0.0, 1 - abs(near.y / near.x / radius - way) / step_of);
+        const float there = near.y / max(near.x, 1e-3) / abs(radius) - begin;
+        const float covers = near.x > 1e-3 ? near.x * max(0.0, 1 - abs(there - way) / step_of) : 0.0;
+        hidden += covers * (is_near ? smoothstep(0.2, 0.5, there) : 1.0);  // a lamp is not cut by what it hangs on
     }
     return 1 - min(hidden, 1.0);
 }
@@ -59,22 +65,51 @@ void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, float near_px, inout vec4 nea
         for (uint left = mask[half_of]; left != 0u; left &= left - 1u) {
             const int i = findLSB(left) + 32 * half_of;
             const ivec2 cell = 8 * tile + ivec2(i % 8, i / 8);
-            const vec3 lamp = texelFetch(cells, ivec3(cell, kLampPlace), 0).xyz;
+            const vec4 lamp = texelFetch(cells, ivec3(cell, kLampPlace), 0);
             const vec2 from = vec2(2 * cell) + lamp.xy;
             const vec4 share = kernel_at(pixel - from, lamp.z);
             if (share.a == 0) continue;
-            const vec4 light = share * vec4(4 * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb, 0);
+            vec4 light = share * vec4(lamp.w * texelFetch(cells, ivec3(cell, kLampLight), 0).rgb, 0);
+            if (near_px > 0.5) light *= let_through(from, pixel, lamp.z, near_px);
             if (lamp.z < 0) near += light;
-            else back += light * seen(from, pixel, lamp.z) * (near_px > 0.5 ? let_through(from, pixel, lamp.z, near_px) : 1.0);
+            else back += light * seen(from, pixel, lamp.z);
         }
 }
 
+shared uvec3 heads[64];  // which cells of a tile have lamps, and where the tile is
+shared uint head_words[2];
+
+// Whether lamps of a tile, this wide at most, may reach a pixel of the group.
+bool reaches_group(ivec2 tile, float radius_px) {
+    const float wide = 1.25 * radius_px + 2 + radius_px / 16;  // what a kernel covers, and its rim
+    const ivec2 group = 8 * ivec2(gl_WorkGroupID.xy), gap = max(kTile * tile - group - 7, group - kTile * tile - kTile + 1);
+    return max(float(gap.x) - 0.5, (float(gap.y) - 0.5) / at.aspect) <= wide;
+}
+
+// All invocations of the group together: each looks at a tile of the box; what none of their pixels sees costs them no more.
 void add_all_lamps(ivec2 pixel, float near_px, inout vec4 near, inout vec4 back) {
-    const ivec2 own = pixel / kTile;
-    const ivec4 box = boxes[own.y * at.tiles.x + own.x];
-    for (int y = box.y; y <= box.w; ++y)
-        for (int x = box.x; x <= box.z; ++x) {
-            const uvec4 head = lamps[y * at.tiles.x + x];
-            if ((head.x | head.y) != 0u) add_lamps(ivec2(x, y), head.xy, vec2(pixel) + 0.5, near_px, near, back);
+    const uint own = gl_LocalInvocationIndex;
+    const ivec2 own_tile = 8 * ivec2(gl_WorkGroupID.xy) / kTile;
+    const ivec4 box = boxes[own_tile.y * at.tiles.x + own_tile.x];
+    const int across = max(box.z - box.x + 1, 0), count = across * max(box.w - box.y + 1, 0);
+    for (int first = 0; first < count; first += 64) {
+        barrier();
+        if (own < 2u) head_words[own] = 0u;
+        barrier();
+        const int i = first + int(own);
+        if (i < count) {
+            const ivec2 tile = box.xy + ivec2(i % across, i / across);
+            const uvec4 head = lamps[tile.y * at.tiles.x + tile.x];
+            if ((head.x | head.y) != 0u && reaches_group(tile, uintBitsToFloat(head.z))) {
+                heads[own] = uvec3(head.xy, uint(tile.x) | uint(tile.y) << 16);
+                atomicOr(head_words[own / 32u], 1u << (own % 32u));
+            }
         }
+        barrier();
+        for (uint word = 0u; word < 2u; ++word)
+            for (uint left = head_words[word]; left != 0u; left &= left - 1u) {
+                const uvec3 head = heads[findLSB(left) + 32 * int(word)];
+                add_lamps(ivec2(head.z & 0xffffu, head.z >> 16), head.xy, vec2(pixel) + 0.5, near_px, near, back);
+            }
+    }
 }
