@@ -7,7 +7,6 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kDark = 0.01f;        // times white; keeps ratios finite
 constexpr float kWidestLightPx = 64;  // what is wider is a lit surface, as of lamps
 
 float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
@@ -39,15 +38,10 @@ KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc,
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
     // Times white: what is darker is no light, a bright wall may go on as long as it likes.
     constexpr float kLight = 0.55f;
-    // Times what is beyond.
-    constexpr float kStandsOut = 3;
     const Rgba own = wide_colour(from, outwards, distance_px);
-    const float light = light_of(own);
-    if (white_ <= 0 || light <= kLight * white_) return own;
-    const Rgba other = beyond(from, outwards, distance_px, own);
-    const float t = above(light / (light_of(other) + kDark * white_), kStandsOut);
-    const float falls = above(light, kLight * white_) * t * t * (3 - 2 * t);
-    return own * (1 - falls) + falls * other;
+    if (white_ <= 0 || light_of(own) <= kLight * white_) return own;
+    const float falls = above(light_of(own), kLight * white_);
+    return own * (1 - falls) + falls * shown(from, outwards, distance_px, own);
 }
 
 Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
@@ -66,25 +60,22 @@ Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px)
     return sum * (1 / total);
 }
 
-// What shows of the surface from `from` to once the distance, dark things before bright ones: what shows
-// wider than it is asked to go on does so. (Four times: a lit window of the path-traced fence, most of which
-// shows, ends at the leaf before it, 1.1 dB of the whole picture.)
-Rgba KnownSurfaces::beyond(Place from, Direction outwards, float distance_px, Rgba otherwise) const {
-    constexpr float kNearest = 0.3f, kFarthest = 1, kStep = 1.3f;  // the first two times the distance
-    const float farthest = std::min(kFarthest * distance_px, kWidestLightPx);
-    const float dark = kDark * white_;
+// The mean of what shows of the surface at r times half the distance, with density 1/(1 + r)^2: of a thing
+// that shows w wide the share w/(w + distance/2), as if things of all widths were as common and cut anywhere.
+Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, Rgba otherwise) const {
+    constexpr int kParts = 8;  // as likely each
     Rgba sum;
-    float total = 0;
-    for (float far = kNearest * distance_px; far <= farthest; far *= kStep) {
+    int parts = 0;
+    for (int part = 0; part < kParts; ++part) {
+        const float nearer = (float(part) + 0.5f) / kParts;
+        const float far = 0.5f * distance_px * nearer / (1 - nearer);
         const int x = from.x + int(std::lround(far * outwards.x)),
                   y = from.y + int(std::lround(far * outwards.y));
-        if (!radii_.rect().contains(x, y)) break;
+        if (far > kWidestLightPx || !radii_.rect().contains(x, y)) break;
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
-        const Rgba c = comparable(colour(x, y));
-        const float light = light_of(c) + dark, weight = 1 / (light * light);
-        sum += weight * c, total += weight;
+        sum += comparable(colour(x, y)), ++parts;
     }
-    return total > 0 ? sum * (1 / total) : otherwise;
+    return parts > 0 ? sum * (1 / float(parts)) : otherwise;
 }
 
 }  // namespace petzval::engine

@@ -43,9 +43,9 @@ public:
         float coc_px;
     };
     // Its surface as it goes on from there against `outwards`, hidden, over `distance_px`: as wide as one of
-    // sixteen directions is at that distance. Something bright goes on no farther than it shows: its light
-    // falls to that of the surface beyond it (from here, outwards), the more so the smaller it is beside the
-    // distance. So what an edge cuts fades as it slips behind that edge.
+    // sixteen directions is at that distance. Something bright goes on by as much of it as shows: its
+    // light falls to that of the surface beyond it (from here, outwards), the more so the smaller it is
+    // beside the distance. So what an edge cuts fades as it slips behind that edge.
     Rgba going_on(Place from, Direction outwards, float distance_px) const;
     // What the colour there says of the hidden pixel (x, y), 0…1: little behind an edge that goes on between
     // them.
@@ -55,7 +55,7 @@ public:
 
 private:
     Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
-    Rgba beyond(Place from, Direction outwards, float distance_px, Rgba otherwise) const;
+    Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise) const;
 
     const LitPicture& picture_;
     const Sparse<Mixture>& mixtures_;
@@ -64,7 +64,7 @@ private:
     CutEdges edges_;
 };
 
-// fill_hidden() that continues nothing bright farther than it shows.
+// fill_hidden() that continues what is bright by as much of it as shows.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
                          float nearest_coc_px, float farthest_coc_px, float shared_from_px, float white,

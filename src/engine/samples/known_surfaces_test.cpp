@@ -1,4 +1,4 @@
-// A lit sign on a dark wall, cut by the edge of something that begins at column 40.
+// A lit sign on a dark wall, cut by the edge of something that begins at column 140.
 #include "engine/samples/known_surfaces.h"
 
 #include "base/parallel.h"
@@ -8,7 +8,7 @@
 namespace petzval::engine {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 32, kEdge = 40;
+constexpr int kWidth = 160, kHeight = 32, kEdge = 140;
 constexpr float kSign = 2, kWall = 0.1f;
 constexpr Direction kOutwards{-1, 0};
 
@@ -30,9 +30,14 @@ TEST(KnownSurfaces, AWallGoesOnHoweverFar) {
     for (const float distance : {1.0f, 8.0f, 30.0f}) EXPECT_FLOAT_EQ(light_behind(0, distance), kWall);
 }
 
-TEST(KnownSurfaces, ASignThatIsWideGoesOnAndANarrowOneEnds) {
-    EXPECT_NEAR(light_behind(38, 6), kWhole, 0.05f * kWhole);
-    EXPECT_LT(light_behind(3, 20), 2 * kWall);
+TEST(KnownSurfaces, ASignGoesOnByAsMuchOfItAsShows) {
+    EXPECT_NEAR(light_behind(60, 6), kWhole, 0.05f * kWhole);
+    for (const int shows : {3, 6, 12})
+        for (const float distance : {8.0f, 14.0f, 20.0f}) {
+            const float share = float(shows) / (float(shows) + 0.5f * distance);
+            EXPECT_NEAR((light_behind(shows, distance) - kWall) / (kWhole - kWall), share, 0.13f)
+                << shows << " columns, " << distance << " px behind";
+        }
 }
 
 TEST(KnownSurfaces, ASignFadesAsItSlipsBehindTheEdge) {
