@@ -3,6 +3,7 @@
 #include "petzval/names.h"
 
 #include "thinning.h"
+#include "warmup.h"
 
 #include <algorithm>
 #include <chrono>
@@ -158,6 +159,12 @@ Maker::Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_sess
     : session_(std::move(session)),
       cpu_session_(std::move(cpu_session)),
       wake_(std::move(wake)),
+      warmup_(cpu_session_ ? std::make_unique<Warmup>(session_,
+                                                      [this] {
+                                                          const std::lock_guard lock(mutex_);
+                                                          something_.notify_all();
+                                                      })
+                           : nullptr),
       thread_([this] { work(); }) {}
 
 Maker::~Maker() {
@@ -209,14 +216,16 @@ void Maker::work() {
     std::unique_lock lock(mutex_);
     while (!ending_) {
         interrupt_ = false;
+        warm_up();
         if (!readings_.empty()) {
             const Reading reading = readings_.front();
             readings_.erase(readings_.begin());
             busy_ = true;
             lock.unlock();
             do_reading(reading);
-        } else if (orders_[0] || orders_[1]) {
-            const int side = !orders_[1] || (orders_[0] && orders_[0]->step <= orders_[1]->step) ? 0 : 1;
+        } else if (const bool left = can_be_made(orders_[0]), right = can_be_made(orders_[1]);
+                   left || right) {
+            const int side = !right || (left && orders_[0]->step <= orders_[1]->step) ? 0 : 1;
             const Order order = *orders_[std::size_t(side)];
             busy_ = true;
             lock.unlock();
@@ -346,7 +355,23 @@ void Maker::tell(MadeFrame frame) {
 }
 
 Session& Maker::session_of(const Wish& wish) const {
-    return (wish.on_cpu || device_is_lost_) && cpu_session_ ? *cpu_session_ : *session_;
+    return cpu_session_ && (wish.on_cpu || device_is_lost_ || is_cold(wish)) ? *cpu_session_ : *session_;
+}
+
+// Engine realtime is a device's alone.
+bool Maker::is_cold(const Wish& wish) const {
+    return warmup_ && !device_is_lost_ && !wish.on_cpu && wish.shown == "result" &&
+           wish.look.engine != "realtime" && !warmup_->is_warm(wish.look.engine);
+}
+
+bool Maker::can_be_made(const std::optional<Order>& order) const {
+    return order && (order->step == 0 || !is_cold(order->wish));
+}
+
+void Maker::warm_up() {
+    for (const auto& order : orders_)
+        if (order && is_cold(order->wish))
+            warmup_->begin(order->wish, {look_of_step(order->wish, 0), look_of_step(order->wish, 1)});
 }
 
 // On the device; once that is lost, on the CPU.

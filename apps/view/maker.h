@@ -94,11 +94,13 @@ struct Reading {
     std::shared_ptr<const Pushed> pushed = {};   // what came from another program
 };
 
+class Warmup;
+
 class Maker {
 public:
     // `wake` is called, by the maker's thread, whenever there is news.
-    // `cpu_session`: of wishes that are on_cpu, and of all once the other's device is lost; null: there is
-    // no other.
+    // `cpu_session`: of wishes that are on_cpu, of drafts until the other's device has its programs, and of
+    // all once that is lost; null: there is no other.
     Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session, std::function<void()> wake);
     ~Maker();  // cancels
     Maker(const Maker&) = delete;
@@ -139,6 +141,10 @@ private:
     MadeFrame made(const Order& order, const Control& control);
     MadeFrame made_somehow(const Order& order, const Control& control);
     Session& session_of(const Wish& wish) const;
+    // The device has not drawn with the wish's engine yet: the CPU makes its draft, the rest waits.
+    bool is_cold(const Wish& wish) const;
+    bool can_be_made(const std::optional<Order>& order) const;
+    void warm_up();
     Status take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
                         MadeFrame& frame);
     void look_at_files();
@@ -146,7 +152,7 @@ private:
                                 const Control& control);
 
     std::shared_ptr<Session> session_, cpu_session_;
-    bool device_is_lost_ = false;  // of the thread alone
+    std::atomic<bool> device_is_lost_ = false;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable something_;
@@ -158,6 +164,7 @@ private:
     std::uint64_t numbers_ = 0;
     bool busy_ = false, ending_ = false;
     std::atomic<bool> interrupt_ = false;  // what is being made is no longer the most urgent
+    std::unique_ptr<Warmup> warmup_;       // where there is a CPU besides the device
     std::thread thread_;                   // last: it uses all of the above
 };
 

@@ -250,6 +250,7 @@ public:
             std::fprintf(
                 stderr, "petzval: longest tick %.1f ms, longest from a change to its first picture %.1f ms\n",
                 app_.slowest.tick, app_.slowest.first_picture);
+        glfwHideWindow(window_);  // a device may still be preparing its programs
         return Done{};
     }
 

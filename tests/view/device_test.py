@@ -33,6 +33,21 @@ class DeviceTest(window.WindowTest):
         self.finish(window)
         self.assertTrue(os.path.exists(os.path.join(self.shared, "after.exr")))
 
+    def test_until_the_device_has_its_programs_the_cpu_draws_and_is_cancelled_at_once(self):
+        out, _ = self.do("""
+            until frame.engine gather
+            say frame.device
+            set fstop 2
+            sleep 0.3
+            wait
+            expect no error
+            say frame.device
+            expect frame.engine scatter
+        """, "table.exr", "--device", "gpu")
+        first, last = out.splitlines()
+        self.assertEqual(first, "cpu")
+        self.assertIn("gpu", last)
+
     def test_a_command_says_so_in_one_line(self):
         open(self.gone, "w").close()
         done = subprocess.run([PETZVAL, "defocus", "table.exr", "-o", "lost.exr", "--engine", "gather", "--device", "gpu",

@@ -1,0 +1,61 @@
+#include "warmup.h"
+
+#include "thinning.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+namespace petzval::view {
+
+Warmup::Warmup(std::shared_ptr<Session> session, std::function<void()> told)
+    : session_(std::move(session)), told_(std::move(told)) {}
+
+Warmup::~Warmup() {
+    ending_ = true;
+    if (thread_.joinable()) thread_.join();
+}
+
+bool Warmup::is_warm(const std::string& engine) const {
+    const std::lock_guard lock(mutex_);
+    return warm_.contains(engine);
+}
+
+void Warmup::begin(const Wish& wish, std::vector<Look> looks) {
+    const std::lock_guard lock(mutex_);
+    if (busy_) return;
+    if (thread_.joinable()) thread_.join();
+    busy_ = true;
+    thread_ = std::thread([this, wish, all = std::move(looks)] {
+        try {
+            prepare(wish, all);
+        } catch (const std::bad_alloc&) {  // the frame itself will say so
+        }
+        {
+            const std::lock_guard done(mutex_);
+            warm_.insert(wish.look.engine);
+        }
+        told_();
+        const std::lock_guard done(mutex_);
+        busy_ = false;  // last: who waits for this thread may be whom it tells
+    });
+}
+
+void Warmup::prepare(const Wish& wish, const std::vector<Look>& looks) {
+    constexpr int kWidth_px = 128;
+    const auto all = rendered(wish.shot->shot);
+    if (!all) return;
+    const int by = std::max(1, all->colour.width() / kWidth_px);
+    const bool has_radii = !all->coc_px.empty();
+    const Picture colour = thinned(all->colour, by);
+    const Plane depth = thinned(has_radii ? all->coc_px : all->depth_m, by);
+    DefocusJob job;
+    job.camera = wish.camera;
+    job.colour = colour;
+    (has_radii ? job.coc_px : job.depth_m) = depth;
+    job.place = Place::whole(colour.rect());
+    for (const Look& look : looks)
+        static_cast<void>(session_->take(job, look, {.cancelled = [this] { return ending_.load(); }}));
+}
+
+}  // namespace petzval::view
