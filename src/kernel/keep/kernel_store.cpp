@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -25,6 +26,7 @@ constexpr std::uint64_t kMagic = 0x324e5245'4b5a5450u;  // "PTZKERN2", and the o
 constexpr std::size_t kPendingBytes = std::size_t(48) << 20;
 constexpr std::size_t kMostRecords = 1 << 22;
 constexpr int kLargestSide = 1 << 14;
+constexpr std::size_t kMostOpen = 64;  // a process may have 256 files open, or fewer
 
 using LensName = std::array<char, 64>;
 
@@ -230,13 +232,14 @@ void KernelStore::open_segments() {
     std::error_code problem;
     for (fs::directory_iterator i(lens_folder_, problem), end; !problem && i != end; i.increment(problem))
         if (i->path().extension() == ".kernels") paths.push_back(i->path());
-    std::sort(paths.begin(), paths.end());
+    std::sort(paths.begin(), paths.end(), std::greater<>());  // their names begin with the time
     for (const std::string& path : paths) {
+        if (segments_.size() == kMostOpen) break;
         auto segment = Segment::opened(path, *lens_name(lens_key_));
         if (!segment) continue;
         for (std::size_t i = 0; i < segment->records.size(); ++i) {
             const Record& r = segment->records[i];
-            places_[{r.level, r.coc_radius_px, r.field_x, r.field_y}] = {segment.get(), i};
+            places_.try_emplace({r.level, r.coc_radius_px, r.field_x, r.field_y}, Place{segment.get(), i});
         }
         segments_.push_back(std::move(segment));
     }

@@ -213,6 +213,22 @@ TEST_F(KernelStoreTest, APipeAmongTheSegmentsIsNotWaitedFor) {
     EXPECT_EQ(found(), 12u);
 }
 
+TEST_F(KernelStoreTest, OfManySegmentsTheNewestAreOpen) {
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    forget();
+    const fs::path newest = segments().at(0);
+    const auto open_files = [] {
+        return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+    };
+    const auto before = open_files();
+    for (int i = 0; i < 200; ++i)
+        fs::copy_file(newest, newest.parent_path() / ("0-" + std::to_string(i) + ".kernels"));
+    const auto lens = kept_lens();
+    EXPECT_LT(open_files(), before + 100);
+    expect_the_kernels_of_the_lens(*lens, choice());
+    EXPECT_GT(found(), 0u);
+}
+
 TEST_F(KernelStoreTest, StaysWithinItsRoom) {
     for (int run = 0; run < 12; ++run) {
         KernelStore store(folder_, "lens " + std::to_string(run % 5), 400000);
