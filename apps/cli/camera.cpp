@@ -10,6 +10,9 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner) {
         .value("--sensor-width", "MM", "width of the sensor that the picture spans, as 36mm", parse_length_mm,
                sensor_width_mm)
         .value("--fstop", "N", "f-number, as 2.8", parse_f_number, f_number)
+        .value("--aperture-diameter", "MM",
+               "diameter of the aperture in place of an f-number, as 25mm: focal length / it",
+               parse_length_mm, aperture_diameter_mm)
         .value("--focus", "M", "focus distance along the axis, as 2.5m, 120cm or 8ft", parse_length_m,
                focus_distance_m)
         .choice<ImageScale>(
@@ -25,14 +28,23 @@ std::vector<std::string> CameraFlags::given() const {
     if (focal_length_mm) names.emplace_back("--focal-length");
     if (sensor_width_mm) names.emplace_back("--sensor-width");
     if (f_number) names.emplace_back("--fstop");
+    if (aperture_diameter_mm) names.emplace_back("--aperture-diameter");
     if (focus_distance_m) names.emplace_back("--focus");
     if (image_scale) names.emplace_back("--image-scale");
     return names;
 }
 
 CameraChoice CameraFlags::choice() const {
-    return {focal_length_mm, sensor_width_mm, f_number, focus_distance_m,
-            image_scale.value_or(ImageScale::Rendered)};
+    return {focal_length_mm,
+            sensor_width_mm,
+            f_number,
+            focus_distance_m,
+            image_scale.value_or(ImageScale::Rendered),
+            aperture_diameter_mm};
+}
+
+void CameraFlags::check() const {
+    refuse_both(f_number.has_value(), "--fstop", aperture_diameter_mm.has_value(), "--aperture-diameter");
 }
 
 bool CameraFlags::any() const { return !given().empty(); }

@@ -17,6 +17,7 @@ namespace petzval::cli {
 struct CameraFlags {
     std::optional<double> focal_length_mm, sensor_width_mm, f_number, focus_distance_m;
     std::optional<ImageScale> image_scale;
+    std::optional<double> aperture_diameter_mm;
 
     // `owner` is what holds the numbers that are not given: "file" or "scene".
     void add_to(Verb& verb, const std::string& owner);
@@ -25,6 +26,8 @@ struct CameraFlags {
     // Names of those given, for messages.
     std::vector<std::string> given() const;
     CameraChoice choice() const;
+    // Throws UsageError for numbers that contradict each other.
+    void check() const;
 };
 
 // What only `defocus` knows: what to focus on. The artist's controls are a look's.

@@ -153,6 +153,7 @@ void DefocusFlags::check_choices() {
     input.read.threads = run.threads;
     input.read.max_memory_bytes = max_memory_bytes;
     input.check();
+    camera.check();
     look.settle();
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_at.has_value(), "--focus-at");
     refuse_both(camera.focus_distance_m.has_value(), "--focus", focus.focus_point.has_value(),

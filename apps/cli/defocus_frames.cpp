@@ -34,6 +34,7 @@ Result<DefocusFlags> flags_of(const DefocusFlags& all, int frame, const Track* t
     };
     take(tracked.camera.focus_distance_m, flags.camera.focus_distance_m);
     take(tracked.camera.f_number, flags.camera.f_number);
+    if (tracked.camera.f_number) flags.camera.aperture_diameter_mm.reset();
     take(tracked.camera.focal_length_mm, flags.camera.focal_length_mm);
     if (tracked.focus_pixel) flags.focus.focus_at = tracked.focus_pixel;
     if (tracked.focus_point) flags.focus.focus_point = tracked.focus_point;

@@ -146,6 +146,7 @@ void check(DevelopVerbFlags& flags, const Verb& verb) {
     flags.run.apply();
     flags.input.read.threads = flags.run.threads;
     flags.overwrite.check();
+    flags.camera.check();
     flags.look.settle();
     if (flags.look.given({"Glare"}).empty() && (flags.camera.any() || !flags.look.given({"Lens"}).empty()))
         throw UsageError(

@@ -15,6 +15,7 @@ using Rows = std::map<std::string, std::string, std::less<>>;
 // The flags that choose no look.
 const Rows& other_flags() {
     static const Rows rows{
+        {"camera.aperture_diameter_mm", "--aperture-diameter"},
         {"camera.f_number", "--fstop"},
         {"camera.focal_length_mm", "--focal-length"},
         {"camera.focus_distance_m", "--focus"},

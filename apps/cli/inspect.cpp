@@ -282,6 +282,7 @@ void add_inspect(Verb& program, Action& chosen) {
         require_argument(verb, flags->input.path, "a file");
         flags->run.apply();
         flags->input.check();
+        flags->camera.check();
         flags->input.read.need_depth = false;
         const bool many =
             is_sequence(flags->frames, {flags->input.path, flags->input.read.depth_file}, "", flags->run);

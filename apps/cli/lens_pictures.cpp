@@ -51,6 +51,7 @@ struct PictureFlags {
         require_argument(verb, output, "-o OUT");
         run.apply();
         overwrite.check();
+        camera.check();
         look.look().lens.name = lens_name;
         look.settle();
         const auto kind = kind_of_output(output);
@@ -77,6 +78,8 @@ Result<LensMount> mount_of(const PictureFlags& flags, const Lens& lens) {
     Camera& camera = mount.camera;
     camera.focal_length_mm = flags.camera.focal_length_mm.value_or(focal_length_mm);
     camera.f_number = flags.camera.f_number.value_or(f_number);
+    if (flags.camera.aperture_diameter_mm)
+        camera.f_number = camera.focal_length_mm / *flags.camera.aperture_diameter_mm;
     camera.sensor_width_mm = flags.camera.sensor_width_mm.value_or(sensor_width_mm);
     camera.focus_distance_m = flags.camera.focus_distance_m.value_or(0);
     camera.image_scale = flags.camera.image_scale.value_or(ImageScale::Rendered);

@@ -118,6 +118,7 @@ void MakeFlags::check(const Verb& verb) {
     require_argument(verb, output, "-o FILE.exr");
     run.apply();
     overwrite.check();
+    camera.check();
     if (!name.ends_with(".gltf") && !name.ends_with(".glb") && !find_scene(name)) {
         std::vector<std::string> names;
         for (const SceneSummary& known : scene_list()) names.push_back(known.name);

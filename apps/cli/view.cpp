@@ -69,6 +69,7 @@ std::vector<std::string> command_words(const ViewFlags& flags, const view::Choic
     words.insert(words.end(), {"-o", output});
     if (flags.device != "cpu") words.insert(words.end(), {"--device", flags.device});
     add_number(words, "--fstop", choice.camera.f_number);
+    if (!choice.camera.f_number) add_number(words, "--aperture-diameter", choice.camera.aperture_diameter_mm);
     add_number(words, "--focus", choice.camera.focus_distance_m);
     add_number(words, "--focal-length", choice.camera.focal_length_mm);
     add_number(words, "--sensor-width", choice.camera.sensor_width_mm);
@@ -104,8 +105,9 @@ Status save(DefocusFlags flags, Session& session, const view::Choice& choice, co
     flags.run.progress = ProgressMode::Off;
     flags.focus = {};
     const CameraChoice& camera = choice.camera;
-    flags.camera = {camera.focal_length_mm, camera.sensor_width_mm, camera.f_number, camera.focus_distance_m,
-                    camera.image_scale};
+    flags.camera = {camera.focal_length_mm, camera.sensor_width_mm,
+                    camera.f_number,        camera.focus_distance_m,
+                    camera.image_scale,     camera.f_number ? std::nullopt : camera.aperture_diameter_mm};
     flags.look.look() = choice.look;
     flags.develop.exposure_stops = choice.develop.exposure_stops;
     flags.develop.contrast = choice.develop.contrast;

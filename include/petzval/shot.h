@@ -45,6 +45,9 @@ using ShotDepth = std::variant<std::monostate, DepthMetres, RadiiPx>;
 struct CameraChoice {
     std::optional<double> focal_length_mm = {}, sensor_width_mm = {}, f_number = {}, focus_distance_m = {};
     ImageScale image_scale = ImageScale::Rendered;
+    // Of the entrance pupil, in place of an f-number: f_number is focal_length_mm / this, however either is
+    // found. Not beside f_number, which wins.
+    std::optional<double> aperture_diameter_mm = {};
 };
 
 // Where a shot is to be found. Messages name these fields as read.layer, depth.kind, shot.behind,

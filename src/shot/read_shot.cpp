@@ -160,6 +160,8 @@ Status check(const ShotSource& source) {
                      "read.layers"};
     if (kind == DepthKind::CocPx && source.depth.unit_scale_m != 1)
         return invalid("depth.unit_scale_m has no meaning with depth.kind coc-px: radii are in pixels");
+    if (source.camera.f_number && source.camera.aperture_diameter_mm)
+        return invalid("camera.f_number and camera.aperture_diameter_mm contradict each other; give one");
     return Done{};
 }
 

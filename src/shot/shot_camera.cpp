@@ -55,6 +55,12 @@ FoundCamera merged_camera(const FoundCamera& file, const CameraChoice& user, dou
         merged.focus_distance_m->origin += ", " + number(unit_scale_m) + " m each";
     }
     complete_by_field_of_view(merged);
+    if (user.aperture_diameter_mm && !user.f_number)
+        merged.f_number = merged.focal_length_mm
+                              ? std::optional(FoundNumber{
+                                    merged.focal_length_mm->value / *user.aperture_diameter_mm,
+                                    "camera.aperture_diameter_mm " + number(*user.aperture_diameter_mm)})
+                              : std::nullopt;
     return merged;
 }
 

@@ -103,6 +103,15 @@ TEST_F(Shots, SettingsThatContradictAreNamedByField) {
     EXPECT_THAT(refusal(ErrorCode::InvalidArgument), HasSubstr("camera.focal_length_mm"));
 }
 
+TEST_F(Shots, AnApertureMayBeGivenByItsDiameter) {
+    source.camera.aperture_diameter_mm = 12.5;
+    EXPECT_DOUBLE_EQ(read().camera.f_number->value, 50 / 12.5) << "the file's focal length";
+    source.camera.focal_length_mm = 100;
+    EXPECT_DOUBLE_EQ(rendered(read())->camera.f_number, 100 / 12.5) << "the user's";
+    source.camera.f_number = 8;
+    EXPECT_THAT(refusal(ErrorCode::InvalidArgument), HasSubstr("camera.aperture_diameter_mm"));
+}
+
 TEST_F(Shots, TheUsersNumbersWinOverTheFiles) {
     source.camera.f_number = 1.4;
     const Shot shot = read();

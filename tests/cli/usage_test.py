@@ -1,7 +1,7 @@
 """Flags: what is understood, and what is refused in one line with exit code 2 before any file is touched."""
 import unittest
 
-from pictures import picture, write_exr
+from pictures import picture, read_exr, write_exr
 from program import CAMERA, CommandLineTest
 
 VERBS = ["defocus", "lens", "lens list", "lens show", "lens psf", "lens table", "inspect", "scene", "scene list", "scene make", "scene points", "compare", "develop"]
@@ -166,6 +166,19 @@ class Usage(CommandLineTest):
         self.assertEqual(cameras[0], cameras[1])
         self.assertEqual(cameras[0], cameras[2])
         self.assertEqual(cameras[0]["origins"]["focus_distance_m"], "--focus")
+
+    def test_an_aperture_has_an_f_number_or_a_diameter(self):
+        lengths = ["--focal-length", "50", "--sensor-width", "36", "--focus", "3"]
+        camera = self.report("defocus", "in.exr", "-o", "out.exr", *lengths, "--aperture-diameter", "2.5cm")["camera"]
+        self.assertEqual(camera["f_number"], 2)
+        self.assertIn("--aperture-diameter", camera["origins"]["f_number"])
+        self.succeed("defocus", "in.exr", "-o", "by_number.exr", *lengths, "--fstop", "2")
+        self.assertEqual(read_exr(self.path("out.exr"))[0], read_exr(self.path("by_number.exr"))[0])
+        self.assertEqual(self.report("lens", "psf", "ideal", "--defocus", "9", "-o", "psf.exr", "--focal-length", "50",
+                                     "--aperture-diameter", "25")["camera"]["f_number"], 2)
+        for verb in (["defocus", "in.exr", "-o", "out.exr"], ["inspect", "in.exr"], ["scene", "make", "bars", "-o", "s.exr"],
+                     ["lens", "psf", "ideal", "--defocus", "9", "-o", "psf.exr"]):
+            self.refuse(2, *verb, "--fstop", "2", "--aperture-diameter", "25", says=["--fstop", "--aperture-diameter"])
 
     def test_focus_inside_the_focal_length_is_refused_only_where_it_means_nothing(self):
         near = ["--focal-length", "85", "--sensor-width", "36", "--fstop", "8", "--focus", "80mm"]
