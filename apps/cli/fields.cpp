@@ -53,6 +53,7 @@ const Rows& other_flags() {
         {"scene.depth_blur_px", "--depth-blur"},
         {"scene.frame", "--frame"},
         {"scene.height", "--height"},
+        {"scene.lit_in_codes", "--lit-in codes"},
         {"scene.look_at", "--look-at"},
         {"scene.overscan_px", "--overscan"},
         {"scene.own_camera", "--scene-camera"},

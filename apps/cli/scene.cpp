@@ -73,6 +73,10 @@ void MakeFlags::add_to(Verb& verb) {
         .value("--look-at", "X,Y,Z",
                "the point of the world in the middle of the picture (default: the scene's)", parse_place,
                look_at)
+        .choice("--lit-in",
+                "codes: as programs did that took display codes for light; the picture then holds codes, to "
+                "be shown with --transfer linear --tone none (default light)",
+                NameTable<bool>{{"light", false}, {"codes", true}}, scene.lit_in_codes)
         .value("--depth-blur", "PX",
                "depth as networks guess it: 1/depth blurred by a Gaussian of this standard deviation; truth "
                "and layers stay exact",
@@ -199,7 +203,8 @@ Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale imag
                             {"pinhole_samples", flags.scene.samples},
                             {"seed", flags.scene.seed},
                             {"depth_blur_px", flags.scene.depth_blur_px},
-                            {"depth_bits", flags.scene.depth_bits}};
+                            {"depth_bits", flags.scene.depth_bits},
+                            {"lit_in", flags.scene.lit_in_codes ? "codes" : "light"}};
     if (!flags.scene.own_camera.empty()) report["parameters"]["scene_camera"] = flags.scene.own_camera;
     if (flags.camera_at)
         report["parameters"]["camera_at"] = {flags.camera_at->x, flags.camera_at->y, flags.camera_at->z};

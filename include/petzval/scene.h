@@ -50,6 +50,10 @@ struct SceneSettings {
     // standard deviation, and in 2^bits even steps. 0: exact. Truth and layers keep the exact depth.
     double depth_blur_px = 0;
     int depth_bits = 0;
+    // Lit as programs did that took display codes for light: colours of things have the codes (gamma 2.2) of
+    // theirs, lights such brightness as makes a white sheet its code, and codes are added. The pictures then
+    // hold codes, to be shown as they are. Not of scenes that are shaded as they are seen, nor of files.
+    bool lit_in_codes = false;
     bool want_truth = false, want_layers = false;
     bool want_motion = false;              // of a scene that moves
     int threads = 0;                       // 0: all
@@ -83,7 +87,7 @@ PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const Sc
 // built-in one, or a glTF file, which ends in .gltf or .glb (by tinygltf, where it was found).
 class PETZVAL_API StandingScene {
 public:
-    // Of the settings the frame, own_camera and the threads. Errors: those of render_scene().
+    // Of the settings the frame, own_camera, lit_in_codes and the threads. Errors: those of render_scene().
     static Result<StandingScene> build(const std::string& name, const SceneSettings& settings);
     ~StandingScene();
     StandingScene(StandingScene&&) noexcept;

@@ -76,6 +76,12 @@ Error unknown(const std::string& name) {
     return {ErrorCode::InvalidArgument, text};
 }
 
+Error lit_as_seen(const std::string& name) {
+    return {ErrorCode::InvalidArgument,
+            "scene.lit_in_codes has no effect: " + name + " is shaded as it is seen, not lit once",
+            "scene.lit_in_codes"};
+}
+
 // 0 at the first frame, 1 at the last.
 float time_of(int frame, int frames) { return frames > 1 ? float(frame) / float(frames - 1) : 0; }
 
@@ -173,6 +179,7 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
         auto file = scene::add_gltf(world, name, settings.frame, settings.own_camera);
         if (!file) return file.error();
         camera = file->camera, frame = settings.frame, frames = file->frames;
+        if (settings.lit_in_codes) return scene::lit_as_seen(name);
         warnings = std::move(file->warnings), cameras = std::move(file->cameras);
         return scene::check(settings, frames);
     }
@@ -186,6 +193,10 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
     if (const Status status = scene::check(settings, frames); !status) return status;
     const float time = scene::time_of(settings.frame, frames);
     found->build(world, time);
+    if (settings.lit_in_codes) {
+        if (!world.is_baked) return scene::lit_as_seen(name);
+        world.light_in_codes();
+    }
     built_in = found;
     camera = found->summary.camera;
     frame = settings.frame;

@@ -56,6 +56,30 @@ Spot spot(const Picture& p) {
     return s;
 }
 
+// What programs made that took codes for light: each thing has its own code, and codes are added.
+TEST(LightInCodes, IsTheCodeOfEveryThingAndLightsAddAsCodes) {
+    const auto code = [](float light) { return std::pow(light, 1 / 2.2f); };
+    for (const int lights : {1, 2}) {
+        World world;
+        world.sky = [](Vec3) { return Vec3{}; };
+        for (int i = 0; i < lights; ++i)
+            world.lights.push_back({{0, 0, -1}, kPi * Vec3{0.3f, 0.3f, 0.3f}, 0, true});
+        world.add(
+            facing_sheet(-5, 0, -5, 5, 3),
+            [](const SurfacePoint&) {
+                return Matter{{0.5f, 0.5f, 0.5f}, {}};
+            },
+            Sides::Sheet);
+        world.add(facing_sheet(0, 5, -5, 5, 3), glowing({40, 40, 40}), Sides::Sheet);
+        world.light_in_codes();
+        SceneSettings s = settings(8, 4);
+        s.want_truth = false;
+        const RenderedScene seen = rendered(world, s);
+        EXPECT_NEAR(seen.colour(1, 2).g, float(lights) * code(0.3f) * code(0.5f), 1e-3f);
+        EXPECT_NEAR(seen.colour(6, 2).g, code(40), 1e-3f);
+    }
+}
+
 TEST(SceneRays, ALampsDiscHasTheRadiusOfTheCircleOfConfusion) {
     for (const ImageScale scale : {ImageScale::Rendered, ImageScale::ThinLens})
         for (const float z : {1.6f, 2.0f, 6.0f, 40.0f}) {

@@ -77,6 +77,25 @@ TEST(BuiltInScenes, OneThatStaysBuiltShowsTheSameFromEverywhere) {
     }
 }
 
+TEST(BuiltInScenes, LitInCodesAreTheSameThingsInAnotherLight) {
+    SceneSettings s;
+    s.width = 48, s.height = 27, s.samples = 4;
+    const RenderedScene light = render_scene("bars", s).value();
+    s.lit_in_codes = true;
+    const RenderedScene codes = render_scene("bars", s).value();
+    float brightest_light = 0, brightest_code = 0;
+    for (int y = 0; y < s.height; ++y)
+        for (int x = 0; x < s.width; ++x) {
+            EXPECT_EQ(light.depth_m(x, y), codes.depth_m(x, y));
+            brightest_light = std::max(brightest_light, light.colour(x, y).g);
+            brightest_code = std::max(brightest_code, codes.colour(x, y).g);
+        }
+    EXPECT_LT(brightest_code, 0.5f * brightest_light);
+    const auto shaded_as_seen = render_scene("hexadrive", s);
+    ASSERT_FALSE(shaded_as_seen);
+    EXPECT_EQ(shaded_as_seen.error().field, "scene.lit_in_codes");
+}
+
 TEST(BuiltInScenes, TheSubjectOfUnitysWalksAndIsSeenWhereItIsSaidToBe) {
     SceneSettings s;
     s.width = 96, s.height = 54, s.samples = 1;

@@ -42,6 +42,33 @@ struct World::Object {
     Cutout cutout;  // empty: whole
 };
 
+namespace {
+
+Vec3 code(Vec3 light) {
+    const auto of = [](float v) { return std::pow(std::max(v, 0.0f), 1 / 2.2f); };
+    return {of(light.x), of(light.y), of(light.z)};
+}
+
+// Of a white sheet with this irradiance, whose radiance is 1 / pi of it.
+Vec3 irradiance_for_code(Vec3 irradiance) { return kPi * code(irradiance / kPi); }
+
+}  // namespace
+
+void World::light_in_codes() {
+    PETZVAL_CHECK(is_baked);
+    for (auto& object : objects_)
+        object->paint = [light = std::move(object->paint)](const SurfacePoint& at) {
+            const Matter matter = light(at);
+            return Matter{code(matter.albedo), code(matter.emission)};
+        };
+    sky = [light = std::move(sky)](Vec3 direction) { return code(light(direction)); };
+    for (Lamp& lamp : lamps_) lamp.radiance = code(lamp.radiance);
+    for (Light& light : lights) light.power = irradiance_for_code(light.power);
+    ambient_above = irradiance_for_code(ambient_above);
+    ambient_below = irradiance_for_code(ambient_below);
+    brightest_bounce = code({brightest_bounce, 0, 0}).x;
+}
+
 Arrival arrival(const Light& light, Vec3 position) {
     if (light.distant) return {normalised(light.position), light.power};
     const Vec3 towards = light.position - position;

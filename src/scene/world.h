@@ -102,6 +102,11 @@ public:
     void add(Mesh mesh, Paint paint, Sides sides, Cutout cutout = nullptr);
     void add(Tubes tubes, Paint paint);
     void add_lamp(Vec3 centre, float radius_m, Vec3 radiance);
+    // As programs did that took display codes (of gamma 2.2) for light, and where lights were set by eye:
+    // paints, sky and lamps have the codes of their colours, and a light is as bright as makes a white sheet
+    // that it alone lights (from 1 m where it is near) the code of what it would be. Radiance then is codes.
+    // Requires: is_baked; before commit().
+    void light_in_codes();
 
     // Builds the ray tracing structure and bakes light. Errors: OutOfMemory.
     Status commit(Workers& workers);

@@ -160,6 +160,15 @@ class Scene(CommandLineTest):
         self.assertAlmostEqual(camera["f_number"], 5.6, places=5)
         self.assertAlmostEqual(camera["focus_distance_m"], 1.5, places=5)
 
+    def test_a_scene_may_be_lit_in_codes(self):
+        self.succeed("scene", "make", "bars", "-o", "light.exr", *self.SMALL)
+        report = self.report("scene", "make", "bars", "-o", "codes.exr", "--lit-in", "codes", *self.SMALL)
+        self.assertEqual(report["parameters"]["lit_in"], "codes")
+        light, codes = (read_exr(self.path(name))[0] for name in ("light.exr", "codes.exr"))
+        self.assertEqual(light["Z"], codes["Z"])
+        self.assertLess(max(map(max, codes["G"])), 0.5 * max(map(max, light["G"])))
+        self.refuse(2, "scene", "make", "wgld", "-o", "out.exr", "--lit-in", "codes", says=["--lit-in", "wgld"])
+
     def test_a_scene_can_be_focused_on_a_point_of_its_world(self):
         self.succeed("scene", "make", "table", "-o", "table.exr", *self.SMALL)
         # The chequered ball's middle, from 0,0.26,0 looking at 0,0.06,1.2.
