@@ -1,6 +1,8 @@
-"""Every relative link of the pages leads somewhere in the clone, and no page names a place outside of it.
+"""Every relative link of the pages leads somewhere in the clone, every test that they name is there, and no page
+names a place outside of it.
 
-Usage: check_links.py [FOLDER]. Looks at every .md of the repository: [text](target#heading) and `paths` in code.
+Usage: check_links.py [FOLDER]. Looks at every .md of the repository: [text](target#heading), `paths` in code, tests as
+`Suite.WhatItHolds` and `test_what_it_holds`.
 """
 import pathlib
 import re
@@ -10,6 +12,8 @@ import sys
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
 UPWARDS = re.compile(r"(?:\.\./)+[\w./-]*")
+TEST = re.compile(r"[A-Z]\w+\.(?:[A-Z][a-z0-9]*){3,}|test_\w+")
+DECLARED = re.compile(r"^(?:TYPED_)?TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)|^\s+def (test_\w+)", re.MULTILINE)
 FENCE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 
 
@@ -19,7 +23,13 @@ def anchors(page):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-def wrong_links(root, page):
+def tests_of(root):
+    files = [p for folder in ("src", "tests") for p in (root / folder).rglob("*_test.*") if p.suffix in (".cpp", ".py")]
+    found = [match for file in files for match in DECLARED.findall(file.read_text())]
+    return {python or f"{suite}.{name}" for suite, name, python in found}
+
+
+def wrong_links(root, page, tests):
     text = FENCE.sub("", page.read_text())
     for target in LINK.findall(text):
         if re.match(r"[a-z]+:", target):
@@ -33,6 +43,8 @@ def wrong_links(root, page):
         elif heading and place.suffix == ".md" and heading not in anchors(place):
             yield f"({target}): {place.name} has no such heading"
     for code in CODE.findall(LINK.sub("", text)):
+        if TEST.fullmatch(code) and code not in tests:
+            yield f"`{code}` is no test"
         for path in UPWARDS.findall(code):
             if not (page.parent / path).resolve().is_relative_to(root):
                 yield f"`{path}` is not in the repository"
@@ -47,8 +59,8 @@ def pages_of(root):
 
 def main(folder=None):
     root = pathlib.Path(folder or pathlib.Path(__file__).parents[2]).resolve()
-    pages = pages_of(root)
-    found = [f"{page.relative_to(root)}: {what}" for page in pages for what in wrong_links(root, page)]
+    pages, tests = pages_of(root), tests_of(root)
+    found = [f"{page.relative_to(root)}: {what}" for page in pages for what in wrong_links(root, page, tests)]
     print("\n".join(found) or f"docs: every link of {len(pages)} pages leads somewhere")
     sys.exit(bool(found))
 

@@ -36,7 +36,8 @@ class Checks(unittest.TestCase):
         links = "../tests/docs/check_links.py"
         sound = {"docs/a.md": "# A b\n[b](b.md#the-b) `../README.md`\n", "docs/b.md": "# The b\n", "README.md": "\n"}
         self.assert_clean(links, sound)
-        for line in ("[b](c.md)", "[b](b.md#the-c)", "[out](../../shared/a.md)", "see `../../scenes`"):
+        for line in ("[b](c.md)", "[b](b.md#the-c)", "[out](../../shared/a.md)", "see `../../scenes`",
+                     "`Law.ThatNoTestHolds`", "`test_that_is_not_there`"):
             self.assert_found(links, sound | {"docs/a.md": line + "\n"}, "docs/a.md")
 
     def test_an_upward_include_is_found(self):

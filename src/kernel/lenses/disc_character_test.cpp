@@ -14,9 +14,10 @@ struct Disc {
     Rgba outer_rim;      // sum of what lies outside of where luminance last exceeds 0.6
     double edge_px = 0;  // from the last 0.75 to the last 0.1 of luminance
 
-    Disc(const std::string& name, double coc_radius_px, double f_number = 2.8, double colour = 1) {
+    Disc(const std::string& name, double coc_radius_px, double f_number = 2.8, double colour = 1,
+         double added_colour_mm = 0) {
         LensChoice choice;
-        choice.name = name, choice.axial_colour = colour;
+        choice.name = name, choice.axial_colour = colour, choice.added.axial_colour_mm = added_colour_mm;
         const auto lens = lens_of(choice, full_frame(f_number));
         profile = radial_profile(lens->point_spread(coc_radius_px, {}), std::abs(coc_radius_px));
         core = profile[0].a, half_way = profile[profile.size() / 2].a;
@@ -108,6 +109,17 @@ TEST(DiscCharacter, DoubletNearHasASoftRedToVioletRimAndADarkerCentre) {
     EXPECT_GT(disc.half_way, disc.core);
     EXPECT_TRUE(purple(disc.outer_rim))
         << disc.outer_rim.r << " " << disc.outer_rim.g << " " << disc.outer_rim.b;
+}
+
+TEST(DiscCharacter, WithBlueALittleNearerTheDoubletsRimInFrontGoesFromPurpleToRed) {
+    const Disc disc("doublet", -60, 2, 1, -0.08);
+    const auto edge =
+        std::find_if(disc.profile.begin() + 50, disc.profile.end(), [](Rgba c) { return c.g < 0.1f * c.r; });
+    ASSERT_LT(edge + 3, disc.profile.end());
+    EXPECT_TRUE(purple(edge[0])) << edge[0].r << " " << edge[0].g << " " << edge[0].b;
+    EXPECT_GT(edge[1].r, 1.3f * edge[1].b);
+    EXPECT_GT(edge[2].r, 2 * edge[2].b) << "and soft, further out";
+    EXPECT_GT(edge[2].r, 0.03f);
 }
 
 TEST(DiscCharacter, DoubletFarHasASharpGreenYellowRimAndABrightCore) {
