@@ -27,7 +27,7 @@ struct Look {
     std::uint64_t seed = 1;   // of all random choices
     int pupil_points = 4096;  // rays per pixel, engine reference only; > 0
 
-    Fill fill = Fill::Full;  // behind edges: engines scatter and gather, and sprites over gather
+    Fill fill = Fill::Full;  // behind edges: scatter, gather, gaussian layered, and sprites over these
 
     DepthEdges depth_edges = DepthEdges::Auto;
     CocControls coc;

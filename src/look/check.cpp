@@ -122,9 +122,11 @@ Rules rules_of_gather() {
         {{"gather.fill"}, [](const Look& l) { return unless(l.fill != Fill::Off, "with fill off"); }},
         {{"fill"},
          [](const Look& l) {
-             return unless(l.engine == "scatter" || (uses_gather(l) && !is_published_stage(l)),
+             return unless(l.engine == "scatter" || (uses_gather(l) && !is_published_stage(l)) ||
+                               (uses_gaussian(l) && l.gaussian.style == GaussianStyle::Layered &&
+                                (l.engine == "sprites" || l.gaussian.view == GaussianView::Result)),
                            is_published_stage(l) ? "without engine gather itself"
-                           : is_over_gaussian(l) ? "with engine sprites over gaussian, which adds nothing"
+                           : uses_gaussian(l)    ? "without gaussian.style layered itself"
                                                  : with_engine(l) + ", which adds nothing");
          }},
         {{"fill"},

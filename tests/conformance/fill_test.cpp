@@ -72,7 +72,7 @@ TEST_P(Filling, DimGoesOnWithoutTheLampThatAnEdgeCuts) {
 }
 
 // The bright points of sprites, found first, never go on behind edges.
-INSTANTIATE_TEST_SUITE_P(Engines, Filling, testing::Values("scatter", "gather"),
+INSTANTIATE_TEST_SUITE_P(Engines, Filling, testing::Values("scatter", "gather", "gaussian"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(FillingSprites, IsThatOfWhatLiesBehindThem) {
@@ -82,11 +82,13 @@ TEST(FillingSprites, IsThatOfWhatLiesBehindThem) {
 }
 
 TEST(FillingNothing, IsSaidOfWhatNeedsNone) {
-    for (const char* engine : {"gaussian", "reference"}) {
-        Look look;
-        look.engine = engine, look.fill = Fill::Dim;
-        const auto idle = check(look).idle;
-        ASSERT_EQ(idle.size(), 1u) << engine;
+    Look traced, published;
+    traced.engine = "reference";
+    published.engine = "gaussian", published.gaussian.style = GaussianStyle::Wgld;
+    for (Look* look : {&traced, &published}) {
+        look->fill = Fill::Dim;
+        const auto idle = check(*look).idle;
+        ASSERT_EQ(idle.size(), 1u) << look->engine;
         EXPECT_EQ(idle.front().field, "fill");
     }
     const Shot shot = red_before_blue();

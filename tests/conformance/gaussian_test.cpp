@@ -102,6 +102,29 @@ TEST(Gaussian, WhatIsNearSpreadsOverWhatIsInFocus) {
     EXPECT_EQ(plain(60, 32).g, 0.8f) << "the published way keeps the edge hard";
 }
 
+// Pixels beside it hold a part of it; the stripes of the wall behind are in focus.
+TEST(Gaussian, ABlurredWireLeavesNothingSharpAndTheWallGoesOnBehindIt) {
+    constexpr double kWide = 3.6, kSigma = 6;
+    const float wire = 0.02f;
+    const auto wall = [](int y) { return y / 16 % 2 ? 0.6f : 0.3f; };
+    Shot shot = flat(96, 64, {}, 0);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 96; ++x) {
+            const bool inside = x >= 47 && x < 50, beside = x == 46 || x == 50;
+            const float share = inside ? 1.0f : beside ? 0.3f : 0.0f, c = wall(y) + share * (wire - wall(y));
+            shot.colour(x, y) = {c, c, c, 1};
+            if (inside) shot.coc_px(x, y) = float(-2 * kSigma);
+        }
+    const Picture image = rendered(job_of(shot, GaussianStyle::Layered));
+    for (const int y : {21, 24, 26, 37, 40, 42})
+        for (int x = 20; x < 76; ++x) {
+            const double away = (x - 48) / kSigma;
+            const double covered = kWide / kSigma / std::sqrt(2 * M_PI) * std::exp(-away * away / 2);
+            const double expected = double(wall(y)) + covered * double(wire - wall(y));
+            EXPECT_NEAR(image(x, y).g, expected, 0.03) << x << ", " << y;
+        }
+}
+
 TEST(Gaussian, PublishedWeightsAndIndexAreThoseOfTheFormula) {
     const DepthShot shot;
     DefocusJob job = shot.job();

@@ -55,8 +55,7 @@ private:
             near.clear(), far.clear();
             for (std::size_t k = 0; k < all.size(); ++k) {
                 const bool is_near = k < std::size_t(plan.near.count());
-                if (all[k].go_to_row(y) && (is_near || k < plan.backdrop()))
-                    (is_near ? near : far).push_back(&all[k]);
+                if (all[k].go_to_row(y)) (is_near ? near : far).push_back(&all[k]);
             }
         }
     };
@@ -130,19 +129,15 @@ private:
     }
 
     void spread(std::vector<RowOfLight>& rows, int x, int y) const {
-        const Rgba colour = plan_.colour(x, y);
-        const float coc = plan_.coc_px(x, y);
-        const bool near = coc < 0;
-        const BlurStack::Mix mix = near ? plan_.near(-coc) : plan_.far(coc);
-        const auto add = [&](std::size_t blur, float share) {
-            if (share > 0) rows[blur].add(x, share * colour, share);
-        };
-        const auto add_to_stack = [&](int k, float share) {
-            if (k > 0) add(near ? plan_.near_blur(k) : plan_.far_blur(k), share);
-        };
-        add_to_stack(mix.lower, 1 - mix.upper_share);
-        add_to_stack(mix.lower + 1, mix.upper_share);
-        if (plan_.has_backdrop()) add(plan_.backdrop(), near ? 1 - plan_.near.nearness(-coc) : 1);
+        plan_.for_each_sample(x, y, [&](const LayeredSample& s) {
+            const auto add = [&](int k, float share) {
+                if (k > 0 && share > 0)
+                    rows[s.coc_px < 0 ? plan_.near_blur(k) : plan_.far_blur(k)].add(x, share * s.light,
+                                                                                    share * s.covered);
+            };
+            add(s.mix.lower, 1 - s.mix.upper_share);
+            add(s.mix.lower + 1, s.mix.upper_share);
+        });
     }
 
     static float sharp_share(const BlurStack::Mix& mix) { return mix.lower == 0 ? 1 - mix.upper_share : 0; }
@@ -162,18 +157,11 @@ private:
                 if (layer->is_lit(x) && free > 0) take(layer->light(x), layer->covered(x));
         };
         take_layers(readers.near);
-        const float coc = plan_.coc_px(x, y);
-        const float sharp = sharp_share(coc < 0 ? plan_.near(-coc) : plan_.far(coc));
-        take(sharp * plan_.colour(x, y), sharp);
+        plan_.for_each_sample(x, y, [&](const LayeredSample& s) {
+            const float sharp = sharp_share(s.mix);
+            take(sharp * s.light, sharp * s.covered);
+        });
         take_layers(readers.far);
-        // Under the soft edge of something near: what lies around it. Else: more of what was seen.
-        if (free > kLeastArea && coc < 0 && plan_.has_backdrop()) {
-            const BlurReader& backdrop = readers.all[plan_.backdrop()];
-            if (backdrop.is_lit(x) && backdrop.covered(x) > kLeastArea) {
-                sum += (free / backdrop.covered(x)) * backdrop.light(x);
-                free = 0;
-            }
-        }
         return free < 1 - kLeastArea ? sum * (1 / (1 - free)) : plan_.colour(x, y);
     }
 

@@ -14,6 +14,7 @@ namespace {
 
 using engine::Blur;
 using engine::GaussianPlan;
+using engine::LayeredSample;
 
 constexpr int kWideLevel = 3;  // cells from which on a group fills each
 
@@ -22,9 +23,16 @@ struct Push {
     std::uint32_t width = 0, height = 0, first_row = 0;
     std::uint32_t out_row = 0, out_rows = 0;
     std::uint32_t law = 0, view = 0;
+    std::uint32_t has_extras = 0;
     std::array<float, 4> near = {}, far = {};
 };
-static_assert(sizeof(Push) == 68, "as shaders/mix.glsl has it");
+static_assert(sizeof(Push) == 72, "as shaders/mix.glsl has it");
+
+// As mix_extras.glsl reads it.
+struct Extra {
+    Rgba light;
+    float covered = 0, coc_px = 0, lower = 0, upper_share = 0;
+};
 
 struct Span {
     int begin = 0, end = 0;
@@ -53,6 +61,7 @@ public:
         push.first_row = std::uint32_t(pixels.begin);
         push.out_row = std::uint32_t(rows.begin), push.out_rows = std::uint32_t(rows.size());
         push.law = std::uint32_t(plan_.law), push.view = view();
+        push.has_extras = plan_.guessed.empty() ? 0 : 1;
         push.near = plan_.near.numbers(), push.far = plan_.far.numbers();
         words_ = recording.uploaded(std::span<const std::uint32_t>(words_of(rows)));
         upload_pixels(pixels, recording);
@@ -60,7 +69,8 @@ public:
         const std::size_t count = std::size_t(rows.size()) * std::size_t(width());
         const Piece result = context_.heap().allocate(Kind::OnDevice, count * sizeof(Rgba));
         recording.pass("mix blurs", context_.program(Shader::MixBlurs),
-                       {&words_, &colours_, &values_, &light_, &covered_, &result}, push, invocations(count));
+                       {&words_, &colours_, &values_, &extra_of_, &extras_, &light_, &covered_, &result},
+                       push, invocations(count));
         const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(result, count * sizeof(Rgba)));
         recording.run();
         for (int y = rows.begin; y < rows.end; ++y, from += width()) std::copy_n(from, width(), out.row(y));
@@ -108,8 +118,9 @@ private:
         constexpr std::size_t kOne = sizeof(Rgba) + sizeof(float);
         std::size_t cells = 0;
         for (const Blur& blur : plan_.blurs) cells += cells_of(blur, rows);
-        return std::size_t(width()) *
-                   (std::size_t(pixels_for(rows).size()) * kOne + std::size_t(rows.size()) * sizeof(Rgba)) +
+        const std::size_t extras = plan_.guessed.empty() ? 0 : sizeof(std::uint32_t) + sizeof(Extra);
+        return std::size_t(width()) * (std::size_t(pixels_for(rows).size()) * (kOne + extras) +
+                                       std::size_t(rows.size()) * sizeof(Rgba)) +
                2 * cells * kOne;
     }
 
@@ -146,19 +157,36 @@ private:
         return words;
     }
 
+    // What is seen of each pixel; what it holds beside that, as mix.glsl reads it.
     void upload_pixels(Span rows, Recording& recording) {
         const std::size_t count = std::size_t(rows.size()) * std::size_t(width());
         std::vector<Rgba> colours;
         std::vector<float> values;
+        std::vector<std::uint32_t> extra_of;
+        std::vector<Extra> extras;
         colours.reserve(count), values.reserve(count);
-        for (int y = rows.begin; y < rows.end; ++y) {
-            colours.insert(colours.end(), plan_.colour.row(y), plan_.colour.row(y) + width());
-            for (int x = 0; x < width(); ++x)
+        for (int y = rows.begin; y < rows.end; ++y)
+            for (int x = 0; x < width(); ++x) {
                 values.push_back(plan_.law == GaussianPlan::Law::ByDepth ? plan_.depth.index(x, y)
                                                                          : plan_.coc_px(x, y));
-        }
+                if (plan_.guessed.empty()) {
+                    colours.push_back(plan_.colour(x, y));
+                    continue;
+                }
+                const auto first = std::uint32_t(extras.size());
+                std::uint32_t held = 0;
+                plan_.for_each_sample(x, y, [&](const LayeredSample& s) {
+                    if (s.place == LayeredSample::Seen) return colours.push_back(s.light);
+                    held |= s.place == LayeredSample::Rim ? 1 : 2;
+                    extras.push_back({s.light, s.covered, s.coc_px, float(s.mix.lower), s.mix.upper_share});
+                });
+                extra_of.push_back(4 * first + held);
+            }
+        if (extras.empty()) extras.emplace_back(), extra_of.resize(std::max<std::size_t>(1, extra_of.size()));
         colours_ = recording.uploaded(std::span<const Rgba>(colours));
         values_ = recording.uploaded(std::span<const float>(values));
+        extra_of_ = recording.uploaded(std::span<const std::uint32_t>(extra_of));
+        extras_ = recording.uploaded(std::span<const Extra>(extras));
     }
 
     // Shares light between them and blurs them, along x and along y.
@@ -175,7 +203,7 @@ private:
             push.blur = std::uint32_t(k);
             const bool wide = plan_.blurs[k].level >= kWideLevel;
             recording.pass("spread cells", context_.program(Shader::SpreadCells, wide ? 1 : 0),
-                           {&words_, &colours_, &values_, &light_, &covered_}, push,
+                           {&words_, &colours_, &values_, &extra_of_, &extras_, &light_, &covered_}, push,
                            wide ? groups_of(cells) : invocations(cells));
             push.axis = 0;
             recording.pass("blur cells", context_.program(Shader::BlurCells),
@@ -190,7 +218,7 @@ private:
 
     Context& context_;
     const GaussianPlan& plan_;
-    Piece words_, colours_, values_, light_, covered_, light_between_, covered_between_;
+    Piece words_, colours_, values_, extra_of_, extras_, light_, covered_, light_between_, covered_between_;
 };
 
 }  // namespace

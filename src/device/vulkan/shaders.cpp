@@ -97,7 +97,7 @@ constexpr std::uint32_t kRealtimeCombine32[] =
 constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                            kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-constexpr std::array kBuffers{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer};
+constexpr std::array kBuffers{kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer};
 constexpr std::array kOfMeasure{kSampled, kBuffer};
 constexpr std::array kOfSplit{kSampled, kSampled, kStored, kStored, kStored,
                               kStored,  kBuffer,  kBuffer, kBuffer};
@@ -120,9 +120,9 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kAddLights, buffers(6), 36},
         ShaderWords{kAddCells, buffers(3), 8},
         ShaderWords{kGather, buffers(4), 36},
-        ShaderWords{kSpreadCells, buffers(5), 84},
-        ShaderWords{kBlurCells, buffers(5), 84},
-        ShaderWords{kMixBlurs, buffers(6), 84},
+        ShaderWords{kSpreadCells, buffers(7), 72},
+        ShaderWords{kBlurCells, buffers(5), 72},
+        ShaderWords{kMixBlurs, buffers(8), 72},
         ShaderWords{kGlareLight, buffers(2), 16},
         ShaderWords{kGlareHalve, buffers(2), 8},
         ShaderWords{kGlareBlur, buffers(3), 28},

@@ -5,9 +5,8 @@
 // around their middle, so that discs lie where their light does.
 #pragma once
 
-#include "engine/gather/gather_fill.h"
 #include "engine/gather/gather_rings.h"
-#include "engine/samples/rims.h"
+#include "engine/samples/guessed.h"
 #include "engine/waist/engine.h"
 
 #include <span>
@@ -69,12 +68,6 @@ private:
     float open_ = 1, opaque_px_ = -1e30f, in_front_px_ = -1e30f;
 };
 
-// What one picture does not say, as far as a preview guesses it.
-struct Guessed {
-    HiddenFill fill;
-    Rims rims;
-};
-
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
 template <typename Emit>
 void for_each_sample(const Input& input, const Guessed& guessed, int x, int y, const Emit& emit) {
@@ -82,12 +75,12 @@ void for_each_sample(const Input& input, const Guessed& guessed, int x, int y, c
     if (input.deep.empty()) {
         const float coc = input.coc_px(x, y);
         if (const Rim* const rim = guessed.rims.at(x, y)) {
-            take(rim->near, rim->near_coc_px, rim->share);
+            take(rim->near(input.colour(x, y)), rim->near_coc_px, rim->share);
             take(rim->far, coc, 1.0f);
         } else {
             emit(input.colour(x, y), coc, 1.0f, false);
         }
-        if (const CocSample* const hidden = guessed.fill.at(x, y))
+        if (const FilledIn* const hidden = guessed.fill.at(x, y))
             emit(hidden->colour, hidden->coc_px, 1.0f, is_hidden(coc, hidden->coc_px));
         return;
     }

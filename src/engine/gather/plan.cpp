@@ -83,14 +83,6 @@ void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
     }
 }
 
-Guessed guess(const Input& input) {
-    const Image<Touched> touched = find_touched(input.coc_px, *input.workers);
-    Guessed guessed;
-    if (input.fill != Fill::Off && input.gather.fill_hidden) guessed.fill = fill_hidden(input, touched);
-    guessed.rims = find_rims(input.colour, input.judged(), input.coc_px, touched, *input.workers);
-    return guessed;
-}
-
 }  // namespace
 
 GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, const RingSizes& sizes,
@@ -101,7 +93,7 @@ GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, cons
     std::vector<float> largest(tiles.size());
     parallel_for(int(tiles.size()), *strip.workers,
                  [&](int i) { largest[std::size_t(i)] = largest_px(strip, tiles[std::size_t(i)]); });
-    if (strip.deep.empty()) plan.guessed = guess(strip);
+    if (strip.deep.empty()) plan.guessed = guess(strip, strip.fill != Fill::Off && strip.gather.fill_hidden);
     for (int level = 0; level < sizes.levels(); ++level) {
         plan.reach.push_back(kernels.reach(level));
         if (level > 0) plan.levels.emplace_back(strip, plan.guessed, sizes, level);

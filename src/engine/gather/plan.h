@@ -3,7 +3,6 @@
 
 #include "device/kernels.h"
 #include "engine/gather/gather_cells.h"
-#include "engine/gather/gather_fill.h"
 #include "engine/gather/gather_rings.h"
 #include "engine/waist/cells.h"
 #include "engine/waist/engine.h"

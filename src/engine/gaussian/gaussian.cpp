@@ -13,22 +13,22 @@
 namespace petzval::engine {
 namespace {
 
-// The result, the layers, what blurring copies of one at a time, and radii of rims and where they are.
-std::size_t bytes_per_pixel(const GaussianPlan& plan) {
+// The result, the layers, what blurring copies of one at a time, and what was guessed.
+std::size_t bytes_per_pixel(const GaussianPlan& plan, const Input& input) {
     constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float);
     std::size_t layers = 0, largest = 0;
     for (const Blur& blur : plan.blurs) {
         const std::size_t bytes = (kOfCell >> (2 * blur.level)) + 1;
         layers += bytes, largest = std::max(largest, bytes);
     }
-    const std::size_t rims = plan.own_radii.empty() ? 0 : sizeof(float) + sizeof(int);
-    return sizeof(Rgba) + layers + largest + rims;
+    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
+    return sizeof(Rgba) + layers + largest + (plan.guessed.bytes() + pixels - 1) / pixels;
 }
 
 }  // namespace
 
 std::size_t least_gaussian_bytes(const Input& input) {
-    return whole_picture_bytes(input, bytes_per_pixel(plan_gaussian(input)));
+    return whole_picture_bytes(input, bytes_per_pixel(plan_gaussian(input), input));
 }
 
 Result<Output> run_gaussian(const Input& input) {
@@ -38,7 +38,8 @@ Result<Output> run_gaussian(const Input& input) {
     const bool is_sharp =
         view == GaussianView::Sharp || (largest_px <= kWithinPixelPx && view == GaussianView::Result);
     const GaussianPlan plan = is_sharp ? GaussianPlan() : plan_gaussian(input);
-    if (const Status fits = fits_memory(input, bytes_per_pixel(plan), "gaussian"); !fits) return fits.error();
+    if (const Status fits = fits_memory(input, bytes_per_pixel(plan, input), "gaussian"); !fits)
+        return fits.error();
     Output output;
     output.image = Picture::uninitialised(input.width(), input.height());
     if (is_sharp || plan.blurs.empty()) {

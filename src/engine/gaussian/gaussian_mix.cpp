@@ -29,11 +29,6 @@ float BlurStack::sharpness(float radius_px) const {
     return std::clamp((largest - r) / (largest - kWithinPixelPx), 0.0f, 1.0f);
 }
 
-float BlurStack::nearness(float radius_px) const {
-    const float near = radii_px_.back() / 2;
-    return std::min(1.0f, radius_px * radius_px / (near * near));
-}
-
 DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_m), coc_px_(input.coc_px) {
     const GaussianOptions& o = input.gaussian;
     half_band_ = 0.5f * std::clamp(float(o.focus_band.value_or(0.2)), 0.0f, 1.0f);

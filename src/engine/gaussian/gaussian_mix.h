@@ -35,8 +35,6 @@ public:
     std::array<float, 4> numbers() const { return {band_px_, stretch_, radii_px_.back(), float(count())}; }
     // 1 within the band and the pixel, 0 at the largest radius.
     float sharpness(float radius_px) const;
-    // 0 in focus … 1 from so near on that nothing may be hidden by what is nearer still.
-    float nearness(float radius_px) const;
 
 private:
     float blurred_px(float radius_px) const { return std::max(0.0f, radius_px - band_px_) * stretch_; }

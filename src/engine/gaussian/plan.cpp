@@ -1,6 +1,5 @@
 #include "engine/gaussian/plan.h"
 
-#include "engine/samples/rims.h"
 #include "engine/waist/cells.h"
 
 #include <algorithm>
@@ -76,7 +75,6 @@ void plan_layers(const Input& input, float band_px, GaussianPlan& plan) {
     };
     for (int k = plan.near.count(); k > 0; --k) add(plan.near.radius_px(k));
     for (int k = 1; k <= plan.far.count(); ++k) add(plan.far.radius_px(k));
-    if (plan.has_backdrop()) add(std::max(plan.near.radius_px(plan.near.count()) / 2, 1.0f));
 }
 
 }  // namespace
@@ -102,9 +100,7 @@ GaussianPlan plan_gaussian(const Input& input) {
     plan.view = options.view, plan.colour = input.colour, plan.coc_px = input.coc_px;
     if (options.style == GaussianStyle::Layered && options.view == GaussianView::Result) {
         plan_layers(input, band_px, plan);
-        const Rims rims = find_bright_rims(input.judged(), input.coc_px,
-                                           find_touched(input.coc_px, *input.workers), *input.workers);
-        if (!rims.empty()) plan.own_radii = radii_of_rims(rims, input.coc_px), plan.coc_px = plan.own_radii;
+        plan.guessed = guess(input, input.fill != Fill::Off);
         return plan;
     }
     const auto add = [&](float radius_px) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/gaussian/gaussian_mix.h"
+#include "engine/samples/guessed.h"
 #include "engine/waist/engine.h"
 
 #include <vector>
@@ -31,9 +32,18 @@ struct Blur {
     int cells_down() const { return int(y.inside.size()); }
 };
 
+// Light of a pixel, how much of the pixel it covers, and the blurs that it is shared between.
+struct LayeredSample {
+    enum Place { Rim, Seen, Hidden };  // part of something nearer, the pixel's own, behind that
+    Place place = Seen;
+    Rgba light;  // premultiplied by `covered`
+    float covered = 1, coc_px = 0;
+    BlurStack::Mix mix;
+};
+
 struct GaussianPlan {
     // Layered: light spreads from where it is, in layers composited from the nearest; the sharp one lies
-    // between near and far, and what lies behind near things is shown by the backdrop.
+    // between near and far. Rims are taken apart, and what near things hide is guessed.
     // Otherwise all of the picture is in every blur, and a pixel mixes by its own radius or depth.
     enum class Law { Layered, ByRadius, ByDepth };
     enum MixedBlur { kSmall, kLarge };  // ByDepth; and where one of them is shown
@@ -42,9 +52,8 @@ struct GaussianPlan {
     GaussianView view = GaussianView::Result;
     View<const Rgba> colour;
     View<const float> coc_px;
-    Plane own_radii;  // Layered: what coc_px looks at, where rims of lamps are spread as the lamps
-    // Layered: near ones from the widest, far ones from the narrowest, the backdrop. ByRadius: from the
-    // narrowest.
+    Guessed guessed;  // Layered
+    // Layered: near ones from the widest, far ones from the narrowest. ByRadius: from the narrowest.
     std::vector<Blur> blurs;
     BlurStack near, far;  // ByRadius: far for either side
     DepthMix depth;
@@ -56,8 +65,29 @@ struct GaussianPlan {
     // Places in `blurs`; k: of the stack, from 1.
     std::size_t near_blur(int k) const { return std::size_t(near.count() - k); }
     std::size_t far_blur(int k) const { return std::size_t(near.count() + k - 1); }
-    std::size_t backdrop() const { return std::size_t(near.count() + far.count()); }
-    bool has_backdrop() const { return law == Law::Layered && near.count() > 0; }
+
+    BlurStack::Mix mix(float radius_px) const { return radius_px < 0 ? near(-radius_px) : far(radius_px); }
+
+    // Layered: the samples of a pixel from the nearest, as emit(LayeredSample).
+    template <typename Emit>
+    void for_each_sample(int x, int y, const Emit& emit) const {
+        LayeredSample seen{LayeredSample::Seen, colour(x, y), 1, coc_px(x, y), mix(coc_px(x, y))};
+        if (const Rim* const rim = guessed.rims.at(x, y)) {
+            emit({LayeredSample::Rim, rim->near(seen.light), rim->share, rim->near_coc_px,
+                  mix(rim->near_coc_px)});
+            seen.light = rim->far;
+        }
+        emit(seen);
+        const FilledIn* const fill = guessed.fill.at(x, y);
+        if (!fill) return;
+        LayeredSample hidden{LayeredSample::Hidden, fill->colour, 1, fill->coc_px, mix(fill->coc_px)};
+        if (hidden.coc_px < 0) {
+            // In a layer of what hides it, it would be seen through that.
+            if (hidden.mix.lower >= seen.mix.lower) return;
+            if (hidden.mix.lower + 1 == seen.mix.lower) hidden.mix.upper_share = 0;
+        }
+        emit(hidden);
+    }
 };
 
 // The blur of a disc of this radius, in pictures of this size. Its second moment is that of the disc.

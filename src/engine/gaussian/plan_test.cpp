@@ -105,16 +105,15 @@ private:
 TEST(GaussianPlan, WhereNothingIsNearNothingIsBlurredForIt) {
     const GaussianPlan plan = Drafts(0, 9).plan(GaussianStyle::Layered);
     EXPECT_EQ(plan.near.count(), 0);
-    EXPECT_FALSE(plan.has_backdrop());
+    EXPECT_TRUE(plan.guessed.fill.empty());
     EXPECT_EQ(plan.blurs.size(), std::size_t(plan.far.count()));
 }
 
 TEST(GaussianPlan, BlursStandInTheOrderTheyAreCompositedIn) {
     const GaussianPlan plan = Drafts(-9, 30).plan(GaussianStyle::Layered);
-    ASSERT_TRUE(plan.has_backdrop());
-    ASSERT_EQ(plan.blurs.size(), plan.backdrop() + 1);
+    ASSERT_EQ(plan.blurs.size(), std::size_t(plan.near.count() + plan.far.count()));
     EXPECT_EQ(plan.near_blur(plan.near.count()), 0U);
-    for (std::size_t k = 1; k < plan.backdrop(); ++k) {
+    for (std::size_t k = 1; k < plan.blurs.size(); ++k) {
         const bool near = k < std::size_t(plan.near.count()), first_far = k == std::size_t(plan.near.count());
         if (first_far) continue;
         const int before = plan.blurs[k - 1].level, own = plan.blurs[k].level;

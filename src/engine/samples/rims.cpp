@@ -36,11 +36,10 @@ public:
            View<const Touched> touched)
         : colour_(colour), judged_(judged), coc_px_(coc_px), touched_(touched) {}
 
-    std::optional<Rim> taken_apart(int x, int y, bool bright_alone) const {
+    std::optional<Rim> taken_apart(int x, int y) const {
         const Nearer nearer = nearer_beside(x, y);
         const float own = luminance(judged_(x, y));
         bool bright = nearer.brightest > kBrighter * own;
-        if (bright_alone && !bright) return {};
         Pool clean, clean_of_layer;
         const bool is_layer = colour_.row(0) != judged_.row(0);
         const Rect window = around(x, y, kCleanReach);
@@ -49,7 +48,6 @@ public:
                 if (touched_(u, v) != Touched::Clean) continue;
                 if (std::abs(coc_px_(u, v) - coc_px_(x, y)) > kUnlikePx) continue;
                 bright = bright && kBrighter * luminance(judged_(u, v)) <= own;
-                if (bright_alone && !bright) return {};
                 const float weight = 1 / float(1 + (u - x) * (u - x) + (v - y) * (v - y));
                 clean.add(judged_(u, v), weight);
                 if (is_layer) clean_of_layer.add(colour_(u, v), weight);
@@ -118,7 +116,6 @@ private:
         Rim rim;
         rim.share = d.share, rim.near_coc_px = nearer.coc_px;
         rim.far = colour_(x, y) + d.towards_clean * (clean - colour_(x, y));
-        rim.near = colour_(x, y) - (1 - d.share) * rim.far;
         return rim;
     }
 
@@ -126,17 +123,6 @@ private:
     View<const float> coc_px_;
     View<const Touched> touched_;
 };
-
-Rims find(View<const Rgba> colour, View<const Rgba> judged, View<const float> coc_px,
-          View<const Touched> touched, Workers& workers, bool bright_alone) {
-    const Finder finder(colour, judged, coc_px, touched);
-    return Rims(colour.width(), colour.height(), workers, [&](int y, const auto& emit) {
-        const Touched* const row = touched.row(y);
-        for (int x = 0; x < colour.width(); ++x)
-            if (row[x] == Touched::ByNearer)
-                if (const auto rim = finder.taken_apart(x, y, bright_alone)) emit(x, *rim);
-    });
-}
 
 }  // namespace
 
@@ -167,22 +153,13 @@ Image<Touched> find_touched(View<const float> coc_px, Workers& workers) {
 
 Rims find_rims(View<const Rgba> colour, View<const Rgba> judged, View<const float> coc_px,
                View<const Touched> touched, Workers& workers) {
-    return find(colour, judged, coc_px, touched, workers, false);
-}
-
-Rims find_bright_rims(View<const Rgba> colour, View<const float> coc_px, View<const Touched> touched,
-                      Workers& workers) {
-    return find(colour, colour, coc_px, touched, workers, true);
-}
-
-Plane radii_of_rims(const Rims& rims, View<const float> coc_px) {
-    Plane radii = Plane::uninitialised(coc_px.width(), coc_px.height());
-    for (int y = 0; y < coc_px.height(); ++y)
-        for (int x = 0; x < coc_px.width(); ++x) {
-            const Rim* const rim = rims.at(x, y);
-            radii(x, y) = rim ? rim->near_coc_px : coc_px(x, y);
-        }
-    return radii;
+    const Finder finder(colour, judged, coc_px, touched);
+    return Rims(colour.width(), colour.height(), workers, [&](int y, const auto& emit) {
+        const Touched* const row = touched.row(y);
+        for (int x = 0; x < colour.width(); ++x)
+            if (row[x] == Touched::ByNearer)
+                if (const auto rim = finder.taken_apart(x, y)) emit(x, *rim);
+    });
 }
 
 }  // namespace petzval::engine

@@ -29,7 +29,9 @@ Image<Touched> find_touched(View<const float> coc_px, Workers& workers);
 struct Rim {
     float share = 0;  // of the pixel that the nearer surface covers
     float near_coc_px = 0;
-    Rgba near, far;  // near: premultiplied by the share
+    Rgba far;
+    // Of the pixel's own colour: premultiplied by the share.
+    Rgba near(Rgba colour) const { return colour - (1 - share) * far; }
 };
 using Rims = SparseRows<Rim>;
 
@@ -39,14 +41,7 @@ using Rims = SparseRows<Rim>;
 // ones than the pixel's own.
 Rims find_rims(View<const Rgba> colour, View<const Rgba> judged, View<const float> coc_px,
                View<const Touched> touched, Workers& workers);
-// Those alone that hold light of bright things: twice as bright pixels of the nearer surface touch them, and
-// no clean pixel of the farther one around is half as bright.
-Rims find_bright_rims(View<const Rgba> colour, View<const float> coc_px, View<const Touched> touched,
-                      Workers& workers);
 // How far what decides about a pixel may lie from it.
 constexpr int kRimReachPx = 4;
-
-// The radii where rims are spread as the nearer surface, whose light is most of theirs.
-Plane radii_of_rims(const Rims& rims, View<const float> coc_px);
 
 }  // namespace petzval::engine

@@ -6,7 +6,9 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace petzval::engine {
@@ -15,32 +17,48 @@ template <typename T>
 class SparseRows {
 public:
     SparseRows() = default;  // no pixel has one
-    // Rows in parallel: find(y, emit) calls emit(x, value) of the pixels of row y that have one.
+    // Rows in parallel: find(y, emit) calls emit(x, value) of the pixels of row y that have one, from the
+    // left.
     template <typename Find>
     SparseRows(int width, int height, Workers& workers, const Find& find)
-        : index_(Image<int>::uninitialised(width, height)), rows_(std::size_t(height)) {
+        : words_((width + 63) / 64, height), rows_(std::size_t(height)) {
         parallel_for(height, workers, [&](int y) {
-            std::vector<T>& row = rows_[std::size_t(y)];
-            int* const index = index_.row(y);
-            std::fill_n(index, width, -1);
+            std::vector<T> row;
+            Word* const words = words_.row(y);
             find(y, [&](int x, const T& value) {
-                index[x] = int(row.size());
+                words[x / 64].has |= std::uint64_t(1) << (x % 64);
                 row.push_back(value);
             });
+            for (int i = 1; i < words_.width(); ++i)
+                words[i].before = words[i - 1].before + std::uint32_t(std::popcount(words[i - 1].has));
+            rows_[std::size_t(y)].assign(row.begin(), row.end());  // no more room than that
         });
         if (std::all_of(rows_.begin(), rows_.end(), [](const auto& row) { return row.empty(); }))
-            index_ = {}, rows_ = {};
+            words_ = {}, rows_ = {};
     }
 
     bool empty() const { return rows_.empty(); }
     const T* at(int x, int y) const {
         if (empty()) return nullptr;
-        const int i = index_(x, y);
-        return i < 0 ? nullptr : &rows_[std::size_t(y)][std::size_t(i)];
+        const Word& word = words_(x / 64, y);
+        const std::uint64_t from_own = word.has >> (x % 64);
+        if ((from_own & 1) == 0) return nullptr;
+        const int left = std::popcount(word.has) - std::popcount(from_own);
+        return &rows_[std::size_t(y)][word.before + std::uint32_t(left)];
+    }
+    std::size_t bytes() const {
+        std::size_t values = 0;
+        for (const auto& row : rows_) values += row.size();
+        return values * sizeof(T) + words_.size() * sizeof(Word);
     }
 
 private:
-    Image<int> index_;  // into the values of its row, or -1
+    // 64 pixels of a row: which have a value, and how many to the left of them have.
+    struct Word {
+        std::uint64_t has = 0;
+        std::uint32_t before = 0;
+    };
+    Image<Word> words_;
     std::vector<std::vector<T>> rows_;
 };
 

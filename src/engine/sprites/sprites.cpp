@@ -135,10 +135,12 @@ Result<Output> run_sprites(const Input& input) {
     Input rest = input;
     rest.beside_bytes += bytes_of_points;
     if (finds) rest.beside_bytes += sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
-    const std::size_t least = std::max(whole_picture_bytes(input, kBytesPerPixel) + bytes_of_points,
-                                       over_gather ? least_gather_bytes(rest) : least_gaussian_bytes(rest));
-    if (input.max_memory_bytes > 0 && input.max_memory_bytes < least)
-        return too_little_memory("sprites", least);
+    if (input.max_memory_bytes > 0) {
+        const std::size_t least =
+            std::max(whole_picture_bytes(input, kBytesPerPixel) + bytes_of_points,
+                     over_gather ? least_gather_bytes(rest) : least_gaussian_bytes(rest));
+        if (input.max_memory_bytes < least) return too_little_memory("sprites", least);
+    }
     Parted parted = finds ? part(input) : Parted{};
     if (finds) rest.colour = parted.background;
     rest.gather.stage = GatherStage::Final;

@@ -11,6 +11,7 @@ layout(push_constant) uniform Push {
     uint width, height, first_row;   // of the picture; the first row of pixels that is here
     uint out_row, out_rows;          // rows of the result
     uint law, view;
+    uint has_extras;                 // whether pixels may have any
     float near[4], far[4];           // BlurStack: band, stretch, largest radius, count
 } at;
 
@@ -34,13 +35,21 @@ Mix in_stack(float radius_px, float s[4]) {
     const float low = radius_of(upper - 1, s), high = radius_of(upper, s);
     return Mix(upper - 1, min(1.0, (r * r - low * low) / (high * high - low * low)));
 }
-float nearness(float radius_px) {
-    const float near = at.near[2] / 2;
-    return min(1.0, radius_px * radius_px / (near * near));
-}
 Mix own_mix(float coc_px) { return coc_px < 0 ? in_stack(-coc_px, at.near) : in_stack(coc_px, at.far); }
 float sharp_share(Mix mixed) { return mixed.lower == 0 ? 1 - mixed.upper_share : 0; }
 
-// Places of the layers.
+// Places of the layers, and how many.
 uint near_count() { return uint(at.near[3]); }
-uint backdrop() { return near_count() + uint(at.far[3]); }
+uint layer_count() { return near_count() + uint(at.far[3]); }
+// Of light of this sign, that numbered k from 1.
+uint layer(int k, bool near) { return near ? near_count() - uint(k) : near_count() + uint(k) - 1u; }
+
+// What a pixel holds beside what is seen: part of something nearer, then what is hidden. Its word in `extra_of`
+// says where in `extras` these are: the first number times 4, and a bit for each.
+struct Extra {
+    vec4 light;
+    float covered;
+    bool near;
+    Mix mixed;
+};
+const uint kRim = 1u, kHidden = 2u;

@@ -6,10 +6,13 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
 layout(std430, binding = 1) readonly buffer Colours { vec4 colours[]; };
 layout(std430, binding = 2) readonly buffer Values { float values[]; };
-layout(std430, binding = 3) readonly buffer Light { vec4 light_of[]; };
-layout(std430, binding = 4) readonly buffer Covered { float covered_of[]; };
-layout(std430, binding = 5) writeonly buffer Result { vec4 result[]; };
+layout(std430, binding = 3) readonly buffer ExtraOf { uint extra_of[]; };
+layout(std430, binding = 4) readonly buffer Extras { vec4 extras[]; };
+layout(std430, binding = 5) readonly buffer Light { vec4 light_of[]; };
+layout(std430, binding = 6) readonly buffer Covered { float covered_of[]; };
+layout(std430, binding = 7) writeonly buffer Result { vec4 result[]; };
 #include "mix.glsl"
+#include "mix_extras.glsl"
 
 const float kLeastArea = 1e-5;
 const uint kViewSmall = 1u, kViewLarge = 2u, kViewIndex = 3u;
@@ -43,22 +46,22 @@ void take_blur(uint blur, uvec2 pixel, inout vec4 sum, inout float free) {
     take(light, covered, sum, free);
 }
 
-vec4 layered(uvec2 pixel, vec4 colour, float coc_px) {
+void take_sharp(uint number, inout vec4 sum, inout float free) {
+    const Extra more = extra(number);
+    const float sharp = sharp_share(more.mixed);
+    take(sharp * more.light, sharp * more.covered, sum, free);
+}
+
+vec4 layered(uvec2 pixel, uint k, vec4 colour, float coc_px) {
     vec4 sum = vec4(0);
     float free = 1;
     for (uint blur = 0u; blur < near_count(); ++blur) take_blur(blur, pixel, sum, free);
+    const uint more = extras_at(k);
+    if ((more & kRim) != 0u) take_sharp(rim_of(more), sum, free);
     const float sharp = sharp_share(own_mix(coc_px));
     take(sharp * colour, sharp, sum, free);
-    for (uint blur = near_count(); blur < backdrop(); ++blur) take_blur(blur, pixel, sum, free);
-    if (free > kLeastArea && coc_px < 0 && near_count() > 0u) {
-        vec4 light;
-        float covered;
-        read(backdrop(), pixel, light, covered);
-        if (covered > kLeastArea) {
-            sum += free / covered * light;
-            free = 0;
-        }
-    }
+    if ((more & kHidden) != 0u) take_sharp(hidden_of(more), sum, free);
+    for (uint blur = near_count(); blur < layer_count(); ++blur) take_blur(blur, pixel, sum, free);
     return free < 1 - kLeastArea ? sum / (1 - free) : colour;
 }
 
@@ -99,5 +102,5 @@ void main() {
     if (i >= at.width * at.out_rows) return;
     const uvec2 pixel = uvec2(i % at.width, at.out_row + i / at.width);
     const uint k = (pixel.y - at.first_row) * at.width + pixel.x;
-    result[i] = at.law == kLayered ? layered(pixel, colours[k], values[k]) : mixed(pixel, colours[k], values[k]);
+    result[i] = at.law == kLayered ? layered(pixel, k, colours[k], values[k]) : mixed(pixel, colours[k], values[k]);
 }

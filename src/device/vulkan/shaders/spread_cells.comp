@@ -8,21 +8,34 @@ layout(constant_id = 0) const uint kWide = 0;  // 1: a group for each cell
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
 layout(std430, binding = 1) readonly buffer Colours { vec4 colours[]; };
 layout(std430, binding = 2) readonly buffer Values { float values[]; };  // radius, or share of the sharp picture
-layout(std430, binding = 3) writeonly buffer Light { vec4 light_of[]; };
-layout(std430, binding = 4) writeonly buffer Covered { float covered_of[]; };
+layout(std430, binding = 3) readonly buffer ExtraOf { uint extra_of[]; };
+layout(std430, binding = 4) readonly buffer Extras { vec4 extras[]; };
+layout(std430, binding = 5) writeonly buffer Light { vec4 light_of[]; };
+layout(std430, binding = 6) writeonly buffer Covered { float covered_of[]; };
 #include "mix.glsl"
+#include "mix_extras.glsl"
 
 shared vec4 part_light[256];
 shared float part_covered[256];
 
-// Of a pixel's light, in this blur.
-float share(float value) {
-    if (at.law != kLayered) return 1;
-    const bool near = value < 0;
-    if (at.blur == backdrop()) return near ? 1 - nearness(-value) : 1;
-    const int k = near ? int(near_count()) - int(at.blur) : int(at.blur) - int(near_count()) + 1;
-    const Mix own = own_mix(value);
-    return k < 1 ? 0 : k == own.lower ? 1 - own.upper_share : k == own.lower + 1 ? own.upper_share : 0;
+// Of light, in this blur.
+float share(Mix mixed, bool near) {
+    const uint lower = mixed.lower > 0 ? layer(mixed.lower, near) : layer_count();
+    if (at.blur == lower) return 1 - mixed.upper_share;
+    return mixed.upper_share > 0 && at.blur == layer(mixed.lower + 1, near) ? mixed.upper_share : 0;
+}
+void add_extra(uint number, float in_cell, inout vec4 light, inout float covered) {
+    const Extra more = extra(number);
+    const float part = share(more.mixed, more.near) * in_cell;
+    light += part * more.light, covered += part * more.covered;
+}
+void add_pixel(uint pixel, float in_cell, inout vec4 light, inout float covered) {
+    const float value = values[pixel];
+    const float part = (at.law == kLayered ? share(own_mix(value), value < 0) : 1) * in_cell;
+    light += part * colours[pixel], covered += part;
+    const uint more = extras_at(pixel);
+    if ((more & kRim) != 0u) add_extra(rim_of(more), in_cell, light, covered);
+    if ((more & kHidden) != 0u) add_extra(hidden_of(more), in_cell, light, covered);
 }
 
 // Of the light of pixels begin…end-1, in a cell.
@@ -52,9 +65,7 @@ void main() {
         const ivec2 pixel = begin + ivec2(i % wide, i / wide);
         const uint k = (uint(pixel.y) - at.first_row) * at.width + uint(pixel.x);
         const vec2 in_cell = tent(pixel, cell, per_cell, cells);
-        const float part = share(values[k]) * in_cell.x * in_cell.y;
-        light += part * colours[k];
-        covered += part;
+        add_pixel(k, in_cell.x * in_cell.y, light, covered);
     }
     if (kWide != 0u) {
         part_light[own] = light, part_covered[own] = covered;

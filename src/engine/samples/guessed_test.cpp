@@ -1,4 +1,4 @@
-#include "engine/gather/gather_fill.h"
+#include "engine/samples/guessed.h"
 
 #include "base/parallel.h"
 
@@ -38,7 +38,7 @@ TEST(HiddenFill, ContinuesTheTextureOfWhatAWireHides) {
     double error = 0;
     for (int y = 16; y < 48; ++y)
         for (int x = 30; x < 35; ++x) {
-            const CocSample* const sample = hidden.at(x, y);
+            const FilledIn* const sample = hidden.at(x, y);
             ASSERT_NE(sample, nullptr) << x << ", " << y;
             EXPECT_EQ(sample->coc_px, 0);
             error += std::abs(double(sample->colour.r) - double(stripes(x, y)));

@@ -1,4 +1,4 @@
-#include "engine/gather/gather_fill.h"
+#include "engine/samples/guessed.h"
 
 #include "base/parallel.h"
 
@@ -230,7 +230,7 @@ public:
     PixelFill(const Input& input, View<const Touched> touched)
         : input_(input), judged_(input.judged()), touched_(touched), blocks_(input) {}
 
-    std::optional<CocSample> at(int x, int y) const {
+    std::optional<FilledIn> at(int x, int y) const {
         const float own = input_.coc_px(x, y);
         if (own > -kBlurredPx) return std::nullopt;
         Votes votes(input_.fill);
@@ -239,7 +239,7 @@ public:
         if (blocks_.is_by_edge(x, y))
             for (int k = 0; k < 8; ++k) look(x, y, k, votes);
         const Seen hidden = votes.result();
-        return CocSample{.colour = hidden.colour, .coc_px = hidden.coc_px, .coc_back_px = hidden.coc_px};
+        return FilledIn{hidden.colour, hidden.coc_px};
     }
 
 private:
@@ -297,6 +297,14 @@ HiddenFill fill_hidden(const Input& input, View<const Touched> touched) {
         for (int x = 0; x < input.width(); ++x)
             if (const auto hidden = pixels.at(x, y)) emit(x, *hidden);
     });
+}
+
+Guessed guess(const Input& input, bool fills) {
+    const Image<Touched> touched = find_touched(input.coc_px, *input.workers);
+    Guessed guessed;
+    if (fills) guessed.fill = fill_hidden(input, touched);
+    guessed.rims = find_rims(input.colour, input.judged(), input.coc_px, touched, *input.workers);
+    return guessed;
 }
 
 }  // namespace petzval::engine
