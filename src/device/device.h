@@ -5,6 +5,7 @@
 #include "petzval/workers.h"
 
 #include "base/progress.h"
+#include "device/canvas.h"
 #include "device/kernels.h"
 #include "device/memory.h"
 
@@ -63,26 +64,32 @@ public:
 
     virtual const char* name() const = 0;
 
+    // One that this device draws on, and can hand from verb to verb without its coming home. memory: where it
+    // comes home to.
+    virtual std::unique_ptr<Canvas> canvas(Picture memory) const = 0;
+
     // Makes what is missing of a set, in parallel, before anything is drawn with it. Kernels are kept in
     // `memory`, under the name of their source. Incomplete once cancelled.
     virtual std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set,
                                                Memory& memory, const Control& control) const = 0;
 
     // Writes the plan's rows of `out`, the whole frame. `atlas` is that of the plan's kernels.
-    virtual Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
+    virtual Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, Target out,
                            const Control& control) const = 0;
     // Writes the plan's tiles of `out`, the whole frame.
-    virtual void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
+    virtual void gather(const engine::GatherPlan& plan, const Atlas& atlas, Target out,
                         const Control& control) const = 0;
     // Writes all of `out`.
-    virtual void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const = 0;
+    virtual void mix(const engine::GaussianPlan& plan, Target out, const Control& control) const = 0;
     // Writes all of `out`. The CPU has no pass for real time and says so.
-    virtual void draw_realtime(const engine::RealtimePlan& plan, View<Rgba> out) const = 0;
+    virtual void draw_realtime(const engine::RealtimePlan& plan, Target out) const = 0;
     // Adds to the plan's rows of `out`, the whole frame.
-    virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
+    virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                             const Control& control) const = 0;
     // Moves the plan's light within a picture. False: this device cannot, and nothing was done.
-    virtual bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers) const = 0;
+    virtual bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers& workers) const = 0;
+    // The part of a picture's light that stands above a threshold, at home. Empty: this device cannot.
+    virtual Picture highlights(Canvas& picture, float threshold, Workers& workers) const = 0;
 };
 
 }  // namespace petzval::device

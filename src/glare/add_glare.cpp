@@ -74,16 +74,8 @@ Result<GhostModel> ghost_model(const GlareSettings& s, double height_px, int wid
     return sprite_ghosts(s.lens.aperture, height_px, s.place.pixel_aspect);
 }
 
-Picture highlights(View<const Rgba> picture, float threshold, Workers& workers) {
-    Picture bright = Picture::uninitialised(picture.width(), picture.height());
-    parallel_for(bright.height(), workers, [&](int y) {
-        for (int x = 0; x < bright.width(); ++x) bright(x, y) = highlight(picture(x, y), threshold);
-    });
-    return bright;
-}
-
 // All but the light of ghosts. height: of the display window, in widths of a pixel.
-GlarePlan plan_of(const GlareSettings& s, double height, View<const Rgba> picture, KeptStars& stars,
+GlarePlan plan_of(const GlareSettings& s, double height, const Rect& picture, KeptStars& stars,
                   Workers& workers) {
     GlarePlan plan;
     plan.bloom = float(s.bloom), plan.star = float(s.star), plan.ghosts = float(s.ghosts);
@@ -102,23 +94,27 @@ GlarePlan plan_of(const GlareSettings& s, double height, View<const Rgba> pictur
 }  // namespace
 
 Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings) {
-    Picture lit = Picture::uninitialised(picture.width(), picture.height());
+    device::Canvas canvas(Picture::uninitialised(picture.width(), picture.height()));
+    const View<Rgba> lit = canvas.view();
     for (int y = 0; y < lit.height(); ++y) std::copy_n(picture.row(y), std::size_t(lit.width()), lit.row(y));
     glare::KeptStars stars;
-    return glare::add_glare(std::move(lit), settings, stars, device::cpu_device());
+    const Status added = glare::add_glare(canvas, settings, stars, device::cpu_device());
+    if (!added) return added.error();
+    return canvas.take();
 }
 
 namespace glare {
 
-Result<Picture> add_glare(Picture picture, const GlareSettings& settings, KeptStars& stars,
-                          const device::Device& device) {
+Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptStars& stars,
+                 const device::Device& device) {
     GlareSettings s = settings;
     if (s.opened_lens) s.lens = s.opened_lens->choice();
-    if (picture.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
+    const Rect all{0, 0, picture.width(), picture.height()};
+    if (all.empty()) return Error{ErrorCode::InvalidArgument, "the picture is empty"};
     if (const Status fine = check(s); !fine) return fine.error();
-    if (s.bloom == 0 && s.star == 0 && s.ghosts == 0 && s.veil == 0) return picture;
+    if (s.bloom == 0 && s.star == 0 && s.ghosts == 0 && s.veil == 0) return Done{};
     Rect display = s.place.display_window, data = s.place.data_window;
-    if (display.empty()) display = data = picture.rect();
+    if (display.empty()) display = data = all;
     const double height = display.height() / s.place.pixel_aspect;  // in widths of a pixel, as radii are
 
     const std::shared_ptr<Workers> workers = workers_of(s.threads, s.workers);
@@ -128,13 +124,14 @@ Result<Picture> add_glare(Picture picture, const GlareSettings& settings, KeptSt
         if (!model) return model.error();
         const kernel::Point middle{display.x0 - data.x0 + 0.5 * display.width(),
                                    display.y0 - data.y0 + 0.5 * display.height()};
-        thrown = ghosts_of(highlights(picture, float(s.threshold), *workers), *model, middle, *workers);
+        Picture bright = device.highlights(picture, float(s.threshold), *workers);
+        if (bright.empty()) bright = device::cpu_device().highlights(picture, float(s.threshold), *workers);
+        thrown = ghosts_of(bright, *model, middle, *workers);
     }
-    GlarePlan plan = plan_of(s, height, picture, stars, *workers);
+    GlarePlan plan = plan_of(s, height, all, stars, *workers);
     plan.ghost_light = thrown;
-    if (!device.add_glare(plan, picture.view(), *workers))
-        device::cpu_device().add_glare(plan, picture.view(), *workers);
-    return picture;
+    if (!device.add_glare(plan, picture, *workers)) device::cpu_device().add_glare(plan, picture, *workers);
+    return Done{};
 }
 
 }  // namespace glare

@@ -43,7 +43,7 @@ private:
 
 // petzval::add_glare() with stars of frames before, on this device, or on the CPU where that cannot. Throws
 // what a device does.
-Result<Picture> add_glare(Picture picture, const GlareSettings& settings, KeptStars& stars,
-                          const device::Device& device);
+Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptStars& stars,
+                 const device::Device& device);
 
 }  // namespace petzval::glare

@@ -11,6 +11,7 @@
 #include "session/open_device.h"
 
 #include <algorithm>
+#include <functional>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -19,6 +20,9 @@
 #include <utility>
 
 namespace petzval {
+
+// What is done to a picture before it comes home from what drew it.
+using Finish = std::function<Status(std::shared_ptr<device::Canvas>&)>;
 
 // Lenses that frames used, the last one first. Frames hold what they use, so that it may be let go of any
 // time.
@@ -38,9 +42,10 @@ struct Session::Contents {
         return settings.max_memory_bytes > 0 ? settings.max_memory_bytes / 8 : kUnlimited;
     }
 
-    // A defocus alone. Errors: those of Session::defocus(). Throws Cancelled.
+    // A defocus alone, and what is done to its picture; finish: may be empty. Errors: those of
+    // Session::defocus() and of finish. Throws Cancelled.
     Result<DefocusReport> defocus(const DefocusJob& given, const std::optional<Rect>& region,
-                                  Progress& progress, CancellableWorkers& workers);
+                                  Progress& progress, CancellableWorkers& workers, const Finish& finish = {});
 
     // The largest radius of a frame, and how far its light lands. Errors: those of Session::defocus().
     struct Reach {

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace petzval {
 
@@ -16,46 +17,59 @@ namespace petzval {
 // used.
 Result<std::shared_ptr<const device::Device>> open_device(const std::string& choice);
 
+// A picture where this device can go on with it.
+inline std::shared_ptr<device::Canvas> canvas_of(const device::Device& device, Picture picture) {
+    std::shared_ptr<device::Canvas> canvas = device.canvas(std::move(picture));
+    canvas->view();
+    return canvas;
+}
+
 // A device for one frame, that notes what was drawn with it.
 class NotingDevice final : public device::Device {
 public:
     explicit NotingDevice(const device::Device& drawing) : device_(drawing) {}
 
     const char* name() const override { return device_.name(); }
+    std::unique_ptr<device::Canvas> canvas(Picture memory) const override {
+        return device_.canvas(std::move(memory));
+    }
     std::shared_ptr<const device::Atlas> atlas(const device::KernelSource& source,
                                                const device::KernelSet& set, device::Memory& memory,
                                                const device::Control& control) const override {
         return device_.atlas(source, set, memory, control);
     }
-    device::Work composite(const engine::ScatterPlan& plan, const device::Atlas& atlas, View<Rgba> out,
+    device::Work composite(const engine::ScatterPlan& plan, const device::Atlas& atlas, device::Target out,
                            const device::Control& control) const override {
         note();
         return device_.composite(plan, atlas, out, control);
     }
-    void gather(const engine::GatherPlan& plan, const device::Atlas& atlas, View<Rgba> out,
+    void gather(const engine::GatherPlan& plan, const device::Atlas& atlas, device::Target out,
                 const device::Control& control) const override {
         note();
         device_.gather(plan, atlas, out, control);
     }
-    void mix(const engine::GaussianPlan& plan, View<Rgba> out,
+    void mix(const engine::GaussianPlan& plan, device::Target out,
              const device::Control& control) const override {
         note();
         device_.mix(plan, out, control);
     }
-    void draw_realtime(const engine::RealtimePlan& plan, View<Rgba> out) const override {
+    void draw_realtime(const engine::RealtimePlan& plan, device::Target out) const override {
         note();
         device_.draw_realtime(plan, out);
     }
-    device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, View<Rgba> out,
+    device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, device::Target out,
                             const device::Control& control) const override {
         note();
         return device_.add_lights(plan, atlas, out, control);
     }
 
-    bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers) const override {
+    bool add_glare(const glare::GlarePlan& plan, device::Canvas& picture, Workers& workers) const override {
         const bool done = device_.add_glare(plan, picture, workers);
         if (done) note();
         return done;
+    }
+    Picture highlights(device::Canvas& picture, float threshold, Workers& workers) const override {
+        return device_.highlights(picture, threshold, workers);
     }
 
     // Who drew: "gpu:0 its name", or "cpu": what engines draw without a device.

@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -141,6 +143,10 @@ DefocusJob job_of_session(DefocusJob job, const SessionSettings& s, Workers& wor
     return job;
 }
 
+Picture taken(engine::Output& output) {
+    return output.canvas ? output.canvas->take() : std::move(output.image);
+}
+
 // Each layer as the picture, with its alpha.
 Status run_layers(const engine::Engine& chosen, const engine::Input& drawn, engine::Output& output) {
     for (const engine::Input::Layer& layer : drawn.layers) {
@@ -154,9 +160,14 @@ Status run_layers(const engine::Engine& chosen, const engine::Input& drawn, engi
         input.colour = colour, input.picture = drawn.colour;
         Result<engine::Output> blurred = chosen.run(input);
         if (!blurred) return blurred.error();
-        output.layers.push_back(std::move(blurred->image));
+        output.layers.push_back(taken(*blurred));
     }
     return Done{};
+}
+
+// Whether what an engine drew is the picture that was asked for.
+bool stays_as_drawn(const DefocusJob& job, const Asked& asked, const Rect& seen) {
+    return asked.pixels == seen && job.lens.distortion == 0;
 }
 
 // What follows an engine: distortion, and the pixels that were asked for.
@@ -177,9 +188,29 @@ void finish(DefocusReport& report, const DefocusJob& job, const Asked& asked, co
     }
 }
 
+// What is left to be done to the picture where it was drawn: drawn, or else at home in the report.
+Status bring_home(DefocusReport& report, std::shared_ptr<device::Canvas> drawn, const NotingDevice& drawing,
+                  const Finish& last) {
+    if (!last || !report.panels.empty()) return Done{};
+    if (!drawn) drawn = canvas_of(drawing, std::move(report.image));
+    if (const Status done = last(drawn); !done) return done;
+    report.image = drawn->take();
+    return Done{};
+}
+
+// What a view showed in place of a result.
+void take_view(DefocusReport& report, engine::Output& output, views::PlanView& view, const Radii& radii) {
+    views::Shown shown = view.take();
+    report.image = std::move(shown.image);
+    report.panels = std::move(shown.panels);
+    output.warnings = std::move(shown.warnings);
+    report.hidden = radii.with_depths(std::move(shown.hidden));
+}
+
 Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, const engine::Engine& chosen,
                                  const Radii& radii, MountedLens& lens, const NotingDevice& drawing,
-                                 const Clock& clock, Progress& progress, std::size_t beside_bytes) {
+                                 const Clock& clock, Progress& progress, std::size_t beside_bytes,
+                                 const Finish& last) {
     const double lens_ready = clock.seconds();
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
     engine::Input& input = frame.input;
@@ -207,16 +238,13 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     if (chosen.layers == engine::Layers::OneByOne)
         if (const Status done = run_layers(chosen, drawn, *output); !done) return done.error();
     DefocusReport report;
-    report.image = std::move(output->image);
-    if (view) {
-        views::Shown shown = view->take();
-        report.image = std::move(shown.image);
-        report.panels = std::move(shown.panels);
-        output->warnings = std::move(shown.warnings);
-        report.hidden = radii.with_depths(std::move(shown.hidden));
-    }
+    std::shared_ptr<device::Canvas> canvas;
+    if (last && !view && stays_as_drawn(job, asked, seen)) canvas = output->canvas;
+    if (!canvas) report.image = taken(*output);
+    if (view) take_view(report, *output, *view, radii);
     report.layers = std::move(output->layers);
     finish(report, job, asked, seen);
+    if (const Status done = bring_home(report, canvas, drawing, last); !done) return done.error();
     report.engine = chosen.name;
     report.device = drawing.drawn_by();
     report.lens = lens.levels.front()->description();
@@ -245,7 +273,8 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const std::optional<Rect>& region,
-                                                 Progress& progress, CancellableWorkers& workers) {
+                                                 Progress& progress, CancellableWorkers& workers,
+                                                 const Finish& last) {
     const Clock clock;
     DefocusJob job = job_of_session(given, settings, workers);
     // What is kept is there while the frame is made. Frames beside this one may keep more than they will when
@@ -275,7 +304,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
     const Rect asked = region ? region->intersected(job.place.data_window) : job.place.data_window;
     auto report =
         made_frame(wider ? wider->job() : job, {asked.moved(-window.x0, -window.y0), region.has_value()},
-                   **engine, *radii, **lens, drawing, clock, progress, beside);
+                   **engine, *radii, **lens, drawing, clock, progress, beside, last);
     if (report && !edges.what_was_done().empty()) report->warnings.push_back(edges.what_was_done());
     // Whoever asks for a GPU is told where he did not get it.
     if (report && settings.device.starts_with("gpu") && report->device != drawing.name())

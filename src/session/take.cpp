@@ -42,8 +42,8 @@ Result<Picture> with_falloff(Picture picture, const DefocusJob& job, const Look&
                                  .workers = job.workers});
 }
 
-Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& look, const Light& by) {
-    if (!has_glare(look.glare)) return picture;
+Status add_glare_to(device::Canvas& picture, const DefocusJob& job, const Look& look, const Light& by) {
+    if (!has_glare(look.glare)) return Done{};
     GlareSettings settings;
     static_cast<GlareAmounts&>(settings) = look.glare;
     settings.diffraction_px = diffraction_px(job.camera, job.place.display_window.width());
@@ -51,34 +51,72 @@ Result<Picture> with_glare(Picture picture, const DefocusJob& job, const Look& l
     settings.opened_lens = job.opened_lens;
     settings.place = job.place;
     settings.workers = job.workers;
-    return glare::add_glare(std::move(picture), settings, by.stars, by.device);
+    return glare::add_glare(picture, settings, by.stars, by.device);
 }
 
-Result<Picture> lit(Picture picture, const DefocusJob& job, const Look& look, const Light& by) {
-    auto dimmed = with_falloff(std::move(picture), job, look);
-    if (!dimmed) return dimmed;
-    return with_glare(std::move(*dimmed), job, look, by);
+// What the lens does to the light of the picture. Falloff is made at home.
+Status light(std::shared_ptr<device::Canvas>& picture, const DefocusJob& job, const Look& look,
+             const Light& by) {
+    if (look.vignetting) {
+        auto dimmed = with_falloff(picture->take(), job, look);
+        if (!dimmed) return dimmed.error();
+        picture = canvas_of(by.device, std::move(*dimmed));
+    }
+    return add_glare_to(*picture, job, look, by);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// What the lens does to all light of a frame. Glare is of all of it together and goes to the picture alone.
-Status light(DefocusReport& report, const DefocusJob& job, const Look& look, glare::KeptStars& stars,
-             const device::Device& device) {
-    for (Picture& layer : report.layers) {
-        auto dimmed = with_falloff(std::move(layer), job, look);
-        if (!dimmed) return dimmed.error();
-        layer = std::move(*dimmed);
+// What the lens does to all light of a frame: to the picture where it was drawn, before it comes home, unless
+// lamps change it afterwards.
+class FrameLight {
+public:
+    FrameLight(const DefocusJob& job, const Look& look, glare::KeptStars& stars, const device::Device& device)
+        : job_(job), look_(look), stars_(stars), drawing_(device) {
+        for (const ColourLayer& layer : job.layers) has_lamps_ = has_lamps_ || layer.spectrum;
     }
-    const NotingDevice drawing(device);
-    auto image = lit(std::move(report.image), job, look, {stars, drawing});
-    if (!image) return image.error();
-    report.image = std::move(*image);
-    if (has_glare(look.glare)) report.glare_device = drawing.drawn_by();
-    return Done{};
-}
+
+    Finish of_one_lens() {
+        if (has_lamps_ || (!look_.vignetting && !has_glare(look_.glare))) return {};
+        return [this](std::shared_ptr<device::Canvas>& picture) { return add_to(picture); };
+    }
+
+    // What was not done on the way. Glare is of all light together and goes to the picture alone.
+    Status finish(DefocusReport& report) {
+        const auto start = std::chrono::steady_clock::now();
+        for (Picture& layer : report.layers) {
+            auto dimmed = with_falloff(std::move(layer), job_, look_);
+            if (!dimmed) return dimmed.error();
+            layer = std::move(*dimmed);
+        }
+        seconds_ += seconds_since(start);
+        if (has_lamps_) {
+            auto picture = canvas_of(drawing_, std::move(report.image));
+            if (const Status done = add_to(picture); !done) return done;
+            report.image = picture->take();
+        }
+        if (has_glare(look_.glare)) report.glare_device = drawing_.drawn_by();
+        return Done{};
+    }
+    double seconds() const { return seconds_; }
+
+private:
+    Status add_to(std::shared_ptr<device::Canvas>& picture) {
+        const auto start = std::chrono::steady_clock::now();
+        const Status done = light(picture, job_, look_, {stars_, drawing_});
+        seconds_ += seconds_since(start);
+        return done;
+    }
+
+    const DefocusJob job_;  // its window: what is made
+    const Look& look_;
+    glare::KeptStars& stars_;
+    const NotingDevice drawing_;
+    bool has_lamps_ = false;
+    double seconds_ = 0;
+};
 
 Result<Picture> expanded_plate(const DefocusJob& job, const Look& look) {
     const auto refuse = [](const char* why) { return Error{ErrorCode::InvalidArgument, why}; };
@@ -121,9 +159,12 @@ Result<Picture> Session::add_light(Picture picture, const DefocusJob& rendered, 
         if (const Status opened = open_lens(job); !opened) return opened.error();
         const auto device = contents_->opened_device();
         if (!device) return device.error();
-        auto made = lit(std::move(picture), job, look, {contents_->stars, **device});
+        if (!look.vignetting && !has_glare(look.glare)) return std::move(picture);
+        auto canvas = canvas_of(**device, std::move(picture));
+        const Status done = light(canvas, job, look, {contents_->stars, **device});
         contents_->trim(contents_->most_kept_bytes());
-        return made;
+        if (!done) return done.error();
+        return canvas->take();
     };
     return contents_->unless_cancelled(control, lighten);
 }
@@ -150,17 +191,17 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             // Glare spreads over the whole frame: a region of it is cut from that.
             const Rect made = has_glare(look.glare) ? all : asked;
             const std::optional<Rect> region = made == all ? std::nullopt : std::optional(made);
-            auto report = with_lamps(job, [&](const DefocusJob& one) {
-                return contents_->defocus(one, region, progress, workers);
-            });
             job.place.data_window = made;
-            // Buffers that are shown instead of the picture stay as they are.
-            if (!report || !report->panels.empty()) return report;
-            const auto blurred = std::chrono::steady_clock::now();
             const auto device = contents_->opened_device();
             if (!device) return device.error();
-            if (const Status done = light(*report, job, look, contents_->stars, **device); !done)
-                return done.error();
+            FrameLight lighting(job, look, contents_->stars, **device);
+            job.place.data_window = all;
+            auto report = with_lamps(job, [&](const DefocusJob& one) {
+                return contents_->defocus(one, region, progress, workers, lighting.of_one_lens());
+            });
+            // Buffers that are shown instead of the picture stay as they are.
+            if (!report || !report->panels.empty()) return report;
+            if (const Status done = lighting.finish(*report); !done) return done.error();
             contents_->trim(contents_->most_kept_bytes());
             if (made != asked) {
                 const Rect pixels = asked.moved(-made.x0, -made.y0);
@@ -172,7 +213,7 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                 report->image = compress_highlights(report->image, expanded.view().part(pixels),
                                                     rendered.colour.part(pixels), look.expansion);
             limit_by_mask(*report, rendered, pixels, workers);
-            report->stages.push_back({"light", seconds_since(blurred)});
+            report->stages.push_back({"light", lighting.seconds()});
             return report;
         });
     if (taken)

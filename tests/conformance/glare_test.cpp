@@ -73,6 +73,30 @@ TEST(GlareOnDevices, TakesLightThatIsNoneAsTheCpuDoes) {
     }
 }
 
+// Whether the frame comes home in between decides no bit.
+TEST(GlareOnDevices, GoesOnWhereTheFrameWasDrawn) {
+    Shot shot = flat(70, 40, {}, 4);
+    paint_rectangles(shot.colour, 5);
+    shot.colour(20, 20) = {300, 200, 100, 1};
+    for (int y = 0; y < 40; ++y) shot.coc_px(50, y) = -5;
+    for (const std::string& gpu : gpus()) {
+        Session session = session_on(gpu);
+        for (const char* engine : {"scatter", "gather", "gaussian", "sprites", "realtime"}) {
+            Look look = looks().back();
+            look.engine = engine;
+            const DefocusJob job = with_look(shot.job(engine), look);
+            const auto taken = session.take(job, look);
+            auto drawn = session.defocus(job);
+            ASSERT_TRUE(taken) << taken.error().message;
+            ASSERT_TRUE(drawn) << drawn.error().message;
+            const auto lit = session.add_light(std::move(drawn->image), job, look);
+            ASSERT_TRUE(lit) << lit.error().message;
+            EXPECT_EQ(largest_difference(taken->image, *lit), 0) << engine;
+            EXPECT_TRUE(taken->device.starts_with(gpu) && taken->glare_device == taken->device) << engine;
+        }
+    }
+}
+
 TEST(GlareOnDevices, TheReportSaysWhoDrewIt) {
     const Shot shot = flat(24, 20, {2, 2, 2, 1}, 2);
     const auto drawn_by = [&](const std::string& device, const Look& look) {

@@ -10,12 +10,17 @@
 #include "device/failure.h"
 #include "engine/lights/plan.h"
 
+#include <utility>
+
 namespace petzval::device {
 namespace {
 
 class CpuDevice final : public Device {
 public:
     const char* name() const override { return "cpu"; }
+    std::unique_ptr<Canvas> canvas(Picture memory) const override {
+        return std::make_unique<Canvas>(std::move(memory));
+    }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
                                        const Control& control) const override {
         switch (source.use()) {
@@ -31,30 +36,33 @@ public:
         return std::make_shared<const StampAtlas>(
             laid_out<StampSet>(source, set, "stamping", memory, control));
     }
-    Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
+    Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, Target out,
                    const Control& control) const override {
-        return composite_tiles(plan, dynamic_cast<const StampAtlas&>(atlas), out, control);
+        return composite_tiles(plan, dynamic_cast<const StampAtlas&>(atlas), out.view(), control);
     }
-    void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
+    void gather(const engine::GatherPlan& plan, const Atlas& atlas, Target out,
                 const Control& control) const override {
-        gather_tiles(plan, dynamic_cast<const TapAtlas&>(atlas), out, control);
+        gather_tiles(plan, dynamic_cast<const TapAtlas&>(atlas), out.view(), control);
     }
-    void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
-        mix_blurs(plan, out, control);
+    void mix(const engine::GaussianPlan& plan, Target out, const Control& control) const override {
+        mix_blurs(plan, out.view(), control);
     }
-    void draw_realtime(const engine::RealtimePlan&, View<Rgba>) const override {
+    void draw_realtime(const engine::RealtimePlan&, Target) const override {
         throw Failed{{ErrorCode::Unsupported,
                       "job.engine realtime is drawn by a GPU alone: session.device gpu", "job.engine"}};
     }
-    Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
+    Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                     const Control& control) const override {
         if (!plan.masks.empty())
-            return stamp_planned_lights(plan, dynamic_cast<const StampAtlas&>(atlas), out, control);
-        return add_planned_lights(plan, dynamic_cast<const SpreadAtlas&>(atlas), out, control);
+            return stamp_planned_lights(plan, dynamic_cast<const StampAtlas&>(atlas), out.view(), control);
+        return add_planned_lights(plan, dynamic_cast<const SpreadAtlas&>(atlas), out.view(), control);
     }
-    bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers) const override {
-        add_planned_glare(plan, picture, workers);
+    bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers& workers) const override {
+        add_planned_glare(plan, picture.view(), workers);
         return true;
+    }
+    Picture highlights(Canvas& picture, float threshold, Workers& workers) const override {
+        return device::highlights(picture.view(), threshold, workers);
     }
 };
 

@@ -23,14 +23,6 @@ Picture usable_light(View<const Rgba> picture, Workers& workers) {
     return light;
 }
 
-Picture highlights(const Picture& light, float threshold, Workers& workers) {
-    Picture bright = Picture::uninitialised(light.width(), light.height());
-    parallel_for(bright.height(), workers, [&](int y) {
-        for (int x = 0; x < bright.width(); ++x) bright(x, y) = glare::highlight(light(x, y), threshold);
-    });
-    return bright;
-}
-
 // Leaves finite colour, less what the parts take.
 void take(View<Rgba> picture, View<const Rgba> bright, const GlarePlan& plan, Workers& workers) {
     parallel_for(picture.height(), workers, [&](int y) {
@@ -68,6 +60,14 @@ void add_veil(View<Rgba> picture, const Picture& light, float amount, Workers& w
 }
 
 }  // namespace
+
+Picture highlights(View<const Rgba> picture, float threshold, Workers& workers) {
+    Picture bright = Picture::uninitialised(picture.width(), picture.height());
+    parallel_for(bright.height(), workers, [&](int y) {
+        for (int x = 0; x < bright.width(); ++x) bright(x, y) = glare::highlight(picture(x, y), threshold);
+    });
+    return bright;
+}
 
 void add_planned_glare(const GlarePlan& plan, View<Rgba> picture, Workers& workers) {
     const Picture light = usable_light(picture, workers);

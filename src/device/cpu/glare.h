@@ -8,6 +8,9 @@
 
 namespace petzval::device {
 
+// The part of a picture's light that stands above a threshold.
+Picture highlights(View<const Rgba> picture, float threshold, Workers& workers);
+
 // In place: what each part takes is subtracted where it was, what each throws is added.
 void add_planned_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers& workers);
 

@@ -1,6 +1,7 @@
 #include "device/vulkan/add_lights.h"
 
 #include "base/parallel.h"
+#include "device/vulkan/canvas.h"
 #include "device/vulkan/holdout.h"
 #include "device/vulkan/words.h"
 #include "engine/lights/shadow_plan.h"
@@ -59,7 +60,7 @@ public:
     }
 
     // Returns the taps drawn.
-    std::uint64_t draw(const Batch& batch, View<Rgba> out, const Control& control) {
+    std::uint64_t draw(const Batch& batch, Target out, const Control& control) {
         std::vector<std::vector<SeenCaster>> casters(batch.views.size());
         parallel_for(int(casters.size()), control.workers, [&](int i) {
             casters[std::size_t(i)] =
@@ -193,7 +194,7 @@ private:
     }
 
     void add(Recording& recording, std::size_t first, std::size_t count, const KernelsOnDevice& kernels,
-             const Piece& visible, const Piece& holdout, View<Rgba> out) {
+             const Piece& visible, const Piece& holdout, Target out) {
         constexpr std::uint32_t kTileWords = 5;
         const std::size_t bytes = count * kTilePixels * sizeof(Rgba);
         const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
@@ -202,10 +203,13 @@ private:
         recording.pass("add lights", context_.program(Shader::AddLights, plan_.holdout.empty() ? 0 : 1),
                        {&words_on_device_, &kernels.words, &kernels.weights, &visible, &holdout, &result},
                        push, {std::uint32_t(count) * kGroupsPerTile});
-        const auto* pixels = reinterpret_cast<const Rgba*>(recording.downloaded(result, bytes));
+        std::vector<Rect> places;
+        for (std::size_t t = first; t < first + count; ++t)
+            places.push_back(tiles_[t].moved(0, plan_.first_row));
+        Delivery delivery(context_, out);
+        delivery.squares(recording, result, places, kTile, true);
         recording.run();
-        for (std::size_t t = first; t < first + count; ++t, pixels += kTilePixels)
-            add_tile(pixels, kTile, tiles_[t], plan_.first_row, out);
+        delivery.finish();
     }
 
     Context& context_;
@@ -222,7 +226,7 @@ private:
 
 }  // namespace
 
-Work add_planned_lights(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+Work add_planned_lights(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, Target out,
                         const Control& control, const LightsRule& rule) {
     LightAdder adder(context, plan, atlas, rule);
     std::uint64_t taps = 0;

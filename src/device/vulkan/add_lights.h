@@ -16,7 +16,7 @@ struct LightsRule {
 
 // Adds to the plan's rows of `out`. Throws Failed, and has added whole batches of lights then.
 Work add_planned_lights(Context& context, const engine::LightsPlan& plan, const PackedAtlas& atlas,
-                        View<Rgba> out, const Control& control, const LightsRule& rule = {});
+                        Target out, const Control& control, const LightsRule& rule = {});
 
 // What shaders/add_lights.comp is told; it says what each means.
 struct LightsPush {

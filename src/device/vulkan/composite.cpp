@@ -1,5 +1,6 @@
 #include "device/vulkan/composite.h"
 
+#include "device/vulkan/canvas.h"
 #include "device/vulkan/holdout.h"
 #include "device/vulkan/words.h"
 
@@ -60,7 +61,7 @@ public:
     }
 
     // Returns the taps of what arrived.
-    std::uint64_t draw(const Batch& batch, View<Rgba> out) {
+    std::uint64_t draw(const Batch& batch, Target out) {
         Recording recording(context_);
         Push push;
         const Piece words = recording.uploaded(std::span<const std::uint32_t>(words_of(batch, push)));
@@ -83,9 +84,13 @@ public:
                        {std::uint32_t(tiles) * kGroupsPerTile, std::uint32_t(most_sectors)});
         recording.pass("add sectors", context_.program(Shader::AddSectors), {&words, &light, &taken, &result},
                        push.tiles, {std::uint32_t(tiles) * kGroupsPerTile});
-        const std::byte* const seen = recording.downloaded(result, tiles * kTilePixels * sizeof(Rgba));
+        std::vector<Rect> places;
+        for (std::size_t t = batch.begin; t < batch.end; ++t)
+            places.push_back(plan_.tiles[t].pixels.moved(0, plan_.first_row));
+        Delivery delivery(context_, out);
+        delivery.squares(recording, result, places, ScatterPlan::kTile);
         recording.run();
-        copy(batch, seen, out);
+        delivery.finish();
         return taps_of_batch_;
     }
 
@@ -213,16 +218,6 @@ private:
         return {plan_.holdout, begin, end, plan_.rows.x1};
     }
 
-    void copy(const Batch& batch, const std::byte* result, View<Rgba> out) const {
-        const auto* pixels = reinterpret_cast<const Rgba*>(result);
-        for (std::size_t t = batch.begin; t < batch.end; ++t, pixels += kTilePixels) {
-            const Rect& tile = plan_.tiles[t].pixels;
-            for (int y = 0; y < tile.height(); ++y)
-                std::copy_n(pixels + std::ptrdiff_t(y) * ScatterPlan::kTile, tile.width(),
-                            out.row(plan_.first_row + tile.y0 + y) + tile.x0);
-        }
-    }
-
     Context& context_;
     const ScatterPlan& plan_;
     const PackedAtlas& atlas_;
@@ -233,7 +228,7 @@ private:
 
 }  // namespace
 
-Work composite_tiles(Context& context, const ScatterPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+Work composite_tiles(Context& context, const ScatterPlan& plan, const PackedAtlas& atlas, Target out,
                      const Control& control, const BatchRule& rule) {
     Compositor compositor(context, plan, atlas, rule);
     const std::size_t tiles = plan.tiles.size() - 1;

@@ -15,7 +15,7 @@ struct BatchRule {
 };
 
 // Writes the pixels of the plan's rows. Throws Failed.
-Work composite_tiles(Context& context, const engine::ScatterPlan& plan, const PackedAtlas& atlas,
-                     View<Rgba> out, const Control& control, const BatchRule& rule = {});
+Work composite_tiles(Context& context, const engine::ScatterPlan& plan, const PackedAtlas& atlas, Target out,
+                     const Control& control, const BatchRule& rule = {});
 
 }  // namespace petzval::device::vulkan

@@ -1,6 +1,7 @@
 #include "device/vulkan/gather.h"
 
 #include "base/parallel.h"
+#include "device/vulkan/canvas.h"
 #include "device/vulkan/words.h"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ public:
         : context_(context), plan_(plan), atlas_(atlas), workers_(workers) {}
 
     // Tiles begin…end - 1, which lie in one row.
-    void draw(std::size_t begin, std::size_t end, View<Rgba> out) const {
+    void draw(std::size_t begin, std::size_t end, Target out) const {
         std::vector<Rect> tiles;
         for (std::size_t t = begin; t < end; ++t) tiles.push_back(plan_.tiles[t].pixels);
         Push push;
@@ -58,17 +59,34 @@ public:
         recording.pass("gather", context_.program(Shader::Gather),
                        {&words, &kernels.words, &kernels.weights, &result}, push,
                        {std::uint32_t(tiles.size()) * kGroupsPerTile});
-        const auto* pixels = reinterpret_cast<const Rgba*>(recording.downloaded(result, bytes));
-        recording.run();
-        for (const Rect& tile : tiles) {
+        deliver(recording, result, tiles, out);
+    }
+
+    // Tiles begin…end - 1 as the picture has them.
+    void copy(std::size_t begin, std::size_t end, Target out) const {
+        std::vector<Rect> tiles;
+        std::vector<Rgba> squares((end - begin) * kTilePixels);
+        auto* to = squares.data();
+        for (std::size_t t = begin; t < end; ++t, to += kTilePixels) {
+            const Rect& tile = tiles.emplace_back(plan_.tiles[t].pixels);
             for (int y = 0; y < tile.height(); ++y)
-                std::copy_n(pixels + std::ptrdiff_t(y) * kTile, tile.width(),
-                            out.row(plan_.first_row + tile.y0 + y) + tile.x0);
-            pixels += kTilePixels;
+                std::copy_n(plan_.strip.colour.row(tile.y0 + y) + tile.x0, tile.width(),
+                            to + std::ptrdiff_t(y) * kTile);
         }
+        Recording recording(context_);
+        deliver(recording, recording.uploaded(std::span<const Rgba>(squares)), tiles, out);
     }
 
 private:
+    // Runs what was recorded.
+    void deliver(Recording& recording, const Piece& squares, std::vector<Rect> tiles, Target out) const {
+        for (Rect& tile : tiles) tile = tile.moved(0, plan_.first_row);
+        Delivery delivery(context_, out);
+        delivery.squares(recording, squares, tiles, kTile);
+        recording.run();
+        delivery.finish();
+    }
+
     std::vector<std::uint32_t> words_of(const std::vector<Rect>& tiles, Push& push) const {
         std::vector<std::uint32_t> words;
         const auto here = [&] { return std::uint32_t(words.size()); };
@@ -189,14 +207,9 @@ private:
     Workers& workers_;
 };
 
-void copy_tile(const GatherPlan& plan, const Rect& tile, View<Rgba> out) {
-    for (int y = tile.y0; y < tile.y1; ++y)
-        std::copy_n(plan.strip.colour.row(y) + tile.x0, tile.width(), out.row(plan.first_row + y) + tile.x0);
-}
-
 }  // namespace
 
-void gather_tiles(Context& context, const GatherPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+void gather_tiles(Context& context, const GatherPlan& plan, const PackedAtlas& atlas, Target out,
                   const Control& control) {
     const Gatherer gatherer(context, plan, atlas, control.workers);
     const std::size_t tiles = plan.tiles.size();
@@ -208,7 +221,7 @@ void gather_tiles(Context& context, const GatherPlan& plan, const PackedAtlas& a
         };
         while (joins()) ++end;
         if (plan.tiles[begin].is_sharp)
-            for (std::size_t t = begin; t < end; ++t) copy_tile(plan, plan.tiles[t].pixels, out);
+            gatherer.copy(begin, end, out);
         else
             gatherer.draw(begin, end, out);
         control.progress.advance(control.share * double(end - begin) / double(tiles));

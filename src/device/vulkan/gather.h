@@ -7,7 +7,7 @@
 namespace petzval::device::vulkan {
 
 // Writes the plan's tiles of `out`, a row of them at a time. Throws Failed.
-void gather_tiles(Context& context, const engine::GatherPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+void gather_tiles(Context& context, const engine::GatherPlan& plan, const PackedAtlas& atlas, Target out,
                   const Control& control);
 
 }  // namespace petzval::device::vulkan

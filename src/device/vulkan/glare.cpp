@@ -1,5 +1,6 @@
 #include "device/vulkan/glare.h"
 
+#include "device/failure.h"
 #include "device/vulkan/stars.h"
 
 #include <algorithm>
@@ -147,7 +148,7 @@ private:
 
 }  // namespace
 
-bool add_planned_glare(Context& context, const GlarePlan& plan, View<Rgba> picture) {
+bool add_planned_glare(Context& context, const GlarePlan& plan, DeviceCanvas& picture) {
     const auto padded = [&](int pixels) {
         return std::size_t(plan.bloom > 0 ? plan.bloom_layers.padded(pixels) : pixels);
     };
@@ -155,19 +156,16 @@ bool add_planned_glare(Context& context, const GlarePlan& plan, View<Rgba> pictu
         std::max(padded(picture.width()) * padded(picture.height()) * sizeof(Rgba), largest_star_bytes(plan));
     if (largest > context.most_range_bytes()) return false;
     const Size size{std::uint32_t(picture.width()), std::uint32_t(picture.height())};
-    Piece pixels, star;
-    {
-        Recording recording(context);
-        pixels = uploaded(picture, recording);
-        recording.run();
+    try {
+        const Piece* const pixels = picture.sent();
+        if (!pixels) return false;
+        Piece star;
+        if (plan.star > 0) star = drawn_star(context, plan, *pixels, size);
+        Glare(context, plan, size).add_to(*pixels, star);
+    } catch (const Failed& failed) {  // the last pass alone changes the picture
+        if (failed.error.code != ErrorCode::OutOfMemory) throw;
+        return false;
     }
-    if (plan.star > 0) star = drawn_star(context, plan, pixels, size);
-    Glare(context, plan, size).add_to(pixels, star);
-    Recording recording(context);
-    const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(pixels, size.bytes()));
-    recording.run();
-    for (int y = 0; y < picture.height(); ++y, from += picture.width())
-        std::copy_n(from, picture.width(), picture.row(y));
     return true;
 }
 

@@ -1,6 +1,6 @@
 #include "device/vulkan/mix.h"
 
-#include "device/device.h"
+#include "device/vulkan/canvas.h"
 #include "device/vulkan/words.h"
 #include "engine/waist/cells.h"
 
@@ -53,7 +53,7 @@ public:
         return rows;
     }
 
-    void draw(Span rows, View<Rgba> out) {
+    void draw(Span rows, Target out) {
         const Span pixels = pixels_for(rows);
         Recording recording(context_);
         Push push;
@@ -71,9 +71,10 @@ public:
         recording.pass("mix blurs", context_.program(Shader::MixBlurs),
                        {&words_, &colours_, &values_, &extra_of_, &extras_, &light_, &covered_, &result},
                        push, invocations(count));
-        const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(result, count * sizeof(Rgba)));
+        Delivery delivery(context_, out);
+        delivery.rows(recording, result, rows.begin, rows.begin, rows.end);
         recording.run();
-        for (int y = rows.begin; y < rows.end; ++y, from += width()) std::copy_n(from, width(), out.row(y));
+        delivery.finish();
     }
 
 private:
@@ -223,7 +224,7 @@ private:
 
 }  // namespace
 
-void mix_blurs(Context& context, const GaussianPlan& plan, View<Rgba> out, const Control& control,
+void mix_blurs(Context& context, const GaussianPlan& plan, Target out, const Control& control,
                std::size_t most_bytes) {
     Mixer mixer(context, plan);
     const int band = mixer.band(most_bytes);

@@ -1,20 +1,17 @@
 // A draft's plan drawn on the device: what device/cpu/mix.h does.
 #pragma once
 
+#include "device/device.h"
 #include "device/vulkan/recording.h"
 #include "engine/gaussian/plan.h"
 
 #include <cstddef>
 
-namespace petzval::device {
-struct Control;
-}
-
 namespace petzval::device::vulkan {
 
 // Writes all of `out`, by bands of rows that take no more memory than this or are one row of the coarsest
 // blur's cells. What is drawn does not depend on it. Throws Failed.
-void mix_blurs(Context& context, const engine::GaussianPlan& plan, View<Rgba> out, const Control& control,
+void mix_blurs(Context& context, const engine::GaussianPlan& plan, Target out, const Control& control,
                std::size_t most_bytes = std::size_t(64) << 20);
 
 }  // namespace petzval::device::vulkan

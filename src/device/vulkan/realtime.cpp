@@ -1,6 +1,7 @@
 #include "device/vulkan/realtime.h"
 
 #include "device/failure.h"
+#include "device/vulkan/canvas.h"
 #include "device/vulkan/realtime_pass.h"
 #include "device/vulkan/recording.h"
 
@@ -65,7 +66,7 @@ public:
     }
 
     // Draws the plan's rows from `first` on; writes rows y0…y1 - 1 of `out`.
-    void draw(const engine::RealtimePlan& plan, int first, int y0, int y1, View<Rgba> out, bool plant) {
+    void draw(const engine::RealtimePlan& plan, int first, int y0, int y1, Target out, bool plant) {
         pass_.set_lens(plan.lens);
         Recording recording(context_);
         const std::vector<Rgba> colours = packed<Rgba>(plan.colour, first, first + int(height_));
@@ -86,10 +87,10 @@ public:
         const VkBufferImageCopy whole = copy_of(made);
         context_.vk().vkCmdCopyImageToBuffer(recording.commands(), result_.handle(), kCopiedFrom.layout,
                                              made.buffer(), 1, &whole);
-        const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(made, bytes));
+        Delivery delivery(context_, out);
+        delivery.rows(recording, made, first, y0, y1);
         recording.run();
-        from += std::size_t(y0 - first) * width_;
-        for (int y = y0; y < y1; ++y, from += width_) std::copy_n(from, width_, out.row(y));
+        delivery.finish();
     }
 
 private:
@@ -160,7 +161,7 @@ void RealtimeDrawer::keep(std::unique_ptr<Frame> frame) {
     if (idle_.size() < kMostIdle) idle_.push_back(std::move(frame));
 }
 
-void RealtimeDrawer::draw(const engine::RealtimePlan& plan, View<Rgba> out, bool plant) {
+void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, bool plant) {
     const int width = plan.colour.width(), height = plan.colour.height();
     const std::uint32_t most = context_.candidate().limits.maxImageDimension2D;
     if (std::uint32_t(width) > most)

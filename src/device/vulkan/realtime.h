@@ -27,7 +27,7 @@ public:
     RealtimeDrawer& operator=(const RealtimeDrawer&) = delete;
 
     // Writes all of `out`. Throws Failed. plant: as in RealtimePass::record().
-    void draw(const engine::RealtimePlan& plan, View<Rgba> out, bool plant = false);
+    void draw(const engine::RealtimePlan& plan, Target out, bool plant = false);
     int passes_made() const;
 
 private:

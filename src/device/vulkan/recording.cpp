@@ -140,9 +140,10 @@ const std::byte* Recording::downloaded(const Piece& piece, std::size_t bytes) {
     return to.mapped();
 }
 
-void Recording::copy(const Piece& from, const Piece& to, std::size_t bytes) {
+void Recording::copy(const Piece& from, const Piece& to, std::size_t bytes, std::size_t from_byte,
+                     std::size_t to_byte) {
     order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    const VkBufferCopy copied = {from.offset(), to.offset(), bytes};
+    const VkBufferCopy copied = {from.offset() + from_byte, to.offset() + to_byte, bytes};
     vk_.vkCmdCopyBuffer(commands_, from.buffer(), to.buffer(), 1, &copied);
 }
 

@@ -48,8 +48,9 @@ public:
     // Around what is recorded by other means and timed. bytes: those that must cross memory at least once.
     void begin_pass(const char* name, std::uint64_t bytes = 0);
     void end_pass();
-    // From the beginning of one piece to that of another.
-    void copy(const Piece& from, const Piece& to, std::size_t bytes);
+    // From one piece to another, from so many bytes on.
+    void copy(const Piece& from, const Piece& to, std::size_t bytes, std::size_t from_byte = 0,
+              std::size_t to_byte = 0);
     // The piece's bytes once run, in memory that the host sees; lives as long as this.
     const std::byte* downloaded(const Piece& piece, std::size_t bytes);
     // For what is recorded by other means: what was uploaded can be copied from then.

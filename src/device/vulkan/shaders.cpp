@@ -36,6 +36,9 @@ constexpr std::uint32_t kBlurCells[] =
 constexpr std::uint32_t kMixBlurs[] =
 #include "mix_blurs.comp.inc"
     ;
+constexpr std::uint32_t kPlaceTiles[] =
+#include "place_tiles.comp.inc"
+    ;
 constexpr std::uint32_t kGlareLight[] =
 #include "glare_light.comp.inc"
     ;
@@ -123,6 +126,7 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kSpreadCells, buffers(7), 72},
         ShaderWords{kBlurCells, buffers(5), 72},
         ShaderWords{kMixBlurs, buffers(8), 72},
+        ShaderWords{kPlaceTiles, buffers(3), 12},
         ShaderWords{kGlareLight, buffers(2), 16},
         ShaderWords{kGlareHalve, buffers(2), 8},
         ShaderWords{kGlareBlur, buffers(3), 28},

@@ -19,6 +19,7 @@ enum class Shader {
     SpreadCells,
     BlurCells,
     MixBlurs,
+    PlaceTiles,
     GlareLight,
     GlareHalve,
     GlareBlur,

@@ -1,6 +1,7 @@
 #include "device/vulkan/stamp_lights.h"
 
 #include "device/vulkan/add_lights.h"
+#include "device/vulkan/canvas.h"
 #include "device/vulkan/words.h"
 #include "engine/waist/cells.h"
 
@@ -68,7 +69,7 @@ public:
     }
 
     // Returns the taps drawn.
-    std::uint64_t draw(const std::vector<TilePart>& parts, View<Rgba> out) {
+    std::uint64_t draw(const std::vector<TilePart>& parts, Target out) {
         words_.clear(), lights_.clear(), blocks_ = {}, taps_ = 0;
         const std::uint32_t levels = list_tiles(parts);
         LightsPush push;
@@ -88,12 +89,13 @@ public:
         const std::uint32_t told[] = {0, levels};
         recording.pass("add cells", context_.program(Shader::AddCells), {&words, &cells, &result}, told,
                        {kGroupsPerTile, std::uint32_t(parts.size())});
-        const auto* pixels = reinterpret_cast<const Rgba*>(recording.downloaded(result, bytes));
+        std::vector<Rect> places;
+        for (const TilePart& part : parts)
+            places.push_back(plan_.tiles[part.tile].pixels.moved(0, plan_.first_row));
+        Delivery delivery(context_, out);
+        delivery.squares(recording, result, places, kTile, true);
         recording.run();
-        for (const TilePart& part : parts) {
-            add_tile(pixels, kTile, plan_.tiles[part.tile].pixels, plan_.first_row, out);
-            pixels += kTilePixels;
-        }
+        delivery.finish();
         return taps_;
     }
 
@@ -195,7 +197,7 @@ private:
 
 }  // namespace
 
-Work stamp_planned_lights(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, View<Rgba> out,
+Work stamp_planned_lights(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, Target out,
                           const Control& control, const StampRule& rule) {
     Stamper stamper(context, plan, atlas, rule);
     std::uint64_t taps = 0;

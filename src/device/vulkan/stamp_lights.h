@@ -20,6 +20,6 @@ struct StampRule {
 
 // Adds to the plan's pixels of `out`. Throws Failed, and has added whole batches of lights then.
 Work stamp_planned_lights(Context& context, const engine::LightsPlan& plan, const PackedAtlas& atlas,
-                          View<Rgba> out, const Control& control, const StampRule& rule = {});
+                          Target out, const Control& control, const StampRule& rule = {});
 
 }  // namespace petzval::device::vulkan

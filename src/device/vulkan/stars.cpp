@@ -20,6 +20,14 @@ using glare::Streak;
 
 Piece room(Context& context, std::size_t bytes) { return context.heap().allocate(Kind::OnDevice, bytes); }
 
+// Highlights on cells of factor x factor pixels.
+void take_highlights(Context& context, Recording& recording, const Piece& picture, Size size, Size cells,
+                     std::uint32_t factor, float threshold, const Piece& to) {
+    const std::array push{size.width, size.height, cells.width, cells.height, factor, bits_of(threshold)};
+    recording.pass("take highlights", context.program(Shader::StarReduce), {&picture, &to}, push,
+                   invocations(cells.pixels()));
+}
+
 // Streaks, those of one reduction together.
 class Streaks {
 public:
@@ -50,10 +58,7 @@ public:
 private:
     void reduce(std::uint32_t factor) {
         Recording recording(context_);
-        const std::array push{size_.width,   size_.height, cells_.width,
-                              cells_.height, factor,       bits_of(plan_.threshold)};
-        recording.pass("take highlights", context_.program(Shader::StarReduce), {&picture_, &light_}, push,
-                       invocations(cells_.pixels()));
+        take_highlights(context_, recording, picture_, size_, cells_, factor, plan_.threshold, light_);
         recording.run();
     }
 
@@ -190,6 +195,17 @@ private:
 Piece drawn_star(Context& context, const GlarePlan& plan, const Piece& picture, Size size) {
     return plan.filter ? Convolution(context, plan, picture, size).drawn()
                        : Streaks(context, plan, picture, size).drawn();
+}
+
+Picture highlights_at_home(Context& context, const Piece& picture, Size size, float threshold) {
+    Recording recording(context);
+    const Piece light = room(context, size.bytes());
+    take_highlights(context, recording, picture, size, size, 1, threshold, light);
+    const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(light, size.bytes()));
+    recording.run();
+    Picture bright = Picture::uninitialised(int(size.width), int(size.height));
+    std::copy_n(from, size.pixels(), bright.pixels());
+    return bright;
 }
 
 std::size_t largest_star_bytes(const GlarePlan& plan) {

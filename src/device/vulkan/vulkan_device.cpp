@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "device/vulkan/add_lights.h"
+#include "device/vulkan/canvas.h"
 #include "device/vulkan/composite.h"
 #include "device/vulkan/gather.h"
 #include "device/vulkan/glare.h"
@@ -9,6 +10,7 @@
 #include "device/vulkan/realtime.h"
 #include "device/vulkan/recording.h"
 #include "device/vulkan/stamp_lights.h"
+#include "device/vulkan/stars.h"
 #include "engine/lights/plan.h"
 
 #include <chrono>
@@ -28,35 +30,43 @@ public:
           realtime_(*context_) {}
 
     const char* name() const override { return name_.c_str(); }
+    std::unique_ptr<Canvas> canvas(Picture memory) const override {
+        return std::make_unique<DeviceCanvas>(*context_, std::move(memory));
+    }
     std::shared_ptr<const Atlas> atlas(const KernelSource& source, const KernelSet& set, Memory& memory,
                                        const Control& control) const override {
         if (source.use() == KernelUse::ByPixel) return kept_by_source(source, set, control);
         return std::make_shared<const PackedAtlas>(
             laid_out<PackedSet>(source, set, "programs of a device", memory, control));
     }
-    Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, View<Rgba> out,
+    Work composite(const engine::ScatterPlan& plan, const Atlas& atlas, Target out,
                    const Control& control) const override {
         return composite_tiles(*context_, plan, dynamic_cast<const PackedAtlas&>(atlas), out, control);
     }
-    void gather(const engine::GatherPlan& plan, const Atlas& atlas, View<Rgba> out,
+    void gather(const engine::GatherPlan& plan, const Atlas& atlas, Target out,
                 const Control& control) const override {
         gather_tiles(*context_, plan, dynamic_cast<const PackedAtlas&>(atlas), out, control);
     }
-    void mix(const engine::GaussianPlan& plan, View<Rgba> out, const Control& control) const override {
+    void mix(const engine::GaussianPlan& plan, Target out, const Control& control) const override {
         mix_blurs(*context_, plan, out, control);
     }
-    void draw_realtime(const engine::RealtimePlan& plan, View<Rgba> out) const override {
+    void draw_realtime(const engine::RealtimePlan& plan, Target out) const override {
         realtime_.draw(plan, out);
     }
-    Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, View<Rgba> out,
+    Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                     const Control& control) const override {
         const auto& packed = dynamic_cast<const PackedAtlas&>(atlas);
         return plan.masks.empty() ? add_planned_lights(*context_, plan, packed, out, control)
                                   : stamp_planned_lights(*context_, plan, packed, out, control);
     }
 
-    bool add_glare(const glare::GlarePlan& plan, View<Rgba> picture, Workers&) const override {
-        return add_planned_glare(*context_, plan, picture);
+    bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers&) const override {
+        return add_planned_glare(*context_, plan, dynamic_cast<DeviceCanvas&>(picture));
+    }
+    Picture highlights(Canvas& picture, float threshold, Workers&) const override {
+        const Piece* const sent = dynamic_cast<DeviceCanvas&>(picture).sent();
+        const Size size{std::uint32_t(picture.width()), std::uint32_t(picture.height())};
+        return sent ? highlights_at_home(*context_, *sent, size, threshold) : Picture();
     }
 
     Context& context() const { return *context_; }

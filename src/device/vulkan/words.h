@@ -31,12 +31,4 @@ inline void add_light(std::vector<std::uint32_t>& words, const engine::PlannedLi
                   bits_of(colour.b), bits_of(colour.a), bits_of(coc_px), light.kernel, seen, more});
 }
 
-// Adds a tile of a square of `side` pixels, row by row, to its place below first_row.
-inline void add_tile(const Rgba* pixels, int side, const Rect& tile, int first_row, View<Rgba> out) {
-    for (int y = 0; y < tile.height(); ++y, pixels += side) {
-        Rgba* const to = out.row(first_row + tile.y0 + y) + tile.x0;
-        for (int x = 0; x < tile.width(); ++x) to[x] += pixels[x];
-    }
-}
-
 }  // namespace petzval::device::vulkan

@@ -59,17 +59,17 @@ public:
         if (frame_.max_memory_bytes > 0 && frame_.max_memory_bytes < strips.least_bytes)
             return too_little_memory("gather", strips.least_bytes);
         Output output;
-        output.image = Picture::uninitialised(frame_.width(), frame_.height());
+        output.canvas = frame_.device->canvas(Picture::uninitialised(frame_.width(), frame_.height()));
         for (int y = 0; y < frame_.height() && !frame_.progress->cancelled(); y += strips.rows)
-            draw(Rect{0, y, frame_.width(), y + strips.rows}.intersected(output.image.rect()), strips.halo,
-                 output.image);
+            draw(Rect{0, y, frame_.width(), y + strips.rows}.intersected(frame_.colour.rect()), strips.halo,
+                 *output.canvas);
         if (frame_.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
         output.stages = {{"prefilter", prefilter_s_}, {"atlas", atlas_s_}, {"gather", gather_s_}};
         return output;
     }
 
 private:
-    void draw(const Rect& rows, int halo, View<Rgba> out) {
+    void draw(const Rect& rows, int halo, device::Target out) {
         auto start = std::chrono::steady_clock::now();
         const auto lap = [&](double& sum) {
             const auto now = std::chrono::steady_clock::now();
@@ -127,11 +127,11 @@ Result<Output> run_realtime(const Input& input) {
     constexpr std::size_t kBytesPerPixel = 3 * sizeof(Rgba);
     if (const Status fits = fits_memory(input, kBytesPerPixel, "realtime"); !fits) return fits.error();
     Output output;
-    output.image = Picture::uninitialised(input.width(), input.height());
+    output.canvas = input.device->canvas(Picture::uninitialised(input.width(), input.height()));
     const RealtimePlan plan{input.colour, input.coc_px,
                             std::max(-input.nearest_coc_px, input.farthest_coc_px), float(input.pixel_aspect),
                             kept_realtime_lens(input)};
-    if (!input.progress->cancelled()) input.device->draw_realtime(plan, output.image);
+    if (!input.progress->cancelled()) input.device->draw_realtime(plan, *output.canvas);
     if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {
         {"realtime", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};

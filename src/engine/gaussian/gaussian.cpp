@@ -41,13 +41,13 @@ Result<Output> run_gaussian(const Input& input) {
     if (const Status fits = fits_memory(input, bytes_per_pixel(plan, input), "gaussian"); !fits)
         return fits.error();
     Output output;
-    output.image = Picture::uninitialised(input.width(), input.height());
+    output.canvas = input.device->canvas(Picture::uninitialised(input.width(), input.height()));
     if (is_sharp || plan.blurs.empty()) {
-        for (int y = 0; y < input.height(); ++y)
-            std::copy_n(input.colour.row(y), input.width(), output.image.row(y));
+        const View<Rgba> out = output.canvas->view();
+        for (int y = 0; y < input.height(); ++y) std::copy_n(input.colour.row(y), input.width(), out.row(y));
         return output;
     }
-    input.device->mix(plan, output.image, {*input.workers, *input.progress});
+    input.device->mix(plan, *output.canvas, {*input.workers, *input.progress});
     if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {
         {"gaussian", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};

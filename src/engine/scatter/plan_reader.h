@@ -25,7 +25,7 @@ struct PlannedStrip {
 };
 
 // Adds the highlights of a strip to `out`, the whole frame.
-device::Work draw_lights(const PlannedStrip& strip, View<Rgba> out);
+device::Work draw_lights(const PlannedStrip& strip, device::Target out);
 
 // The frame is done as one strip.
 class PlanReader {

@@ -151,8 +151,9 @@ public:
         Strip strip = complete(input, rows, first);
         const CocSamples seen = input.layers.empty() ? CocSamples{} : strip.completed->all();
         planned(strip, [&](const PlannedStrip& p) {
-            if (out.image.empty()) out.image = memory_for_result(rows == frame_.colour.rect());
-            draw(p, share, out.image);
+            if (!out.canvas)
+                out.canvas = frame_.device->canvas(memory_for_result(rows == frame_.colour.rect()));
+            draw(p, share, *out.canvas);
             for (std::size_t i = 0; i < input.layers.size(); ++i)
                 draw_layer(strip, p, seen, input.layers[i], share, out.layers[i]);
         });
@@ -243,7 +244,7 @@ private:
         return plan;
     }
 
-    void draw(const PlannedStrip& p, double share, View<Rgba> out) {
+    void draw(const PlannedStrip& p, double share, device::Target out) {
         const Input& strip = p.input;
         const device::Device& device = *strip.device;
         const device::Control control{*strip.workers, *strip.progress, 0.9 * share};
@@ -279,7 +280,7 @@ private:
 
 }  // namespace
 
-device::Work draw_lights(const PlannedStrip& strip, View<Rgba> out) {
+device::Work draw_lights(const PlannedStrip& strip, device::Target out) {
     if (strip.highlights.empty()) return {};
     const Input& input = strip.input;
     const device::Control control{*input.workers, *input.progress};

@@ -99,7 +99,7 @@ std::size_t sprites_of(std::span<const LightPoint> points) {
     return count;
 }
 
-device::Work add_sprites(const Input& input, std::span<const Sprite> sprites, View<Rgba> out,
+device::Work add_sprites(const Input& input, std::span<const Sprite> sprites, device::Target out,
                          const std::string& light = {}) {
     if (sprites.empty()) return {};
     const SpriteGrid grid(input, sprites);
@@ -155,11 +155,11 @@ Result<Output> run_sprites(const Input& input) {
     };
     for (const LightPoint& p : input.points)
         if (!is_of_lamp(p)) AreaOfLight(p).add_to(parted.sprites, p);
-    device::Work work = add_sprites(input, parted.sprites, output->image);
+    device::Work work = add_sprites(input, parted.sprites, *output->canvas);
     for (const LampLens& lamp : input.lamps) {
         Input lit = input;
         lit.lens_levels = lamp.levels;
-        work += add_sprites(lit, sprites_of(input.points, lamp.light), output->image,
+        work += add_sprites(lit, sprites_of(input.points, lamp.light), *output->canvas,
                             " of lamp " + std::to_string(int(lamp.light)));
     }
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};

@@ -26,6 +26,7 @@
 #include <vector>
 
 namespace petzval::device {
+class Canvas;
 class Device;
 class Memory;
 }  // namespace petzval::device
@@ -203,7 +204,8 @@ CocSamples stated_samples(const Input& input);
 
 struct Output {
     Picture image;
-    std::vector<Picture> layers;  // those of the input, in its order
+    std::shared_ptr<device::Canvas> canvas;  // or this in its place: not null where a device drew it
+    std::vector<Picture> layers;             // those of the input, in its order
     std::vector<StageTime> stages;
     std::vector<std::string> warnings;
 };
