@@ -24,7 +24,7 @@ Viewpoint own_viewpoint(const Highlight& h) {
 // that no shadow in it moves by more than half of that square share one viewpoint. Of what is nearer by less
 // than a part of its size a square cannot tell whether it is the lamp itself.
 Viewpoint shared_viewpoint(const Highlight& h, Quality quality) {
-    const float radius = std::abs(h.coc_px), two = quality == Quality::Draft ? 12 : 24;
+    const float radius = std::abs(h.coc_px), two = quality == Quality::Draft ? 8 : 24;
     const int square = quality == Quality::Final || h.size > 1 || radius < two ? 1
                        : radius < 2.5f * two                                   ? 2
                                                                                : 4;

@@ -87,11 +87,14 @@ public:
                 const CocSamples* back = nullptr)
         : input_(input), back_(back) {
         const LitPicture picture{input.colour, dim};
-        mixtures_ = unmix_silhouettes(picture, input.coc_px, connected, *input.workers);
-        const float shared_from_px = input.quality == Quality::Draft ? 3 : 6;
+        // A draft looks at half as much.
+        const bool draft = input.quality == Quality::Draft;
+        const UnmixRule unmix = draft ? UnmixRule{2, false} : UnmixRule{};
+        const FillRule fill = draft ? FillRule{1.5f, 8} : FillRule{};
+        mixtures_ = unmix_silhouettes(picture, input.coc_px, connected, *input.workers, unmix);
         if (input.fill != Fill::Off)
             hidden_ = fill_hidden(picture, input.coc_px, connected, mixtures_, input.nearest_coc_px,
-                                  input.farthest_coc_px, shared_from_px, dim.white, *input.workers);
+                                  input.farthest_coc_px, fill, dim.white, *input.workers);
         unmix_nearer(mixtures_, picture, hidden_, *input.workers);
         if (back) unmix_before_plate(mixtures_, picture, input.coc_px, input.plate, *input.workers);
         if (dim && !back && input.fill == Fill::Full)

@@ -59,7 +59,7 @@ TEST(CutEdges, AWindowEndsStraightBehindALeaf) {
     const Scene scene;
     const Sparse<Mixture> mixed = scene.mixtures();
     const HiddenLayers hidden = fill_hidden({scene.colour, {}}, scene.coc, scene.connected, mixed, kLeafPx,
-                                            kWallPx, 6, 1, one_thread());
+                                            kWallPx, {}, 1, one_thread());
     const auto light = [&](int x, int y) { return luminance(hidden.at(x, y).front().colour); };
     for (int y = 24; y < kLeafY - 2; ++y) {
         for (int x = kRight + 2; x < kRight + 8; ++x) EXPECT_LT(light(x, y), 3 * kWall) << x << "," << y;

@@ -81,13 +81,15 @@ private:
 class Filler {
 public:
     Filler(const LitPicture& picture, View<const float> coc, View<const unsigned char> connected,
-           const Sparse<Mixture>& mixtures, float largest, float farthest, float white, Workers& workers)
+           const Sparse<Mixture>& mixtures, float largest, float farthest, int directions, float white,
+           Workers& workers)
         : known_(picture, coc, mixtures, white, workers),
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
           farthest_(farthest),
-          largest_(largest) {
+          largest_(largest),
+          every_(std::size_t(kDirections / directions)) {
         measure_distances(workers);
         lay_paths();
     }
@@ -103,7 +105,7 @@ public:
         Hits hits;
         bool any = false;
         const Slope slope = slope_at(coc_, connected_, x, y);
-        for (std::size_t k = 0; k < kDirections; ++k) {
+        for (std::size_t k = 0; k < kDirections; k += every_) {
             hits[k] = search(x, y, own, slope, paths_[k]);
             any = any || hits[k][0].found;
         }
@@ -321,6 +323,7 @@ private:
     Image<int> free_;  // pixels one can go from anywhere in a block without meeting a silhouette
     std::array<Path, kDirections> paths_;
     float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
+    std::size_t every_;         // of the directions is looked in
 };
 
 constexpr int kLargestSquare = HiddenLayers::kBand;
@@ -370,21 +373,21 @@ private:
 
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, float shared_from_px,
+                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule,
                          Workers& workers) {
-    return fill_hidden(picture, coc, connected, mixtures, nearest_coc_px, farthest_coc_px, shared_from_px, 0,
-                       workers);
+    return fill_hidden(picture, coc, connected, mixtures, nearest_coc_px, farthest_coc_px, rule, 0, workers);
 }
 
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, float white,
+                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule, float white,
                          Workers& workers) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
     if (mixtures.values.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
-    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, white, workers);
+    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, rule.directions, white,
+                        workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     layers.bands.resize(std::size_t(bands));
     layers.ranges = Image<Range>::uninitialised(width, height);
@@ -411,7 +414,8 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
                     ranges(x, y) = range(begin, here.size());
                     if (here.size() == begin) continue;  // its neighbours may lie closer to the silhouette
                     answers.add(x, y, coc(x, y),
-                                shared_square(std::span(here).subspan(begin), shared_from_px), ranges(x, y));
+                                shared_square(std::span(here).subspan(begin), rule.shared_from_px),
+                                ranges(x, y));
                 }
         }
     });

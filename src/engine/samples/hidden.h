@@ -51,6 +51,12 @@ struct Sparse {
     }
 };
 
+// How much is looked at to take a pixel of a silhouette apart.
+struct UnmixRule {
+    int clean_within_px = 3;    // clean colours are looked for
+    bool along_outline = true;  // the share that its shape tells is a mean along the outline
+};
+
 // Finds every pixel that touches a silhouette (also diagonally), and takes apart those that show the farther
 // surface: the clean colours of both come from their nearest pixels that touch no silhouette (of a thin thing
 // that has none, from its pixels least like the far side); the share is the one expected of all that explain
@@ -58,7 +64,8 @@ struct Sparse {
 // surface hardly anything of the farther one is to be seen: it is filled in first, then unmix_nearer().
 // Light of lamps goes to one side whole: to that whose pixels nearby show more of it.
 Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
-                                  View<const unsigned char> connected, Workers& workers);
+                                  View<const unsigned char> connected, Workers& workers,
+                                  const UnmixRule& rule = {});
 
 // A sample behind the visible one that takes up `share` of its pixel; colour is premultiplied by that and by
 // its alpha.
@@ -89,16 +96,21 @@ struct HiddenLayers {
 void unmix_nearer(Sparse<Mixture>& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers);
 
+// Neighbours share what was found where it is blurred by shared_from_px or more: squares of 2, of 4 at twice,
+// of 8 at six times that. Where nothing was found nothing is shared: that is the pixel's own distance from
+// the silhouette.
+struct FillRule {
+    float shared_from_px = 6;
+    int directions = 16;  // that are looked in: 16, 8 or 4
+};
+
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
 // behind it. Only from surfaces farther than the one that hides. Along opposite directions that agree,
 // colours are interpolated (edges run on behind a thin thing); otherwise the nearest continues. The weights
 // fall with distance a little faster than those of the mean-value interpolant (M. Floater, "Mean value
 // coordinates", 2003), 1/distance: its power of 1.5 comes closer on the path-traced fence.
-// Neighbours share what was found where it is blurred by shared_from_px or more: squares of 2,
-// of 4 at twice, of 8 at six times that. Where nothing was found nothing is shared: that is the pixel's own
-// distance from the silhouette.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, Workers& workers);
+                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule, Workers& workers);
 
 }  // namespace petzval::engine

@@ -36,7 +36,8 @@ struct Drawn {
 using Paint = std::function<Rgba(int, int)>;
 
 // A wire from corner to corner, so many pixels wide along a row, before what `behind` says.
-Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float offset_px = 0.2f) {
+Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float offset_px = 0.2f,
+                  const UnmixRule& unmix = {}, const FillRule& fill = {}) {
     Drawn d;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
@@ -50,8 +51,8 @@ Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float 
         }
     const Image<unsigned char> connected = connections(d.coc, one_thread());
     const LitPicture picture{d.colour, {}};
-    d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread());
-    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, one_thread());
+    d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread(), unmix);
+    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, fill, one_thread());
     unmix_nearer(d.mixtures, picture, d.hidden, one_thread());
     return d;
 }
@@ -92,6 +93,22 @@ TEST(Hidden, LinesRunOnBehindAWire) {
               0.03);
 }
 
+TEST(Hidden, HalfAsMuchIsEnoughForADraft) {
+    const Paint bricks = [](int, int y) { return grey(y % 10 < 2 ? 0.5f : 0.2f); };
+    const Paint wire = [](int, int) { return grey(0.1f); };
+    const Drawn all = behind_wire(bricks, wire, 3),
+                half =
+                    behind_wire(bricks, wire, 3, 0.2f, {2, false}, {.shared_from_px = 1.5f, .directions = 8});
+    EXPECT_LT(background_error(half), 0.04);
+    double apart = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            if (const Mixture* m = all.mixtures.at(x, y))
+                apart = std::max(apart, double(std::abs(m->near_share - half.mixtures.at(x, y)->near_share)));
+    EXPECT_GT(apart, 0);  // it is another way
+    EXPECT_LT(apart, 0.5);
+}
+
 TEST(Hidden, DetailUpToAWireStays) {
     // Rows of any brightness: the pixels beside the wire show theirs, mixed with a quarter of the wire.
     const Paint rows = [](int, int y) { return grey(0.3f + 0.1f * std::sin(float(5 * y))); };
@@ -126,7 +143,7 @@ TEST(Hidden, ALampBehindAnEdgeShinesFromBehindIt) {
     const LitPicture picture{d.colour, [](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }};
     const Image<unsigned char> connected = connections(d.coc, one_thread());
     d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread());
-    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, 6, one_thread());
+    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, {}, one_thread());
     unmix_nearer(d.mixtures, picture, d.hidden, one_thread());
     for (const int x : {19, 20}) {
         ASSERT_TRUE(d.mixtures.at(x, 24));

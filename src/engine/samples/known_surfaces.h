@@ -67,7 +67,7 @@ private:
 // fill_hidden() that continues what is bright by as much of it as shows.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
                          View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, float shared_from_px, float white,
+                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule, float white,
                          Workers& workers);
 
 }  // namespace petzval::engine

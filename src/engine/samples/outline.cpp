@@ -14,10 +14,10 @@ Outline::Outline(View<const float> coc, int x, int y, float threshold_px) {
     }
 }
 
-float Outline::near_share() const {
+float Outline::near_share(bool along) const {
     // What the tent takes for the other surface than the pixel's own takes up so much of it.
     constexpr float kOtherSide = 0.65f;
-    const float tent = tent_along();
+    const float tent = along ? tent_along() : this->tent(0, 0);
     return side(0, 0) > 0 ? 1 - kOtherSide * (1 - tent) : kOtherSide * tent;
 }
 

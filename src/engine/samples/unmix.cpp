@@ -13,7 +13,6 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kDark = 1e-3f;  // keeps reciprocals finite
-constexpr int kReach = 3;       // clean colours are looked for within so many pixels
 
 bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
     const auto at = [&](int u, int v) {
@@ -52,9 +51,10 @@ struct Sides {
 };
 
 Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
-                  int y, float threshold) {
+                  int y, float threshold, const UnmixRule& rule) {
     Sides s;
-    const Rect window = Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(coc.rect());
+    const int reach = rule.clean_within_px;
+    const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
     const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + kDark;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
@@ -72,7 +72,7 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
                 if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
             }
         }
-    s.near_share_by_shape = Outline(coc, x, y, threshold).near_share();
+    s.near_share_by_shape = Outline(coc, x, y, threshold).near_share(rule.along_outline);
     return s;
 }
 
@@ -148,13 +148,13 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
 }
 
 Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
-                    int x, int y) {
+                    int x, int y, const UnmixRule& rule) {
     float low = coc(x, y), high = coc(x, y);
     for (int v = std::max(0, y - 1); v <= std::min(coc.height() - 1, y + 1); ++v)
         for (int u = std::max(0, x - 1); u <= std::min(coc.width() - 1, x + 1); ++u)
             low = std::min(low, coc(u, v)), high = std::max(high, coc(u, v));
     const float threshold = 0.5f * (low + high);
-    const Sides s = look_around(picture, coc, touching, x, y, threshold);
+    const Sides s = look_around(picture, coc, touching, x, y, threshold, rule);
     const Guess far = (s.far_clean.empty() ? s.far_mixed : s.far_clean).guess();
     const Guess near =
         s.near_clean.empty() ? least_like(far.colour, picture, coc, x, y, threshold) : s.near_clean.guess();
@@ -195,7 +195,8 @@ Rgba composited(std::span<const Hidden> hidden) {
 }  // namespace
 
 Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> coc,
-                                  View<const unsigned char> connected, Workers& workers) {
+                                  View<const unsigned char> connected, Workers& workers,
+                                  const UnmixRule& rule) {
     const int width = coc.width(), height = coc.height();
     auto touching = Image<unsigned char>::uninitialised(width, height);
     parallel_for(height, workers, [&](int y) { find_touching(connected, y, touching); });
@@ -205,7 +206,8 @@ Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> c
     parallel_for(height, workers, [&](int y) {
         for (int x = 0; x < width; ++x) {
             mixtures.index(x, y) = touching(x, y) ? int(rows[std::size_t(y)].size()) : -1;
-            if (touching(x, y)) rows[std::size_t(y)].push_back(taken_apart(picture, coc, touching, x, y));
+            if (touching(x, y))
+                rows[std::size_t(y)].push_back(taken_apart(picture, coc, touching, x, y, rule));
         }
     });
     std::vector<int> before{0};
