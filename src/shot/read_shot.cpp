@@ -104,7 +104,11 @@ Result<Shot> read(const ShotSource& source, Progress& progress, CancellableWorke
     if (!frame) return frame.error();
     DepthSettings depth = source.depth;
     depth.workers = &workers;
-    put_camera(depth, merged_camera(frame->camera, source.camera, depth.unit_scale_m));
+    const FoundCamera camera = merged_camera(frame->camera, source.camera, depth.unit_scale_m);
+    if (source.camera.aperture_diameter_mm && !camera.focal_length_mm)
+        return invalid("camera.aperture_diameter_mm needs a focal length, which " + source.path +
+                       " does not hold; give camera.focal_length_mm");
+    put_camera(depth, camera);
     if (Status meant = check_meaning(source, *frame); !meant) return meant.error();
     auto report = shot::make_depth(*frame, depth);
     if (!report) return report.error();

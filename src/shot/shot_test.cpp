@@ -110,6 +110,10 @@ TEST_F(Shots, AnApertureMayBeGivenByItsDiameter) {
     EXPECT_DOUBLE_EQ(rendered(read())->camera.f_number, 100 / 12.5) << "the user's";
     source.camera.f_number = 8;
     EXPECT_THAT(refusal(ErrorCode::InvalidArgument), HasSubstr("camera.aperture_diameter_mm"));
+    write_picture(source.path);  // without its camera
+    source.camera = {};
+    source.camera.aperture_diameter_mm = 25;
+    EXPECT_THAT(refusal(ErrorCode::InvalidArgument), HasSubstr("give camera.focal_length_mm"));
 }
 
 TEST_F(Shots, TheUsersNumbersWinOverTheFiles) {
