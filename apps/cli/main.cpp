@@ -53,9 +53,9 @@ bool asks_for_json(int argc, const char* const* argv) {
 }
 
 // The same for programs, in place of the report that there is none of.
-void print_failure(int exit_code, const Error& error) {
-    Json report = new_report("");
-    report["verb"] = nullptr;
+void print_failure(int exit_code, const Error& error, const std::string& verb) {
+    Json report = new_report(verb);
+    if (verb.empty()) report["verb"] = nullptr;
     report["failure"] = {{"code", name_of(error.code)},
                          {"message", in_flags(error.message)},
                          {"field", error.field.empty() ? Json(nullptr) : Json(error.field)},
@@ -63,8 +63,21 @@ void print_failure(int exit_code, const Error& error) {
     static_cast<void>(write_report(report, "-"));  // the line on standard error is written in any case
 }
 
+// What is known of a command line that fails.
+struct Typed {
+    Words words = Words::Flags;  // of the message
+    std::string verb;            // as in a report: "lens psf"; empty if none was understood
+};
+
+std::string verb_of(const CLI::App& program) {
+    std::string verb;
+    for (auto next = program.get_subcommands(); !next.empty(); next = next[0]->get_subcommands())
+        verb += (verb.empty() ? "" : " ") + next[0]->get_name();
+    return verb;
+}
+
 // Errors: what was wrong with the line, and with what it asks for.
-Status parse_and_act(int argc, const char* const* argv, Words& words) {
+Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
     CLI::App program("gives rendered pictures the depth of field of a real lens", "petzval");
     use_our_help(program);
     program.footer(
@@ -100,11 +113,14 @@ Status parse_and_act(int argc, const char* const* argv, Words& words) {
     } catch (const CLI::CallForVersion& version) {
         return said(std::string(version.what()) + "\n");
     } catch (const CLI::ParseError& error) {
+        typed.verb = verb_of(program);
         return Error{ErrorCode::InvalidArgument, usage_message(error, program)};
     } catch (const UsageError& error) {
-        if (error.code == ErrorCode::InvalidFile) words = Words::Fields;
+        typed.verb = verb_of(program);
+        if (error.code == ErrorCode::InvalidFile) typed.words = Words::Fields;
         return Error{error.code, error.what(), error.field};
     }
+    typed.verb = verb_of(program);
     if (!chosen)
         return Error{ErrorCode::InvalidArgument,
                      "what is to be done? petzval --help lists the verbs, as defocus and inspect"};
@@ -114,12 +130,12 @@ Status parse_and_act(int argc, const char* const* argv, Words& words) {
 }
 
 int run(int argc, const char* const* argv) {
-    Words words = Words::Flags;
-    const Status done = parse_and_act(argc, argv, words);
+    Typed typed;
+    const Status done = parse_and_act(argc, argv, typed);
     if (done) return 0;
     const int code = exit_code(done.error());
-    if (asks_for_json(argc, argv)) print_failure(code, done.error());
-    return fail(code, done.error().message, words);
+    if (asks_for_json(argc, argv)) print_failure(code, done.error(), typed.verb);
+    return fail(code, done.error().message, typed.words);
 }
 
 }  // namespace

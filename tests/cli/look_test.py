@@ -111,10 +111,15 @@ class Looks(CommandLineTest):
                 (["--depth", "none.exr"], "invalid-file", 3, None, "none.exr")):
             outcome = self.run_program("defocus", "in.exr", "-o", "no.exr", *CAMERA, *flags, "--json", "-")
             self.assertEqual(outcome.code, exit_code, outcome)
-            error = json.loads(outcome.out)["failure"]
+            report = json.loads(outcome.out)
+            self.assertEqual(report["verb"], "defocus")
+            error = report["failure"]
             self.assertEqual((error["code"], error["field"], error["exit_code"]), (code, field, exit_code), outcome)
             self.assertIn(says, error["message"])
             self.assertIn(says, outcome.lines[-1])
+        for verb, words in (("lens psf", ["lens", "psf", "dublet", "-o", "no.exr"]), ("inspect", ["inspect", "none.exr"]),
+                            (None, ["blur"])):
+            self.assertEqual(json.loads(self.run_program(*words, "--json", "-").out)["verb"], verb)
         self.refuse(2, "defocus", "in.exr", "-o", "no.exr", "--fokus", "3", "--json", "r.json", says=["--focus"])
 
     def test_a_switch_takes_no_value_but_on_and_off(self):
