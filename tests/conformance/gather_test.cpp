@@ -162,5 +162,31 @@ TEST(Gather, BeyondTheDataWindowTheLensIsThatOfItsBorder) {
     EXPECT_NEAR(image(20, 40).r, 0.5f, 0.25f);
 }
 
+// A wall with fine holes, and right behind it something bright: what the wall covers of that is seen nowhere,
+// also not beside what stands in focus before the wall.
+TEST(Gather, HolesInAWallLetNoMoreLightThroughWhereSomethingStandsBeforeIt) {
+    Shot shot = flat(120, 80, {}, 7);
+    const Rgba dark{0.02f, 0.02f, 0.02f, 1}, bright{20, 20, 20, 1}, leaf{0.02f, 0.02f, 0.02f, 1};
+    const auto in_leaf = [](int x) { return x >= 56 && x < 64; };
+    const DeepPicture behind =
+        DeepPicture::made_of(120, 80, [&](int x, int, std::vector<DeepSample>& samples) {
+            if (!in_leaf(x))
+                samples.push_back({0.9f * dark, 7, 7}), samples.push_back({bright, 7.3f, 7.3f});
+            else
+                samples.push_back({dark, 7, 7});
+        });
+    for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 120; ++x) {
+            shot.colour(x, y) = in_leaf(x) ? leaf : 0.9f * dark + 0.1f * bright;
+            if (in_leaf(x)) shot.coc_px(x, y) = 0;
+        }
+    DefocusJob job = shot.job("gather");
+    job.behind = &behind;
+    const Picture image = rendered(job);
+    const float open = image(20, 40).g;
+    EXPECT_NEAR(open, 2.018f, 0.05f);
+    for (int x = 20; x < 56; ++x) EXPECT_LT(image(x, 40).g, 1.05f * open) << x;
+}
+
 }  // namespace
 }  // namespace petzval::conformance

@@ -26,7 +26,7 @@ struct Strips {
 };
 
 Strips plan_strips(const Input& input, const RingSizes& sizes) {
-    constexpr std::size_t kBytesPerPixel = 122;  // of cells, light and what is hidden, where many depths meet
+    constexpr std::size_t kBytesPerPixel = 94;  // of cells, light and what is hidden, where many depths meet
     const int cell = 1 << (sizes.levels() - 1);
     const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.nearest_coc_px)});
     const auto whole_units = [unit](double rows) {
