@@ -205,6 +205,21 @@ TEST(Sprites, BrightPointsOfThePictureAreFoundAndKeepTheirLight) {
     }
 }
 
+// As gather alone would not: with the lens's own kernel.
+TEST(Sprites, BrightPointsAreFoundAlsoWhereHiddenLayersAreGiven) {
+    Shot shot = flat(96, 96, {0.02f, 0.02f, 0.02f, 1}, 12);
+    shot.colour(48, 48) = {400, 300, 200, 1};
+    const Picture without = rendered(shot.job("sprites"));
+    put_behind(
+        shot,
+        [&](int, int) {
+            return Rgba{0, 0, 0, 1};
+        },
+        [](int, int) { return 20.0f; });
+    const auto like = [&](const char* engine) { return psnr_inside(without, rendered(shot.job(engine)), 0); };
+    EXPECT_GT(like("sprites"), like("gather") + 10);
+}
+
 TEST(Sprites, TheRimOfALampIsDrawnWithTheLampWhateverItsDepthSays) {
     Shot shot = flat(160, 120, {0.05f, 0.05f, 0.05f, 1}, 24);
     for (int y = 59; y <= 61; ++y)

@@ -21,14 +21,42 @@ namespace {
 
 constexpr float kWithinPixelPx = 0.5f;  // light that is out of focus by less needs no kernel
 
-// The picture without its bright points, and these.
+// The picture without its bright points, and these; its samples, where it has hidden layers.
 struct Parted {
     Picture background;
+    CocSamples samples;
     std::vector<Sprite> sprites;
 };
 
+// Takes what is bright from that sample of a pixel which shows most light: what is hidden keeps its own.
+// bright: on return what was taken. Returns where it stands.
+float take_bright(std::span<CocSample> samples, Rgba& bright) {
+    CocSample* from = nullptr;
+    float open = 1, share = 0, most = 0;
+    for (CocSample& s : samples) {
+        const float seen = std::min(s.colour.a, open), shown = s.colour.a > 0 ? seen / s.colour.a : open;
+        if (const float light = shown * luminance(s.colour); light > most)
+            from = &s, share = shown, most = light;
+        open -= seen;
+    }
+    if (!from) return bright = {}, 0.0f;
+    const auto take = [share](float& light, float& wanted) {
+        wanted = std::clamp(share * light, 0.0f, std::max(0.0f, wanted)), light -= wanted;
+    };
+    take(from->colour.r, bright.r), take(from->colour.g, bright.g), take(from->colour.b, bright.b);
+    return from->coc_px;
+}
+
+std::span<CocSample> samples_of(CocSamples& all, int x, int y) {
+    const std::size_t i = std::size_t(y) * std::size_t(all.width) + std::size_t(x);
+    return std::span(all.samples).subspan(all.first[i], all.first[i + 1] - all.first[i]);
+}
+
 Parted part(const Input& input) {
-    Parted parted{Picture::uninitialised(input.width(), input.height()), {}};
+    Parted parted{Picture::uninitialised(input.width(), input.height()), {}, {}};
+    parted.samples.width = input.deep.width();
+    parted.samples.first.assign(input.deep.first().begin(), input.deep.first().end());
+    parted.samples.samples.assign(input.deep.samples().begin(), input.deep.samples().end());
     const HighlightRule rule{.factor = float(input.sprites.bright_factor),
                              .least_floor = 1,
                              .floor_at_1px = 0,
@@ -41,12 +69,14 @@ Parted part(const Input& input) {
             const float coc = input.coc_px(x, y);
             parted.background(x, y) = light;
             if (std::abs(coc) <= kWithinPixelPx) continue;
-            const Rgba base = split.base(x, y, coc, light), bright = light - base;
+            const Rgba base = split.base(x, y, coc, light);
+            Rgba bright = light - base;
             if (bright.r <= 0 && bright.g <= 0 && bright.b <= 0) continue;
             parted.background(x, y) = base;
-            rows[std::size_t(y)].push_back({float(x) + 0.5f, float(y) + 0.5f,
-                                            radius_of_brightest(input.colour, input.coc_px, x, y), bright.r,
-                                            bright.g, bright.b});
+            const float radius = input.deep.empty() ? radius_of_brightest(input.colour, input.coc_px, x, y)
+                                                    : take_bright(samples_of(parted.samples, x, y), bright);
+            rows[std::size_t(y)].push_back(
+                {float(x) + 0.5f, float(y) + 0.5f, radius, bright.r, bright.g, bright.b});
         }
     });
     for (const auto& row : rows) parted.sprites.insert(parted.sprites.end(), row.begin(), row.end());
@@ -126,7 +156,7 @@ Result<Output> run_sprites(const Input& input) {
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    const bool finds = input.sprites.find && input.deep.empty();
+    const bool finds = input.sprites.find && !input.deep_dims_itself;
     // The picture without its lights, the quad-tree; for every light: itself, its copy in a tile, its place
     // in lists.
     constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba) + 8, kBytesPerPoint = 200;
@@ -134,7 +164,9 @@ Result<Output> run_sprites(const Input& input) {
     const bool over_gather = input.sprites.background == SpriteBackground::Gather;
     Input rest = input;
     rest.beside_bytes += bytes_of_points;
-    if (finds) rest.beside_bytes += sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
+    if (finds)
+        rest.beside_bytes += sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height()) +
+                             input.deep.samples().size_bytes() + input.deep.first().size_bytes();
     if (input.max_memory_bytes > 0) {
         const std::size_t least =
             std::max(whole_picture_bytes(input, kBytesPerPixel) + bytes_of_points,
@@ -143,6 +175,7 @@ Result<Output> run_sprites(const Input& input) {
     }
     Parted parted = finds ? part(input) : Parted{};
     if (finds) rest.colour = parted.background;
+    if (finds && !input.deep.empty()) rest.deep = parted.samples;
     rest.gather.stage = GatherStage::Final;
     rest.gaussian.view = GaussianView::Result;
     Result<Output> output = over_gather ? run_gather(rest) : run_gaussian(rest);
