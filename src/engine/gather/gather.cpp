@@ -7,6 +7,7 @@
 #include "engine/gather/plan.h"
 #include "engine/gather/realtime_plan.h"
 #include "engine/waist/memory.h"
+#include "engine/waist/stopwatch.h"
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace petzval::engine {
 namespace {
@@ -64,33 +66,29 @@ public:
             draw(Rect{0, y, frame_.width(), y + strips.rows}.intersected(frame_.colour.rect()), strips.halo,
                  *output.canvas);
         if (frame_.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
-        output.stages = {{"prefilter", prefilter_s_}, {"atlas", atlas_s_}, {"gather", gather_s_}};
+        output.stages = std::move(stages_);
         return output;
     }
 
 private:
     void draw(const Rect& rows, int halo, device::Target out) {
-        auto start = std::chrono::steady_clock::now();
-        const auto lap = [&](double& sum) {
-            const auto now = std::chrono::steady_clock::now();
-            sum += std::chrono::duration<double>(now - start).count(), start = now;
-        };
+        Stopwatch watch(stages_);
         const int first = std::max(0, rows.y0 - halo), last = std::min(frame_.height(), rows.y1 + halo);
         const Input strip = frame_.rows(first, last);
         const GatherPlan plan = plan_gather(strip, rows.moved(0, -first), first, sizes_, kernels_);
-        lap(prefilter_s_);
+        watch.lap("prefilter");
         const device::Control control{*strip.workers, *strip.progress,
                                       double(rows.height()) / frame_.height()};
         const auto atlas = strip.device->atlas(kernels_, plan.kernels, *strip.memory, control);
-        lap(atlas_s_);
+        watch.lap("atlas");
         if (!strip.progress->cancelled()) strip.device->gather(plan, *atlas, out, control);
-        lap(gather_s_);
+        watch.lap("gather");
     }
 
     const Input& frame_;
     RingSizes sizes_;
     RingKernels kernels_;
-    double prefilter_s_ = 0, atlas_s_ = 0, gather_s_ = 0;
+    std::vector<StageTime> stages_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/gather/gather_taps_figure.h"
+#include "engine/waist/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,24 +69,30 @@ public:
         if (largest_px_ <= 0) largest_px_ = std::max(-input.nearest_coc_px, input.farthest_coc_px);
     }
 
-    Picture stage() const {
+    // What was drawn up to the stage, timed.
+    Picture stage(Stopwatch watch) const {
         const GatherStage stage = in_.gather.stage;
+        const auto timed = [&](const char* pass, auto made) {
+            watch.lap(pass);
+            return made;
+        };
         if (stage == GatherStage::Coc)
-            return each([&](int x, int y) {
-                const float c = coc(x, y);
-                return Rgba{c, c, c, 1};
-            });
-        const HalfPicture half = prefiltered();
-        if (stage == GatherStage::Prefilter) return enlarged(half.colour);
-        if (stage == GatherStage::Taps) return drawn(figure(half), *in_.workers);
+            return timed("radii", each([&](int x, int y) {
+                             const float c = coc(x, y);
+                             return Rgba{c, c, c, 1};
+                         }));
+        const HalfPicture half = timed("half size", prefiltered());
+        if (stage == GatherStage::Prefilter) return timed("enlarged", enlarged(half.colour));
+        if (stage == GatherStage::Taps) return timed("taps drawn", drawn(figure(half), *in_.workers));
         const bool apart = stage == GatherStage::NearFar || stage == GatherStage::Cure;
         const bool blind = stage == GatherStage::Disc || stage == GatherStage::DiscBlur;
-        const Picture bokeh = gathered(half, blind, apart);
+        const Picture bokeh = timed(apart ? "near and far" : "disc", gathered(half, blind, apart));
         if (stage == GatherStage::Disc || stage == GatherStage::HardTest || stage == GatherStage::NearFar)
-            return enlarged(bokeh);
-        const Picture soft = blurred(bokeh);
-        if (stage == GatherStage::DiscBlur || stage == GatherStage::Blur) return enlarged(soft);
-        return combined(enlarged(soft), apart);
+            return timed("enlarged", enlarged(bokeh));
+        const Picture soft = timed("four-tap blur", blurred(bokeh));
+        Picture large = timed("enlarged", enlarged(soft));
+        if (stage == GatherStage::DiscBlur || stage == GatherStage::Blur) return large;
+        return timed("combined", combined(large, apart));
     }
 
 private:
@@ -222,7 +229,7 @@ private:
 
 Result<Output> run_gather_stage(const Input& input) {
     Output output;
-    output.image = Article(input).stage();
+    output.image = Article(input).stage(Stopwatch(output.stages));
     output.warnings.emplace_back("this picture is a stage of the published gather method, not a result");
     return output;
 }

@@ -8,9 +8,9 @@
 #include "engine/samples/lamps.h"
 #include "engine/scatter/layer_light.h"
 #include "engine/scatter/plan_reader.h"
+#include "engine/waist/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -21,28 +21,6 @@
 
 namespace petzval::engine {
 namespace {
-
-// Times the stages of a run; a stage that comes again adds to its time.
-class Stopwatch {
-public:
-    explicit Stopwatch(std::vector<StageTime>& stages) : stages_(stages) {}
-    void lap(const char* stage, device::Work work = {}) {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        for (StageTime& known : stages_)
-            if (known.stage == stage) {
-                known.seconds += seconds, known.bytes += work.bytes;
-                known.multiply_adds += work.multiply_adds;
-                return;
-            }
-        stages_.push_back({stage, seconds, work.bytes, work.multiply_adds});
-    }
-
-private:
-    std::vector<StageTime>& stages_;
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // Sizes of what stages are given and leave behind.
 template <typename T>
@@ -250,9 +228,8 @@ private:
         const device::Control control{*strip.workers, *strip.progress, 0.9 * share};
         const auto atlas = device.atlas(*kernels_, p.scatter.kernels, *strip.memory, control);
         watch_.lap("atlas");
-        if (!strip.progress->cancelled())
-            watch_.lap("spread", device.composite(p.scatter, *atlas, out, control));
-        watch_.lap("highlights", draw_lights(p, out));
+        if (!strip.progress->cancelled()) lap("spread", device.composite(p.scatter, *atlas, out, control));
+        lap("highlights", draw_lights(p, out));
         strip.progress->advance(0.1 * share);
     }
 
@@ -269,6 +246,8 @@ private:
               &beauty.highlights},
              share, out);
     }
+
+    void lap(const char* stage, device::Work work) { watch_.lap(stage, work.bytes, work.multiply_adds); }
 
     const Input& frame_;
     Stopwatch& watch_;
