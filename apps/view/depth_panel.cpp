@@ -1,4 +1,5 @@
 #include "petzval/defocus.h"
+#include "petzval/develop.h"
 
 #include "commands.h"
 #include "fields.h"
@@ -72,7 +73,50 @@ void drag_focus(App& app, const Scale& scale) {
         static_cast<void>(act(app, "set focus " + metres));
 }
 
+ImU32 display_colour(const Rgba& p) {
+    const auto code = [&](float value) {
+        const double light = p.a > 0 ? double(value / p.a) : 0;
+        return int(std::lround(255 * srgb_encode(std::clamp(light, 0.0, 1.0))));
+    };
+    return IM_COL32(code(p.r), code(p.g), code(p.b), 255);
+}
+
 }  // namespace
+
+void coverage_plot(App& app, const std::string& name, std::span<const DeepSample> samples) {
+    DepthHistogram range;
+    for (const DeepSample& sample : samples) {
+        const double z = double(sample.depth_m);
+        if (!(z > 0) || std::isinf(z)) continue;
+        range.nearest_m = range.nearest_m > 0 ? std::min(range.nearest_m, z) : z;
+        range.farthest_m = std::max(range.farthest_m, z);
+    }
+    if (!(range.farthest_m > 0)) return;
+    range.nearest_m *= 0.9, range.farthest_m *= 1.2;  // room on both sides
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), 4 * ImGui::GetFontSize()};
+    const Scale scale{range, from, {from.x + size.x, from.y + size.y}};
+    ImGui::Dummy(size);
+    is_field(app, "coverage " + name, "how much is covered from the front, over depth; a step is a sample");
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(scale.from, scale.to, IM_COL32(25, 25, 25, 255));
+    const auto x_of = [&](const DeepSample& sample) {
+        const double z = double(sample.depth_m);
+        return std::isinf(z) ? scale.to.x
+                             : scale.x(std::clamp(range.share_of(std::max(z, range.nearest_m)), 0.0, 1.0));
+    };
+    float covered = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        covered += (1 - covered) * samples[i].colour.a;
+        const float left = x_of(samples[i]),
+                    right = i + 1 < samples.size() ? x_of(samples[i + 1]) : scale.to.x;
+        const float top = scale.to.y - covered * size.y;
+        list->AddRectFilled({left, top}, {right, scale.to.y}, display_colour(samples[i].colour));
+        list->AddLine({left, scale.to.y}, {left, top}, kFocus, 1.5f);
+        list->AddLine({left, top}, {right, top}, kFocus, 1.5f);
+    }
+    draw_ticks(scale);
+}
 
 // Where the picture's pixels lie in depth; what is sharp of them is white. Drag to focus.
 void depth_panel(App& app) {

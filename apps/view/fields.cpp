@@ -182,6 +182,13 @@ std::vector<Field> more_facts() {
              [](const App& app) { return app.shot() ? std::to_string(app.shot()->samples) : "0"; }),
         fact("scene.path_keys", [](const App& app) { return std::to_string(app.state.path.keys.size()); }),
         fact("frame.ms", [](const App& app) { return text_of(1000 * app.side(0).last.seconds, 4); }),
+        fact("frame.passes",
+             [](const App& app) {
+                 std::string names;
+                 for (const StageTime& stage : app.side(0).last.stages)
+                     names += (names.empty() ? "" : ", ") + stage.stage;
+                 return names;
+             }),
         fact("orbit.yaw_deg", [](const App& app) { return text_of(app.state.orbit.yaw_deg, 6); }),
         fact("orbit.pitch_deg", [](const App& app) { return text_of(app.state.orbit.pitch_deg, 6); }),
         fact("shot.frame", [](const App& app) { return std::to_string(app.state.timeline.frame); }),

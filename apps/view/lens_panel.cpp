@@ -154,7 +154,8 @@ void draw_numbers(App& app) {
         const char *path, *label;
         float letters;
     };
-    const bool has_own = app.state.choice.look.lens.name != "ideal";
+    const bool is_ideal = app.state.choice.look.lens.name == "ideal";
+    const bool has_own = !is_ideal && !app.lens_made().section.has_surfaces;
     const Number all[]{{"lens.blades", "blades", 3},
                        {has_own ? "lens.spherical" : "lens.added_spherical_waves", "spherical", 4},
                        {has_own ? "lens.axial_colour" : "lens.added_axial_colour_mm", "colour", 4},
@@ -165,7 +166,7 @@ void draw_numbers(App& app) {
     const float letter = ImGui::GetFontSize();
     ImGui::PushID("numbers");
     for (const Number& number : all) {
-        if (!has_own && std::string(number.path) == "lens.focus_shift_mm") continue;
+        if (is_ideal && std::string(number.path) == "lens.focus_shift_mm") continue;
         const auto row = std::find_if(app.setup().fields.begin(), app.setup().fields.end(),
                                       [&](const FieldRow& r) { return r.path == number.path; });
         if (row == app.setup().fields.end()) continue;

@@ -182,21 +182,14 @@ std::string words_for(const char* name, const Rgba& p) {
     return text;
 }
 
-void samples_of(const char* title, const DeepPicture& deep, int x, int y) {
+void samples_of(App& app, const char* title, const DeepPicture& deep, int x, int y) {
     if (deep.empty() || x < 0 || y < 0 || x >= deep.width() || y >= deep.height()) return;
     const auto samples = deep.at(x, y);
     ImGui::Text("%s: %zu samples", title, samples.size());
-    float covered = 0;
-    std::vector<float> coverage;  // as seen from the front, over the samples
-    for (const DeepSample& sample : samples) {
-        covered += (1 - covered) * sample.colour.a;
-        coverage.push_back(covered);
+    for (const DeepSample& sample : samples)
         ImGui::Text("%9.5g m  alpha %.3f   %.4g %.4g %.4g", double(sample.depth_m), double(sample.colour.a),
                     double(sample.colour.r), double(sample.colour.g), double(sample.colour.b));
-    }
-    if (coverage.size() > 1)
-        ImGui::PlotHistogram("coverage", coverage.data(), int(coverage.size()), 0, nullptr, 0, 1,
-                             {0, 4 * ImGui::GetFontSize()});
+    coverage_plot(app, title, samples);
 }
 
 const Rgba* pixel_of(const Picture* picture, const Rect& area, int x, int y) {
@@ -251,9 +244,9 @@ void pixel_panel(App& app) {
     if (const auto radius = app.radius_at(*app.state.pick))
         ImGui::Text("radius %s", pixels_text(double(*radius)).c_str());
     colours_of(app, x, y);
-    samples_of("deep", shot.deep, x, y);
-    samples_of("hidden", shot.behind, x, y);
-    samples_of("holdout", shot.holdout, x, y);
+    samples_of(app, "deep", shot.deep, x, y);
+    samples_of(app, "hidden", shot.behind, x, y);
+    samples_of(app, "holdout", shot.holdout, x, y);
 }
 
 void frame_panel(App& app) {

@@ -184,6 +184,14 @@ class SceneTest(window.WindowTest):
         self.assertGreater(far, near + 0.5)
         self.assertGreater(aperture, 30)
 
+    def test_every_pass_of_an_article_is_timed(self):
+        for scene, passes in (("hexadrive", ["split", "complete", "sources", "atlas", "spread", "highlights", "light"]),
+                              ("wgld", ["gaussian"]),
+                              ("unity", ["half size", "near and far", "four-tap blur", "enlarged", "combined"])):
+            out, _ = self.do("wait\nexpect no error\nsay frame.passes\n", "--scene", scene, "--scene-size", "60x34")
+            for one in passes:
+                self.assertIn(one, out, scene)
+
     def test_a_camera_path_is_recorded_saved_and_played_again(self):
         out, _ = self.do("""
             wait

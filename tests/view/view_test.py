@@ -10,6 +10,19 @@ import window
 from window import DISPLAY, PETZVAL, TIME_LIMIT_S, png_codes
 
 
+OCIO = """ocio_profile_version: 2
+roles: {default: scene, scene_linear: scene}
+displays:
+  sRGB:
+    - !<View> {name: Half, colorspace: half}
+colorspaces:
+  - !<ColorSpace> {name: scene}
+  - !<ColorSpace>
+    name: half
+    from_scene_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
+"""
+
+
 class ViewTest(window.WindowTest):
     def test_a_click_focuses_on_what_is_seen_there_and_the_picture_follows(self):
         # The checked ball in the middle stands 1.2 m away; the red one at the back is farther.
@@ -116,6 +129,35 @@ class ViewTest(window.WindowTest):
         self.assertIn("gather", window.stdout.readline())
         os.remove(path)
         self.finish(window)
+
+    def test_a_shot_may_lack_frames_and_lose_one(self):
+        for number in (1, 2, 4, 5):
+            shutil.copy(os.path.join(self.shared, "table.exr"), os.path.join(self.shared, "gap.%04d.exr" % number))
+        with open(os.path.join(self.shared, "gap.txt"), "w") as file:
+            file.write("wait\nframe 3\nexpect error 3\nframe 2\nwait\nframe +1\nwait\nexpect shot.frame 4\n"
+                       "expect no error\nsay shot.frame\nsleep 1\nframe 5\nwait\nexpect error gap.0005.exr\n"
+                       "frame 1\nwait\nexpect no error\nexpect frame.engine gaussian\n")
+        window = self.start("gap.####.exr", "--engine", "gaussian", "--script", "gap.txt")
+        self.assertIn("4", window.stdout.readline())
+        os.remove(os.path.join(self.shared, "gap.0005.exr"))
+        self.finish(window)
+
+    def test_the_display_may_be_one_of_opencolorio(self):
+        with open(os.path.join(self.shared, "config.ocio"), "w") as file:
+            file.write(OCIO)
+        os.environ["OCIO"] = os.path.join(self.shared, "config.ocio")
+        self.addCleanup(os.environ.pop, "OCIO")
+        made = subprocess.run([PETZVAL, "develop", "table.exr", "-o", "ocio.png", "--no-dither", "--ocio", "sRGB,Half"],
+                              cwd=self.shared, capture_output=True, text=True)
+        if "without OpenColorIO" in made.stderr:
+            self.skipTest("built without OpenColorIO")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        row = png_codes(next(self.contents("ocio.png")))[60]
+        self.do("wait\nexpect view.ocio on\nzoom 2\nkey 2\nwait\nexpect screen 60 60 %d %d %d 1\n"
+                "set view.ocio off\nwait\nexpect no error\nshot plain.png\nset view.ocio on\nwait\nshot ocio.png\n" % row[60],
+                "table.exr", "--ocio", "sRGB,Half", "--engine", "gaussian")
+        plain, by_config = self.contents("plain.png", "ocio.png")
+        self.assertNotEqual(plain, by_config)
 
     def test_panels_and_wipe_answer_the_mouse(self):
         self.do("""
