@@ -1,5 +1,6 @@
 // One picture drawn by a device of Vulkan, each of its passes timed by the device's own clock: what `./dev
-// bench gpu` runs. The first frame is not counted. Beside bench/job.h's flags: --device.
+// bench gpu` runs. The first frame is not counted. Beside bench/job.h's flags: --device; --engine glare is
+// all glare but ghosts, of both qualities of stars, over the picture as it is.
 #include "petzval/devices.h"
 #include "petzval/session.h"
 
@@ -34,6 +35,22 @@ void print(const DefocusReport& report, const device::Device& device, int frames
     std::printf("}\n");
 }
 
+// Bloom and veil, and either star.
+Result<DefocusReport> with_glare(Session& session, DefocusJob job, const Picture& colour) {
+    job.lens.name = "ideal", job.lens.aperture.blades = 6;
+    Look look;
+    look.lens = job.lens;
+    look.glare.bloom = look.glare.veil = look.glare.star = 0.1;
+    DefocusReport report;
+    for (const StarQuality quality : {StarQuality::Draft, StarQuality::Final}) {
+        look.glare.star_quality = quality;
+        auto lit = session.add_light(colour.clone(), job, look);
+        if (!lit) return lit.error();
+        report.image = std::move(*lit);
+    }
+    return report;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -47,18 +64,23 @@ int main(int count, char** words) {
     });
     const Result<Frame> frame = read_frame(asked.file);
     if (!frame) fail(frame.error().message);
+    const bool is_glare = asked.engine == "glare";
+    if (is_glare) asked.engine = "scatter";
     const DefocusJob job = bench::job_of(frame->colour, frame->depth, frame->camera, asked);
 
     if (!settings.device.starts_with("gpu:")) fail("--device is gpu:0, gpu:1, …");
     const auto device = device::open_vulkan(std::strtoul(settings.device.c_str() + 4, nullptr, 10));
     if (!device) fail(device.error().message);
     Session session(settings);
-    Result<DefocusReport> report = session.defocus(job);
+    const auto drawn = [&] {
+        return is_glare ? with_glare(session, job, frame->colour) : session.defocus(job);
+    };
+    Result<DefocusReport> report = drawn();
     if (!report) fail(report.error().message);
     device::start_timing(**device);
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < asked.repeat; ++i) {
-        report = session.defocus(job);
+        report = drawn();
         if (!report) fail(report.error().message);
     }
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -45,7 +45,7 @@ TEST(GlareOnDevices, IsTheCpusAndTwiceTheSameBits) {
     Session cpu = session_on("cpu");
     for (const std::string& gpu : gpus()) {
         Session session = session_on(gpu);
-        for (const auto& [width, height] : {std::pair(60, 41), {7, 1}, {1, 40}})
+        for (const auto& [width, height] : {std::pair(60, 41), {1, 23}})
             for (const Look& look : looks()) {
                 if (width < 60 && look.glare.veil == 0) continue;
                 const Picture picture = with_lamps(width, height);
@@ -82,8 +82,8 @@ TEST(GlareOnDevices, GoesOnWhereTheFrameWasDrawn) {
     for (const std::string& gpu : gpus()) {
         Session session = session_on(gpu);
         for (const char* engine : {"scatter", "gather", "gaussian", "sprites", "realtime"}) {
-            Look look = looks().back();
-            look.engine = engine;
+            Look look = looks().front();
+            look.engine = engine, look.glare.ghosts = 0.1;
             const DefocusJob job = with_look(shot.job(engine), look);
             const auto taken = session.take(job, look);
             auto drawn = session.defocus(job);
