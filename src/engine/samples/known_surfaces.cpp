@@ -35,18 +35,32 @@ KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc,
       white_(white),
       edges_(picture, radii_, mixtures, white, workers) {}
 
+CutEdges::Point KnownSurfaces::behind(Place at, Direction outwards, float distance_px) {
+    return {at.x - int(std::lround(distance_px * outwards.x)),
+            at.y - int(std::lround(distance_px * outwards.y))};
+}
+
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
     // Times white: what is darker is no light, a bright wall may go on as long as it likes.
-    constexpr float kLight = 0.55f;
+    constexpr float kLight = 0.5f;
     const Rgba own = wide_colour(from, outwards, distance_px);
-    if (white_ <= 0 || light_of(own) <= kLight * white_) return own;
-    const float falls = above(light_of(own), kLight * white_);
+    if (white_ <= 0) return own;
+    const CutEdges::Point hidden = behind(from, outwards, distance_px);
+    // The last pixel of a sign may be dark, between letters, or have lost its light to what hides it.
+    const Place before{from.x + int(std::lround(outwards.x)), from.y + int(std::lround(outwards.y)),
+                       from.coc_px};
+    float light = light_of(own);
+    if (shows(before.x, before.y, from.coc_px)) {
+        const float told = 0.5f * edges_.passes({before.x, before.y}, hidden, from.coc_px);
+        light = std::max(light, light_of((1 - told) * own + told * colour(before.x, before.y)));
+    }
+    const float falls = above(light, kLight * white_);
+    if (falls <= 0) return own;
     return own * (1 - falls) + falls * shown(from, outwards, distance_px, own);
 }
 
 Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
-    const CutEdges::Point hidden{at.x - int(std::lround(distance_px * outwards.x)),
-                                 at.y - int(std::lround(distance_px * outwards.y))};
+    const CutEdges::Point hidden = behind(at, outwards, distance_px);
     Rgba sum = colour(at.x, at.y);
     float total = 1;
     for (const float aside : {-0.2f, -0.1f, 0.1f, 0.2f}) {
@@ -60,22 +74,25 @@ Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px)
     return sum * (1 / total);
 }
 
-// The mean of what shows of the surface at r times half the distance, with density 1/(1 + r)^2: of a thing
-// that shows w wide the share w/(w + distance/2), as if things of all widths were as common and cut anywhere.
+// The mean of what shows of the surface at r times the distance, with density 1/(1 + r)^2: of a thing that
+// shows w wide the share w/(w + distance), as if things of all widths were as common and cut anywhere.
+// Nothing counts across an edge that goes on.
 Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, Rgba otherwise) const {
     constexpr int kParts = 8;  // as likely each
     Rgba sum;
-    int parts = 0;
+    float total = 0;
+    const CutEdges::Point hidden = behind(from, outwards, distance_px);
     for (int part = 0; part < kParts; ++part) {
         const float nearer = (float(part) + 0.5f) / kParts;
-        const float far = 0.5f * distance_px * nearer / (1 - nearer);
+        const float far = distance_px * nearer / (1 - nearer);
         const int x = from.x + int(std::lround(far * outwards.x)),
                   y = from.y + int(std::lround(far * outwards.y));
         if (far > kWidestLightPx || !radii_.rect().contains(x, y)) break;
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
-        sum += comparable(colour(x, y)), ++parts;
+        const float weight = edges_.passes({x, y}, hidden, from.coc_px);
+        sum += weight * comparable(colour(x, y)), total += weight;
     }
-    return parts > 0 ? sum * (1 / float(parts)) : otherwise;
+    return total > 0 ? sum * (1 / total) : otherwise;
 }
 
 }  // namespace petzval::engine

@@ -54,6 +54,7 @@ public:
     }
 
 private:
+    static CutEdges::Point behind(Place at, Direction outwards, float distance_px);
     Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
     Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise) const;
 

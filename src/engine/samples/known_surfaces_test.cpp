@@ -13,10 +13,11 @@ constexpr float kSign = 2, kWall = 0.1f;
 constexpr Direction kOutwards{-1, 0};
 
 // What goes on from the last column before the edge, so far behind it, where so many columns of sign show.
-float light_behind(int columns_of_sign, float distance_px, float white = 1) {
+float light_behind(int columns_of_sign, float distance_px, float white = 1, int dark_columns = 0) {
     Picture colour(kWidth, kHeight, {kWall, kWall, kWall, 1});
     for (int y = 0; y < kHeight; ++y)
-        for (int x = kEdge - columns_of_sign; x < kEdge; ++x) colour(x, y) = {kSign, 0.5f * kSign, kSign, 1};
+        for (int x = kEdge - columns_of_sign; x < kEdge - dark_columns; ++x)
+            colour(x, y) = {kSign, 0.5f * kSign, kSign, 1};
     const Plane coc(kWidth, kHeight, 5);
     const Sparse<Mixture> none{Image<int>(kWidth, kHeight, -1), {}};
     const LitPicture picture{colour, {}};
@@ -34,10 +35,17 @@ TEST(KnownSurfaces, ASignGoesOnByAsMuchOfItAsShows) {
     EXPECT_NEAR(light_behind(60, 6), kWhole, 0.05f * kWhole);
     for (const int shows : {3, 6, 12})
         for (const float distance : {8.0f, 14.0f, 20.0f}) {
-            const float share = float(shows) / (float(shows) + 0.5f * distance);
+            const float share = float(shows) / (float(shows) + distance);
             EXPECT_NEAR((light_behind(shows, distance) - kWall) / (kWhole - kWall), share, 0.13f)
                 << shows << " columns, " << distance << " px behind";
         }
+}
+
+TEST(KnownSurfaces, ADarkColumnAtItsEndIsNotAllThatASignTells) {
+    const float alone = light_behind(30, 6), dark = light_behind(30, 6, 1, 1);
+    EXPECT_GT(dark, 3 * kWall);
+    EXPECT_LT(dark, alone);
+    EXPECT_FLOAT_EQ(light_behind(30, 6, 1, 2), kWall) << "there it ends";
 }
 
 TEST(KnownSurfaces, ASignFadesAsItSlipsBehindTheEdge) {
