@@ -152,8 +152,8 @@ private:
     void add_tile() {
         Recording recording(context_);
         current_ = 0;
-        recording.pass("take highlights", context_.program(Shader::StarLoad), {&picture_, &fields_[0]}, push_,
-                       invocations(points()));
+        recording.pass("take highlights", context_.program(Shader::StarLoad), {&picture_, fields_.data()},
+                       push_, invocations(points()));
         transform(recording, -1);
         const bool is_pair = push_.channels == 0;
         recording.pass("filter star", context_.program(Shader::StarFilter),
