@@ -1,10 +1,12 @@
 """Short memory: wherever it ends, one line and exit code 1; never an abort, never half a file."""
 import os
+import re
 import resource
+import subprocess
 import unittest
 
 from pictures import camera_attributes, picture, write_exr
-from program import CommandLineTest
+from program import PETZVAL, CommandLineTest
 
 MIB = 1 << 20
 
@@ -43,6 +45,25 @@ class ShortMemory(CommandLineTest):
                 self.assertEqual(left, [], where)
         self.assertGreater(ended[0], 2)
         self.assertGreater(ended[1], 2)
+
+    def peak(self, *args):
+        """Exit code and the largest memory of one run, MiB."""
+        with subprocess.Popen([PETZVAL, *args], cwd=self.folder, stdin=subprocess.DEVNULL) as run:
+            _, status, used = os.wait4(run.pid, 0)
+            run.returncode = os.waitstatus_to_exitcode(status)
+        return run.returncode, used.ru_maxrss / 1024
+
+    def test_a_limit_names_what_is_used(self):
+        if self.least() > 500:
+            self.skipTest("this build takes memory of its own")
+        self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")
+        defocus = ["defocus", "in.exr", "-o", "out.exr", "--kernel-cache", "off", "-q", "--max-memory"]
+        refused = self.refuse(1, *defocus, "20M", says=["takes at least"])
+        named = int(re.search(r"at least (\d+)M", refused.err).group(1))
+        code, peak = self.peak(*defocus, "%dM" % named)
+        self.assertEqual(code, 0)
+        self.assertLess(peak, named)
+        self.assertGreater(peak, 0.85 * named)
 
 
 if __name__ == "__main__":

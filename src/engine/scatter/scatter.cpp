@@ -1,6 +1,7 @@
 // The final-frame engine: complete, split, spread by levels, composite by lens area (docs/design/scatter.md).
 #include "engine/scatter/scatter.h"
 
+#include "base/parallel.h"
 #include "device/device.h"
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
@@ -11,8 +12,10 @@
 #include "engine/waist/stopwatch.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +54,46 @@ constexpr std::size_t kFixedWorkingBytes = std::size_t(56) << 20;
 // Strips of wide frames that are narrower are mostly halo.
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 
+// The share of pixels that are cut from a neighbour: they are kept taken apart, and what they hide has
+// samples and sources of its own.
+double share_at_silhouettes(const Input& input) {
+    const Image<unsigned char> connected = connections(input.coc_px, *input.workers);
+    std::atomic<std::ptrdiff_t> cut = 0;
+    parallel_for(input.height(), *input.workers, [&](int y) {
+        const unsigned char* const row = connected.row(y);
+        cut += std::count_if(row, row + input.width(), [](unsigned char c) { return c != kAll; });
+    });
+    return double(cut) / (double(input.width()) * double(input.height()));
+}
+
+// What a flat picture takes that is done at once, as whole commands did at their peak (docs/measurements.md,
+// Fewer bytes). Of strips, and of what is more than flat, less is known and more is reckoned with.
+std::size_t bytes_at_once(const Input& input) {
+    constexpr double kPerPixel = 60, kPerSilhouettePixel = 265, kFixed = 60 << 20, kAberrated = 28 << 20;
+    const bool flat =
+        input.deep.empty() && input.plate.empty() && input.layers.empty() && input.holdout.empty();
+    if (!flat) return std::numeric_limits<std::size_t>::max();
+    const double per_pixel =
+        kPerPixel + (input.spent ? 0 : sizeof(Rgba)) + kPerSilhouettePixel * share_at_silhouettes(input);
+    const double fixed = kFixed + (input.lens(0).reach_px(0) > 0.5 ? kAberrated : 0);
+    return std::size_t(per_pixel * double(input.width()) * double(input.height()) + fixed) +
+           input.beside_bytes;
+}
+
+Error too_little(const Input& input, std::size_t held, std::size_t of_strip, std::size_t at_once,
+                 std::size_t rows) {
+    const auto mib = [](std::size_t bytes) { return std::to_string(bytes >> 20); };
+    const std::size_t in_strips = held + of_strip;
+    const std::string why = at_once <= in_strips
+                                ? "M, done at once"
+                                : "M, " + mib(held) + "M of them whole pictures, the rest a strip of " +
+                                      std::to_string(rows) + " rows, as high as the blur reaches";
+    return Error{ErrorCode::OutOfMemory, "job.max_memory_bytes " + mib(input.max_memory_bytes) +
+                                             "M is too little for this picture and blur; it takes at least " +
+                                             mib(std::min(at_once, in_strips) + (std::size_t(1) << 20)) +
+                                             why};
+}
+
 Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const ScatterKernels& kernels) {
     const double largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
     const int coarsest = kernels.coarsest_for(int(std::ceil(rule.position(float(largest)))));
@@ -78,7 +121,8 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     const double bytes_per_sample = double(kBytesPerSample) * (input.layers.empty() ? 1 : 3);
     const auto row_bytes = std::size_t((double(kBytesPerPixel) + bytes_per_sample * samples) * input.width());
     const std::size_t rows = working / row_bytes;
-    if (rows >= std::size_t(input.height())) {
+    const std::size_t at_once = input.max_memory_bytes > 0 ? bytes_at_once(input) : 0;
+    if (rows >= std::size_t(input.height()) || at_once < input.max_memory_bytes) {
         plan.rows = whole_units(input.height());
         return plan;
     }
@@ -86,12 +130,7 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     plan.rows = int(std::max<std::ptrdiff_t>(unit, own / unit * unit));
     const std::size_t least = std::min(std::size_t(unit + 2 * plan.halo), std::size_t(input.height()));
     if (input.max_memory_bytes > 0 && rows < least)
-        return Error{ErrorCode::OutOfMemory,
-                     "job.max_memory_bytes " + std::to_string(input.max_memory_bytes >> 20) +
-                         "M is too little for this picture and blur; it takes at least " +
-                         std::to_string((held + least * row_bytes) / (std::size_t(1) << 20) + 1) + "M, " +
-                         std::to_string(held >> 20) + "M of them whole pictures, the rest a strip of " +
-                         std::to_string(least) + " rows, as high as the blur reaches"};
+        return too_little(input, held, least * row_bytes, at_once, least);
     return plan;
 }
 
