@@ -26,8 +26,9 @@ void print(const DefocusReport& report, const device::Device& device, int frames
     std::printf("\"passes\": {");
     const char* separator = "";
     for (const device::PassTime& pass : device::pass_times(device)) {
-        std::printf("%s\"%s\": {\"runs\": %.1f, \"ms\": %.4f, \"bytes\": %.0f}", separator, pass.pass.c_str(),
-                    double(pass.runs) / frames, 1e3 * pass.seconds / frames, double(pass.bytes) / frames);
+        std::printf("%s\"%s\": {\"runs\": %.1f, \"ms\": %.4f, \"bytes\": %.0f, \"multiply_adds\": %.0f}",
+                    separator, pass.pass.c_str(), double(pass.runs) / frames, 1e3 * pass.seconds / frames,
+                    double(pass.work.bytes) / frames, double(pass.work.multiply_adds) / frames);
         separator = ", ";
     }
     std::printf("}, ");

@@ -9,6 +9,9 @@ about a GPU; bytes and operations do not depend on the driver.
 The model of the pass `composite`: the larger of the bytes that must cross memory at least once (sources, arrivals, sums of
 one sector, the result), divided by the bandwidth, and its multiply-adds, divided by the rate; both as published, so
 that no pass can be faster. What a frame at 1080p needs is counted by drawing it on the CPU; 4K is four times that.
+Of engines `gather`, `gaussian` and `sprites` all passes, as the device's own code counts what it hands them (src/device/vulkan):
+the lists of cells and lights, kernels, pixels, what they leave behind; of each light its kernel's pixels, 4 multiply-adds each, 6
+in `gather`; of a blur 5 for each tap of each cell. A pixel of a small picture stands for one of a large.
 Of engine `realtime` all passes: the bytes that its images and buffers hold, each once for each pass that reads or writes
 it, as the pass itself counts them (src/device/vulkan/realtime_pass.cpp); hosts have colours of 16 bits and save 8 bytes a
 pixel for each of the four times that these cross memory.
@@ -62,10 +65,6 @@ def chosen_device(name):
     return next((d for d in gpus if name in (None, d["name"])), None) or sys.exit(f"bench gpu: {name} is not there")
 
 
-# The stage of the report that counts what a pass does.
-STAGE_OF = {"composite": "spread", "add sectors": None, "cover pupils": None, "open pupils": None, "add lights": "highlights"}
-
-
 def composite_model(scene, radius):
     """Rows of what composite would take at least, by data sheet."""
     words = [SPEED, picture(scene, 1920), "--radius", str(radius)]
@@ -93,8 +92,16 @@ def realtime_model(bytes_per_pixel):
                                        for bandwidth, _ in DATA_SHEETS.values()]
 
 
+def pass_model(counted):
+    """Rows of what passes would take at least, by data sheet, as they were counted."""
+    for engine, scene, radius, name, moved, madds in counted:
+        yield [engine, scene, f"{radius:g}", name, f"{madds:.0f}", f"{moved:.1f}"] + [
+            f"{1e3 * size * max(moved / bandwidth, madds / rate):.2f}" for size in (1920 * 1080, 3840 * 2160)
+            for bandwidth, rate in DATA_SHEETS.values()]
+
+
 def rows_of(engine, given, device, counted):
-    """Of every pass of an engine; notes in `counted` the bytes a pixel of those that count them."""
+    """Of every pass of an engine; notes in `counted` the bytes and multiply-adds a pixel of those that count them."""
     software = device["software"]
     for scene in given.scenes:
         for width in given.widths or ([320] if software else [1920, 3840]):
@@ -106,10 +113,9 @@ def rows_of(engine, given, device, counted):
                 passes = found["passes"]
                 for name in sorted(passes, key=lambda n: REALTIME_PASSES.index(n) if n in REALTIME_PASSES else -1):
                     p = passes[name]
-                    stage = found["stages"].get(STAGE_OF.get(name) or "", {})
-                    madds, seconds = stage.get("multiply_adds", 0), p["ms"] / 1e3
+                    madds, seconds = p["multiply_adds"], p["ms"] / 1e3
                     if p["bytes"]:
-                        counted[name] = p["bytes"] / pixels
+                        counted.append((engine, scene, radius, name, p["bytes"] / pixels, madds / pixels))
                     yield [engine, scene, found["width"], f"{scaled:.3g}", name, "–" if software else f"{p['ms']:.3f}",
                            f"{p['runs']:g}", f"{madds / pixels:.0f}" if madds else "–",
                            "–" if software or not madds else f"{madds / seconds / 1e9:.0f}",
@@ -118,7 +124,7 @@ def rows_of(engine, given, device, counted):
 
 
 def page(given, device):
-    software, counted = device["software"], {}
+    software, counted = device["software"], []
     rows = [row for engine in given.engines for row in rows_of(engine, given, device, counted)]
     text = []
     say = text.append
@@ -131,17 +137,23 @@ def page(given, device):
         say("\nThe model: no faster than this, by published bandwidth and rate; ms for the pass `composite`.\n")
         say(table(["scene", "radius", "size", "multiply-adds/px", "bytes/px", *DATA_SHEETS],
                   [row for scene in given.scenes for radius in given.radii for row in composite_model(scene, radius)]))
-    if counted:
+    sheets = [f"{name}, {size}" for size in ("1080p", "4K") for name in DATA_SHEETS]
+    others = [c for c in counted if c[0] not in ("scatter", "realtime")]
+    if others:
+        say("\nThe model of other engines: no faster than this, by published bandwidth and rate; ms.\n")
+        say(table(["engine", "scene", "radius", "pass", "multiply-adds/px", "bytes/px", *sheets], pass_model(others)))
+    realtime = {name: moved for engine, _, _, name, moved, _ in counted if engine == "realtime"}
+    if realtime:
         say("\nThe model of `realtime`: no faster than this, by published bandwidth; ms.\n")
-        say(table(["pass", "bytes/px", *(f"{name}, {size}" for size in ("1080p", "4K") for name in DATA_SHEETS)],
-                  realtime_model(counted)))
+        say(table(["pass", "bytes/px", *sheets], realtime_model(realtime)))
     return "\n".join(text) + "\n"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--device")
-    parser.add_argument("--engines", "--engine", type=lambda s: s.split(","), default=["scatter", "realtime", "glare"])
+    parser.add_argument("--engines", "--engine", type=lambda s: s.split(","),
+                        default=["scatter", "gather", "gaussian", "sprites", "realtime", "glare"])
     parser.add_argument("--widths", type=lambda s: [int(w) for w in s.split(",")])
     parser.add_argument("--radii", type=lambda s: [float(r) for r in s.split(",")], default=[16, 64])
     parser.add_argument("--scenes", type=lambda s: s.split(","), default=["night", "table"])

@@ -29,8 +29,10 @@ Result<std::vector<VulkanChoice>> vulkan_choices() {
         "this build has none: it was made with PETZVAL_VULKAN off, or without Vulkan's headers and glslc"};
 }
 Result<std::shared_ptr<const device::Device>> open_vulkan(std::size_t) { return vulkan_choices().error(); }
+std::vector<std::string> said_by(const device::Device&) { return {}; }
 #else
 using device::open_vulkan;
+using device::said_by;
 using device::vulkan_choices;
 using device::VulkanChoice;
 #endif
@@ -93,6 +95,8 @@ Result<std::shared_ptr<const device::Device>> open_device(const std::string& cho
         return refused(ErrorCode::InvalidArgument, choice + " is not there; there are: " + listed(*choices));
     return opened(*number);
 }
+
+std::vector<std::string> NotingDevice::said() const { return said_by(device_); }
 
 std::string NotingDevice::drawn_by() const { return drew_ ? name() : device::cpu_device().name(); }
 

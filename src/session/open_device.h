@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace petzval {
 
@@ -74,6 +75,8 @@ public:
 
     // Who drew: "gpu:0 its name", or "cpu": what engines draw without a device.
     std::string drawn_by() const;
+    // What the device has to say of how it drew: lines for a report.
+    std::vector<std::string> said() const;
 
 private:
     void note() const { drew_.store(true, std::memory_order_relaxed); }

@@ -259,6 +259,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
         report.warnings.push_back("lens.distortion shows the scene up to " + std::to_string(missing) +
                                   " pixels beyond the picture, where its mirror image stands for it; "
                                   "render that much overscan");
+    for (std::string& said : drawing.said()) report.warnings.push_back(std::move(said));
     if (lens.store && !lens.store->warning().empty()) report.warnings.push_back(lens.store->warning());
     report.largest_radius_px = double(input.farthest_coc_px);
     report.smallest_radius_px = double(input.nearest_coc_px);

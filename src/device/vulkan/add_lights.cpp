@@ -78,19 +78,26 @@ public:
         const Piece holdout = recording.uploaded(std::span<const std::uint32_t>(held.words));
         const KernelsOnDevice kernels = kernels_for(batch, recording);
         push_.records = kernels.records;
-        for (std::size_t first = 0; first < tiles_.size(); first += rule_.most_tiles) {
-            const std::size_t count = std::min(rule_.most_tiles, tiles_.size() - first);
+        for (std::size_t first = 0; first < tiles_.size();) {
+            const std::size_t count = std::min(tiles_at_once(), tiles_.size() - first);
             if (first == 0) {
                 add(recording, first, count, kernels, visible, holdout, out);
-                continue;
+            } else {
+                Recording more(context_);
+                add(more, first, count, kernels, visible, holdout, out);
             }
-            Recording more(context_);
-            add(more, first, count, kernels, visible, holdout, out);
+            first += count;
         }
         return taps_;
     }
 
 private:
+    // Multiply-adds of so many tiles, were all alike.
+    std::uint64_t work_of(std::size_t tiles) const { return 4 * taps_ * tiles / tiles_.size(); }
+    std::size_t tiles_at_once() const {
+        const std::uint64_t most = context_.most_work("add lights");
+        return std::clamp<std::size_t>(most / std::max<std::uint64_t>(1, work_of(1)), 1, rule_.most_tiles);
+    }
     Rect extent_of(const PlannedLight& light) const {
         return atlas_[light.kernel].kernels.front().extent.moved(light.highlight.x, light.highlight.y);
     }
@@ -202,13 +209,14 @@ private:
         push.tiles = std::uint32_t(first) * kTileWords;
         recording.pass("add lights", context_.program(Shader::AddLights, plan_.holdout.empty() ? 0 : 1),
                        {&words_on_device_, &kernels.words, &kernels.weights, &visible, &holdout, &result},
-                       push, {std::uint32_t(count) * kGroupsPerTile});
+                       push, {std::uint32_t(count) * kGroupsPerTile},
+                       {bytes + words_.size() * sizeof(std::uint32_t), work_of(count)});
         std::vector<Rect> places;
         for (std::size_t t = first; t < first + count; ++t)
             places.push_back(tiles_[t].moved(0, plan_.first_row));
         Delivery delivery(context_, out);
         delivery.squares(recording, result, places, kTile, true);
-        recording.run();
+        context_.note_work("add lights", work_of(count), recording.run());
         delivery.finish();
     }
 

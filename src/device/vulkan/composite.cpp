@@ -44,16 +44,37 @@ public:
     Compositor(Context& context, const ScatterPlan& plan, const PackedAtlas& atlas, const BatchRule& rule)
         : context_(context), plan_(plan), atlas_(atlas), rule_(rule) {}
 
+    // All tiles. Returns the taps of what arrived.
+    std::uint64_t draw_all(Target out, const Control& control) {
+        const std::size_t tiles = plan_.tiles.size() - 1;
+        std::uint64_t taps = 0;
+        for (std::size_t begin = 0; begin < tiles && !control.progress.cancelled();) {
+            const Batch batch = batch_from(begin);
+            try {
+                taps += draw(batch, out);
+            } catch (const Failed& failed) {
+                if (batch.end - batch.begin == 1 || !context_.halves(failed)) throw;
+                continue;
+            }
+            control.progress.advance(control.share * double(batch.end - begin) / double(tiles));
+            begin = batch.end;
+        }
+        return taps;
+    }
+
+private:
     // Of the tiles from `begin` on, as many as one submission draws.
     Batch batch_from(std::size_t begin) const {
         constexpr std::size_t kMostTiles = 4000;  // groups are counted up to 65535
         Batch batch{begin, begin, 0};
+        const std::size_t most_bytes = context_.at_once(rule_.most_partial_bytes);
+        const std::uint64_t most_work = std::min(rule_.most_multiply_adds, context_.most_work("composite"));
         std::uint64_t taps = 0;
         while (batch.end + 1 < plan_.tiles.size() && batch.end - begin < kMostTiles) {
             const std::size_t sectors = std::size_t(plan_.tiles[batch.end].sectors);
             const std::uint64_t more = taps_of(batch.end);
-            const bool is_full = (batch.sectors + sectors) * kPartialBytes > rule_.most_partial_bytes ||
-                                 4 * (taps + more) > rule_.most_multiply_adds;
+            const bool is_full =
+                (batch.sectors + sectors) * kPartialBytes > most_bytes || 4 * (taps + more) > most_work;
             if (is_full && batch.end > begin) break;
             batch.sectors += sectors, taps += more, ++batch.end;
         }
@@ -81,20 +102,21 @@ public:
             most_sectors = std::max(most_sectors, plan_.tiles[t].sectors);
         recording.pass("composite", context_.program(Shader::Composite, plan_.holdout.empty() ? 0 : 1),
                        {&words, &sources, &kernels.words, &kernels.weights, &holdout, &light, &taken}, push,
-                       {std::uint32_t(tiles) * kGroupsPerTile, std::uint32_t(most_sectors)});
+                       {std::uint32_t(tiles) * kGroupsPerTile, std::uint32_t(most_sectors)},
+                       {words.size() + sources.size() + light.size() + taken.size(), 4 * taps_of_batch_});
         recording.pass("add sectors", context_.program(Shader::AddSectors), {&words, &light, &taken, &result},
-                       push.tiles, {std::uint32_t(tiles) * kGroupsPerTile});
+                       push.tiles, {std::uint32_t(tiles) * kGroupsPerTile},
+                       {light.size() + taken.size() + result.size(), 0});
         std::vector<Rect> places;
         for (std::size_t t = batch.begin; t < batch.end; ++t)
             places.push_back(plan_.tiles[t].pixels.moved(0, plan_.first_row));
         Delivery delivery(context_, out);
         delivery.squares(recording, result, places, ScatterPlan::kTile);
-        recording.run();
+        context_.note_work("composite", 4 * taps_of_batch_, recording.run());
         delivery.finish();
         return taps_of_batch_;
     }
 
-private:
     std::uint64_t taps_of(std::size_t tile) const {
         std::uint64_t taps = 0;
         const auto [begin, end] = arrivals_of(tile, tile + 1);
@@ -231,15 +253,7 @@ private:
 Work composite_tiles(Context& context, const ScatterPlan& plan, const PackedAtlas& atlas, Target out,
                      const Control& control, const BatchRule& rule) {
     Compositor compositor(context, plan, atlas, rule);
-    const std::size_t tiles = plan.tiles.size() - 1;
-    std::uint64_t taps = 0;
-    for (std::size_t begin = 0; begin < tiles && !control.progress.cancelled();) {
-        const Batch batch = compositor.batch_from(begin);
-        taps += compositor.draw(batch, out);
-        control.progress.advance(control.share * double(batch.end - begin) / double(tiles));
-        begin = batch.end;
-    }
-    Work work = Work::of_taps(taps);
+    Work work = Work::of_taps(compositor.draw_all(out, control));
     work.bytes += plan.arrivals.size() * (sizeof(Arrival) + sizeof(Source));
     return work;
 }

@@ -71,5 +71,41 @@ TEST(Composite, IsTheSameBitsHoweverItIsCut) {
     }
 }
 
+// A device with hardly any memory: by smaller and smaller pieces, the same bits, and it says so.
+TEST(Composite, IsDrawnInPiecesWhereMemoryRunsOut) {
+    if (!any_context()) GTEST_SKIP() << "no device of Vulkan";
+    Shown shown;
+    const engine::LevelRule rule = engine::level_rule(shown.input);
+    const engine::ScatterKernels kernels(shown.input, rule);
+    const engine::SampleSet set = engine::complete_samples(shown.input);
+    const engine::ScatterPlan plan =
+        engine::make_plan(shown.input, set.samples, set.connected, shown.colour.rect(), 0, rule, kernels);
+    Memory memory(std::numeric_limits<std::size_t>::max());
+    const Control control{*shown.input.workers, shown.progress};
+    const PackedAtlas atlas(laid_out<PackedSet>(kernels, plan.kernels, "test", memory, control));
+    Picture whole(kWidth, kHeight);
+    const auto roomy = any_context();
+    composite_tiles(*roomy, plan, atlas, whole, control);
+    EXPECT_TRUE(roomy->said().empty());
+    for (std::size_t most_bytes = std::size_t(1) << 18;; most_bytes = most_bytes * 5 / 4) {
+        ASSERT_LT(most_bytes, std::size_t(1) << 28);
+        const auto context = any_context();
+        context->heap().limit(most_bytes);
+        Picture pieces(kWidth, kHeight);
+        try {
+            composite_tiles(*context, plan, atlas, pieces, control);
+        } catch (const Failed& failed) {
+            EXPECT_EQ(failed.error.code, ErrorCode::OutOfMemory);
+            continue;
+        }
+        // The least memory that will do is not enough for all at once.
+        const std::vector<std::string> said = context->said();
+        ASSERT_EQ(said.size(), 1u);
+        EXPECT_NE(said[0].find("smaller pieces"), std::string::npos) << said[0];
+        EXPECT_EQ(std::memcmp(whole.pixels(), pieces.pixels(), whole.bytes()), 0);
+        break;
+    }
+}
+
 }  // namespace
 }  // namespace petzval::device::vulkan

@@ -50,6 +50,34 @@ void Context::submit(VkCommandBuffer commands, VkFence fence) {
     check(vk_.vkQueueSubmit(queue_, 1, &info, fence), name(), "drawing");
 }
 
+std::uint64_t Context::most_work(const std::string& passes) const {
+    const std::lock_guard lock(mutex_);
+    const auto known = paces_.find(passes);
+    return known == paces_.end() ? Pace().most() : known->second.most();
+}
+
+void Context::note_work(const std::string& passes, std::uint64_t multiply_adds, double seconds) {
+    const std::lock_guard lock(mutex_);
+    paces_[passes].took(multiply_adds, seconds);
+}
+
+bool Context::halves(const Failed& failed) {
+    constexpr int kMostHalvings = 16;
+    if (failed.error.code != ErrorCode::OutOfMemory || halvings_ >= kMostHalvings) return false;
+    ++halvings_;
+    heap_->trim();
+    const std::lock_guard lock(mutex_);
+    said_.assign(1, name() +
+                        " has no memory left for as much of a frame as it draws at once; it draws smaller "
+                        "pieces from now on");
+    return true;
+}
+
+std::vector<std::string> Context::said() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(said_, {});
+}
+
 void Context::time_passes() {
     const std::lock_guard lock(mutex_);
     times_passes_ = true, times_.clear();
@@ -60,10 +88,11 @@ bool Context::times_passes() const {
     return times_passes_ && candidate_.timestamp_bits > 0;
 }
 
-void Context::add_time(const std::string& pass, double seconds, std::uint64_t bytes) {
+void Context::add_time(const std::string& pass, double seconds, const PassWork& work) {
     const std::lock_guard lock(mutex_);
     PassTime& time = times_[pass];
-    time.pass = pass, ++time.runs, time.seconds += seconds, time.bytes += bytes;
+    time.pass = pass, ++time.runs, time.seconds += seconds;
+    time.work.bytes += work.bytes, time.work.multiply_adds += work.multiply_adds;
 }
 
 std::vector<PassTime> Context::pass_times() const {

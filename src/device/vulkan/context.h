@@ -1,11 +1,14 @@
 // One device that was opened: its memory, its programs, its queue.
 #pragma once
 
+#include "device/failure.h"
 #include "device/vulkan/heap.h"
 #include "device/vulkan/instance.h"
+#include "device/vulkan/pace.h"
 #include "device/vulkan/pass_time.h"
 #include "device/vulkan/pipeline.h"
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -38,10 +41,21 @@ public:
     const Program& program(Shader shader, std::uint32_t variant = 0);
     void submit(VkCommandBuffer commands, VkFence fence);
 
+    // Multiply-adds of the next submission of these passes; how long one took.
+    std::uint64_t most_work(const std::string& passes) const;
+    void note_work(const std::string& passes, std::uint64_t multiply_adds, double seconds);
+    // What is drawn at once, where that many bytes or pieces were if memory had never run out.
+    std::size_t at_once(std::size_t most) const { return std::max<std::size_t>(1, most >> halvings_); }
+    // Memory ran out: half as much is drawn at once from now on, which said() tells. False: something else
+    // failed, or it is of no use any more.
+    bool halves(const Failed& failed);
+    // What whoever asked for frames should know of how they were drawn, since this was last asked.
+    std::vector<std::string> said();
+
     // Passes are timed from here on.
     void time_passes();
     bool times_passes() const;
-    void add_time(const std::string& pass, double seconds, std::uint64_t bytes);
+    void add_time(const std::string& pass, double seconds, const PassWork& work);
     std::vector<PassTime> pass_times() const;
 
 private:
@@ -58,6 +72,9 @@ private:
     mutable std::mutex mutex_;  // of all below, and of the queue
     std::map<std::pair<Shader, std::uint32_t>, Program> programs_;
     std::map<std::string, PassTime> times_;
+    std::map<std::string, Pace> paces_;
+    std::vector<std::string> said_;
+    std::atomic<int> halvings_{0};
     bool times_passes_ = false;
 };
 

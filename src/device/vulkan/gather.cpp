@@ -40,14 +40,25 @@ struct Cells {
 class Gatherer {
 public:
     Gatherer(Context& context, const GatherPlan& plan, const PackedAtlas& atlas, Workers& workers)
-        : context_(context), plan_(plan), atlas_(atlas), workers_(workers) {}
+        : context_(context), plan_(plan), atlas_(atlas), workers_(workers) {
+        for (const auto& turn : plan.sizes.turns()) {
+            std::uint64_t taps = 0;
+            for (int zone = 0; zone < plan.zones.count() && taps == 0; ++zone)
+                if (const std::uint32_t kernel = plan.kernel(turn.ring, zone); kernel < atlas.size())
+                    taps = atlas[kernel].taps;
+            taps_of_turn_.push_back(taps);
+        }
+    }
 
-    // Tiles begin…end - 1, which lie in one row.
-    void draw(std::size_t begin, std::size_t end, Target out) const {
+    // Tiles begin…end - 1, which lie in one row. False: they are too many at once, and none is drawn.
+    bool draw(std::size_t begin, std::size_t end, Target out) const {
         std::vector<Rect> tiles;
         for (std::size_t t = begin; t < end; ++t) tiles.push_back(plan_.tiles[t].pixels);
         Push push;
-        const std::vector<std::uint32_t> said = words_of(tiles, push);
+        std::uint64_t taps = 0;
+        const std::vector<std::uint32_t> said = words_of(tiles, push, taps);
+        const std::uint64_t multiply_adds = kSums * taps;
+        if (multiply_adds > context_.most_work("gather") && end - begin > 1) return false;
         Recording recording(context_);
         const Piece words = recording.uploaded(std::span<const std::uint32_t>(said));
         std::vector<std::uint32_t> all(atlas_.size());
@@ -58,8 +69,10 @@ public:
         const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
         recording.pass("gather", context_.program(Shader::Gather),
                        {&words, &kernels.words, &kernels.weights, &result}, push,
-                       {std::uint32_t(tiles.size()) * kGroupsPerTile});
-        deliver(recording, result, tiles, out);
+                       {std::uint32_t(tiles.size()) * kGroupsPerTile},
+                       {said.size() * sizeof(std::uint32_t) + atlas_.weight_bytes() + bytes, multiply_adds});
+        context_.note_work("gather", multiply_adds, deliver(recording, result, tiles, out));
+        return true;
     }
 
     // Tiles begin…end - 1 as the picture has them.
@@ -78,16 +91,21 @@ public:
     }
 
 private:
-    // Runs what was recorded.
-    void deliver(Recording& recording, const Piece& squares, std::vector<Rect> tiles, Target out) const {
+    static constexpr std::uint64_t kSums = 6;  // of a tap: colour, covered, beyond
+
+    // Runs what was recorded; returns the seconds that it took.
+    double deliver(Recording& recording, const Piece& squares, std::vector<Rect> tiles, Target out) const {
         for (Rect& tile : tiles) tile = tile.moved(0, plan_.first_row);
         Delivery delivery(context_, out);
         delivery.squares(recording, squares, tiles, kTile);
-        recording.run();
+        const double seconds = recording.run();
         delivery.finish();
+        return seconds;
     }
 
-    std::vector<std::uint32_t> words_of(const std::vector<Rect>& tiles, Push& push) const {
+    // taps: of the lights in the tiles themselves, each once.
+    std::vector<std::uint32_t> words_of(const std::vector<Rect>& tiles, Push& push,
+                                        std::uint64_t& taps) const {
         std::vector<std::uint32_t> words;
         const auto here = [&] { return std::uint32_t(words.size()); };
         for (const Rect& r : tiles)
@@ -101,6 +119,8 @@ private:
         std::vector<bool> has_light(plan_.sizes.turns().size());
         for (int level = 0; level < plan_.sizes.levels(); ++level) {
             const Cells cells = cells_for(tiles, level);
+            taps +=
+                taps_in(cells, {tiles.front().x0, tiles.front().y0, tiles.back().x1, tiles.back().y1}, level);
             const std::uint32_t first = here();
             words.insert(words.end(), cells.first.begin(), cells.first.end());
             const std::uint32_t lights = here();
@@ -141,6 +161,21 @@ private:
             (open.left ? 1u : 0u) | (open.top ? 2u : 0u) | (open.right ? 4u : 0u) | (open.bottom ? 8u : 0u);
         push.is_opaque = plan_.opaque ? 1 : 0;
         return words;
+    }
+
+    // Of the lights of these pixels' cells; kernels as they are in the first zone that has them.
+    std::uint64_t taps_in(const Cells& cells, const Rect& pixels, int level) const {
+        std::uint64_t taps = 0;
+        const int last_row = std::min((pixels.y1 - 1) >> level, cells.end - 1),
+                  last_column = std::min((pixels.x1 - 1) >> level, cells.width - 1);
+        for (int y = std::max(pixels.y0 >> level, cells.begin); y <= last_row; ++y) {
+            const std::size_t row = std::size_t(y - cells.begin) * std::size_t(cells.width);
+            const std::uint32_t first = cells.first[row + std::size_t(pixels.x0 >> level)],
+                                last = cells.first[row + std::size_t(last_column) + 1];
+            for (std::uint32_t i = first; i < last; ++i)
+                taps += taps_of_turn_[std::size_t(cells.lights[i].turn)];
+        }
+        return taps;
     }
 
     // All that the tiles may read.
@@ -205,6 +240,7 @@ private:
     const GatherPlan& plan_;
     const PackedAtlas& atlas_;
     Workers& workers_;
+    std::vector<std::uint64_t> taps_of_turn_;
 };
 
 }  // namespace
@@ -213,17 +249,30 @@ void gather_tiles(Context& context, const GatherPlan& plan, const PackedAtlas& a
                   const Control& control) {
     const Gatherer gatherer(context, plan, atlas, control.workers);
     const std::size_t tiles = plan.tiles.size();
+    std::size_t at_once = kMostTiles;
     for (std::size_t begin = 0; begin < tiles && !control.progress.cancelled();) {
         std::size_t end = begin;
+        at_once = std::min(at_once, context.at_once(kMostTiles));
         const auto joins = [&] {
             return end < tiles && plan.tiles[end].is_sharp == plan.tiles[begin].is_sharp &&
-                   plan.tiles[end].pixels.y0 == plan.tiles[begin].pixels.y0 && end - begin < kMostTiles;
+                   plan.tiles[end].pixels.y0 == plan.tiles[begin].pixels.y0 && end - begin < at_once;
         };
         while (joins()) ++end;
-        if (plan.tiles[begin].is_sharp)
-            gatherer.copy(begin, end, out);
-        else
-            gatherer.draw(begin, end, out);
+        bool is_drawn = plan.tiles[begin].is_sharp;
+        try {
+            if (is_drawn)
+                gatherer.copy(begin, end, out);
+            else
+                is_drawn = gatherer.draw(begin, end, out);
+        } catch (const Failed& failed) {
+            if (end - begin == 1 || !context.halves(failed)) throw;
+            is_drawn = false;
+        }
+        if (!is_drawn) {
+            at_once = (end - begin) / 2;
+            continue;
+        }
+        at_once = std::min(kMostTiles, 2 * at_once);
         control.progress.advance(control.share * double(end - begin) / double(tiles));
         begin = end;
     }

@@ -41,7 +41,13 @@ Heap::Piece Heap::allocate(Kind kind, std::size_t bytes) {
     };
     for (Block& block : blocks_)
         if (block.kind == kind && take(block)) return piece;
-    take(new_block(kind, std::max(block_bytes_, size)));
+    const bool is_smaller = size < block_bytes_;
+    try {
+        take(new_block(kind, std::max(block_bytes_, size)));
+    } catch (const Failed& failed) {
+        if (!is_smaller || failed.error.code != ErrorCode::OutOfMemory) throw;
+        take(new_block(kind, size));  // what is left may do
+    }
     return piece;
 }
 
@@ -74,6 +80,7 @@ Heap::Block& Heap::new_block(Kind kind, VkDeviceSize size) {
 void Heap::make_buffer(Block& block) {
     const Functions& vk = *opened_.vk;
     const std::string what = std::to_string(block.size >> 20) + " MiB";
+    if (held_bytes() > most_bytes_) check(VK_ERROR_OUT_OF_DEVICE_MEMORY, opened_.name, what);
     VkBufferCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = block.size;
@@ -123,9 +130,18 @@ void Heap::destroy(Block& block) const {
 
 std::size_t Heap::allocated_bytes() const {
     const std::lock_guard lock(mutex_);
+    return held_bytes();
+}
+
+std::size_t Heap::held_bytes() const {
     std::size_t bytes = 0;
     for (const Block& block : blocks_) bytes += std::size_t(block.size);
     return bytes;
+}
+
+void Heap::limit(std::size_t most_bytes) {
+    const std::lock_guard lock(mutex_);
+    most_bytes_ = most_bytes;
 }
 
 void Heap::trim() {

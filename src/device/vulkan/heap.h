@@ -4,6 +4,7 @@
 #include "device/vulkan/instance.h"
 
 #include <cstddef>
+#include <limits>
 #include <list>
 #include <map>
 #include <mutex>
@@ -67,6 +68,8 @@ public:
     // At least `bytes`. Throws Failed (OutOfMemory).
     Piece allocate(Kind kind, std::size_t bytes);
     std::size_t allocated_bytes() const;  // of blocks
+    // As if the device had no more memory than this.
+    void limit(std::size_t most_bytes);
     // Lets go of blocks that hold nothing.
     void trim();
 
@@ -80,6 +83,7 @@ private:
         std::map<VkDeviceSize, VkDeviceSize> free;  // size by offset; no two touch
     };
     Block& new_block(Kind kind, VkDeviceSize size);
+    std::size_t held_bytes() const;
     void make_buffer(Block& block);
     void destroy(Block& block) const;
     std::uint32_t type_for(Kind kind, std::uint32_t allowed) const;
@@ -90,6 +94,7 @@ private:
     const VkDeviceSize block_bytes_;
     mutable std::mutex mutex_;
     std::list<Block> blocks_;
+    std::size_t most_bytes_ = std::numeric_limits<std::size_t>::max();
 };
 using Piece = Heap::Piece;
 

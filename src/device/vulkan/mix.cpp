@@ -70,7 +70,9 @@ public:
         const Piece result = context_.heap().allocate(Kind::OnDevice, count * sizeof(Rgba));
         recording.pass("mix blurs", context_.program(Shader::MixBlurs),
                        {&words_, &colours_, &values_, &extra_of_, &extras_, &light_, &covered_, &result},
-                       push, invocations(count));
+                       push, invocations(count),
+                       {count * (2 * sizeof(Rgba) + sizeof(float)) + all_cells_ * kCellBytes,
+                        count * plan_.blurs.size() * 4 * kSums});
         Delivery delivery(context_, out);
         delivery.rows(recording, result, rows.begin, rows.begin, rows.end);
         recording.run();
@@ -192,10 +194,11 @@ private:
 
     // Shares light between them and blurs them, along x and along y.
     void make_cells(Span rows, Push push, Recording& recording) {
-        std::size_t all = 0;
-        for (const Blur& blur : plan_.blurs) all += cells_of(blur, rows);
+        all_cells_ = 0;
+        for (const Blur& blur : plan_.blurs) all_cells_ += cells_of(blur, rows);
+        const std::size_t pixels = std::size_t(pixels_for(rows).size()) * std::size_t(width());
         const auto room = [&](std::size_t one) {
-            return context_.heap().allocate(Kind::OnDevice, all * one);
+            return context_.heap().allocate(Kind::OnDevice, all_cells_ * one);
         };
         light_ = room(sizeof(Rgba)), covered_ = room(sizeof(float));
         light_between_ = room(sizeof(Rgba)), covered_between_ = room(sizeof(float));
@@ -205,20 +208,26 @@ private:
             const bool wide = plan_.blurs[k].level >= kWideLevel;
             recording.pass("spread cells", context_.program(Shader::SpreadCells, wide ? 1 : 0),
                            {&words_, &colours_, &values_, &extra_of_, &extras_, &light_, &covered_}, push,
-                           wide ? groups_of(cells) : invocations(cells));
+                           wide ? groups_of(cells) : invocations(cells),
+                           {(pixels + cells) * kCellBytes, pixels * 4 * kSums});
+            const auto blurred = [&](const engine::BlurAxis& axis) {
+                return PassWork{2 * cells * kCellBytes, cells * axis.weights.size() * kSums};
+            };
             push.axis = 0;
             recording.pass("blur cells", context_.program(Shader::BlurCells),
                            {&words_, &light_, &covered_, &light_between_, &covered_between_}, push,
-                           invocations(cells));
+                           invocations(cells), blurred(plan_.blurs[k].x));
             push.axis = 1;
             recording.pass("blur cells", context_.program(Shader::BlurCells),
                            {&words_, &light_between_, &covered_between_, &light_, &covered_}, push,
-                           invocations(cells));
+                           invocations(cells), blurred(plan_.blurs[k].y));
         }
     }
 
     Context& context_;
     const GaussianPlan& plan_;
+    static constexpr std::size_t kCellBytes = sizeof(Rgba) + sizeof(float), kSums = 5;  // light, covered
+    std::size_t all_cells_ = 0;
     Piece words_, colours_, values_, extra_of_, extras_, light_, covered_, light_between_, covered_between_;
 };
 
@@ -227,9 +236,15 @@ private:
 void mix_blurs(Context& context, const GaussianPlan& plan, Target out, const Control& control,
                std::size_t most_bytes) {
     Mixer mixer(context, plan);
-    const int band = mixer.band(most_bytes);
-    for (int y = 0; y < mixer.height() && !control.progress.cancelled(); y += band)
-        mixer.draw({y, std::min(mixer.height(), y + band)}, out);
+    for (int y = 0; y < mixer.height() && !control.progress.cancelled();) {
+        const int band = mixer.band(context.at_once(most_bytes)), end = std::min(mixer.height(), y + band);
+        try {
+            mixer.draw({y, end}, out);
+            y = end;
+        } catch (const Failed& failed) {
+            if (band == 1 || !context.halves(failed)) throw;
+        }
+    }
 }
 
 }  // namespace petzval::device::vulkan

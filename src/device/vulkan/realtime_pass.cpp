@@ -267,7 +267,7 @@ void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const Re
         vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
                                     &slots_[slot].sets[step], 0, nullptr);
         vk_.vkCmdPushConstants(commands, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
-        if (timed) timed->begin_pass(kNames[step], least_bytes(Step(step)));
+        if (timed) timed->begin_pass(kNames[step], {least_bytes(Step(step)), 0});
         vk_.vkCmdDispatch(commands, groups[step][0], groups[step][1], 1);
         if (timed) timed->end_pass();
     }

@@ -2,6 +2,7 @@
 
 #include "device/vulkan/failure.h"
 
+#include <chrono>
 #include <cstring>
 #include <limits>
 
@@ -108,7 +109,7 @@ VkDescriptorSet Recording::set_for(const Program& program, std::initializer_list
 }
 
 void Recording::pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
-                     std::span<const std::byte> push, Groups groups) {
+                     std::span<const std::byte> push, Groups groups, const PassWork& work) {
     VkDescriptorSet set = set_for(program, buffers);
     order(VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     vk_.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
@@ -116,16 +117,16 @@ void Recording::pass(const char* name, const Program& program, std::initializer_
                                 nullptr);
     vk_.vkCmdPushConstants(commands_, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            std::uint32_t(push.size()), push.data());
-    begin_pass(name);
+    begin_pass(name, work);
     vk_.vkCmdDispatch(commands_, groups.x, groups.y, groups.z);
     end_pass();
 }
 
-void Recording::begin_pass(const char* name, std::uint64_t bytes) {
+void Recording::begin_pass(const char* name, const PassWork& work) {
     if (queries_)
         vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_,
                                 std::uint32_t(2 * passes_.size()));
-    passes_.push_back({name, bytes});
+    passes_.push_back({name, work});
 }
 
 void Recording::end_pass() {
@@ -147,18 +148,21 @@ void Recording::copy(const Piece& from, const Piece& to, std::size_t bytes, std:
     vk_.vkCmdCopyBuffer(commands_, from.buffer(), to.buffer(), 1, &copied);
 }
 
-void Recording::run() {
+double Recording::run() {
     order(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     check(vk_.vkEndCommandBuffer(commands_), context_.name(), "commands");
+    const auto start = std::chrono::steady_clock::now();
     context_.submit(commands_, fence_);
     submitted_ = true;
     check(vk_.vkWaitForFences(context_.handle(), 1, &fence_, VK_TRUE,
                               std::numeric_limits<std::uint64_t>::max()),
           context_.name(), "drawing");
     submitted_ = false;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     note_times();
     if (const std::string said = context_.instance().complaints(); !said.empty())
         throw Failed{{ErrorCode::Unsupported, context_.name() + ": " + said}};
+    return seconds;
 }
 
 void Recording::note_times() {
@@ -170,8 +174,7 @@ void Recording::note_times() {
           context_.name(), "timing");
     const double period = double(context_.candidate().limits.timestampPeriod) * 1e-9;
     for (std::size_t i = 0; i < passes_.size(); ++i)
-        context_.add_time(passes_[i].name, double(ticks[2 * i + 1] - ticks[2 * i]) * period,
-                          passes_[i].bytes);
+        context_.add_time(passes_[i].name, double(ticks[2 * i + 1] - ticks[2 * i]) * period, passes_[i].work);
 }
 
 }  // namespace petzval::device::vulkan

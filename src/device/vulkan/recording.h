@@ -42,11 +42,11 @@ public:
     // buffers, push: as the program declares them.
     template <typename Push>
     void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
-              const Push& push, Groups groups) {
-        pass(name, program, buffers, std::as_bytes(std::span(&push, 1)), groups);
+              const Push& push, Groups groups, const PassWork& work = {}) {
+        pass(name, program, buffers, std::as_bytes(std::span(&push, 1)), groups, work);
     }
-    // Around what is recorded by other means and timed. bytes: those that must cross memory at least once.
-    void begin_pass(const char* name, std::uint64_t bytes = 0);
+    // Around what is recorded by other means and timed.
+    void begin_pass(const char* name, const PassWork& work = {});
     void end_pass();
     // From one piece to another, from so many bytes on.
     void copy(const Piece& from, const Piece& to, std::size_t bytes, std::size_t from_byte = 0,
@@ -56,12 +56,12 @@ public:
     // For what is recorded by other means: what was uploaded can be copied from then.
     VkCommandBuffer commands() const { return commands_; }
     void wait_for_uploads() { order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT); }
-    // Starts; then waits for the end. Nothing is recorded afterwards.
-    void run();
+    // Starts; then waits for the end. Nothing is recorded afterwards. Returns the seconds that it took.
+    double run();
 
 private:
     void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
-              std::span<const std::byte> push, Groups groups);
+              std::span<const std::byte> push, Groups groups, const PassWork& work);
     VkDescriptorSet set_for(const Program& program, std::initializer_list<const Piece*> buffers);
     void check_range(const Piece& piece) const;
     void order(VkPipelineStageFlags to, VkAccessFlags access);
@@ -79,7 +79,7 @@ private:
     std::vector<Piece> staging_;
     struct Timed {
         std::string name;
-        std::uint64_t bytes;
+        PassWork work;
     };
     std::vector<Timed> passes_;
 };

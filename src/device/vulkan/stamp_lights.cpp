@@ -81,9 +81,12 @@ public:
         push.records = kernels.records;
         const Piece cells =
             context_.heap().allocate(Kind::OnDevice, blocks_.cells.size() * kBlockCells * sizeof(Rgba));
-        recording.pass("stamp lights", context_.program(Shader::AddLights, kMasked),
-                       {&words, &kernels.words, &kernels.weights, &words, &words, &cells}, push,
-                       {std::uint32_t(blocks_.cells.size()) * kGroupsPerBlock});
+        recording.pass(
+            "stamp lights", context_.program(Shader::AddLights, kMasked),
+            {&words, &kernels.words, &kernels.weights, &words, &words, &cells}, push,
+            {std::uint32_t(blocks_.cells.size()) * kGroupsPerBlock},
+            {words_.size() * sizeof(std::uint32_t) + blocks_.cells.size() * kBlockCells * sizeof(Rgba),
+             4 * taps_});
         const std::size_t bytes = parts.size() * kTilePixels * sizeof(Rgba);
         const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
         const std::uint32_t told[] = {0, levels};

@@ -123,6 +123,11 @@ vulkan::Context& context_of(const Device& device) {
 
 }  // namespace
 
+std::vector<std::string> said_by(const Device& device) {
+    const auto* drawn = dynamic_cast<const vulkan::VulkanDevice*>(&device);
+    return drawn ? drawn->context().said() : std::vector<std::string>();
+}
+
 void start_timing(const Device& device) { context_of(device).time_passes(); }
 
 std::vector<PassTime> pass_times(const Device& device) { return context_of(device).pass_times(); }

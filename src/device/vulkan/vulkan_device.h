@@ -25,6 +25,9 @@ Result<std::vector<VulkanChoice>> vulkan_choices();
 // Unsupported.
 Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number);
 
+// What whoever asked for frames should know of how they were drawn, since this was last asked; of any device.
+std::vector<std::string> said_by(const Device& device);
+
 // For benchmarks. Passes are timed by the device's own clock from here on, and what was noted is forgotten.
 // All three require a device of open_vulkan().
 void start_timing(const Device& device);
