@@ -355,6 +355,7 @@ void App::take_news() {
     for (ReadShot& read : news.shots) take_shot(std::move(read));
     for (MadeFrame& made : news.frames) take_frame(std::move(made));
     take_pushed();
+    slowest.cancel = std::max(slowest.cancel, 1000 * news.cancel_s);
     for (const std::string& line : news.changed) notice = line;
     if (!news.lost.empty()) {
         setup_.session = setup_.cpu_session;

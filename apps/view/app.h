@@ -61,6 +61,7 @@ struct Slowest {
     double tick = 0;           // work of the window's thread between two events
     double first_picture = 0;  // from a change to the first picture of it on the screen
     double last_picture = 0;   // the same, of the last change alone
+    double cancel = 0;         // from a move to the end of what was being made before it
 };
 
 class App {

@@ -49,6 +49,7 @@ Article wgld() {
              {"gaussian.depth_offset", "0.3"}},
             {{"gaussian.depth_offset", "depth offset", -0.5, 0.5},
              {"gaussian.focus_band", "band", 0, 1},
+             {"gaussian.depth_along", "depth along", 0, 0},
              {"camera.f_number", "f-number (how large)", 0.7, 8}},
             {{"result", "result", ""},
              {"depth index", "focus-index", ""},

@@ -210,6 +210,7 @@ std::vector<Field> more_facts() {
              }),
         fact("slowest.tick_ms", [](const App& app) { return text_of(app.slowest.tick, 4); }),
         fact("last.picture_ms", [](const App& app) { return text_of(app.slowest.last_picture, 4); }),
+        fact("slowest.cancel_ms", [](const App& app) { return text_of(app.slowest.cancel, 4); }),
         fact("slowest.picture_ms", [](const App& app) { return text_of(app.slowest.first_picture, 4); }),
     };
 }

@@ -205,7 +205,8 @@ void draw_lens(App& app) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float strip = std::min(0.2f * all.y, all.x / float(kStripDiscs));
     const float top = ImGui::GetCursorPosY();
-    draw_numbers(app);
+    const float letter = ImGui::GetFontSize();
+    if (all.x > 32 * letter && all.y > 12 * letter) draw_numbers(app);  // else discs come first
     const float used = ImGui::GetCursorPosY() - top;
     const float high = std::max(8.0f, all.y - used - strip - 3.4f * ImGui::GetTextLineHeightWithSpacing());
     const float side = std::min(high, 0.3f * all.x), small = 0.5f * (high - gap);

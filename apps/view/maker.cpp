@@ -177,18 +177,23 @@ Maker::~Maker() {
     thread_.join();
 }
 
+void Maker::interrupt() {
+    if (!interrupt_) interrupted_ = Clock::now();
+    interrupt_ = true;
+}
+
 void Maker::read(Reading reading) {
     const std::lock_guard lock(mutex_);
     std::erase_if(readings_, [&](const Reading& other) { return other.is_against == reading.is_against; });
     readings_.push_back(std::move(reading));
-    interrupt_ = true;
+    interrupt();
     something_.notify_all();
 }
 
 std::uint64_t Maker::make(int side, Wish wish) {
     const std::lock_guard lock(mutex_);
     orders_[std::size_t(side)] = Order{std::move(wish), ++numbers_, 0};
-    interrupt_ = true;
+    interrupt();
     something_.notify_all();
     return numbers_;
 }
@@ -197,7 +202,7 @@ void Maker::forget(int side) {
     const std::lock_guard lock(mutex_);
     if (!orders_[std::size_t(side)]) return;
     orders_[std::size_t(side)].reset();
-    interrupt_ = true;
+    interrupt();
 }
 
 Maker::News Maker::news() {
@@ -328,6 +333,10 @@ void Maker::do_step(int side, const Order& order) {
     } catch (const std::bad_alloc&) {
         frame.error = Error{ErrorCode::OutOfMemory, "not enough memory for this frame"};
     }
+    if (interrupt_) {
+        const std::lock_guard lock(mutex_);
+        news_.cancel_s = std::max(news_.cancel_s, seconds_since(interrupted_));
+    }
     if (frame.error && frame.error->code == ErrorCode::Cancelled)
         return;  // taken up again, if still wished for
     frame.side = side;
@@ -356,16 +365,6 @@ void Maker::tell(MadeFrame frame) {
 
 Session& Maker::session_of(const Wish& wish) const {
     return cpu_session_ && (wish.on_cpu || device_is_lost_ || is_cold(wish)) ? *cpu_session_ : *session_;
-}
-
-// Engine realtime is a device's alone.
-bool Maker::is_cold(const Wish& wish) const {
-    return warmup_ && !device_is_lost_ && !wish.on_cpu && wish.shown == "result" &&
-           wish.look.engine != "realtime" && !warmup_->is_warm(wish.look.engine);
-}
-
-bool Maker::can_be_made(const std::optional<Order>& order) const {
-    return order && (order->step == 0 || !is_cold(order->wish));
 }
 
 void Maker::warm_up() {

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -116,6 +117,7 @@ public:
         std::vector<MadeFrame> frames;
         std::vector<std::string> changed;  // files that are no longer what was read
         std::string lost;                  // what was said of the device when it was lost
+        double cancel_s = 0;  // the longest from a move to the end of what was being made before it
     };
     News news();
     bool is_idle() const;
@@ -132,6 +134,7 @@ private:
     };
 
     void work();
+    void interrupt();  // the mutex is held
     void tell(MadeFrame frame);
     void do_reading(const Reading& reading);
     Result<OpenShot> opened(const Reading& reading);
@@ -162,6 +165,7 @@ private:
     std::vector<Watched> watched_;  // of the thread alone, as
     LiveScene scene_;
     std::uint64_t numbers_ = 0;
+    std::chrono::steady_clock::time_point interrupted_;
     bool busy_ = false, ending_ = false;
     std::atomic<bool> interrupt_ = false;  // what is being made is no longer the most urgent
     std::unique_ptr<Warmup> warmup_;       // where there is a CPU besides the device

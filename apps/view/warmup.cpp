@@ -58,4 +58,16 @@ void Warmup::prepare(const Wish& wish, const std::vector<Look>& looks) {
         static_cast<void>(session_->take(job, look, {.cancelled = [this] { return ending_.load(); }}));
 }
 
+// What of the maker asks whether a device is warm.
+
+// Engine realtime is a device's alone.
+bool Maker::is_cold(const Wish& wish) const {
+    return warmup_ && !device_is_lost_ && !wish.on_cpu && wish.shown == "result" &&
+           wish.look.engine != "realtime" && !warmup_->is_warm(wish.look.engine);
+}
+
+bool Maker::can_be_made(const std::optional<Order>& order) const {
+    return order && (order->step == 0 || !is_cold(order->wish));
+}
+
 }  // namespace petzval::view

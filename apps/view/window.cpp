@@ -248,8 +248,10 @@ public:
         }
         if (script_)
             std::fprintf(
-                stderr, "petzval: longest tick %.1f ms, longest from a change to its first picture %.1f ms\n",
-                app_.slowest.tick, app_.slowest.first_picture);
+                stderr,
+                "petzval: longest tick %.1f ms, longest cancel %.1f ms, longest from a change to its "
+                "first picture %.1f ms\n",
+                app_.slowest.tick, app_.slowest.cancel, app_.slowest.first_picture);
         glfwHideWindow(window_);  // a device may still be preparing its programs
         return Done{};
     }
