@@ -56,9 +56,19 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
+// Links followed, also those to what is not there yet: writing through one keeps it. A link still: it leads
+// to itself.
+std::filesystem::path followed(std::filesystem::path path) {
+    constexpr int kMostLinks = 40;  // as Linux has it
+    std::error_code failed;
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path, failed); ++i)
+        path = path.parent_path() / std::filesystem::read_symlink(path, failed);
+    return path;
+}
+
 // Where an output goes.
 struct Target {
-    std::string path;  // links followed, so that writing through one keeps it
+    std::string path;  // links followed
     bool exists = false;
     mode_t mode = 0666;
 
@@ -70,10 +80,9 @@ struct Target {
 Result<Target> target_of(const std::string& path) {
     if (path.empty()) return output_failed("(no name)", "an output file needs a name");
     std::error_code failed;
-    const std::filesystem::path real = std::filesystem::canonical(path, failed);
-    if (failed && std::filesystem::is_symlink(path, failed))
-        return output_failed(path, "is a link that leads nowhere; give the name of a file");
-    Target target{real.empty() ? path : real.string()};
+    Target target{followed(path).string()};
+    if (std::filesystem::is_symlink(target.path, failed))
+        return output_failed(path, "is a link that leads to itself; give the name of a file");
     struct stat status = {};
     target.exists = ::stat(target.path.c_str(), &status) == 0;
     if (!target.exists) return target;
@@ -93,7 +102,7 @@ bool is_one_file(const std::string& a, const std::string& b) {
     std::error_code missing;
     if (std::filesystem::equivalent(a, b, missing)) return true;
     const auto of = [&](const std::string& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, missing), missing);
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(followed(path), missing), missing);
     };
     return of(a) == of(b);
 }

@@ -97,14 +97,29 @@ TEST(OutputFile, PlacesThatCannotBeWrittenAreErrorsThatNameThem) {
     EXPECT_TRUE(S_ISCHR(status.st_mode));
 }
 
-TEST(OutputFile, ALinkThatLeadsNowhereIsNeitherFollowedNorReplaced) {
+TEST(OutputFile, ThroughALinkToNothingTheFileIsWrittenWhereItPoints) {
     const TemporaryFolder folder;
-    std::filesystem::create_symlink(folder / "nothing", folder / "link");
-    const auto file = OutputFile::create(folder / "link", true);
-    ASSERT_FALSE(file);
-    EXPECT_THAT(file.error().message, HasSubstr("leads nowhere"));
+    std::filesystem::create_directory(folder / "there");
+    std::filesystem::create_symlink("there/new", folder / "link");
+    std::filesystem::create_symlink(folder / "link", folder / "second");
+    auto file = OutputFile::create(folder / "second", true);
+    ASSERT_TRUE(file && (*file)->write_at(0, "new", 3) && (*file)->commit());
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
-    EXPECT_EQ(folder.files(), 1u);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "second"));
+    EXPECT_EQ(bytes_of(folder / "there/new"), "new");
+}
+
+TEST(OutputFile, ALinkToItselfOrIntoNoFolderIsNeitherFollowedNorReplaced) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink(folder / "circle", folder / "circle");
+    std::filesystem::create_symlink(folder / "no/such", folder / "astray");
+    for (const auto& [name, says] : {std::pair{"circle", "leads to itself"}, {"astray", "No such"}}) {
+        const auto file = OutputFile::create(folder / name, true);
+        ASSERT_FALSE(file);
+        EXPECT_THAT(file.error().message, HasSubstr(says));
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / name));
+    }
+    EXPECT_EQ(folder.files(), 2u);
 }
 
 TEST(OutputFile, WhatADeadProcessLeftIsRemovedAndWhatALivingOneWritesIsNot) {
@@ -152,6 +167,8 @@ TEST(Outputs, NeverReplaceAnInputOrEachOther) {
     const Status twice = check_outputs({folder / "new", folder.path() + "/./new"}, {});
     ASSERT_FALSE(twice);
     EXPECT_THAT(twice.error().message, HasSubstr("would replace the output"));
+    std::filesystem::create_symlink(folder / "new", folder / "to new");
+    EXPECT_FALSE(check_outputs({folder / "new", folder / "to new"}, {}));
     EXPECT_TRUE(check_outputs({folder / "new", "-", "", "-"}, {folder / "in", "-"}));
     EXPECT_TRUE(check_outputs({"-.exr", ""}, {"-"}));
     EXPECT_FALSE(check_outputs({"-.exr", "-"}, {}));
@@ -161,7 +178,7 @@ TEST(Outputs, NeverReplaceAnInputOrEachOther) {
 TEST(Outputs, PlacesThatCannotBeWrittenAreKnownBeforehand) {
     const TemporaryFolder folder;
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-    std::filesystem::create_symlink(folder / "nothing", folder / "link");
+    std::filesystem::create_symlink(folder / "link", folder / "link");
     for (const std::string& path : {folder.path(), folder / "no/a.exr", folder / "pipe", folder / "link"}) {
         const Status fine = check_outputs({path}, {});
         ASSERT_FALSE(fine) << path;

@@ -45,10 +45,10 @@ class Outputs(CommandLineTest):
             self.refuse(2, *verb, "--json", output, says=["replace the output", output])
             self.assertFalse(os.path.exists(self.path(output)))
 
-    def test_no_output_is_a_device_a_pipe_or_a_link_to_nothing(self):
+    def test_no_output_is_a_device_a_pipe_or_a_link_to_itself(self):
         os.mkfifo(self.path("pipe"))
-        os.symlink("nothing", self.path("nowhere"))
-        bad = [("pipe", "pipe"), ("nowhere", "leads nowhere"), (".", "folder"), ("no/report.json", "no folder")]
+        os.symlink("circle", self.path("circle"))
+        bad = [("pipe", "pipe"), ("circle", "leads to itself"), (".", "folder"), ("no/report.json", "no folder")]
         if os.geteuid() == 0:  # a device of our own: a program that fails here would replace the system's
             os.mknod(self.path("null"), 0o666 | stat.S_IFCHR, os.makedev(1, 3))
             bad.append(("null", "device"))
@@ -56,9 +56,14 @@ class Outputs(CommandLineTest):
             for name, says in bad:
                 self.refuse(1, *verb, "--json", name, says=[says])
         self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode))
-        self.assertTrue(os.path.islink(self.path("nowhere")))
-        os.symlink("nothing.exr", self.path("nowhere.exr"))
-        self.refuse(1, "defocus", "in.exr", "-o", "nowhere.exr", says=["leads nowhere"])
+        self.assertTrue(os.path.islink(self.path("circle")))
+
+    def test_through_a_link_to_nothing_a_result_is_written_where_it_points(self):
+        os.symlink("new.exr", self.path("link.exr"))
+        self.refuse(2, "defocus", "in.exr", "-o", "link.exr", "--json", "new.exr", says=["replace the output"])
+        self.succeed("defocus", "in.exr", "-o", "link.exr")
+        self.assertTrue(os.path.islink(self.path("link.exr")))
+        self.assertTrue(os.path.isfile(self.path("new.exr")))
 
     def test_a_report_keeps_a_link_and_the_rights_of_the_file_behind_it(self):
         with open(self.path("real.json"), "w"):
