@@ -45,8 +45,8 @@ typedef struct petzval_pass_settings {
 
 /* The ideal lens until petzval_pass_set_lens(). */
 PETZVAL_C_API petzval_status petzval_pass_open(const petzval_pass_settings* settings, petzval_pass** pass);
-/* Nothing that it recorded may be under way, here and when it is closed. If it fails, the pass is as it was.
- */
+/* Nothing that it recorded may be under way, here and when it is closed. The lens stays, made anew for pixels
+ * of this size: as long as petzval_pass_set_lens() takes. If it fails, the pass is as it was. */
 PETZVAL_C_API petzval_status petzval_pass_resize(petzval_pass* pass, uint32_t width, uint32_t height);
 PETZVAL_C_API void petzval_pass_close(petzval_pass* pass);
 

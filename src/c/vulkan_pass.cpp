@@ -7,11 +7,17 @@
 #include "kernel/lenses/make_lens.h"
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
 struct petzval_pass {
     std::unique_ptr<petzval::device::vulkan::HostPass> host;
+    // Its lens, which another size needs made anew: what diffracts or has surfaces has its shape from the
+    // size of pixels.
+    petzval::Lens lens;
+    petzval::Camera camera;
+    std::mutex mutex = {};  // of the lens, its camera and the size
 };
 
 namespace {
@@ -48,12 +54,23 @@ Result<RealtimeSettings> settings_of(const petzval_pass_settings& given) {
     return settings;
 }
 
-petzval_status set_lens(HostPass& host, const LensChoice& choice, const Camera& camera) {
-    const kernel::Mount mount{camera, int(host.settings().width), int(host.settings().height)};
-    const auto lens = kernel::make_lens(choice, mount);
-    if (!lens) return fail(lens.error());
-    host.set_lens(**lens);
+petzval_status set_lens(petzval_pass& pass, const Lens& lens, const Camera& camera) {
+    const std::lock_guard lock(pass.mutex);
+    const RealtimeSettings& settings = pass.host->settings();
+    const auto mounted = kernel::make_lens(lens, {camera, int(settings.width), int(settings.height)});
+    if (!mounted) return fail(mounted.error());
+    pass.host->set_lens(**mounted);
+    pass.lens = lens, pass.camera = camera;
     return PETZVAL_OK;
+}
+
+petzval_status resize(petzval_pass& pass, std::uint32_t width, std::uint32_t height) {
+    if (const Status size = check_size(width, height); !size) return fail(size.error());
+    const std::lock_guard lock(pass.mutex);
+    const auto mounted = kernel::make_lens(pass.lens, {pass.camera, int(width), int(height)});
+    if (!mounted) return fail(mounted.error());
+    const Status done = pass.host->resize(width, height, **mounted);
+    return done ? PETZVAL_OK : fail(done.error());
 }
 
 RealtimeImages::Input input_of(const petzval_pass_image& given) {
@@ -99,19 +116,19 @@ petzval_status petzval_pass_open(const petzval_pass_settings* given, petzval_pas
         auto host =
             HostPass::open({s.get_instance_proc_addr, s.instance, s.physical_device, s.device}, *settings);
         if (!host) return fail(host.error());
-        const petzval_status status = set_lens(**host, {}, Camera{50, 36, 2, 2});
-        if (status == PETZVAL_OK) *pass = new petzval_pass{std::move(*host)};
+        const Camera camera{50, 36, 2, 2};
+        const auto lens = Lens::open({});
+        if (!lens) return fail(lens.error());
+        std::unique_ptr<petzval_pass> made(new petzval_pass{std::move(*host), *lens, camera});
+        const petzval_status status = set_lens(*made, *lens, camera);
+        if (status == PETZVAL_OK) *pass = made.release();
         return status;
     });
 }
 
 petzval_status petzval_pass_resize(petzval_pass* pass, uint32_t width, uint32_t height) {
     if (!pass) return missing("pass");
-    return guarded([&] {
-        if (const Status size = check_size(width, height); !size) return fail(size.error());
-        const Status done = pass->host->resize(width, height);
-        return done ? PETZVAL_OK : fail(done.error());
-    });
+    return guarded([&] { return resize(*pass, width, height); });
 }
 
 void petzval_pass_close(petzval_pass* pass) { delete pass; }
@@ -123,7 +140,9 @@ petzval_status petzval_pass_set_lens(petzval_pass* pass, const petzval_look* loo
     if (!camera) return missing("camera");
     return guarded([&] {
         if (const Status ok = c::check_pictures(look->look); !ok) return fail(ok.error());
-        return set_lens(*pass->host, look->look.lens, c::camera_of(c::taken(camera)));
+        const auto lens = Lens::open(look->look.lens);
+        if (!lens) return fail(lens.error());
+        return set_lens(*pass, *lens, c::camera_of(c::taken(camera)));
     });
 }
 

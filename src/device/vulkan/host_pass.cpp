@@ -7,6 +7,15 @@
 #include <utility>
 
 namespace petzval::device::vulkan {
+namespace {
+
+std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens) {
+    constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
+    return std::make_shared<const engine::RealtimeLens>(
+        engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx));
+}
+
+}  // namespace
 
 Result<RealtimeOptics> optics_of(const Camera& camera, int width, const DepthScale& depth, double most_px,
                                  double aspect) {
@@ -54,24 +63,16 @@ Result<std::unique_ptr<RealtimePass>> HostPass::made(const RealtimeSettings& set
     }
 }
 
-Status HostPass::resize(std::uint32_t width, std::uint32_t height) {
+Status HostPass::resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens) {
     RealtimeSettings settings = settings_;
     settings.width = width, settings.height = height;
     auto pass = made(settings);
     if (!pass) return pass.error();
-    const std::lock_guard lock(mutex_);
-    if (lens_) (*pass)->set_lens(lens_);
+    (*pass)->set_lens(shapes_of(lens));
     pass_ = std::move(*pass), settings_ = settings;
     return Done{};
 }
 
-void HostPass::set_lens(const kernel::LensModel& lens) {
-    constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
-    auto made =
-        std::make_shared<const engine::RealtimeLens>(engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx));
-    const std::lock_guard lock(mutex_);
-    lens_ = std::move(made);
-    pass_->set_lens(lens_);
-}
+void HostPass::set_lens(const kernel::LensModel& lens) { pass_->set_lens(shapes_of(lens)); }
 
 }  // namespace petzval::device::vulkan

@@ -31,9 +31,9 @@ class HostPass {
 public:
     // Errors: Unsupported (what the device lacks), OutOfMemory.
     static Result<std::unique_ptr<HostPass>> open(const Host& host, const RealtimeSettings& settings);
-    // If it fails, nothing changed. Errors: as above.
-    Status resize(std::uint32_t width, std::uint32_t height);
-    // From any thread.
+    // With the lens that is mounted on that size. If it fails, nothing changed. Errors: as above.
+    Status resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens);
+    // From any thread, beside pass().record(), not beside resize().
     void set_lens(const kernel::LensModel& lens);
     RealtimePass& pass() { return *pass_; }
     const RealtimeSettings& settings() const { return settings_; }
@@ -47,8 +47,6 @@ private:
     VkPhysicalDeviceMemoryProperties memory_ = {};
     RealtimeSettings settings_;
     std::unique_ptr<RealtimePass> pass_;
-    std::mutex mutex_;  // of the next line, and of pass_ while it changes
-    std::shared_ptr<const engine::RealtimeLens> lens_;
 };
 
 }  // namespace petzval::device::vulkan
