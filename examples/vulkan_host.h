@@ -14,6 +14,12 @@ inline void must(bool went_well, const char* what) {
 }
 inline void must(VkResult result, const char* what) { must(result == VK_SUCCESS, what); }
 
+// 77: what tests take for "skipped".
+[[noreturn]] inline void no_device() {
+    std::fprintf(stderr, "no device of Vulkan: nothing was drawn\n");
+    std::exit(77);
+}
+
 // ---- The host's device
 
 struct Host {
@@ -41,11 +47,11 @@ inline Host open_host() {
         instance.pNext = &features, instance.enabledLayerCount = 1, instance.ppEnabledLayerNames = &layer;
     if (vkCreateInstance(&instance, nullptr, &host.instance) != VK_SUCCESS) {
         instance.pNext = nullptr, instance.enabledLayerCount = 0;  // the layer is not installed
-        if (vkCreateInstance(&instance, nullptr, &host.instance) != VK_SUCCESS) std::exit(77);
+        if (vkCreateInstance(&instance, nullptr, &host.instance) != VK_SUCCESS) no_device();
     }
     std::uint32_t count = 1;
     vkEnumeratePhysicalDevices(host.instance, &count, &host.physical);
-    if (count == 0) std::exit(77);  // no driver
+    if (count == 0) no_device();  // but a loader
     const float priority = 1;
     VkDeviceQueueCreateInfo queue = {};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
