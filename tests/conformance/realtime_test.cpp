@@ -81,6 +81,39 @@ TEST_F(Realtime, KeepsOneColourAndWhatIsInFocus) {
     }
 }
 
+// An element alone, over nothing: its alpha is blurred as its colour is, and none comes from nowhere.
+TEST_F(Realtime, AnElementKeepsItsAlphaOverNothing) {
+    for (const float coc_px : {-12.0f, 0.0f, 5.0f, 12.0f}) {
+        Shot shot = flat(120, 96, {0, 0, 0, 0}, 20);
+        for (int y = 0; y < 96; ++y)
+            for (int x = 0; x < 120; ++x) {
+                const float inside = 24.5f - std::hypot(float(x) - 60, float(y) - 48);
+                const float alpha = std::clamp(inside, 0.0f, 1.0f);
+                if (alpha > 0)
+                    shot.colour(x, y) = {alpha, 0.5f * alpha, 0, alpha}, shot.coc_px(x, y) = coc_px;
+            }
+        const auto final = defocus(shot.job("scatter"));
+        ASSERT_TRUE(final) << final.error().message;
+        double of_final = 0;
+        for (std::size_t i = 0; i < final->image.size(); ++i) of_final += double(final->image.pixels()[i].a);
+        for (Session& session : sessions_) {
+            const Picture made = drawn(session, shot);
+            double alphas = 0;
+            float largest = 0, beside_colour = 0;
+            for (std::size_t i = 0; i < made.size(); ++i) {
+                const Rgba p = made.pixels()[i];
+                alphas += double(p.a);
+                largest = std::max(largest, std::abs(p.a - final->image.pixels()[i].a));
+                beside_colour = std::max(beside_colour, std::abs(p.a - p.r));
+            }
+            EXPECT_NEAR(alphas / of_final, 1, 0.035) << coc_px;
+            EXPECT_LT(largest, 0.25f) << coc_px;  // cells have one radius for it and for nothing
+            EXPECT_LT(beside_colour, 1e-3f) << "premultiplied colour and alpha part at " << coc_px;
+            EXPECT_EQ(made(1, 1).a, 0);
+        }
+    }
+}
+
 // The radius is that of a bar many tiles away; what is in focus keeps its light beside it.
 TEST_F(Realtime, NothingLeaksAndNothingIsCutAtLargeRadii) {
     for (Session& session : sessions_) {
