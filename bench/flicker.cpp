@@ -65,12 +65,13 @@ Picture sheet_of(const Frames& result, const Frames& truth) {
 
 void write_all(const std::string& folder, const std::string& name, const Frames& result,
                const Frames& truth) {
+    const std::string stem = folder + "/" + name + "_";
     for (std::size_t t = 0; t < result.size(); ++t) {
-        char number[8];
-        std::snprintf(number, sizeof number, "%04d", int(t));
-        write(folder + "/" + name + "_" + number + ".png", result[t], ToneCurve::Filmic);
+        char ending[16];
+        std::snprintf(ending, sizeof ending, "%04d.png", int(t));
+        write(stem + ending, result[t], ToneCurve::Filmic);
     }
-    write(folder + "/" + name + "_sheet.png", sheet_of(result, truth), ToneCurve::None);
+    write(stem + "sheet.png", sheet_of(result, truth), ToneCurve::None);
 }
 
 }  // namespace

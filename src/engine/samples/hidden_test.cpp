@@ -140,7 +140,7 @@ TEST(Hidden, ALampBehindAnEdgeShinesFromBehindIt) {
             d.colour(x, y) = grey(wire ? 0.1f : 0.04f), d.coc(x, y) = wire ? kNearPx : kFarPx;
         }
     d.colour(19, 24) = grey(30), d.colour(20, 24) = grey(60);
-    const LitPicture picture{d.colour, [](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }};
+    const LitPicture picture{d.colour, {[](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }}};
     const Image<unsigned char> connected = connections(d.coc, one_thread());
     d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread());
     d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, {}, one_thread());
@@ -169,7 +169,7 @@ TEST(Hidden, ASmallLampHasTheLightOfItsRimAlsoNextToSomethingNearer) {
         d.colour(23, y) = grey(4), d.colour(24, y) = grey(35), d.colour(25, y) = grey(14);
         d.coc(24, y) = kLampPx;
     }
-    const LitPicture picture{d.colour, [](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }};
+    const LitPicture picture{d.colour, {[](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }}};
     const auto mixtures = unmix_silhouettes(picture, d.coc, connections(d.coc, one_thread()), one_thread());
     for (const int x : {23, 25}) {
         const Mixture* m = mixtures.at(x, 24);

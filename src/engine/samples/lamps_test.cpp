@@ -35,10 +35,10 @@ CutLamp cut_lamp(float centre_x, int edge) {
             if (x < edge) colour(x, y) += {light, light, light, 0};
             if (x >= edge) colour(x, y) = {0.1f, 0.1f, 0.1f, 1}, coc(x, y) = kNearPx;
         }
-    const LitPicture picture{colour, [&](int, int, Rgba light) {
+    const LitPicture picture{colour, {[&](int, int, Rgba light) {
                                  const float v = std::min(light.g, 0.1f);
                                  return Rgba{v, v, v, 1};
-                             }};
+                             }}};
     const Image<unsigned char> connected = connections(coc, one_thread());
     auto mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
     const auto hidden = fill_hidden(picture, coc, connected, mixtures, kNearPx, kFarPx, {}, one_thread());
