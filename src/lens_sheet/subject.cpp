@@ -7,6 +7,7 @@
 #include "optics/aberrations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,17 +22,20 @@ constexpr int kZones = 40, kHeights = 256, kSlices = 93;
 std::vector<kernel::RingBand> ring_bands(const AxialBands& bands, double coc_um, double um_per_px) {
     std::vector<kernel::RingBand> rings;
     for (const AxialBand& band : bands)
-        rings.push_back({band.weight, [&band, coc_um, um_per_px](double area) {
+        rings.push_back({band.weight, kernel::at_each([&band, coc_um, um_per_px](double area) {
                              return band.height_um(std::sqrt(area), coc_um) / um_per_px;
-                         }});
+                         })});
     return rings;
 }
 
 double reach_of(const std::vector<kernel::RingBand>& bands) {
     double reach = 0;
-    for (const kernel::RingBand& band : bands)
-        for (int i = 0; i <= kZones; ++i)
-            reach = std::max(reach, std::abs(band.landing_px(double(i) / kZones)));
+    std::array<double, kZones + 1> areas, landed;
+    for (std::size_t i = 0; i < areas.size(); ++i) areas[i] = double(i) / kZones;
+    for (const kernel::RingBand& band : bands) {
+        band.landings_px(areas, landed.data());
+        for (const double radius : landed) reach = std::max(reach, std::abs(radius));
+    }
     return 1.02 * reach + 1e-6;
 }
 

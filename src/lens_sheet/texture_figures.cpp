@@ -115,7 +115,8 @@ Profiles profiles_of(const Subject& subject, double coc_um) {
     reach *= 1.06;
     std::vector<double> squared = ray_density(height, reach, kRings), exact;
     const auto ring = [&](double area) { return height(std::sqrt(area)) / reach * kRings; };
-    for (const kernel::Light& light : kernel::ring_energy({{{1, 1, 1}, ring}}, kRings, kRings))
+    for (const kernel::Light& light :
+         kernel::ring_energy({{{1, 1, 1}, kernel::at_each(ring)}}, kRings, kRings))
         exact.push_back(light.g);
     double squared_sum = 0;
     for (int k = 0; k < kRings; ++k) {

@@ -147,18 +147,18 @@ Rgb pixel_share(const RadialProfile& profile, int x, int y) {
 
 std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_px, std::size_t bins) {
     // Zones of even area, thinner than a tenth of a pixel at the rim.
-    const int zones = int(std::clamp(8 * reach_px, 128.0, 4096.0));
+    const std::size_t zones = std::size_t(std::clamp(8 * reach_px, 128.0, 4096.0));
     std::vector<Light> total(bins);
     const double bins_per_px = double(bins) / reach_px;
+    std::vector<double> areas(zones + 1), landed(zones + 1);
+    for (std::size_t i = 0; i <= zones; ++i) areas[i] = double(i) / double(zones);
     for (const RingBand& band : bands) {
         check_cancelled();
         RingGrid grid(bins);
-        double from = band.landing_px(0) * bins_per_px;
-        for (int i = 1; i <= zones; ++i) {
-            const double to = band.landing_px(double(i) / zones) * bins_per_px;
-            grid.add_annulus(from, to, 1.0 / zones);
-            from = to;
-        }
+        band.landings_px(areas, landed.data());
+        for (double& radius : landed) radius *= bins_per_px;
+        for (std::size_t i = 0; i < zones; ++i)
+            grid.add_annulus(landed[i], landed[i + 1], 1.0 / double(zones));
         grid.add_to(total, band.weight);
     }
     return total;

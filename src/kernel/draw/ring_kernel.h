@@ -9,16 +9,26 @@
 #include "kernel/model/spread.h"
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace petzval::kernel {
 
-// A wavelength band: its share of the channels, and the signed radius in pixels at which the light of pupil
-// radius sqrt(area) lands, area in 0…1. A negative radius lies on the other side of the axis.
+// A wavelength band: its share of the channels, and the signed radii in pixels at which the light of pupil
+// radii sqrt(area) lands, areas in 0…1: as many as there are areas. A negative radius lies on the other side
+// of the axis.
 struct RingBand {
     Light weight;
-    std::function<double(double area)> landing_px;
+    std::function<void(std::span<const double> areas, double* landed)> landings_px;
 };
+
+// Landings of a function that tells one.
+template <typename Landing>  // double(double area)
+auto at_each(Landing landing) {
+    return [landing](std::span<const double> areas, double* landed) {
+        for (const double area : areas) *landed++ = landing(area);
+    };
+}
 
 // The light that falls into each of `bins` rings of even width between the axis and reach_px, the largest
 // |landing| of all bands: exact energies, nothing sampled. Requires: reach_px > 0, bins >= 1.

@@ -26,7 +26,7 @@ double cubic(double a, double b, double area) { return std::sqrt(area) * (a + b 
 PointSpread cubic_rings(double a, double b) {
     double reach = std::abs(a + b);
     if (a * b < 0 && -a / (3 * b) < 1) reach = std::max(reach, std::abs(cubic(a, b, -a / (3 * b))));
-    return ring_kernel({{kWhite, [=](double area) { return cubic(a, b, area); }}}, reach);
+    return ring_kernel({{kWhite, at_each([=](double area) { return cubic(a, b, area); })}}, reach);
 }
 
 PointSpread cubic_mesh(double a, double b) {

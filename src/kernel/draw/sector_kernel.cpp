@@ -3,6 +3,7 @@
 #include "base/cancel.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -51,12 +52,13 @@ struct RadiusGrid {
     RadiusGrid(const std::vector<RingBand>& bands, double reach_px) {
         step = reach_px < 12 ? 0.125 : std::max(0.25, reach_px / 2048);
         double high = 0;
-        constexpr int kProbes = 256;
-        for (const RingBand& band : bands)
-            for (int i = 0; i <= kProbes; ++i) {
-                const double v = band.landing_px(double(i) / kProbes);
-                low = std::min(low, v), high = std::max(high, v);
-            }
+        constexpr std::size_t kProbes = 256;
+        std::array<double, kProbes + 1> areas, landed;
+        for (std::size_t i = 0; i <= kProbes; ++i) areas[i] = double(i) / kProbes;
+        for (const RingBand& band : bands) {
+            band.landings_px(areas, landed.data());
+            for (const double v : landed) low = std::min(low, v), high = std::max(high, v);
+        }
         // 0 is a border between bins; a pixel's half width is left free at both ends.
         const int below = int(std::ceil((0.6 - low) / step)), above = int(std::ceil((high + 0.6) / step));
         low = -below * step, count = below + above;
@@ -201,8 +203,11 @@ RingSweep::RingSweep(const std::vector<RingBand>& bands, double reach_px) : reac
     low_ = grid.low, step_ = grid.step, per_step_ = 1 / grid.step, bins_ = grid.count;
     zones_ = int(std::clamp(3 * reach_px, 48.0, 768.0));
     std::vector<Sample> arrived(std::size_t(bins_), Sample{});
-    std::vector<double> from(bands.size());
-    for (std::size_t b = 0; b < bands.size(); ++b) from[b] = bands[b].landing_px(0);
+    std::vector<double> from(bands.size()), to(bands.size());
+    const auto land = [&](double area, std::vector<double>& landed) {
+        for (std::size_t b = 0; b < bands.size(); ++b) bands[b].landings_px({&area, 1}, &landed[b]);
+    };
+    land(0, from);
     Zone zone(grid);
     integrals_.assign(std::size_t(bins_) + 1, Sample{});
     integrals_.reserve((std::size_t(bins_) + 1) * (std::size_t(zones_) + 1));
@@ -211,11 +216,10 @@ RingSweep::RingSweep(const std::vector<RingBand>& bands, double reach_px) : reac
         const double outer = double(i) * i / (double(zones_) * zones_);
         check_cancelled();
         zone.clear();
-        for (std::size_t b = 0; b < bands.size(); ++b) {
-            const double to = bands[b].landing_px(outer);
-            zone.add(from[b], to, (outer - inner) * bands[b].weight);
-            from[b] = to;
-        }
+        land(outer, to);
+        for (std::size_t b = 0; b < bands.size(); ++b)
+            zone.add(from[b], to[b], (outer - inner) * bands[b].weight);
+        from.swap(to);
         zone.add_to(arrived, 1);
         Sample sum;
         integrals_.push_back(sum);

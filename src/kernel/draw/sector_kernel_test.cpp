@@ -23,7 +23,7 @@ struct Cubic {
 };
 
 PointSpread sectors(const std::vector<Point>& outline, Cubic v, double vertical_scale = 1) {
-    return sector_kernel(outline, RingSweep({{kWhite, v}}, v.reach()), vertical_scale);
+    return sector_kernel(outline, RingSweep({{kWhite, at_each(v)}}, v.reach()), vertical_scale);
 }
 
 PointSpread mesh(const std::vector<Point>& outline, Cubic v, double vertical_scale = 1) {
@@ -56,7 +56,8 @@ TEST(SectorKernel, AgreesWithTheMeshForCutPupils) {
 
 TEST(SectorKernel, AgreesWithExactRingsForTheOpenDisc) {
     const Cubic v{24, -7};
-    const PointSpread s = sectors(aperture_outline({}, 1e-4), v), r = ring_kernel({{kWhite, v}}, v.reach());
+    const PointSpread s = sectors(aperture_outline({}, 1e-4), v),
+                      r = ring_kernel({{kWhite, at_each(v)}}, v.reach());
     EXPECT_LT(largest_difference(s, r), 0.08 * brightest(r));
     EXPECT_NEAR(moments(s).yy, moments(r).yy, 5e-3 * moments(r).yy);
 }

@@ -211,7 +211,7 @@ CurveLens::Rings CurveLens::rings_of(double coc_radius_px, int least_bands) cons
         const std::size_t last = band.shift.samples().size() - 1;
         for (std::size_t i = 0; i <= last; ++i)
             rings.reach_px = std::max(rings.reach_px, std::abs(landing(double(i) / double(last))));
-        rings.bands.push_back({weight_of(band.spectrum), landing});
+        rings.bands.push_back({weight_of(band.spectrum), at_each(landing)});
     }
     return rings;
 }
