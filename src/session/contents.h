@@ -42,10 +42,10 @@ struct Session::Contents {
         return settings.max_memory_bytes > 0 ? settings.max_memory_bytes / 8 : kUnlimited;
     }
 
-    // A defocus alone, and what is done to its picture; finish: may be empty. Errors: those of
-    // Session::defocus() and of finish. Throws Cancelled.
+    // A defocus alone, and what is done to its picture last, if not empty. Errors: those of
+    // Session::defocus() and of `last`. Throws Cancelled.
     Result<DefocusReport> defocus(const DefocusJob& given, const std::optional<Rect>& region,
-                                  Progress& progress, CancellableWorkers& workers, const Finish& finish = {});
+                                  Progress& progress, CancellableWorkers& workers, const Finish& last = {});
 
     // The largest radius of a frame, and how far its light lands. Errors: those of Session::defocus().
     struct Reach {
