@@ -10,6 +10,7 @@
 #include "device/memory.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 namespace petzval::engine {
@@ -34,11 +35,15 @@ public:
     Atlas& operator=(const Atlas&) = delete;
 };
 
+// Told the name of each pass when it is done, by devices that do one after the other; may be empty.
+using Passed = std::function<void(const char* pass)>;
+
 // How a piece of work is done.
 struct Control {
     Workers& workers;
     Progress& progress;
     double share = 0;  // of the whole progress
+    Passed passed = {};
 };
 
 // What drawing took, as plan and kernels tell it: what is clipped at the edges of tiles counts as if it were
@@ -87,7 +92,8 @@ public:
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                             const Control& control) const = 0;
     // Moves the plan's light within a picture. False: this device cannot, and nothing was done.
-    virtual bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers& workers) const = 0;
+    virtual bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers& workers,
+                           const Passed& passed) const = 0;
     // The part of a picture's light that stands above a threshold, at home. Empty: this device cannot.
     virtual Picture highlights(Canvas& picture, float threshold, Workers& workers) const = 0;
 };

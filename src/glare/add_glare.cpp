@@ -98,7 +98,7 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& setting
     const View<Rgba> lit = canvas.view();
     for (int y = 0; y < lit.height(); ++y) std::copy_n(picture.row(y), std::size_t(lit.width()), lit.row(y));
     glare::KeptStars stars;
-    const Status added = glare::add_glare(canvas, settings, stars, device::cpu_device());
+    const Status added = glare::add_glare(canvas, settings, stars, device::cpu_device(), {});
     if (!added) return added.error();
     return canvas.take();
 }
@@ -106,7 +106,7 @@ Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& setting
 namespace glare {
 
 Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptStars& stars,
-                 const device::Device& device) {
+                 const device::Device& device, const device::Passed& passed) {
     GlareSettings s = settings;
     if (s.opened_lens) s.lens = s.opened_lens->choice();
     const Rect all{0, 0, picture.width(), picture.height()};
@@ -127,10 +127,13 @@ Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptSta
         Picture bright = device.highlights(picture, float(s.threshold), *workers);
         if (bright.empty()) bright = device::cpu_device().highlights(picture, float(s.threshold), *workers);
         thrown = ghosts_of(bright, *model, middle, *workers);
+        if (passed) passed("ghosts");
     }
     GlarePlan plan = plan_of(s, height, all, stars, *workers);
     plan.ghost_light = thrown;
-    if (!device.add_glare(plan, picture, *workers)) device::cpu_device().add_glare(plan, picture, *workers);
+    if (passed && s.star > 0) passed("star's pattern");
+    if (!device.add_glare(plan, picture, *workers, passed))
+        device::cpu_device().add_glare(plan, picture, *workers, passed);
     return Done{};
 }
 

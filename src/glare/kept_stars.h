@@ -42,8 +42,8 @@ private:
 };
 
 // petzval::add_glare() with stars of frames before, on this device, or on the CPU where that cannot. Throws
-// what a device does.
+// what a device does. passed: told of ghosts, of the pattern of a star, and of what the device does.
 Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptStars& stars,
-                 const device::Device& device);
+                 const device::Device& device, const device::Passed& passed);
 
 }  // namespace petzval::glare

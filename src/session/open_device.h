@@ -64,8 +64,9 @@ public:
         return device_.add_lights(plan, atlas, out, control);
     }
 
-    bool add_glare(const glare::GlarePlan& plan, device::Canvas& picture, Workers& workers) const override {
-        const bool done = device_.add_glare(plan, picture, workers);
+    bool add_glare(const glare::GlarePlan& plan, device::Canvas& picture, Workers& workers,
+                   const device::Passed& passed) const override {
+        const bool done = device_.add_glare(plan, picture, workers, passed);
         if (done) note();
         return done;
     }

@@ -4,15 +4,16 @@
 #include "petzval/glare.h"
 #include "petzval/look_check.h"
 
+#include "engine/waist/stopwatch.h"
 #include "session/contents.h"
 #include "session/frame_part.h"
 #include "session/lamp_layers.h"
 #include "session/limit.h"
 #include "session/mounted_lens.h"
 
-#include <chrono>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace petzval {
 namespace {
@@ -27,6 +28,7 @@ double diffraction_px(const Camera& camera, int width_px) {
 struct Light {
     glare::KeptStars& stars;
     const device::Device& device;
+    device::Passed passed = {};
 };
 
 bool has_glare(const GlareAmounts& glare) {
@@ -51,7 +53,7 @@ Status add_glare_to(device::Canvas& picture, const DefocusJob& job, const Look& 
     settings.opened_lens = job.opened_lens;
     settings.place = job.place;
     settings.workers = job.workers;
-    return glare::add_glare(picture, settings, by.stars, by.device);
+    return glare::add_glare(picture, settings, by.stars, by.device, by.passed);
 }
 
 // What the lens does to the light of the picture. Falloff is made at home.
@@ -61,12 +63,9 @@ Status light(std::shared_ptr<device::Canvas>& picture, const DefocusJob& job, co
         auto dimmed = with_falloff(picture->take(), job, look);
         if (!dimmed) return dimmed.error();
         picture = canvas_of(by.device, std::move(*dimmed));
+        if (by.passed) by.passed("falloff");
     }
     return add_glare_to(*picture, job, look, by);
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 // What the lens does to all light of a frame: to the picture where it was drawn, before it comes home, unless
@@ -85,28 +84,29 @@ public:
 
     // What was not done on the way. Glare is of all light together and goes to the picture alone.
     Status finish(DefocusReport& report) {
-        const auto start = std::chrono::steady_clock::now();
+        engine::Stopwatch stopwatch(stages_);
         for (Picture& layer : report.layers) {
             auto dimmed = with_falloff(std::move(layer), job_, look_);
             if (!dimmed) return dimmed.error();
             layer = std::move(*dimmed);
         }
-        seconds_ += seconds_since(start);
+        stopwatch.lap("light");
         if (has_lamps_) {
             auto picture = canvas_of(drawing_, std::move(report.image));
             if (const Status done = add_to(picture); !done) return done;
             report.image = picture->take();
         }
         if (has_glare(look_.glare)) report.glare_device = drawing_.drawn_by();
+        report.stages.insert(report.stages.end(), stages_.begin(), stages_.end());
         return Done{};
     }
-    double seconds() const { return seconds_; }
 
 private:
     Status add_to(std::shared_ptr<device::Canvas>& picture) {
-        const auto start = std::chrono::steady_clock::now();
-        const Status done = light(picture, job_, look_, {stars_, drawing_});
-        seconds_ += seconds_since(start);
+        engine::Stopwatch stopwatch(stages_);
+        const device::Passed passed = [&](const char* pass) { stopwatch.lap(pass); };
+        const Status done = light(picture, job_, look_, {stars_, drawing_, passed});
+        stopwatch.lap("light");
         return done;
     }
 
@@ -115,7 +115,7 @@ private:
     glare::KeptStars& stars_;
     const NotingDevice drawing_;
     bool has_lamps_ = false;
-    double seconds_ = 0;
+    std::vector<StageTime> stages_;  // what is no pass of its own is `light`
 };
 
 Result<Picture> expanded_plate(const DefocusJob& job, const Look& look) {
@@ -213,7 +213,6 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                 report->image = compress_highlights(report->image, expanded.view().part(pixels),
                                                     rendered.colour.part(pixels), look.expansion);
             limit_by_mask(*report, rendered, pixels, workers);
-            report->stages.push_back({"light", lighting.seconds()});
             return report;
         });
     if (taken)

@@ -185,8 +185,8 @@ class SceneTest(window.WindowTest):
         self.assertGreater(aperture, 30)
 
     def test_every_pass_of_an_article_is_timed(self):
-        for scene, passes in (("hexadrive", ["split", "complete", "sources", "atlas", "spread", "highlights", "light"]),
-                              ("wgld", ["gaussian"]),
+        for scene, passes in (("hexadrive", ["split", "complete", "sources", "atlas", "spread", "highlights", "bloom", "star"]),
+                              ("wgld", ["spread", "blur", "mix"]),
                               ("unity", ["half size", "near and far", "four-tap blur", "enlarged", "combined"])):
             out, _ = self.do("wait\nexpect no error\nsay frame.passes\n", "--scene", scene, "--scene-size", "60x34")
             for one in passes:

@@ -57,8 +57,9 @@ public:
             return stamp_planned_lights(plan, dynamic_cast<const StampAtlas&>(atlas), out.view(), control);
         return add_planned_lights(plan, dynamic_cast<const SpreadAtlas&>(atlas), out.view(), control);
     }
-    bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers& workers) const override {
-        add_planned_glare(plan, picture.view(), workers);
+    bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers& workers,
+                   const Passed& passed) const override {
+        add_planned_glare(plan, picture.view(), workers, passed);
         return true;
     }
     Picture highlights(Canvas& picture, float threshold, Workers& workers) const override {

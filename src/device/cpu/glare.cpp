@@ -69,16 +69,24 @@ Picture highlights(View<const Rgba> picture, float threshold, Workers& workers) 
     return bright;
 }
 
-void add_planned_glare(const GlarePlan& plan, View<Rgba> picture, Workers& workers) {
+void add_planned_glare(const GlarePlan& plan, View<Rgba> picture, Workers& workers, const Passed& passed) {
+    const auto done = [&](const char* part) {
+        if (passed) passed(part);
+    };
     const Picture light = usable_light(picture, workers);
     Picture bright;
     if (plan.of_highlights > 0) bright = highlights(light, plan.threshold, workers);
     take(picture, bright, plan, workers);
-    if (plan.bloom > 0) add(picture, bloom(light, plan.bloom_layers, workers), plan.bloom, workers);
+    done("highlights of glare");
+    if (plan.bloom > 0) {
+        add(picture, bloom(light, plan.bloom_layers, workers), plan.bloom, workers);
+        done("bloom");
+    }
     if (!plan.streaks.empty()) add_streaks(picture, bright, plan.streaks, plan.star, workers);
     if (plan.filter) add_convolved(picture, bright, *plan.filter, plan.star, workers);
-    if (plan.ghosts > 0) add(picture, plan.ghost_light, plan.ghosts, workers);
-    if (plan.veil > 0) add_veil(picture, light, plan.veil, workers);
+    if (plan.star > 0) done("star");
+    if (plan.ghosts > 0) add(picture, plan.ghost_light, plan.ghosts, workers), done("ghosts");
+    if (plan.veil > 0) add_veil(picture, light, plan.veil, workers), done("veil");
 }
 
 }  // namespace petzval::device

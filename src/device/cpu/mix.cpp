@@ -29,6 +29,7 @@ public:
     Mixer(const GaussianPlan& plan, const Control& control)
         : plan_(plan),
           workers_(control.workers),
+          passed_(control.passed),
           width_(plan.colour.width()),
           height_(plan.colour.height()) {}
 
@@ -45,6 +46,7 @@ public:
                     out(x, y) = is_layered() ? composite(readers, x, y) : mixed(readers.all, x, y);
             }
         });
+        passed("mix");
     }
 
 private:
@@ -59,6 +61,9 @@ private:
             }
         }
     };
+    void passed(const char* pass) const {
+        if (passed_) passed_(pass);
+    }
     bool is_layered() const { return plan_.law == GaussianPlan::Law::Layered; }
 
     void make_layers() {
@@ -77,7 +82,9 @@ private:
         });
         for (const auto& of_band : rims)
             for (std::size_t i = 0; i < of_band.size(); ++i) add_rim(layers_[i / 2], of_band[i]);
+        passed("spread");
         for (std::size_t k = 0; k < layers_.size(); ++k) blur_layer(layers_[k], plan_.blurs[k], workers_);
+        passed("blur");
     }
 
     // Pixel rows begin…end-1, which are whole cells; returns two rims for each layer.
@@ -195,6 +202,7 @@ private:
 
     const GaussianPlan& plan_;
     Workers& workers_;
+    const Passed& passed_;
     int width_, height_;
     std::vector<BlurLayer> layers_;               // as the plan's blurs
     std::vector<std::vector<CellPlace>> places_;  // of pixels in these

@@ -60,7 +60,7 @@ public:
                                   : stamp_planned_lights(*context_, plan, packed, out, control);
     }
 
-    bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers&) const override {
+    bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers&, const Passed&) const override {
         return add_planned_glare(*context_, plan, dynamic_cast<DeviceCanvas&>(picture));
     }
     Picture highlights(Canvas& picture, float threshold, Workers&) const override {

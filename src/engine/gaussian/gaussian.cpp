@@ -6,9 +6,9 @@
 #include "device/device.h"
 #include "engine/gaussian/plan.h"
 #include "engine/waist/memory.h"
+#include "engine/waist/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace petzval::engine {
 namespace {
@@ -32,7 +32,8 @@ std::size_t least_gaussian_bytes(const Input& input) {
 }
 
 Result<Output> run_gaussian(const Input& input) {
-    const auto start = std::chrono::steady_clock::now();
+    Output output;
+    Stopwatch stopwatch(output.stages);
     const GaussianView view = input.gaussian.view;
     const float largest_px = std::max(-input.nearest_coc_px, input.farthest_coc_px);
     const bool is_sharp =
@@ -40,17 +41,17 @@ Result<Output> run_gaussian(const Input& input) {
     const GaussianPlan plan = is_sharp ? GaussianPlan() : plan_gaussian(input);
     if (const Status fits = fits_memory(input, bytes_per_pixel(plan, input), "gaussian"); !fits)
         return fits.error();
-    Output output;
+    stopwatch.lap("plan");
     output.canvas = input.device->canvas(Picture::uninitialised(input.width(), input.height()));
     if (is_sharp || plan.blurs.empty()) {
         const View<Rgba> out = output.canvas->view();
         for (int y = 0; y < input.height(); ++y) std::copy_n(input.colour.row(y), input.width(), out.row(y));
         return output;
     }
-    input.device->mix(plan, *output.canvas, {*input.workers, *input.progress});
+    const auto passed = [&](const char* pass) { stopwatch.lap(pass); };
+    input.device->mix(plan, *output.canvas, {*input.workers, *input.progress, 0, passed});
+    stopwatch.lap("mix");
     if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
-    output.stages = {
-        {"gaussian", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
     return output;
 }
 
