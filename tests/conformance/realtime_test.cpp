@@ -41,6 +41,13 @@ double sum_of(const Picture& p) {
     return sum;
 }
 
+// Of the light of b.
+double light_apart(const Picture& a, const Picture& b) {
+    double apart = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) apart += double(std::abs(a.pixels()[i].g - b.pixels()[i].g));
+    return apart / sum_of(b);
+}
+
 double rms(const Picture& a, const Picture& b) {
     double squares = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -209,10 +216,7 @@ TEST_F(Realtime, ALampHasTheShapeThatFinalFramesHave) {
     ASSERT_TRUE(final) << final.error().message;
     for (Session& session : sessions_) {
         const Picture made = drawn(session, shot);
-        double different = 0;
-        for (std::size_t i = 0; i < made.size(); ++i)
-            different += double(std::abs(made.pixels()[i].g - final->image.pixels()[i].g));
-        EXPECT_LT(different / sum_of(final->image), 0.02);
+        EXPECT_LT(light_apart(made, final->image), 0.02);
         EXPECT_EQ(largest_difference(made, drawn(session, shot)), 0) << "not twice the same bits";
     }
 }
@@ -316,11 +320,8 @@ TEST_F(Realtime, LampsThatAreTooManyKeepTheirLightAndTheirShape) {
     ASSERT_TRUE(final) << final.error().message;
     for (Session& session : sessions_) {
         const Picture made = drawn(session, shot);
-        double different = 0;
-        for (std::size_t i = 0; i < made.size(); ++i)
-            different += double(std::abs(made.pixels()[i].g - final->image.pixels()[i].g));
         EXPECT_NEAR(sum_of(made) / sum_of(final->image), 1, 0.01);
-        EXPECT_LT(different / sum_of(final->image), 0.02);
+        EXPECT_LT(light_apart(made, final->image), 0.02);
         EXPECT_EQ(largest_difference(made, drawn(session, shot)), 0) << "not twice the same bits";
     }
 }

@@ -44,25 +44,31 @@ struct Shown {
     }
 };
 
+// Its plan, and kernels ready for a device.
+struct Planned {
+    Shown shown;
+    engine::LevelRule rule = engine::level_rule(shown.input);
+    engine::ScatterKernels kernels{shown.input, rule};
+    engine::SampleSet set = engine::complete_samples(shown.input);
+    engine::ScatterPlan plan =
+        engine::make_plan(shown.input, set.samples, set.connected, shown.colour.rect(), 0, rule, kernels);
+    Memory memory{std::numeric_limits<std::size_t>::max()};
+    Control control{*shown.input.workers, shown.progress};
+    PackedAtlas atlas{laid_out<PackedSet>(kernels, plan.kernels, "test", memory, control)};
+};
+
 // A watchdog, a small memory, a slow device: what is drawn depends on none of them.
 TEST(Composite, IsTheSameBitsHoweverItIsCut) {
     const auto context = any_context();
     if (!context) GTEST_SKIP() << "no device of Vulkan";
-    Shown shown;
-    const engine::LevelRule rule = engine::level_rule(shown.input);
-    const engine::ScatterKernels kernels(shown.input, rule);
-    const engine::SampleSet set = engine::complete_samples(shown.input);
-    const engine::ScatterPlan plan =
-        engine::make_plan(shown.input, set.samples, set.connected, shown.colour.rect(), 0, rule, kernels);
-    ASSERT_EQ(plan.tiles.size(), 7u) << "six tiles and the end";
-    Memory memory(std::numeric_limits<std::size_t>::max());
-    const Control control{*shown.input.workers, shown.progress};
-    const PackedAtlas atlas(laid_out<PackedSet>(kernels, plan.kernels, "test", memory, control));
+    Planned planned;
+    ASSERT_EQ(planned.plan.tiles.size(), 7u) << "six tiles and the end";
     Picture whole(kWidth, kHeight), cut(kWidth, kHeight);
     context->time_passes();
-    const Work work = composite_tiles(*context, plan, atlas, whole, control);
+    const Work work = composite_tiles(*context, planned.plan, planned.atlas, whole, planned.control);
     EXPECT_GT(work.multiply_adds, std::uint64_t(kWidth * kHeight));
-    composite_tiles(*context, plan, atlas, cut, control, {.most_multiply_adds = 1, .most_partial_bytes = 1});
+    composite_tiles(*context, planned.plan, planned.atlas, cut, planned.control,
+                    {.most_multiply_adds = 1, .most_partial_bytes = 1});
     EXPECT_EQ(std::memcmp(whole.pixels(), cut.pixels(), whole.bytes()), 0);
     EXPECT_GT(whole(75, 40).a, 0.99f);
     for (const PassTime& pass : context->pass_times()) {
@@ -74,18 +80,10 @@ TEST(Composite, IsTheSameBitsHoweverItIsCut) {
 // A device with hardly any memory: by smaller and smaller pieces, the same bits, and it says so.
 TEST(Composite, IsDrawnInPiecesWhereMemoryRunsOut) {
     if (!any_context()) GTEST_SKIP() << "no device of Vulkan";
-    Shown shown;
-    const engine::LevelRule rule = engine::level_rule(shown.input);
-    const engine::ScatterKernels kernels(shown.input, rule);
-    const engine::SampleSet set = engine::complete_samples(shown.input);
-    const engine::ScatterPlan plan =
-        engine::make_plan(shown.input, set.samples, set.connected, shown.colour.rect(), 0, rule, kernels);
-    Memory memory(std::numeric_limits<std::size_t>::max());
-    const Control control{*shown.input.workers, shown.progress};
-    const PackedAtlas atlas(laid_out<PackedSet>(kernels, plan.kernels, "test", memory, control));
+    Planned planned;
     Picture whole(kWidth, kHeight);
     const auto roomy = any_context();
-    composite_tiles(*roomy, plan, atlas, whole, control);
+    composite_tiles(*roomy, planned.plan, planned.atlas, whole, planned.control);
     EXPECT_TRUE(roomy->said().empty());
     for (std::size_t most_bytes = std::size_t(1) << 18;; most_bytes = most_bytes * 5 / 4) {
         ASSERT_LT(most_bytes, std::size_t(1) << 28);
@@ -93,7 +91,7 @@ TEST(Composite, IsDrawnInPiecesWhereMemoryRunsOut) {
         context->heap().limit(most_bytes);
         Picture pieces(kWidth, kHeight);
         try {
-            composite_tiles(*context, plan, atlas, pieces, control);
+            composite_tiles(*context, planned.plan, planned.atlas, pieces, planned.control);
         } catch (const Failed& failed) {
             EXPECT_EQ(failed.error.code, ErrorCode::OutOfMemory);
             continue;
