@@ -25,6 +25,11 @@ auto numbers_of(const Camera& c) {
     return std::tuple(c.focal_length_mm, c.sensor_width_mm, c.f_number, c.focus_distance_m, c.image_scale);
 }
 
+// What gather does not take is a matte, and more layers over hidden ones.
+bool gather_draws(const Shot& shot) {
+    return shot.holdout.empty() && (shot.layers.empty() || (shot.behind.empty() && shot.deep.empty()));
+}
+
 // The steps of a frame. Scatter, and the tracer that judges it, begin with what is quick: in a scene, which
 // is small, lights as sprites.
 Look look_of_step(const Wish& wish, int step) {
@@ -32,7 +37,8 @@ Look look_of_step(const Wish& wish, int step) {
     Look now = look;
     const bool slow = look.engine == "scatter" || look.engine == "reference";
     now.quality = step == 0 ? Quality::Draft : step == 1 ? Quality::Standard : Quality::Final;
-    if (step == 0 && slow && wish.shown == "result") now.engine = wish.shot->is_live ? "sprites" : "gather";
+    if (step == 0 && slow && wish.shown == "result")
+        now.engine = wish.shot->is_live ? "sprites" : gather_draws(wish.shot->shot) ? "gather" : "scatter";
     if (step == 0) now.glare.star_quality = StarQuality::Draft;
     if (look.engine == "reference")
         now.pupil_points = std::min(look.pupil_points, step == 1 ? 64 : look.pupil_points);

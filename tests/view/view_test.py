@@ -1,4 +1,5 @@
 """petzval view under Xvfb: scripts do what a hand would, and look at the screen. Prints how long windows took."""
+import json
 import os
 import shlex
 import shutil
@@ -70,6 +71,24 @@ class ViewTest(window.WindowTest):
         subprocess.run([PETZVAL, *command[1:]], cwd=self.shared, check=True, capture_output=True)
         saved, commanded = self.contents("saved.exr", "commanded.exr")
         self.assertTrue(saved == commanded, "other bytes by " + out)
+
+    def test_hidden_layers_and_a_matte_stand_in_the_frame_from_the_first_draft_on(self):
+        subprocess.run([PETZVAL, "scene", "make", "bars", "-o", "bars.exr", "--layers", "hidden.exr", "--width", "96",
+                        "--height", "54", "--samples", "4"], cwd=self.shared, check=True, capture_output=True)
+        out, _ = self.do("""
+            wait
+            expect no error
+            say frame.engine
+            save matted.exr
+            wait
+            expect notice wrote
+        """, "bars.exr", "--behind", "hidden.exr", "--holdout", "hidden.exr")
+        self.assertIn("scatter", out)
+        subprocess.run([PETZVAL, "defocus", "bars.exr", "--behind", "hidden.exr", "--holdout", "hidden.exr", "-o", "by-hand.exr"],
+                       cwd=self.shared, check=True, capture_output=True)
+        compared = subprocess.run([PETZVAL, "compare", "by-hand.exr", "matted.exr", "--json", "-"], cwd=self.shared, check=True,
+                                  capture_output=True, text=True)
+        self.assertEqual(json.loads(compared.stdout)["max_error"], 0)
 
     def test_keys_show_channels_buffers_and_exposure_on_the_screen(self):
         # A red channel is grey; the same key again brings colour back; depth, radii and help show something else.
