@@ -188,6 +188,8 @@ std::vector<LookRow> rows_of_glare() {
             "a glow around all light, which takes this share of it, as 0.1"),
         row("Glare", "--bloom-radius", "glare.bloom_radius", value("SHARE", parse_positive),
             "standard deviation of its widest layer, in heights of the picture (default 0.08)"),
+        row("Glare", "--bloom-threshold", "glare.bloom_threshold", value("LIGHT", parse_not_negative),
+            "only the light above this glows; 1 is diffuse white, 0 all light (default)"),
         row("Glare", "--star", "glare.star", value("SHARE", parse_share),
             "stars around highlights, by diffraction at the --blades, as 0.1"),
         row("Glare", "--star-radius", "glare.star_radius", value("SHARE", parse_positive),

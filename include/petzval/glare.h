@@ -31,9 +31,11 @@ enum class LensCoating {
 // All amounts 0: the picture comes back bit for bit. Their sum may not exceed 1.
 struct GlareAmounts {
     // Gaussian layers, each twice as wide as the one before and all of equal light, so that the glow falls
-    // about as 1/r^2; of the whole picture.
+    // about as 1/r^2; of the whole picture, or of the light above bloom_threshold alone.
     double bloom = 0;
     double bloom_radius = 0.08;  // standard deviation of the widest layer, share of the picture's height
+    // As `threshold` below, for bloom. 0: all light, as lenses scatter it. >= 0.
+    double bloom_threshold = 0;
 
     // Spikes across the aperture's edges, of the light above `threshold`: n for an even number of blades n,
     // 2n for an odd one. Needs lens.aperture.blades.

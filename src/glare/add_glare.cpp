@@ -55,6 +55,8 @@ Status check(const GlareSettings& s) {
         return refuse("glare.bloom_radius", s.bloom_radius, "0.0001 to 1 heights");
     if (!in(s.star_radius, 1e-3, 2)) return refuse("glare.star_radius", s.star_radius, "0.001 to 2 heights");
     if (!in(s.threshold, 0, 1e9)) return refuse("glare.threshold", s.threshold, "0 or more");
+    if (!in(s.bloom_threshold, 0, 1e9))
+        return refuse("glare.bloom_threshold", s.bloom_threshold, "0 or more");
     if (!in(s.diffraction_px, 0, 1e6))
         return refuse("the size of diffraction", s.diffraction_px, "0 or more");
     if (!in(s.place.pixel_aspect, 0.01, 100))
@@ -80,7 +82,11 @@ GlarePlan plan_of(const GlareSettings& s, double height, const Rect& picture, Ke
     GlarePlan plan;
     plan.bloom = float(s.bloom), plan.star = float(s.star), plan.ghosts = float(s.ghosts);
     plan.veil = float(s.veil), plan.threshold = float(s.threshold);
-    plan.of_all = float(s.bloom + s.veil), plan.of_highlights = float(s.star + s.ghosts);
+    plan.bloom_threshold = float(s.bloom_threshold);
+    const bool blooms_all = s.bloom_threshold == 0;
+    plan.of_all = float(blooms_all ? s.bloom + s.veil : s.veil);
+    plan.of_bloom_light = float(blooms_all ? 0 : s.bloom);
+    plan.of_highlights = float(s.star + s.ghosts);
     const ApertureShape& aperture = s.lens.aperture;
     if (s.bloom > 0) plan.bloom_layers = plan_bloom(s.bloom_radius * height, s.place.pixel_aspect);
     if (s.star > 0 && s.star_quality == StarQuality::Draft)

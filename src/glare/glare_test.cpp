@@ -57,6 +57,7 @@ const std::vector<Part>& parts() {
         {"draft star", [](GlareSettings& s) { s.star = 0.3, s.star_quality = StarQuality::Draft; }},
         {"ghosts", [](GlareSettings& s) { s.ghosts = 0.3; }},
         {"veil", [](GlareSettings& s) { s.veil = 0.3; }},
+        {"bloom of highlights", [](GlareSettings& s) { s.bloom = 0.3, s.bloom_threshold = 1; }},
     };
     return all;
 }
@@ -149,6 +150,24 @@ TEST(Glare, WhatIsBelowTheThresholdThrowsNoStarsAndNoGhosts) {
     EXPECT_FALSE(same_bits(glared(picture, settings), picture));
 }
 
+TEST(Glare, BloomOfHighlightsLeavesTheRestAndGrowsFromNothing) {
+    GlareSettings settings = six_blades();
+    settings.bloom = 0.5, settings.bloom_threshold = 1;
+    const Picture matt(kWidth, kHeight, {0.9f, 0.5f, 1.0f, 1});
+    EXPECT_TRUE(same_bits(glared(matt, settings), matt));
+    // A light that brightens little by little glows little by little: no frame of it flickers.
+    const auto glow_of = [&](float light) {
+        Picture picture(kWidth, kHeight);
+        picture(kWidth / 2, kHeight / 2) = {light, light, light, 1};
+        return glared(picture, settings)(kWidth / 2 + 1, kHeight / 2).g;
+    };
+    EXPECT_EQ(glow_of(1.0f), 0);
+    const float step = glow_of(1.01f);
+    EXPECT_GT(step, 0);
+    EXPECT_NEAR(glow_of(1.02f), 2 * step, 0.01f * step);
+    EXPECT_NEAR(glow_of(2.0f), 100 * step, 0.1f * step);
+}
+
 TEST(Glare, EveryNumberChangesTheResult) {
     const Picture picture = lamp();
     GlareSettings all = six_blades();
@@ -157,6 +176,7 @@ TEST(Glare, EveryNumberChangesTheResult) {
     const std::vector<Part> changes{
         {"bloom", [](GlareSettings& s) { s.bloom = 0.2; }},
         {"bloom radius", [](GlareSettings& s) { s.bloom_radius = 0.1; }},
+        {"bloom threshold", [](GlareSettings& s) { s.bloom_threshold = 100; }},
         {"star", [](GlareSettings& s) { s.star = 0.2; }},
         {"star radius", [](GlareSettings& s) { s.star_radius = 0.2; }},
         {"diffraction", [](GlareSettings& s) { s.diffraction_px = 3; }},
@@ -189,6 +209,7 @@ TEST(Glare, NumbersThatMeanNothingAreNamed) {
         {"glare.veil", [](GlareSettings& s) { s.veil = 1.5; }},
         {"at most 1", [](GlareSettings& s) { s.veil = s.bloom = 0.6; }},
         {"glare.bloom_radius", [](GlareSettings& s) { s.bloom_radius = 0; }},
+        {"glare.bloom_threshold", [](GlareSettings& s) { s.bloom_threshold = double(kNaN); }},
         {"glare.star_radius", [](GlareSettings& s) { s.star_radius = 50; }},
         {"glare.threshold", [](GlareSettings& s) { s.threshold = -1; }},
         {"lens.blades", [](GlareSettings& s) { s.star = 0.1, s.lens.aperture.blades = 0; }},

@@ -51,11 +51,13 @@ struct Filter {
     std::size_t bytes() const { return 3 * r.size() * sizeof(float); }
 };
 
-// Amounts are shares of the light, those of `star` and `ghosts` of the highlights above the threshold.
+// Amounts are shares of the light, those of `star` and `ghosts` of the highlights above the threshold, that
+// of `bloom` of those above its own.
 struct GlarePlan {
     float bloom = 0, star = 0, ghosts = 0, veil = 0;
-    float threshold = 1;
-    float of_all = 0, of_highlights = 0;   // what the parts take together
+    float threshold = 1, bloom_threshold = 0;
+    // What the parts take together, and bloom of its highlights; where its threshold is 0 that is in of_all.
+    float of_all = 0, of_highlights = 0, of_bloom_light = 0;
     BloomPlan bloom_layers;                // where bloom > 0
     std::vector<Streak> streaks;           // where star > 0, either these, by reduction,
     std::shared_ptr<const Filter> filter;  // or this

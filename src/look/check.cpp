@@ -240,7 +240,7 @@ Rules rules_of_character() {
 
 Rules rules_of_light() {
     return {
-        {{"glare.bloom_radius"},
+        {{"glare.bloom_radius", "glare.bloom_threshold"},
          [](const Look& l) { return unless(l.glare.bloom > 0, "without glare.bloom, as glare.bloom 0.1"); }},
         {{"glare.star_radius", "glare.star_quality"},
          [](const Look& l) { return unless(l.glare.star > 0, "without glare.star, as glare.star 0.1"); }},
@@ -255,7 +255,10 @@ Rules rules_of_light() {
          }},
         {{"glare.threshold"},
          [](const Look& l) {
-             return unless(l.glare.star > 0 || l.glare.ghosts > 0, "without glare.star or glare.ghosts");
+             return unless(l.glare.star > 0 || l.glare.ghosts > 0,
+                           l.glare.bloom > 0 ? "without glare.star or glare.ghosts; bloom has a threshold of "
+                                               "its own, glare.bloom_threshold"
+                                             : "without glare.star or glare.ghosts");
          }},
         {{"plate.knee", "plate.peak"},
          [](const Look& l) { return unless(l.expand_highlights, "without plate.expand_highlights"); }},

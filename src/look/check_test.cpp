@@ -43,6 +43,16 @@ TEST(LookCheck, WhatWasSaidIsAChoiceAlsoAtItsDefault) {
         std::vector<std::string>{"glare.coating has no effect without glare.ghosts, as glare.ghosts 0.02"});
 }
 
+TEST(LookCheck, BloomHasAThresholdOfItsOwn) {
+    Look look;
+    look.glare.bloom = 0.1;
+    EXPECT_EQ(
+        idle(look, {"glare.threshold"}),
+        std::vector<std::string>{"glare.threshold has no effect without glare.star or glare.ghosts; bloom "
+                                 "has a threshold of its own, glare.bloom_threshold"});
+    EXPECT_TRUE(idle(look, {"glare.bloom_threshold"}).empty());
+}
+
 TEST(LookCheck, StarsUseTheApertureThatABlurDoesNot) {
     Look look;
     look.engine = "gaussian";

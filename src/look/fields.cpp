@@ -122,6 +122,7 @@ std::vector<Field> engine_fields() {
 std::vector<Field> light_fields() {
     return {field("glare.bloom", MEMBER(glare.bloom)),
             field("glare.bloom_radius", MEMBER(glare.bloom_radius)),
+            field("glare.bloom_threshold", MEMBER(glare.bloom_threshold)),
             field("glare.star", MEMBER(glare.star)),
             field("glare.star_radius", MEMBER(glare.star_radius)),
             field("glare.star_quality", MEMBER(glare.star_quality)),

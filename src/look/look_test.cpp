@@ -85,6 +85,7 @@ Changes changes_of_engines_and_light() {
             [](Look& l) { l.sprites.bright_factor = 7; },
             [](Look& l) { l.glare.bloom = 0.1; },
             [](Look& l) { l.glare.bloom_radius = 0.2; },
+            [](Look& l) { l.glare.bloom_threshold = 2; },
             [](Look& l) { l.glare.star = 0.3; },
             [](Look& l) { l.glare.star_radius = 0.4; },
             [](Look& l) { l.glare.star_quality = StarQuality::Draft; },

@@ -13,7 +13,7 @@ DEFOCUS_VALUES = {
     "--focus": "2m", "--focus-at": "1,1", "--focus-point": "1,2,3", "--image-scale": "rendered", "--focus-range": "1,3",
     "--permissible-radius": "2", "--near-scale": "1", "--far-scale": "1", "--max-radius": "9", "--lens": "ideal", "--blades": "5",
     "--squeeze": "2", "--cats-eye": "0.5", "--engine": "reference", "--quality": "draft", "--seed": "3", "--ocio": "sRGB", "--ocio-space": "scene",
-    "--bloom": "0.1", "--star": "0", "--ghosts": "0.1", "--veil": "0.1", "--bloom-radius": "0.1", "--transfer": "srgb",
+    "--bloom": "0.1", "--star": "0", "--ghosts": "0.1", "--veil": "0.1", "--bloom-radius": "0.1", "--bloom-threshold": "1", "--transfer": "srgb",
     "--star-radius": "0.3", "--star-quality": "draft", "--coating": "none", "--glare-threshold": "2", "--highlight-peak": "8",
     "--focus-mode": "best", "--max-memory": "2G", "-o": "out.exr", "--view": "coc", "--json": "r.json", "--threads": "1", "--progress": "off",
     "--gather-stage": "cure", "--gather-taps": "16", "--gather-coc": "mean", "--gather-fill": "off", "--fill": "dim", "--points": "p.csv",

@@ -21,15 +21,16 @@ Picture with_lamps(int width, int height) {
 
 // One look for each part, each of them alone, and one of all together.
 std::vector<Look> looks() {
-    Look bloom, star, quick, rest;
+    Look bloom, of_highlights, star, quick, rest;
     bloom.glare.bloom = 0.3;
+    of_highlights.glare.bloom = 0.3, of_highlights.glare.bloom_threshold = 1, of_highlights.glare.veil = 0.2;
     star.glare.star = 0.2, star.glare.star_radius = 0.3, star.lens.aperture.blades = 5;
     quick = star;
     quick.glare.star_quality = StarQuality::Draft;
     rest.glare.veil = 0.1, rest.glare.ghosts = 0.2;
     Look all = quick;
     all.glare.bloom = 0.1, all.glare.veil = 0.1, all.glare.ghosts = 0.1, all.glare.bloom_radius = 0.4;
-    return {bloom, star, quick, rest, all};
+    return {bloom, star, quick, rest, all, of_highlights};
 }
 
 Picture lit(Session& session, const Picture& picture, const Look& look, double pixel_aspect = 1) {

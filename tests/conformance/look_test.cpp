@@ -18,6 +18,7 @@ using Choice = std::pair<const char*, const char*>;  // a field's path and a val
 std::vector<Choice> changes_of_light() {
     return {{"glare.bloom", "0.2"},
             {"glare.bloom_radius", "0.3"},
+            {"glare.bloom_threshold", "0.5"},
             {"glare.star", "0.2"},
             {"glare.star_radius", "0.2"},
             {"glare.star_quality", "draft"},

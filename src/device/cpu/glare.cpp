@@ -23,14 +23,16 @@ Picture usable_light(View<const Rgba> picture, Workers& workers) {
     return light;
 }
 
-// Leaves finite colour, less what the parts take.
-void take(View<Rgba> picture, View<const Rgba> bright, const GlarePlan& plan, Workers& workers) {
+// Leaves finite colour, less what the parts take. An empty picture of highlights: none are taken.
+void take(View<Rgba> picture, View<const Rgba> bright, View<const Rgba> bloom_light, const GlarePlan& plan,
+          Workers& workers) {
     parallel_for(picture.height(), workers, [&](int y) {
         for (int x = 0; x < picture.width(); ++x) {
             const Rgba c = picture(x, y);
             const auto finite = [](float v) { return std::isfinite(v) ? v : 0.0f; };
             Rgba left = Rgba{finite(c.r), finite(c.g), finite(c.b), 0} - plan.of_all * usable(c);
             if (!bright.empty()) left -= plan.of_highlights * bright(x, y);
+            if (!bloom_light.empty()) left -= plan.of_bloom_light * bloom_light(x, y);
             picture(x, y) = {left.r, left.g, left.b, c.a};
         }
     });
@@ -74,12 +76,14 @@ void add_planned_glare(const GlarePlan& plan, View<Rgba> picture, Workers& worke
         if (passed) passed(part);
     };
     const Picture light = usable_light(picture, workers);
-    Picture bright;
+    Picture bright, bloom_light;
     if (plan.of_highlights > 0) bright = highlights(light, plan.threshold, workers);
-    take(picture, bright, plan, workers);
+    if (plan.of_bloom_light > 0) bloom_light = highlights(light, plan.bloom_threshold, workers);
+    take(picture, bright, bloom_light, plan, workers);
     done("highlights of glare");
     if (plan.bloom > 0) {
-        add(picture, bloom(light, plan.bloom_layers, workers), plan.bloom, workers);
+        add(picture, bloom(bloom_light.empty() ? light : bloom_light, plan.bloom_layers, workers), plan.bloom,
+            workers);
         done("bloom");
     }
     if (!plan.streaks.empty()) add_streaks(picture, bright, plan.streaks, plan.star, workers);

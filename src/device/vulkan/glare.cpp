@@ -21,10 +21,16 @@ struct BlurPush {
     std::uint32_t adds = 0;
 };
 
+struct LightPush {
+    Size size, padded;
+    float threshold = 0;
+};
+
 struct AddPush {
     Size size;
     std::uint32_t padded_width = 0;
     float of_all = 0, of_highlights = 0, threshold = 0;
+    float of_bloom_light = 0, bloom_threshold = 0;
     float bloom = 0, star = 0, ghosts = 0, veil = 0;
 };
 
@@ -52,6 +58,8 @@ public:
                            plan_.of_all,
                            plan_.of_highlights,
                            plan_.threshold,
+                           plan_.of_bloom_light,
+                           plan_.bloom_threshold,
                            plan_.bloom,
                            plan_.star,
                            plan_.ghosts,
@@ -93,7 +101,7 @@ private:
             levels_.push_back(room(size.pixels()));
             sums_by_level_.push_back(room(size.pixels()));
         }
-        const std::array<Size, 2> push{size_, padded_};
+        const LightPush push{size_, padded_, plan_.bloom_threshold};
         recording_.pass("take light", context_.program(Shader::GlareLight), {&picture, &levels_.front()},
                         push, invocations(padded_.pixels()));
         for (std::size_t l = 1; l < levels_.size(); ++l)

@@ -11,6 +11,7 @@ layout(std430, binding = 4) readonly buffer Sum { vec4 sum[]; };        // of al
 layout(push_constant) uniform Push {
     uint width, height, padded_width;
     float of_all, of_highlights, threshold;
+    float of_bloom_light, bloom_threshold;
     float bloom, star, ghosts, veil;  // amounts; veil: by pixel
 } at;
 #include "glare.glsl"
@@ -22,6 +23,7 @@ void main() {
     const vec3 light = usable(c.rgb);
     vec3 left = vec3(finite(c.r), finite(c.g), finite(c.b)) - at.of_all * light;
     if (at.of_highlights > 0) left -= at.of_highlights * highlight(light, at.threshold);
+    if (at.of_bloom_light > 0) left -= at.of_bloom_light * highlight(light, at.bloom_threshold);
     if (at.bloom > 0) left += at.bloom * glow[i / at.width * at.padded_width + i % at.width].rgb;
     if (at.star > 0) left += at.star * star[i].rgb;
     if (at.ghosts > 0) left += at.ghosts * ghosts[i].rgb;

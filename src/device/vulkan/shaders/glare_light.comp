@@ -5,7 +5,7 @@ layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Picture { vec4 picture[]; };
 layout(std430, binding = 1) writeonly buffer Light { vec4 light[]; };
-layout(push_constant) uniform Push { uint width, height, padded_width, padded_height; } at;
+layout(push_constant) uniform Push { uint width, height, padded_width, padded_height; float threshold; } at;
 #include "glare.glsl"
 
 void main() {
@@ -13,5 +13,5 @@ void main() {
     if (i >= at.padded_width * at.padded_height) return;
     const int x = mirrored(int(i % at.padded_width), int(at.width)),
               y = mirrored(int(i / at.padded_width), int(at.height));
-    light[i] = vec4(usable(picture[y * int(at.width) + x].rgb), 0);
+    light[i] = vec4(highlight(usable(picture[y * int(at.width) + x].rgb), at.threshold), 0);
 }
