@@ -41,7 +41,10 @@ class Help : public CLI::FormatterBase {
 
 std::string unknown_argument(const Verb& verb) {
     const auto extras = verb.remaining(true);
-    auto odd = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with("-"); });
+    // Where a verb is wanted the first word is it, and what follows was meant for that one.
+    auto odd = extras.begin();
+    if (verb.get_subcommands({}).empty())
+        odd = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with("-"); });
     if (odd == extras.end()) odd = extras.begin();
     const std::string word = odd == extras.end() ? "?" : odd->substr(0, odd->find('='));
     std::vector<std::string> known;

@@ -139,7 +139,7 @@ Result<Interval> parse_range(const std::string& text) {
     const auto parts = split_at_comma(text);
     const auto low = parts ? whole_number(parts->first) : std::nullopt;
     const auto high = parts ? whole_number(parts->second) : std::nullopt;
-    if (!low || !high) return no("must be two numbers with a comma between, as 0.1,100");
+    if (!low || !high) return no("must be two numbers without units and a comma between, as 0.1,100");
     return Interval{*low, *high};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace petzval {
 namespace {
@@ -33,7 +34,8 @@ Status check(const DepthSettings& s) {
     const auto refuse = [](const std::string& message) {
         return Error{ErrorCode::InvalidArgument, message, message.substr(0, message.find(' '))};
     };
-    const auto got = [](double v) { return ", got " + std::to_string(v); };
+    const auto words = [](double v) { return (std::ostringstream() << v).str(); };
+    const auto got = [&](double v) { return ", got " + words(v); };
     if (s.kind == DepthKind::CocPx)
         return refuse("depth.kind coc-px holds circle-of-confusion radii, not distances in metres");
     if (!(s.unit_scale_m > 0) || !std::isfinite(s.unit_scale_m))
@@ -55,8 +57,7 @@ Status check(const DepthSettings& s) {
         const double near = *s.range_near, far = *s.range_far;
         const bool inverse = is_by_inverse(s.kind);
         if (!(near > 0 || (near == 0 && !inverse)) || !(far > 0 || (far == 0 && !inverse)) || near == far)
-            return refuse("depth.range needs two different distances > 0" + got(near) + "," +
-                          std::to_string(far));
+            return refuse("depth.range needs two different distances > 0" + got(near) + "," + words(far));
         if ((std::isinf(near) || std::isinf(far)) && !inverse)
             return refuse("depth.range may be infinite only for depth.kind device and inverse");
     }

@@ -69,6 +69,20 @@ TEST(ChannelChoice, NamesThatCanBeTypedAreListed) {
     EXPECT_THAT(red_of(layout({part("", {"G"})})), HasSubstr("all of R, G and B are needed, or Y"));
 }
 
+TEST(ChannelChoice, ALayerWithoutColourIsToldHowItIsBlurred) {
+    const Layout mattes = layout({part("", {"R", "G", "B", "key.R", "key.G", "key.B", "matte.ball", "N.X"})});
+    for (const char* name : {"matte", "matte.ball"}) {
+        ReadOptions options;
+        options.layer = name;
+        EXPECT_THAT(red_of(mattes, options), HasSubstr("it has 'key'"));
+        EXPECT_THAT(red_of(mattes, options),
+                    HasSubstr(std::string("holds no colour: read.layers ") + name + " blurs it beside"));
+    }
+    ReadOptions options;
+    options.layer = "N";
+    EXPECT_THAT(red_of(mattes, options), testing::EndsWith("'N' holds no colour"));
+}
+
 TEST(ChannelNames, SplitIntoLayerViewAndBaseAsOpenExrDefines) {
     const std::vector<std::string> views{"right", "left"};
     const auto parts_of = [&](const std::string& name) {

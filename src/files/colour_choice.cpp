@@ -42,6 +42,20 @@ Result<std::vector<ChannelGroup>> of_wanted_view(const std::string& path, const 
     return kept;
 }
 
+// Of a layer that is there and is none of colour: what to do with it. "" if there is none.
+std::string what_of_no_colour(const Layout& layout, const std::string& layer) {
+    for (const ChannelGroup& g : groups_of(layout)) {
+        const auto is_channel = [&](const auto& channel) { return lower(channel.second) == lower(layer); };
+        if (!is_called(g, layout.parts[g.part], layer) &&
+            std::none_of(g.channel.begin(), g.channel.end(), is_channel))
+            continue;
+        const std::string no_colour = "; '" + printable(layer) + "' holds no colour";
+        if (is_data_name(name_of_layer(g, layout.parts[g.part]))) return no_colour;
+        return no_colour + ": read.layers " + printable(layer) + " blurs it beside the picture";
+    }
+    return "";
+}
+
 Result<std::vector<ChannelGroup>> of_wanted_layer(const std::string& path, const Layout& layout,
                                                   const std::string& layer,
                                                   std::vector<ChannelGroup> groups) {
@@ -56,7 +70,8 @@ Result<std::vector<ChannelGroup>> of_wanted_layer(const std::string& path, const
                  printable(path, 4096) + ": has no colour layer or part '" + printable(layer) + "'" +
                      did_you_mean(layer, names) +
                      (names.empty() ? "; its colour has no name, and is read where none is asked for"
-                                    : "; it has " + listed(names))};
+                                    : "; it has " + listed(names)) +
+                     what_of_no_colour(layout, layer)};
 }
 
 std::string reason(const ChannelGroup& g, const Part& part, const ReadOptions& options,

@@ -54,9 +54,8 @@ Status check(const GlareSettings& s) {
     if (!in(s.bloom_radius, 1e-4, 1))
         return refuse("glare.bloom_radius", s.bloom_radius, "0.0001 to 1 heights");
     if (!in(s.star_radius, 1e-3, 2)) return refuse("glare.star_radius", s.star_radius, "0.001 to 2 heights");
-    if (!in(s.threshold, 0, 1e9)) return refuse("glare.threshold", s.threshold, "0 or more");
-    if (!in(s.bloom_threshold, 0, 1e9))
-        return refuse("glare.bloom_threshold", s.bloom_threshold, "0 or more");
+    if (!in(s.threshold, 0, 1e9)) return refuse("glare.threshold", s.threshold, "0 to 1e9");
+    if (!in(s.bloom_threshold, 0, 1e9)) return refuse("glare.bloom_threshold", s.bloom_threshold, "0 to 1e9");
     if (!in(s.diffraction_px, 0, 1e6))
         return refuse("the size of diffraction", s.diffraction_px, "0 or more");
     if (!in(s.place.pixel_aspect, 0.01, 100))

@@ -98,6 +98,10 @@ class Usage(CommandLineTest):
     def test_version(self):
         self.assertRegex(self.succeed("--version").out, r"^petzval \d+\.\d+\.\d+( \(git [0-9a-f]{8}\+?\))?\n$")
 
+    def test_a_verb_mistyped_is_what_is_wrong_and_not_the_flags_after_it(self):
+        self.refuse(2, "defokus", "in.exr", "-o", "out.exr", says=["unknown verb defokus (did you mean defocus?)"])
+        self.refuse(2, "lens", "shwo", "doublet", "--json", "x.json", says=["unknown verb shwo"])
+
     def test_no_verb_or_an_unknown_one(self):
         self.refuse(2, says=["--help"])
         self.refuse(2, "defcus", says=["defcus", "did you mean defocus"])

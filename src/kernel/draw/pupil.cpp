@@ -109,8 +109,9 @@ Status check_aperture(const LensChoice& choice) {
     const ApertureShape& shape = choice.aperture;
     if (shape.blades != 0 && (shape.blades < 3 || shape.blades > 64))
         return invalid("lens.blades", shape.blades, "0 (round) or 3 to 64");
-    if (!std::isfinite(shape.rotation_deg))
-        return invalid("lens.blade_rotation_deg", shape.rotation_deg, "a number of degrees");
+    // Far beyond, turns are no longer told apart.
+    if (!(std::abs(shape.rotation_deg) <= 1e6))
+        return invalid("lens.blade_rotation_deg", shape.rotation_deg, "-1e6 to 1e6 degrees");
     if (!(shape.curvature >= 0 && shape.curvature <= 1))
         return invalid("lens.blade_curvature", shape.curvature, "0 (straight) to 1 (circle)");
     if (!(shape.squeeze >= 0.1 && shape.squeeze <= 10))

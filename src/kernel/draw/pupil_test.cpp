@@ -193,6 +193,8 @@ TEST(Pupil, NumbersOutOfRangeAreRefusedByName) {
     EXPECT_TRUE(names(message([](LensChoice& c) { c.barn_doors.left = 2; }), "lens.barn_doors"));
     EXPECT_TRUE(names(message([](LensChoice& c) { c.barn_doors = {1, 1, 0, 0}; }), "lens.barn_doors"));
     EXPECT_TRUE(names(message([](LensChoice& c) { c.texture.dust = 1.5; }), "lens.dust"));
+    EXPECT_TRUE(names(message([](LensChoice& c) { c.aperture = {.blades = 5, .rotation_deg = 1e300}; }),
+                      "lens.blade_rotation_deg"));
     EXPECT_TRUE(names(message([](LensChoice& c) { c.barrel = {{-1, 3}}; }), "lens.barrel"));
     EXPECT_TRUE(names(message([](LensChoice& c) { c.aperture.round_at_f_number = -1; }), "lens.iris_open"));
 }

@@ -101,9 +101,14 @@ bool is_ours(const struct stat& about) {
     return (about.st_uid == geteuid() || about.st_uid == 0) && (about.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-bool is_ours_or_absent(const std::string& path) {
+// Of a folder that is there; "" if kernels may be kept in it.
+std::string why_no_use(const std::string& path) {
     struct stat about {};
-    return stat(path.c_str(), &about) != 0 || is_ours(about);
+    if (stat(path.c_str(), &about) != 0) return "";
+    if (!S_ISDIR(about.st_mode)) return "which is no folder";
+    return is_ours(about)
+               ? ""
+               : "where others may write: make it your own (chmod -R go-w), or give another folder";
 }
 
 // A folder that only this user may enter, if it is new. Failure shows when the segment is written.
@@ -212,11 +217,9 @@ KernelStore::KernelStore(std::string folder, const std::string& lens_key, std::s
       lens_folder_(folder_ + "/" + lens_key),
       lens_key_(lens_key),
       max_bytes_(max_bytes) {
-    const bool ours = is_ours_or_absent(folder_) && is_ours_or_absent(lens_folder_);
-    if (!ours)
-        warning_ = "kernels are not kept in " + folder_ +
-                   ", where others may write: make it your own (chmod -R go-w), or give another folder";
-    if (!lens_name(lens_key_) || folder_.empty() || !ours)
+    const std::string no_use = why_no_use(folder_).empty() ? why_no_use(lens_folder_) : why_no_use(folder_);
+    if (!no_use.empty()) warning_ = "kernels are not kept in " + folder_ + ", " + no_use;
+    if (!lens_name(lens_key_) || folder_.empty() || !no_use.empty())
         max_bytes_ = 0;
     else
         open_segments();

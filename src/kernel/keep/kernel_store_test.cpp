@@ -205,6 +205,14 @@ TEST_F(KernelStoreTest, AFolderThatOthersCanWriteToIsNotUsedAndThatIsSaid) {
     EXPECT_EQ(segments().size(), 1u) << "nothing was written either";
 }
 
+TEST_F(KernelStoreTest, AFileInPlaceOfTheFolderIsSpokenOf) {
+    std::ofstream(folder_) << "no folder";
+    expect_the_kernels_of_the_lens(*kept_lens(), choice());
+    EXPECT_NE(store_->warning().find("is no folder"), std::string::npos) << store_->warning();
+    forget();
+    EXPECT_EQ(fs::file_size(folder_), 9u);
+}
+
 TEST_F(KernelStoreTest, APipeAmongTheSegmentsIsNotWaitedFor) {
     expect_the_kernels_of_the_lens(*kept_lens(), choice());
     forget();
