@@ -23,7 +23,7 @@ std::unique_ptr<const PupilShadow> shadow_of(const LightsPlan& plan, const Viewp
     const std::vector<SeenCaster> casters = seen_casters(plan, view);
     if (casters.empty()) return nullptr;
     auto shadow = std::make_unique<PupilShadow>(ShadowGrid(view));
-    for (const SeenCaster& c : casters) shadow->cover(c.u, c.v, c.side, c.blur, c.coverage);
+    shadow->cover(casters);
     shadow->finish();
     return shadow;
 }

@@ -14,8 +14,7 @@ class PupilShadow {
 public:
     explicit PupilShadow(const engine::ShadowGrid& grid);
 
-    // A square of the given side around (u, v), in pupil radii, whose edges are blurred by a box that wide.
-    void cover(float u, float v, float side, float blur, float coverage);
+    void cover(std::span<const engine::SeenCaster> casters);
 
     // Ends covering.
     void finish();
@@ -24,8 +23,7 @@ public:
     void visible(int dx, int dy, std::span<float> shares) const;
 
 private:
-    void cover_few(float x, float y, float side, float coverage);  // in cells
-    float visible(int x0, int y0) const;                           // of the tap whose first cell this is
+    float visible(int x0, int y0) const;  // of the tap whose first cell this is
 
     float scale_;       // signed radius, as taps count it
     int taps_, parts_;  // along a side of the disc's square; cells along a tap

@@ -17,7 +17,11 @@ public:
           view_(view),
           // Taps at the rim of the disc reach beyond it by half their width.
           pupil_end_(plan.stretch +
-                     (0.5f + 0.5f * float(view.size)) / std::max(0.5f, std::abs(view.coc_px))) {}
+                     (0.5f + 0.5f * float(view.size)) / std::max(0.5f, std::abs(view.coc_px))) {
+        for (int v = 0; v < ShadowCasters::kViews; ++v)
+            ends_[v] =
+                std::min(ShadowCasters::end_of_view(v, view.coc_px), view.coc_px - view.own_surface_px);
+    }
 
     std::vector<SeenCaster> collect() {
         constexpr int kBlock = ShadowCasters::kBlock;
@@ -47,8 +51,7 @@ private:
     void add_block(int bx, int by) {
         float done = -1e30f;  // all that is nearer has been seen
         for (int coarse = ShadowCasters::kViews - 1; coarse >= 0; --coarse) {
-            const float end = std::min(ShadowCasters::end_of_view(coarse, view_.coc_px),
-                                       view_.coc_px - view_.own_surface_px);
+            const float end = ends_[coarse];
             if (end <= done) continue;
             for (const Caster& caster : casters().of_block(coarse, bx, by)) {  // nearest first
                 if (caster.coc_px > end) break;
@@ -75,6 +78,7 @@ private:
     const LightsPlan& plan_;
     const Viewpoint& view_;
     const float pupil_end_;
+    float ends_[ShadowCasters::kViews];  // of what each view of the casters is looked at for
     std::vector<SeenCaster> seen_;
 };
 
