@@ -42,12 +42,13 @@ struct DevelopSettings {
     Transfer transfer = Transfer::Srgb;
     bool dither = true;          // triangular, one code value wide on either side, fixed pattern
     int bits = 8;                // 8 or 16
+    bool alpha = false;          // a fourth code a pixel: coverage as it is, rounded
     int threads = 0;             // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
 };
 
-// Interleaved RGB codes, 3 per pixel, row by row. The picture is shown over black: premultiplied colour as it
-// is. NaN and negative light are black, infinite light is white.
+// Interleaved codes, 3 per pixel or 4 with alpha, row by row. The picture is shown over black: premultiplied
+// colour as it is. NaN and negative light are black, infinite light is white.
 PETZVAL_API std::vector<std::uint16_t> develop(View<const Rgba> picture,
                                                const DevelopSettings& settings = {});
 

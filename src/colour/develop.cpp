@@ -1,14 +1,12 @@
 // From scene-linear light to code values: exposure, tone curve, sRGB, dither.
-#include "petzval/develop.h"
-
 #include "base/parallel.h"
+#include "colour/develop_plan.h"
 #include "colour/dither.h"
 #include "colour/tone.h"
 #include "image/srgb.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace petzval {
 
@@ -20,10 +18,7 @@ double srgb_decode(double encoded) {
     return std::copysign(linear, encoded);
 }
 
-namespace {
-
-// The exponent of a curve that is a power of the code, and nothing for one that is not.
-std::optional<double> power_of(Transfer transfer) {
+double colour::power_of(Transfer transfer) {
     switch (transfer) {
         case Transfer::Gamma22:
             return 2.2;
@@ -32,9 +27,11 @@ std::optional<double> power_of(Transfer transfer) {
         case Transfer::Linear:
             return 1;
         default:
-            return std::nullopt;
+            return 0;
     }
 }
+
+namespace {
 
 double signed_power(double value, double exponent) {
     return exponent == 1 ? value : std::copysign(std::pow(std::abs(value), exponent), value);
@@ -43,40 +40,63 @@ double signed_power(double value, double exponent) {
 }  // namespace
 
 double encode(Transfer transfer, double linear) {
-    const auto power = power_of(transfer);
-    return power ? signed_power(linear, 1 / *power) : srgb_encode(linear);
+    const double power = colour::power_of(transfer);
+    return power > 0 ? signed_power(linear, 1 / power) : srgb_encode(linear);
 }
 
 double decode(Transfer transfer, double code) {
-    const auto power = power_of(transfer);
-    return power ? signed_power(code, *power) : srgb_decode(code);
+    const double power = colour::power_of(transfer);
+    return power > 0 ? signed_power(code, power) : srgb_decode(code);
 }
 
 std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopSettings& settings) {
     if (picture.empty()) return {};
-    const int largest = (1 << settings.bits) - 1;
-    const float exposure = float(std::exp2(settings.exposure_stops));
-    std::vector<std::uint16_t> codes(std::size_t(picture.width()) * std::size_t(picture.height()) * 3);
+    return colour::develop(picture, {settings, picture.rect()},
+                           *workers_of(settings.threads, settings.workers));
+}
+
+namespace colour {
+namespace {
+
+// Display-linear, of light.
+Rgba shown(Rgba light, const DevelopSettings& settings) {
+    if (settings.contrast != 1) light = with_contrast(light, settings.contrast);
+    if (settings.tone == ToneCurve::Filmic) light = tone_map(light);
+    if (settings.tone == ToneCurve::Reinhard) light = reinhard(light);
+    return light;
+}
+
+// 0…1; a NaN fails the comparison and is 0.
+float displayable(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
+
+}  // namespace
+
+float DevelopPlan::exposure() const { return float(std::exp2(settings.exposure_stops)); }
+
+std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopPlan& plan, Workers& workers) {
+    const DevelopSettings& settings = plan.settings;
+    const int largest = plan.largest_code();
+    const float exposure = plan.exposure();
+    const View<const Rgba> part = picture.part(plan.part);
+    const std::size_t row_codes = std::size_t(part.width()) * plan.channels();
+    std::vector<std::uint16_t> codes(plan.pixels() * plan.channels());
     const auto code = [&](float display_linear, int x, int y, int channel) {
-        // A NaN fails the comparison and is black.
-        const double encoded =
-            display_linear > 0 ? encode(settings.transfer, std::min(display_linear, 1.0f)) : 0;
-        const double u = settings.dither ? colour::dither_pattern(x, y, channel) : 0.5;
-        return colour::dithered(encoded * largest, largest, u);
+        const double encoded = encode(settings.transfer, displayable(display_linear));
+        const double u = settings.dither ? dither_pattern(plan.x0 + x, plan.y0 + y, channel) : 0.5;
+        return dithered(encoded * largest, largest, u);
     };
-    parallel_for(picture.height(), *workers_of(settings.threads, settings.workers), [&](int y) {
-        std::uint16_t* out = codes.data() + std::size_t(y) * std::size_t(picture.width()) * 3;
-        for (int x = 0; x < picture.width(); ++x) {
-            Rgba c = exposure * picture(x, y);
-            if (settings.contrast != 1) c = colour::with_contrast(c, settings.contrast);
-            if (settings.tone == ToneCurve::Filmic) c = colour::tone_map(c);
-            if (settings.tone == ToneCurve::Reinhard) c = colour::reinhard(c);
+    parallel_for(part.height(), workers, [&](int y) {
+        std::uint16_t* out = codes.data() + std::size_t(y) * row_codes;
+        for (int x = 0; x < part.width(); ++x) {
+            const Rgba c = shown(exposure * part(x, y), settings);
             *out++ = code(c.r, x, y, 0);
             *out++ = code(c.g, x, y, 1);
             *out++ = code(c.b, x, y, 2);
+            if (settings.alpha) *out++ = dithered(double(displayable(part(x, y).a)) * largest, largest, 0.5);
         }
     });
     return codes;
 }
 
+}  // namespace colour
 }  // namespace petzval

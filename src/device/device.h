@@ -12,7 +12,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
+namespace petzval::colour {
+struct DevelopPlan;
+}
 namespace petzval::engine {
 struct GatherPlan;
 struct GaussianPlan;
@@ -96,6 +100,10 @@ public:
                            const Passed& passed) const = 0;
     // The part of a picture's light that stands above a threshold, at home. Empty: this device cannot.
     virtual Picture highlights(Canvas& picture, float threshold, Workers& workers) const = 0;
+    // The plan's part of a picture as codes of a display (petzval/develop.h), which alone come home. Empty:
+    // this device cannot, or the picture is at home.
+    virtual std::vector<std::uint16_t> develop(const colour::DevelopPlan& plan, Canvas& picture,
+                                               Workers& workers) const = 0;
 };
 
 }  // namespace petzval::device

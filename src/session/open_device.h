@@ -73,6 +73,10 @@ public:
     Picture highlights(device::Canvas& picture, float threshold, Workers& workers) const override {
         return device_.highlights(picture, threshold, workers);
     }
+    std::vector<std::uint16_t> develop(const colour::DevelopPlan& plan, device::Canvas& picture,
+                                       Workers& workers) const override {
+        return device_.develop(plan, picture, workers);
+    }
 
     // Who drew: "gpu:0 its name", or "cpu": what engines draw without a device.
     std::string drawn_by() const;

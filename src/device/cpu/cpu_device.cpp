@@ -1,5 +1,6 @@
 #include "device/cpu/cpu_device.h"
 
+#include "colour/develop_plan.h"
 #include "device/cpu/add_lights.h"
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
@@ -64,6 +65,10 @@ public:
     }
     Picture highlights(Canvas& picture, float threshold, Workers& workers) const override {
         return device::highlights(picture.view(), threshold, workers);
+    }
+    std::vector<std::uint16_t> develop(const colour::DevelopPlan& plan, Canvas& picture,
+                                       Workers& workers) const override {
+        return colour::develop(picture.view(), plan, workers);
     }
 };
 

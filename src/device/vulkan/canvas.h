@@ -20,6 +20,8 @@ public:
     const Piece* drawn_on();
     // Where its pixels are, sent there if they were at home; null: they are too many.
     const Piece* sent();
+    // Where its pixels are; null: at home, or nowhere yet.
+    const Piece* away() const { return is_home_ || pixels_.size() == 0 ? nullptr : &pixels_; }
 
 private:
     void come_home() override;

@@ -78,6 +78,9 @@ constexpr std::uint32_t kStarFilter[] =
 constexpr std::uint32_t kStarAdd[] =
 #include "star_add.comp.inc"
     ;
+constexpr std::uint32_t kDevelop[] =
+#include "develop.comp.inc"
+    ;
 constexpr std::uint32_t kRealtimeMeasure[] =
 #include "realtime_measure.comp.inc"
     ;
@@ -140,6 +143,7 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kStarTransform, buffers(3), 52},
         ShaderWords{kStarFilter, buffers(4), 52},
         ShaderWords{kStarAdd, buffers(2), 52},
+        ShaderWords{kDevelop, buffers(2), 52},
         ShaderWords{kRealtimeMeasure, kOfMeasure, 36},
         ShaderWords{kRealtimeSplit, kOfSplit, 36},
         ShaderWords{kRealtimeReach, kOfReach, 36},

@@ -33,6 +33,7 @@ enum class Shader {
     StarTransform,
     StarFilter,
     StarAdd,
+    Develop,
     RealtimeMeasure,
     RealtimeSplit,
     RealtimeReach,

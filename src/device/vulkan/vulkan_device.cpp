@@ -4,6 +4,7 @@
 #include "device/vulkan/add_lights.h"
 #include "device/vulkan/canvas.h"
 #include "device/vulkan/composite.h"
+#include "device/vulkan/develop.h"
 #include "device/vulkan/gather.h"
 #include "device/vulkan/glare.h"
 #include "device/vulkan/mix.h"
@@ -67,6 +68,10 @@ public:
         const Piece* const sent = dynamic_cast<DeviceCanvas&>(picture).sent();
         const Size size{std::uint32_t(picture.width()), std::uint32_t(picture.height())};
         return sent ? highlights_at_home(*context_, *sent, size, threshold) : Picture();
+    }
+    std::vector<std::uint16_t> develop(const colour::DevelopPlan& plan, Canvas& picture,
+                                       Workers& workers) const override {
+        return developed(*context_, plan, dynamic_cast<DeviceCanvas&>(picture), workers);
     }
 
     Context& context() const { return *context_; }
