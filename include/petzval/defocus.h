@@ -101,6 +101,9 @@ struct DefocusReport {
     DeepPicture hidden;
     std::string engine, device, lens;
     std::string glare_device;  // who drew glare, as `device`; empty where there is none
+    // As Control::codes wants them, as of develop(); and who made them, as `device`. Else empty.
+    std::vector<std::uint16_t> codes;
+    std::string codes_device;
     double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front
     std::vector<StageTime> stages;
     std::vector<std::string> warnings;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petzval/defocus.h"
+#include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/look.h"
 #include "petzval/result.h"
@@ -40,6 +41,14 @@ PETZVAL_API DefocusJob with_look(DefocusJob job, const Look& look);
 // pictures are not asked for. Errors: those of check(look), add_falloff() and add_glare().
 PETZVAL_API Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look);
 
+// A frame as codes of a display, in place of light.
+struct CodesWanted {
+    DevelopSettings develop;  // its threads and workers are not asked
+    // What they show, in pixels of the display window as the data window is; black where nothing was made.
+    // Empty: the display window.
+    Rect window = {};
+};
+
 // How one frame is made.
 struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
@@ -49,6 +58,10 @@ struct Control {
     // that part, bit for bit as in the whole. Costs the part with region_margin_px() around it, but for
     // glare, which takes the whole frame. Views and stages that are shown instead of a result are made whole.
     std::optional<Rect> region = {};
+    // Of take() alone: the report's codes hold the frame then, and its image is empty. A frame that was drawn
+    // by a GPU comes home as codes, if nothing is left to be done to its light there. Buffers that are shown
+    // instead of a result stay images.
+    std::optional<CodesWanted> codes = {};
 };
 
 struct SessionUsage {

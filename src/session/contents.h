@@ -21,7 +21,7 @@
 
 namespace petzval {
 
-// What is done to a picture before it comes home from what drew it.
+// What is done to a picture before it comes home from what drew it; null afterwards: nobody needs it there.
 using Finish = std::function<Status(std::shared_ptr<device::Canvas>&)>;
 
 // Lenses that frames used, the last one first. Frames hold what they use, so that it may be let go of any

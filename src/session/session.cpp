@@ -194,7 +194,7 @@ Status bring_home(DefocusReport& report, std::shared_ptr<device::Canvas> drawn, 
     if (!last || !report.panels.empty()) return Done{};
     if (!drawn) drawn = canvas_of(drawing, std::move(report.image));
     if (const Status done = last(drawn); !done) return done;
-    report.image = drawn->take();
+    if (drawn) report.image = drawn->take();
     return Done{};
 }
 
@@ -317,6 +317,7 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
 }
 
 Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& control) {
+    if (control.codes) return invalid("control.codes are of whole frames, as Session::take() makes them");
     return contents_->unless_cancelled(control, [&](Progress& progress, CancellableWorkers& workers) {
         auto report = with_lamps(job, [&](const DefocusJob& one) {
             return contents_->defocus(one, control.region, progress, workers);

@@ -1,11 +1,13 @@
 // The order of a frame: highlights given back to a plate, blur, light lost towards the corners, glare, and
-// back into the plate's range.
+// back into the plate's range; then codes of a display, where those are wanted.
 #include "petzval/dynamic_range.h"
 #include "petzval/glare.h"
 #include "petzval/look_check.h"
 
+#include "device/cpu/cpu_device.h"
 #include "engine/waist/stopwatch.h"
 #include "session/contents.h"
+#include "session/frame_codes.h"
 #include "session/frame_part.h"
 #include "session/lamp_layers.h"
 #include "session/limit.h"
@@ -68,18 +70,21 @@ Status light(std::shared_ptr<device::Canvas>& picture, const DefocusJob& job, co
     return add_glare_to(*picture, job, look, by);
 }
 
-// What the lens does to all light of a frame: to the picture where it was drawn, before it comes home, unless
-// lamps change it afterwards.
+// What the lens does to all light of a frame, and codes of that: where the picture was drawn, before it comes
+// home, unless lamps change it afterwards.
 class FrameLight {
 public:
-    FrameLight(const DefocusJob& job, const Look& look, glare::KeptStars& stars, const device::Device& device)
-        : job_(job), look_(look), stars_(stars), drawing_(device) {
+    // asked: what the result shows. codes: of light to which nothing is done afterwards.
+    FrameLight(const DefocusJob& job, const Look& look, glare::KeptStars& stars, const device::Device& device,
+               const Rect& asked, const std::optional<CodesWanted>& codes)
+        : job_(job), look_(look), stars_(stars), drawing_(device), asked_(asked), codes_(codes) {
         for (const ColourLayer& layer : job.layers) has_lamps_ = has_lamps_ || layer.spectrum;
+        if (has_lamps_) codes_.reset();
     }
 
     Finish of_one_lens() {
-        if (has_lamps_ || (!look_.vignetting && !has_glare(look_.glare))) return {};
-        return [this](std::shared_ptr<device::Canvas>& picture) { return add_to(picture); };
+        if (has_lamps_ || (!look_.vignetting && !has_glare(look_.glare) && !codes_)) return {};
+        return [this](std::shared_ptr<device::Canvas>& picture) { return finish_drawn(picture); };
     }
 
     // What was not done on the way. Glare is of all light together and goes to the picture alone.
@@ -97,11 +102,21 @@ public:
             report.image = picture->take();
         }
         if (has_glare(look_.glare)) report.glare_device = drawing_.drawn_by();
+        report.codes = std::move(made_.codes), report.codes_device = std::move(made_.device);
         report.stages.insert(report.stages.end(), stages_.begin(), stages_.end());
         return Done{};
     }
 
 private:
+    Status finish_drawn(std::shared_ptr<device::Canvas>& picture) {
+        if (const Status done = add_to(picture); !done) return done;
+        if (!codes_) return Done{};
+        engine::Stopwatch stopwatch(stages_);
+        made_ = codes_of(*picture, job_.place.data_window, asked_, *codes_, drawing_, *job_.workers);
+        stopwatch.lap("develop");
+        picture.reset();
+        return Done{};
+    }
     Status add_to(std::shared_ptr<device::Canvas>& picture) {
         engine::Stopwatch stopwatch(stages_);
         const device::Passed passed = [&](const char* pass) { stopwatch.lap(pass); };
@@ -114,9 +129,29 @@ private:
     const Look& look_;
     glare::KeptStars& stars_;
     const NotingDevice drawing_;
+    const Rect asked_;
+    std::optional<CodesWanted> codes_;
+    FrameCodes made_;
     bool has_lamps_ = false;
     std::vector<StageTime> stages_;  // what is no pass of its own is `light`
 };
+
+// With the window that is meant.
+std::optional<CodesWanted> codes_wanted(const Control& control, const Place& place) {
+    std::optional<CodesWanted> wanted = control.codes;
+    if (wanted && wanted->window.empty()) wanted->window = place.display_window;
+    return wanted;
+}
+
+// Of a frame whose light was changed here. lies: where its pixels are.
+void develop_at_home(DefocusReport& report, const Rect& lies, const CodesWanted& wanted, Workers& workers) {
+    engine::Stopwatch stopwatch(report.stages);
+    device::Canvas picture(std::move(report.image));
+    FrameCodes made = codes_of(picture, lies, lies, wanted, device::cpu_device(), workers);
+    report.codes = std::move(made.codes), report.codes_device = std::move(made.device);
+    report.image = {};
+    stopwatch.lap("develop");
+}
 
 Result<Picture> expanded_plate(const DefocusJob& job, const Look& look) {
     const auto refuse = [](const char* why) { return Error{ErrorCode::InvalidArgument, why}; };
@@ -194,7 +229,10 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             job.place.data_window = made;
             const auto device = contents_->opened_device();
             if (!device) return device.error();
-            FrameLight lighting(job, look, contents_->stars, **device);
+            const std::optional<CodesWanted> wanted = codes_wanted(control, job.place);
+            const bool changes_later = look.expand_highlights || !rendered.mask.empty();
+            FrameLight lighting(job, look, contents_->stars, **device, asked,
+                                changes_later ? std::nullopt : wanted);
             job.place.data_window = all;
             auto report = with_lamps(job, [&](const DefocusJob& one) {
                 return contents_->defocus(one, region, progress, workers, lighting.of_one_lens());
@@ -205,7 +243,7 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             contents_->trim(contents_->most_kept_bytes());
             if (made != asked) {
                 const Rect pixels = asked.moved(-made.x0, -made.y0);
-                report->image = part_of(report->image, pixels);
+                if (!report->image.empty()) report->image = part_of(report->image, pixels);
                 for (Picture& layer : report->layers) layer = part_of(layer, pixels);
             }
             const Rect pixels = made_pixels(rendered, control.region);
@@ -213,6 +251,7 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
                 report->image = compress_highlights(report->image, expanded.view().part(pixels),
                                                     rendered.colour.part(pixels), look.expansion);
             limit_by_mask(*report, rendered, pixels, workers);
+            if (wanted && report->codes.empty()) develop_at_home(*report, asked, *wanted, workers);
             return report;
         });
     if (taken)

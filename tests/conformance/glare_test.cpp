@@ -1,4 +1,5 @@
 // Glare on every device but the CPU: what the CPU adds, twice the same, whatever the size.
+#include "petzval/develop.h"
 #include "petzval/session.h"
 
 #include "gpus.h"
@@ -94,6 +95,10 @@ TEST(GlareOnDevices, GoesOnWhereTheFrameWasDrawn) {
             ASSERT_TRUE(lit) << lit.error().message;
             EXPECT_EQ(largest_difference(taken->image, *lit), 0) << engine;
             EXPECT_TRUE(taken->device.starts_with(gpu) && taken->glare_device == taken->device) << engine;
+            const auto shown = session.take(job, look, {.codes = CodesWanted{}});
+            ASSERT_TRUE(shown) << shown.error().message;
+            EXPECT_TRUE(shown->image.empty() && shown->codes_device == shown->device) << engine;
+            EXPECT_LE(codes_apart(shown->codes, develop(taken->image)).most, 1) << engine;
         }
     }
 }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,21 @@ inline double psnr(const Picture& a, const Picture& b) {
         for (const float v : {p.r, p.g, p.b, p.a}) peak = std::max(peak, double(std::abs(v)));
     }
     return squares == 0 ? 1e3 : 10 * std::log10(peak * peak * 4 * double(a.size()) / squares);
+}
+
+// Codes of a display.
+struct CodesApart {
+    int most = 0;
+    double share = 0;  // of codes that differ
+};
+inline CodesApart codes_apart(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b) {
+    if (a.size() != b.size()) return {1 << 16, 1};
+    CodesApart apart;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        apart.most = std::max(apart.most, std::abs(int(a[i]) - int(b[i])));
+        apart.share += a[i] != b[i] ? 1 / double(a.size()) : 0;
+    }
+    return apart;
 }
 
 }  // namespace petzval::conformance
