@@ -46,13 +46,14 @@ private:
     Status compute();
     Status render(const DefocusJob& job);
     Result<DefocusReport> take(const DefocusJob& job);
-    void report_stages(const DefocusReport& done, double seconds);
+    std::optional<CodesWanted> codes_wanted() const;
+    DevelopSettings display() const {
+        return flags_.develop.settings(shot_.display_referred, flags_.input.transfer, flags_.run.threads);
+    }
     Status write();
     Status save_look();
     Status finish();
     void say_layers();
-    std::string history() const;
-    std::string blurred_before() const;
     void warn(const std::vector<std::string>& lines);
     void tell_new_warnings();
 
@@ -121,7 +122,7 @@ Status Run::read() {
     if (!shot) return shot.error();
     shot_ = std::move(*shot);
     for (const auto& line : detected_in_picture(shot_)) note(line);
-    if (is_beauty() && ("\n" + shot_.history).find("\n" + blurred_before()) != std::string::npos)
+    if (is_beauty() && was_blurred(shot_))
         shot_.warnings.emplace_back(
             "it was blurred before, by its petzval:history; this blurs it a second time");
     tell_new_warnings();
@@ -326,7 +327,8 @@ Status Run::compute() {
 Result<DefocusReport> Run::take(const DefocusJob& job) {
     ProgressLine progress(flags_.run.progress, flags_.run.quiet, "defocus");
     const Control control{.progress = [&](double share) { return progress(share); },
-                          .cancelled = [] { return interrupted_by() != 0; }};
+                          .cancelled = [] { return interrupted_by() != 0; },
+                          .codes = codes_wanted()};
     if (!is_beauty()) return session_.defocus(job, control);
     auto taken = session_.take(job, look(), control);
     // What the look's file holds in vain was said when it was read.
@@ -335,17 +337,26 @@ Result<DefocusReport> Run::take(const DefocusJob& job) {
     return taken;
 }
 
+// A PNG needs codes alone, and OpenColorIO, which makes others, light.
+std::optional<CodesWanted> Run::codes_wanted() const {
+    const bool is_png = *kind_of_output(flags_.output) == FileKind::Png;
+    if (!is_png || !is_beauty() || flags_.ocio.is_on() || shows_radii(look())) return std::nullopt;
+    return CodesWanted{.develop = display()};
+}
+
 Status Run::render(const DefocusJob& job) {
     const Stopwatch watch;
     auto done = take(job);
     if (!done) return done.error();
     const double seconds = watch.seconds();
-    report_stages(*done, seconds);
+    add_stages(report_, done->stages, seconds);
+    for (const StageTime& stage : done->stages) detail(stage.stage + ": " + plain(stage.seconds, 3) + " s");
     warn(done->warnings);
     report_["kernels_from_cache"] = done->kernels_from_cache;
     if (is_beauty()) report_["glare"] = glare_json(look());
     report_["engine"] = done->engine, report_["device"] = done->device;
     if (!done->glare_device.empty()) report_["glare_device"] = done->glare_device;
+    if (!done->codes_device.empty()) report_["codes_device"] = done->codes_device;
     report_["lens"]["description"] = done->lens;
     report_["radius_px"] = {{"farthest_behind", number(done->largest_radius_px)},
                             {"farthest_in_front", number(done->smallest_radius_px)}};
@@ -359,50 +370,34 @@ Status Run::render(const DefocusJob& job) {
     shot_.colour = std::move(done->image);
     for (std::size_t i = 0; i < shot_.layers.size(); ++i) shot_.layers[i].colour = std::move(done->layers[i]);
     view_.panels = std::move(done->panels), view_.hidden = std::move(done->hidden);
+    view_.codes = std::move(done->codes);
     if (is_beauty() && shows_radii(look())) view_.coc_radius_px = red_of(shot_.colour);
     return Done{};
-}
-
-void Run::report_stages(const DefocusReport& done, double seconds) {
-    double kernels = 0, light = 0;
-    for (const StageTime& stage : done.stages) {
-        if (stage.stage == "kernels") kernels += stage.seconds;
-        if (stage.stage == "light") light += stage.seconds;
-        const auto counted = [](std::uint64_t n) { return n > 0 ? Json(n) : Json(nullptr); };
-        report_["stages"].push_back({{"stage", stage.stage},
-                                     {"seconds", stage.seconds},
-                                     {"bytes", counted(stage.bytes)},
-                                     {"multiply_adds", counted(stage.multiply_adds)}});
-        detail(stage.stage + ": " + plain(stage.seconds, 3) + " s");
-    }
-    report_["seconds"]["kernels"] = kernels;
-    report_["seconds"]["glare"] = light;
-    report_["seconds"]["compute"] = seconds - kernels - light;
 }
 
 Status Run::write() {
     const Stopwatch watch;
     std::vector<std::string> warnings;
-    ViewSettings settings{
-        .output = flags_.output,
-        .overwrite = !flags_.overwrite.no_clobber,
-        .develop = flags_.develop.settings(shot_.display_referred, flags_.input.transfer, flags_.run.threads),
-        .ocio = &flags_.ocio,
-        .camera = shot_.camera,
-        .permissible_radius_px = permissible_radius_px(),
-        .depth = shot_.depth_report,
-        .attributes = {},
-        .other_views = {},
-        .warnings = &warnings};
+    ViewSettings settings{.output = flags_.output,
+                          .overwrite = !flags_.overwrite.no_clobber,
+                          .develop = display(),
+                          .ocio = &flags_.ocio,
+                          .camera = shot_.camera,
+                          .permissible_radius_px = permissible_radius_px(),
+                          .depth = shot_.depth_report,
+                          .attributes = {},
+                          .other_views = {},
+                          .warnings = &warnings};
     if (*kind_of_output(flags_.output) == FileKind::Png)
         report_["parameters"]["display"] = {{"exposure_stops", settings.develop.exposure_stops},
                                             {"contrast", settings.develop.contrast},
                                             {"tone", name_of(settings.develop.tone)},
                                             {"ocio", flags_.ocio.view}};
-    std::string done_to_it = shot_.history + (shot_.history.empty() ? "" : "\n") + history();
+    std::string done_to_it =
+        shot_.history + (shot_.history.empty() ? "" : "\n") + history_line(shot_, look());
     std::vector<Frame> others;
     for (const auto& other : others_) {
-        done_to_it += "\n" + other->run.history();
+        done_to_it += "\n" + history_line(other->run.shot_, look());
         others.push_back(to_frame(std::move(other->run.shot_)));
     }
     for (const Frame& other : others) settings.other_views.push_back(&other);
@@ -417,30 +412,6 @@ Status Run::write() {
     note("wrote " + flags_.output);
     return save_look();
 }
-
-// What the file says of what was done to it: nothing that depends on where and when it was done.
-std::string Run::history() const {
-    const FoundCamera& camera = shot_.camera;
-    std::string line =
-        blurred_before() + "petzval " PETZVAL_VERSION ", " + look().engine + ", " + look().lens.name;
-    const auto add = [&](const char* before, const std::optional<FoundNumber>& n, const char* after) {
-        if (n) line += before + plain(n->value) + after;
-    };
-    if (shot_.has_radii()) {
-        line += ", radii as given";
-    } else {
-        add(", ", camera.focal_length_mm, " mm"), add(", sensor ", camera.sensor_width_mm, " mm");
-        add(", f/", camera.f_number, ""), add(", focus ", camera.focus_distance_m, " m");
-    }
-    std::vector<std::string> layers;
-    for (const FrameLayer& layer : shot_.layers)
-        layers.insert(layers.end(), layer.names.begin(), layer.names.end());
-    if (!layers.empty()) line += ", with " + listed(layers);
-    return line;
-}
-
-// How a line of the history begins that is about this colour.
-std::string Run::blurred_before() const { return "defocus " + shot_.colour_name + ": "; }
 
 Status Run::save_look() {
     const std::string& path = flags_.look.save_to();

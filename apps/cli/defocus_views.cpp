@@ -63,7 +63,12 @@ Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& 
     return write_exr(settings.output, drawn, exr_options(settings));
 }
 
-Status write_beauty(Frame& frame, const ViewSettings& settings) {
+Status write_beauty(Frame& frame, const ViewSource& source, const ViewSettings& settings) {
+    if (!is_exr(settings) && !source.codes.empty()) {
+        const Rect& window = window_of(frame, settings);
+        return write_codes(settings.output, window.width(), window.height(), source.codes,
+                           settings.develop.bits, settings.overwrite, frame.place.pixel_aspect);
+    }
     if (!is_exr(settings)) {
         Picture light = in_output_window(frame.colour, frame, settings, Rgba{});
         DevelopSettings develop = settings.develop;
@@ -238,7 +243,7 @@ Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const V
         default:
             // Radii have a sign, which display codes have not.
             if (!is_exr(settings) && !source.coc_radius_px.empty()) return write_coc(frame, source, settings);
-            return write_beauty(frame, settings);
+            return write_beauty(frame, source, settings);
     }
 }
 

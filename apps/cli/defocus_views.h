@@ -13,6 +13,7 @@
 #include "ocio.h"
 #include "values.h"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,8 @@ struct ViewSource {
     Plane coc_radius_px;        // for Coc and Focus; for Beauty where its channels hold radii, and no light
     std::vector<Panel> panels;  // for Levels, Layers, Highlights
     DeepPicture hidden;         // for Hidden
+    // For Beauty as PNG: its display window developed. Empty: the frame's colour is still to be.
+    std::vector<std::uint16_t> codes;
 };
 
 struct ViewSettings {

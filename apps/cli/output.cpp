@@ -77,16 +77,22 @@ DevelopSettings DevelopFlags::settings(bool display_referred, std::optional<Tran
             .threads = threads};
 }
 
-Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
-                       bool overwrite, double pixel_aspect) {
+Status write_codes(const std::string& path, int width, int height, std::vector<std::uint16_t> codes, int bits,
+                   bool overwrite, double pixel_aspect) {
     return write_png(path,
-                     {.width = picture.width(),
-                      .height = picture.height(),
+                     {.width = width,
+                      .height = height,
                       .channels = 3,
-                      .bits = settings.bits,
-                      .samples = develop(picture, settings),
+                      .bits = bits,
+                      .samples = std::move(codes),
                       .pixel_aspect = pixel_aspect},
                      overwrite);
+}
+
+Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
+                       bool overwrite, double pixel_aspect) {
+    return write_codes(path, picture.width(), picture.height(), develop(picture, settings), settings.bits,
+                       overwrite, pixel_aspect);
 }
 
 Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite) {

@@ -8,6 +8,7 @@
 
 #include "flags.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,10 @@ struct DevelopFlags {
     DevelopSettings settings(bool display_referred, std::optional<Transfer> transfer, int threads) const;
 };
 
-// pixel_aspect: of the file's pixels, where they are not square. Errors: OutputFailed.
+// Codes of develop(). pixel_aspect: of the file's pixels, where they are not square. Errors: OutputFailed.
+Status write_codes(const std::string& path, int width, int height, std::vector<std::uint16_t> codes, int bits,
+                   bool overwrite, double pixel_aspect = 1);
+// Developed, the same.
 Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
                        bool overwrite, double pixel_aspect = 1);
 // A plane as 16-bit grey: 0…1 becomes 0…65535, anything else the nearer end, NaN 0.

@@ -83,6 +83,24 @@ Json window_json(const Rect& window) {
     return {{"x", window.x0}, {"y", window.y0}, {"width", window.width()}, {"height", window.height()}};
 }
 
+void add_stages(Json& report, const std::vector<StageTime>& stages, double seconds) {
+    double rest = seconds;
+    Json& sums = report["seconds"];
+    for (const auto& [stage, sum] :
+         {std::pair("kernels", "kernels"), {"light", "glare"}, {"develop", "develop"}}) {
+        sums[sum] = 0.0;
+        for (const StageTime& one : stages)
+            if (one.stage == stage) sums[sum] = sums[sum].get<double>() + one.seconds, rest -= one.seconds;
+    }
+    sums["compute"] = rest;
+    const auto counted = [](std::uint64_t n) { return n > 0 ? Json(n) : Json(nullptr); };
+    for (const StageTime& stage : stages)
+        report["stages"].push_back({{"stage", stage.stage},
+                                    {"seconds", stage.seconds},
+                                    {"bytes", counted(stage.bytes)},
+                                    {"multiply_adds", counted(stage.multiply_adds)}});
+}
+
 Json part_json(const PartSummary& part) {
     return {{"name", part.name},
             {"type", part.type},

@@ -3,12 +3,14 @@
 
 #include "petzval/camera.h"
 #include "petzval/depth.h"
+#include "petzval/engine_report.h"
 #include "petzval/files.h"
 #include "petzval/look.h"
 #include "petzval/result.h"
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -39,6 +41,9 @@ Json lens_json(const Look& look, const std::string& description);
 Json part_json(const PartSummary& part);
 Json depth_json(const DepthReport& depth, DepthKind kind);
 Json window_json(const Rect& window);
+// What took how long of `seconds`, as stages and in sums: those that stand under a name of their own, and
+// `compute`.
+void add_stages(Json& report, const std::vector<StageTime>& stages, double seconds);
 
 // Largest resident memory of this process so far.
 std::size_t peak_memory_bytes();

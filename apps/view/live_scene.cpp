@@ -32,14 +32,16 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Status write_result(const std::string& path, Picture image, const Place& place,
-                    const DevelopSettings& develop_settings) {
-    if (path.ends_with(".png")) {
-        const PngPixels png{.width = image.width(),
-                            .height = image.height(),
+bool is_png(const std::string& path) { return path.ends_with(".png"); }
+
+// A PNG of its codes, else its light.
+Status write_result(const std::string& path, DefocusReport made, const Place& place) {
+    if (is_png(path)) {
+        const PngPixels png{.width = place.data_window.width(),
+                            .height = place.data_window.height(),
                             .channels = 3,
                             .bits = 8,
-                            .samples = develop(image, develop_settings)};
+                            .samples = std::move(made.codes)};
         return write_png(path, png);
     }
     if (!path.ends_with(".exr"))
@@ -47,7 +49,7 @@ Status write_result(const std::string& path, Picture image, const Place& place,
     Frame frame;
     frame.place = place;
     frame.has_alpha = true;
-    frame.colour = std::move(image);
+    frame.colour = std::move(made.image);
     return write_exr(path, frame, {});
 }
 
@@ -189,9 +191,11 @@ Status save_result(const Shot& shot, const Camera& camera, const Choice& choice,
     job->camera = camera;
     Look look = choice.look;
     if (Status done = read_lens_images(look); !done) return done;
-    auto made = session.take(*job, look);
+    Control control;
+    if (is_png(path)) control.codes = CodesWanted{choice.develop, shot.place.data_window};
+    auto made = session.take(*job, look, control);
     if (!made) return made.error();
-    return write_result(path, std::move(made->image), shot.place, choice.develop);
+    return write_result(path, std::move(*made), shot.place);
 }
 
 Status record_results(const std::vector<Recorded>& frames, const Choice& choice, bool follows_subject,

@@ -178,6 +178,12 @@ PETZVAL_API Result<bool> grow_to(Shot& shot, const Rect& wider);
 // grow_to(with_empty_sides()).
 PETZVAL_API Result<bool> grow_empty_sides(Shot& shot, int by_px);
 
+// A line of the attribute petzval:history that says how this look blurs the shot; the same wherever and
+// whenever that is done.
+PETZVAL_API std::string history_line(const Shot& shot, const Look& look);
+// Whether the history that the shot was read with has such a line of its colour.
+PETZVAL_API bool was_blurred(const Shot& shot);
+
 // What write_exr() takes: shot.colour in its place with all that the input carried, metres as its depth.
 PETZVAL_API Frame to_frame(Shot shot);
 
