@@ -1,6 +1,7 @@
 // One picture drawn by a device of Vulkan, each of its passes timed by the device's own clock: what `./dev
 // bench gpu` runs. The first frame is not counted. Beside bench/job.h's flags: --device; --engine glare is
-// all glare but ghosts, of both qualities of stars, over the picture as it is.
+// all glare but ghosts, of both qualities of stars, over the picture as it is; --engine develop the codes of
+// a frame that engine gaussian draws, 8 bits each.
 #include "petzval/devices.h"
 #include "petzval/session.h"
 
@@ -17,7 +18,9 @@ namespace {
 using namespace petzval;
 using bench::fail;
 
-void print(const DefocusReport& report, const device::Device& device, int frames, double wall_s) {
+// only: the pass that is printed; empty: all.
+void print(const DefocusReport& report, const device::Device& device, int frames, double wall_s,
+           const std::string& only) {
     std::printf(
         "{\"device\": \"%s\", \"width\": %d, \"height\": %d, \"wall_s\": %.4f, \"copied_bytes_per_s\": "
         "%.4g, ",
@@ -26,6 +29,7 @@ void print(const DefocusReport& report, const device::Device& device, int frames
     std::printf("\"passes\": {");
     const char* separator = "";
     for (const device::PassTime& pass : device::pass_times(device)) {
+        if (!only.empty() && pass.pass != only) continue;
         std::printf("%s\"%s\": {\"runs\": %.1f, \"ms\": %.4f, \"bytes\": %.0f, \"multiply_adds\": %.0f}",
                     separator, pass.pass.c_str(), double(pass.runs) / frames, 1e3 * pass.seconds / frames,
                     double(pass.work.bytes) / frames, double(pass.work.multiply_adds) / frames);
@@ -52,6 +56,16 @@ Result<DefocusReport> with_glare(Session& session, DefocusJob job, const Picture
     return report;
 }
 
+// Codes, and an image of the size alone.
+Result<DefocusReport> with_codes(Session& session, const DefocusJob& job) {
+    Look look;
+    look.engine = "gaussian", look.quality = Quality::Draft, look.lens = job.lens;
+    auto report = session.take(job, look, {.codes = CodesWanted{}});
+    if (report && report->codes_device == "cpu") fail("the device made no codes");
+    if (report) report->image = Picture::uninitialised(job.colour.width(), job.colour.height());
+    return report;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -66,7 +80,8 @@ int main(int count, char** words) {
     const Result<Frame> frame = read_frame(asked.file);
     if (!frame) fail(frame.error().message);
     const bool is_glare = asked.engine == "glare";
-    if (is_glare) asked.engine = "scatter";
+    const std::string only = asked.engine == "develop" ? asked.engine : "";
+    if (is_glare || !only.empty()) asked.engine = "scatter";
     const DefocusJob job = bench::job_of(frame->colour, frame->depth, frame->camera, asked);
 
     if (!settings.device.starts_with("gpu:")) fail("--device is gpu:0, gpu:1, …");
@@ -74,6 +89,7 @@ int main(int count, char** words) {
     if (!device) fail(device.error().message);
     Session session(settings);
     const auto drawn = [&] {
+        if (!only.empty()) return with_codes(session, job);
         return is_glare ? with_glare(session, job, frame->colour) : session.defocus(job);
     };
     Result<DefocusReport> report = drawn();
@@ -85,5 +101,5 @@ int main(int count, char** words) {
         if (!report) fail(report.error().message);
     }
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    print(*report, **device, asked.repeat, wall_s / asked.repeat);
+    print(*report, **device, asked.repeat, wall_s / asked.repeat, only);
 }

@@ -16,6 +16,7 @@ Of engine `realtime` all passes: the bytes that its images and buffers hold, eac
 it, as the pass itself counts them (src/device/vulkan/realtime_pass.cpp); hosts have colours of 16 bits and save 8 bytes a
 pixel for each of the four times that these cross memory.
 `glare` is no engine: bloom and veil with the quick star, then with the final one, over the picture as it is, at any radius.
+`develop` is none either: light to codes of 8 bits, at any radius.
 Not in it: what is looked at and not hit, waiting, copies from and to the host. How near a GPU comes is not known yet.
 """
 import argparse
@@ -105,7 +106,7 @@ def rows_of(engine, given, device, counted):
     software = device["software"]
     for scene in given.scenes:
         for width in given.widths or ([320] if software else [1920, 3840]):
-            for radius in given.radii[:1] if engine == "glare" else given.radii:
+            for radius in given.radii[:1] if engine in ("glare", "develop") else given.radii:
                 scaled = radius * width / 1920 if software else radius
                 found = measure(picture(scene, width), given, device["name"], engine, scaled)
                 given.copied = found["copied_bytes_per_s"]
@@ -153,7 +154,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--device")
     parser.add_argument("--engines", "--engine", type=lambda s: s.split(","),
-                        default=["scatter", "gather", "gaussian", "sprites", "realtime", "glare"])
+                        default=["scatter", "gather", "gaussian", "sprites", "realtime", "glare", "develop"])
     parser.add_argument("--widths", type=lambda s: [int(w) for w in s.split(",")])
     parser.add_argument("--radii", type=lambda s: [float(r) for r in s.split(",")], default=[16, 64])
     parser.add_argument("--scenes", type=lambda s: s.split(","), default=["night", "table"])

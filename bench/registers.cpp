@@ -33,6 +33,7 @@ constexpr std::array kPrograms{
     Named{Shader::SpreadCells, "spread cells"},
     Named{Shader::BlurCells, "blur cells"},
     Named{Shader::MixBlurs, "mix blurs"},
+    Named{Shader::Develop, "develop"},
     Named{Shader::RealtimeMeasure, "realtime measure"},
     Named{Shader::RealtimeSplit, "realtime split"},
     Named{Shader::RealtimeReach, "realtime reach"},
