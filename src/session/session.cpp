@@ -2,6 +2,7 @@
 #include "petzval/session.h"
 
 #include "base/parallel.h"
+#include "device/cpu/cpu_device.h"
 #include "engine/waist/memory.h"
 #include "session/contents.h"
 #include "session/depth_edges.h"
@@ -266,6 +267,33 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     return report;
 }
 
+// made_by(device, last) with this device; with the CPU where its memory does not hold the least part of a
+// frame. Whoever asks for a GPU is told where he did not get it.
+template <typename MadeBy>
+Result<DefocusReport> made_on_either(const NotingDevice& drawing, const std::string& asked,
+                                     const std::string& engine, const Finish& last, const MadeBy& made_by) {
+    std::string too_large;
+    try {
+        auto report = made_by(drawing, last);
+        if (report && asked.starts_with("gpu") && report->device != drawing.name())
+            report->warnings.push_back("session.device " + asked + " had nothing to draw of job.engine " +
+                                       engine + "'s; the CPU made the frame");
+        return report;
+    } catch (const device::Failed& failed) {
+        if (failed.error.code != ErrorCode::OutOfMemory || engine == "realtime") throw;
+        too_large = failed.error.message;
+    }
+    // What is done last is done with the first device, as far as that can.
+    const Finish moved = [&](std::shared_ptr<device::Canvas>& picture) {
+        picture = canvas_of(drawing, picture->take());
+        return last(picture);
+    };
+    auto report = made_by(NotingDevice(device::cpu_device()), last ? moved : Finish());
+    static_cast<void>(drawing.said());  // it drew nothing
+    if (report) report->warnings.push_back(too_large + "; the CPU made the frame");
+    return report;
+}
+
 }  // namespace
 
 Session::Session(SessionSettings settings) : contents_(std::make_unique<Contents>(std::move(settings))) {}
@@ -303,15 +331,13 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
         if (!lens) return lens.error();
     }
     const Rect asked = region ? region->intersected(job.place.data_window) : job.place.data_window;
-    auto report =
-        made_frame(wider ? wider->job() : job, {asked.moved(-window.x0, -window.y0), region.has_value()},
-                   **engine, *radii, **lens, drawing, clock, progress, beside, last);
+    const auto made_by = [&](const NotingDevice& by, const Finish& finishing) {
+        return made_frame(wider ? wider->job() : job,
+                          {asked.moved(-window.x0, -window.y0), region.has_value()}, **engine, *radii, **lens,
+                          by, clock, progress, beside, finishing);
+    };
+    auto report = made_on_either(drawing, settings.device, job.engine, last, made_by);
     if (report && !edges.what_was_done().empty()) report->warnings.push_back(edges.what_was_done());
-    // Whoever asks for a GPU is told where he did not get it.
-    if (report && settings.device.starts_with("gpu") && report->device != drawing.name())
-        report->warnings.push_back("session.device " + settings.device +
-                                   " had nothing to draw of job.engine " + job.engine +
-                                   "'s; the CPU made the frame");
     trim(most_kept_bytes());
     return report;
 }

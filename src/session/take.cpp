@@ -103,6 +103,7 @@ public:
         }
         if (has_glare(look_.glare)) report.glare_device = drawing_.drawn_by();
         report.codes = std::move(made_.codes), report.codes_device = std::move(made_.device);
+        for (std::string& said : drawing_.said()) report.warnings.push_back(std::move(said));
         report.stages.insert(report.stages.end(), stages_.begin(), stages_.end());
         return Done{};
     }

@@ -7,14 +7,14 @@ import unittest
 import window
 from window import PETZVAL
 
-LAYER = os.environ.get("PETZVAL_LOST_DEVICE_LAYER", "")  # its folder
+LAYER = os.environ.get("PETZVAL_FAULTY_DEVICE", "")  # its folder
 DRIVER = "/usr/share/vulkan/icd.d/lvp_icd.%s.json" % os.uname().machine
 
 
 class DeviceTest(window.WindowTest):
     def setUp(self):
         self.gone = os.path.join(self.shared, "gone")
-        self.lossy = {"VK_LAYER_PATH": LAYER, "VK_INSTANCE_LAYERS": "VK_LAYER_PETZVAL_lost_device",
+        self.lossy = {"VK_LAYER_PATH": LAYER, "VK_INSTANCE_LAYERS": "VK_LAYER_PETZVAL_faulty_device",
                       "VK_ICD_FILENAMES": DRIVER, "PETZVAL_LOSE_DEVICE": self.gone}
         for name, value in self.lossy.items():
             os.environ[name] = value

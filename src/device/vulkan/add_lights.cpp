@@ -41,15 +41,18 @@ public:
     Batch batch_from(std::size_t begin) const {
         Batch batch{begin, begin, {}, std::vector<std::uint32_t>(plan_.viewpoints.size())};
         std::size_t cells = 0;
+        const std::size_t most_cells = context_.at_once(rule_.most_cells),
+                          most_views = context_.at_once(rule_.most_views);
+        const std::uint64_t most_work = context_.at_once(std::size_t(rule_.most_multiply_adds));
         for (std::uint64_t taps = 0; batch.end < plan_.lights.size(); ++batch.end) {
             const PlannedLight& light = plan_.lights[batch.end];
             taps += atlas_[light.kernel].taps;
             const ShadowGrid grid(plan_.viewpoints[light.viewpoint]);
             const std::size_t side = std::size_t(grid.taps) * std::size_t(grid.parts);
             const bool is_known = batch.number_of[light.viewpoint] > 0;
-            const bool is_full = 4 * taps > rule_.most_multiply_adds ||
-                                 (!is_known && (cells + side * side > rule_.most_cells ||
-                                                batch.views.size() >= rule_.most_views));
+            const bool is_full =
+                4 * taps > most_work ||
+                (!is_known && (cells + side * side > most_cells || batch.views.size() >= most_views));
             if (is_full && batch.end > begin) break;
             if (is_known) continue;
             cells += side * side;
@@ -59,34 +62,41 @@ public:
         return batch;
     }
 
-    // Returns the taps drawn.
-    std::uint64_t draw(const Batch& batch, Target out, const Control& control) {
+    // Lists what the batch adds where, and finds how much of the pupil each light sees.
+    void prepare(const Batch& batch, const Control& control) {
         std::vector<std::vector<SeenCaster>> casters(batch.views.size());
         parallel_for(int(casters.size()), control.workers, [&](int i) {
             casters[std::size_t(i)] =
                 engine::seen_casters(plan_, plan_.viewpoints[batch.views[std::size_t(i)]]);
         });
-        if (control.progress.cancelled()) return 0;
-        words_.clear();
+        words_.clear(), tiles_.clear(), taps_ = 0;
+        for (Piece* piece : {&words_on_device_, &casters_on_device_, &covered_, &visible_, &holdout_})
+            *piece = {};
+        kernels_ = {};
+        if (control.progress.cancelled()) return;
         list_tiles(batch);
-        if (tiles_.empty()) return 0;
+        if (tiles_.empty()) return;
         list_lights(batch, casters);
         Recording recording(context_);
-        const Piece visible = found_shadows(batch, casters, recording);
+        visible_ = found_shadows(batch, casters, recording);
         const HoldoutWords held(plan_.holdout, plan_.rows.y0, plan_.rows.y1, plan_.rows.x1);
         push_.held_row = held.row, push_.held_width = held.width, push_.held_samples = held.samples;
-        const Piece holdout = recording.uploaded(std::span<const std::uint32_t>(held.words));
-        const KernelsOnDevice kernels = kernels_for(batch, recording);
-        push_.records = kernels.records;
+        holdout_ = recording.uploaded(std::span<const std::uint32_t>(held.words));
+        kernels_ = kernels_for(batch, recording);
+        push_.records = kernels_.records;
+        recording.run();
+    }
+
+    // Adds what was prepared. Returns the taps drawn.
+    std::uint64_t add_all(Target out) {
         for (std::size_t first = 0; first < tiles_.size();) {
             const std::size_t count = std::min(tiles_at_once(), tiles_.size() - first);
-            if (first == 0) {
-                add(recording, first, count, kernels, visible, holdout, out);
-            } else {
-                Recording more(context_);
-                add(more, first, count, kernels, visible, holdout, out);
+            try {
+                add(first, count, out);
+                first += count;
+            } catch (const Failed& failed) {
+                if (count == 1 || !context_.halves(failed)) throw;
             }
-            first += count;
         }
         return taps_;
     }
@@ -96,7 +106,8 @@ private:
     std::uint64_t work_of(std::size_t tiles) const { return 4 * taps_ * tiles / tiles_.size(); }
     std::size_t tiles_at_once() const {
         const std::uint64_t most = context_.most_work("add lights");
-        return std::clamp<std::size_t>(most / std::max<std::uint64_t>(1, work_of(1)), 1, rule_.most_tiles);
+        return std::clamp<std::size_t>(most / std::max<std::uint64_t>(1, work_of(1)), 1,
+                                       context_.at_once(rule_.most_tiles));
     }
     Rect extent_of(const PlannedLight& light) const {
         return atlas_[light.kernel].kernels.front().extent.moved(light.highlight.x, light.highlight.y);
@@ -107,7 +118,6 @@ private:
         const Rect& rows = plan_.rows;
         const int columns = (rows.width() + kTile - 1) / kTile, lines = (rows.height() + kTile - 1) / kTile;
         std::vector<std::vector<std::uint32_t>> lights(std::size_t(columns) * std::size_t(lines));
-        taps_ = 0;
         for (std::size_t i = batch.begin; i < batch.end; ++i) {
             const Rect e = extent_of(plan_.lights[i]).intersected(rows);
             if (e.empty()) continue;
@@ -117,7 +127,6 @@ private:
                     lights[std::size_t(y) * std::size_t(columns) + std::size_t(x)].push_back(
                         std::uint32_t(i - batch.begin));
         }
-        tiles_.clear();
         std::vector<std::uint32_t> order;
         push_ = {};
         for (std::size_t t = 0; t < lights.size(); ++t) {
@@ -200,15 +209,15 @@ private:
         return atlas_.uploaded(kernels, recording);
     }
 
-    void add(Recording& recording, std::size_t first, std::size_t count, const KernelsOnDevice& kernels,
-             const Piece& visible, const Piece& holdout, Target out) {
+    void add(std::size_t first, std::size_t count, Target out) {
         constexpr std::uint32_t kTileWords = 5;
+        Recording recording(context_);
         const std::size_t bytes = count * kTilePixels * sizeof(Rgba);
         const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
         LightsPush push = push_;
         push.tiles = std::uint32_t(first) * kTileWords;
         recording.pass("add lights", context_.program(Shader::AddLights, plan_.holdout.empty() ? 0 : 1),
-                       {&words_on_device_, &kernels.words, &kernels.weights, &visible, &holdout, &result},
+                       {&words_on_device_, &kernels_.words, &kernels_.weights, &visible_, &holdout_, &result},
                        push, {std::uint32_t(count) * kGroupsPerTile},
                        {bytes + words_.size() * sizeof(std::uint32_t), work_of(count)});
         std::vector<Rect> places;
@@ -228,7 +237,8 @@ private:
     std::vector<std::uint32_t> words_;
     std::vector<Rect> tiles_;
     LightsPush push_;
-    Piece words_on_device_, casters_on_device_, covered_;
+    Piece words_on_device_, casters_on_device_, covered_, visible_, holdout_;
+    KernelsOnDevice kernels_;
     std::uint64_t taps_ = 0;
 };
 
@@ -240,7 +250,13 @@ Work add_planned_lights(Context& context, const LightsPlan& plan, const PackedAt
     std::uint64_t taps = 0;
     for (std::size_t begin = 0; begin < plan.lights.size() && !control.progress.cancelled();) {
         const Batch batch = adder.batch_from(begin);
-        taps += adder.draw(batch, out, control);
+        try {
+            adder.prepare(batch, control);
+        } catch (const Failed& failed) {
+            if (batch.end - begin == 1 || !context.halves(failed)) throw;
+            continue;
+        }
+        taps += adder.add_all(out);
         begin = batch.end;
     }
     return Work::of_taps(taps);

@@ -6,7 +6,7 @@
 
 namespace petzval::device::vulkan {
 
-// How much is drawn by one submission.
+// How much is drawn by one submission, were there memory for it. Sums are the same up to rounding.
 struct LightsRule {
     std::size_t most_cells = std::size_t(8) << 20;  // of pupils that are covered
     std::size_t most_views = 1024;

@@ -37,11 +37,24 @@ const Piece* DeviceCanvas::sent() {
 void DeviceCanvas::come_home() {
     is_home_ = true;
     if (pixels_.size() == 0) return;
-    Recording recording(context_);
-    const auto* from = reinterpret_cast<const Rgba*>(recording.downloaded(pixels_, memory_.bytes()));
-    recording.run();
-    std::copy_n(from, memory_.size(), memory_.pixels());
+    for (std::size_t begin = 0; begin < memory_.size();) {
+        const std::size_t pixels = std::min(context_.at_once(memory_.size()), memory_.size() - begin);
+        try {
+            bring_home(begin, pixels);
+            begin += pixels;
+        } catch (const Failed& failed) {
+            if (!context_.halves(failed)) throw;
+        }
+    }
     pixels_ = {};
+}
+
+void DeviceCanvas::bring_home(std::size_t begin, std::size_t pixels) {
+    const Piece seen = context_.heap().allocate(Kind::FromDevice, pixels * sizeof(Rgba));
+    Recording recording(context_);
+    recording.copy(pixels_, seen, pixels * sizeof(Rgba), begin * sizeof(Rgba));
+    recording.run();
+    std::copy_n(reinterpret_cast<const Rgba*>(seen.mapped()), pixels, memory_.pixels() + begin);
 }
 
 Delivery::Delivery(Context& context, Target out) : context_(context), out_(out) {

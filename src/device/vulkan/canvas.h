@@ -25,6 +25,7 @@ public:
 
 private:
     void come_home() override;
+    void bring_home(std::size_t begin, std::size_t pixels);
     bool fits() const { return !memory_.empty() && memory_.bytes() <= context_.most_range_bytes(); }
     bool has_room();
 

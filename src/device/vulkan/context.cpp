@@ -2,6 +2,7 @@
 
 #include "device/vulkan/failure.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace petzval::device::vulkan {
@@ -65,12 +66,17 @@ bool Context::halves(const Failed& failed) {
     constexpr int kMostHalvings = 16;
     if (failed.error.code != ErrorCode::OutOfMemory || halvings_ >= kMostHalvings) return false;
     ++halvings_;
+    if (let_go_) let_go_();
     heap_->trim();
-    const std::lock_guard lock(mutex_);
-    said_.assign(1, name() +
-                        " has no memory left for as much of a frame as it draws at once; it draws smaller "
-                        "pieces from now on");
+    say(name() +
+        " has no memory left for as much of a frame as it draws at once; it draws smaller pieces from now "
+        "on");
     return true;
+}
+
+void Context::say(const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    if (std::find(said_.begin(), said_.end(), what) == said_.end()) said_.push_back(what);
 }
 
 std::vector<std::string> Context::said() {

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -46,9 +47,13 @@ public:
     void note_work(const std::string& passes, std::uint64_t multiply_adds, double seconds);
     // What is drawn at once, where that many bytes or pieces were if memory had never run out.
     std::size_t at_once(std::size_t most) const { return std::max<std::size_t>(1, most >> halvings_); }
-    // Memory ran out: half as much is drawn at once from now on, which said() tells. False: something else
-    // failed, or it is of no use any more.
+    // Memory ran out: what is kept is let go of, and half as much is drawn at once from now on, which said()
+    // tells. False: something else failed, or it is of no use any more.
     bool halves(const Failed& failed);
+    // Lets go of memory that is only kept, where it runs out. Set before anything is drawn.
+    void lets_go_by(std::function<void()> let_go) { let_go_ = std::move(let_go); }
+    // A line for said(), once.
+    void say(const std::string& what);
     // What whoever asked for frames should know of how they were drawn, since this was last asked.
     std::vector<std::string> said();
 
@@ -69,6 +74,7 @@ private:
     Opened opened_;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::unique_ptr<Heap> heap_;
+    std::function<void()> let_go_;
     mutable std::mutex mutex_;  // of all below, and of the queue
     std::map<std::pair<Shader, std::uint32_t>, Program> programs_;
     std::map<std::string, PassTime> times_;

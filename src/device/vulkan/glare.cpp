@@ -172,6 +172,7 @@ bool add_planned_glare(Context& context, const GlarePlan& plan, DeviceCanvas& pi
         Glare(context, plan, size).add_to(*pixels, star);
     } catch (const Failed& failed) {  // the last pass alone changes the picture
         if (failed.error.code != ErrorCode::OutOfMemory) throw;
+        context.say(context.name() + " has no memory left for the glare of a whole frame; the CPU makes it");
         return false;
     }
     return true;

@@ -79,7 +79,9 @@ Heap::Block& Heap::new_block(Kind kind, VkDeviceSize size) {
 
 void Heap::make_buffer(Block& block) {
     const Functions& vk = *opened_.vk;
-    const std::string what = std::to_string(block.size >> 20) + " MiB";
+    const bool is_large = block.size >= VkDeviceSize(1) << 20;
+    const std::string what =
+        std::to_string(block.size >> (is_large ? 20 : 10)) + (is_large ? " MiB" : " KiB");
     if (held_bytes() > most_bytes_) check(VK_ERROR_OUT_OF_DEVICE_MEMORY, opened_.name, what);
     VkBufferCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;

@@ -171,15 +171,40 @@ void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, bool pla
     // What reaches a row: discs of lamps; surroundings and means, which a tile takes from the next two.
     const int halo =
         whole_tiles(float(engine::LampKernels::kHalf) * plan.most_px * plan.pixel_aspect + 2) + 2 * kTile;
-    const auto at_once = int(std::min<std::size_t>(rule_.most_pixels / std::size_t(width), most));
-    // As many rows as their surroundings at least: more memory sooner than every pixel many times.
-    const int rows = height <= at_once ? height : std::max(halo, (at_once - 2 * halo) / kTile * kTile);
-    for (int y = 0; y < height; y += rows) {
-        const int first = std::max(0, y - halo), last = std::min(height, y + rows + halo);
-        auto frame = frame_of(std::uint32_t(width), std::uint32_t(last - first));
-        frame->draw(plan, first, y, std::min(height, y + rows), out, plant);
-        keep(std::move(frame));
+    for (int y = 0; y < height;) {
+        const int rows = rows_at_once(width, height, halo), end = std::min(height, y + rows);
+        const int first = std::max(0, y - halo), last = std::min(height, end + halo);
+        try {
+            auto frame = frame_of(std::uint32_t(width), std::uint32_t(last - first));
+            frame->draw(plan, first, y, end, out, plant);
+            keep(std::move(frame));
+            y = end;
+        } catch (const Failed& failed) {
+            do
+                if (rows <= kTile || !context_.halves(failed)) throw;
+            while (rows_at_once(width, height, halo) >= rows);
+        }
     }
+}
+
+// Whole tiles, or all rows there are; `halo` rows above and below them are not counted.
+int RealtimeDrawer::rows_at_once(int width, int height, int halo) const {
+    const auto rows_in = [width](std::size_t pixels) {
+        constexpr std::size_t kMost = std::size_t(1) << 20;
+        return int(std::min(pixels / std::size_t(width), kMost));
+    };
+    const auto whole = [halo](int rows) { return (rows - 2 * halo) / kTile * kTile; };
+    const int wished = rows_in(rule_.most_pixels), left = rows_in(context_.at_once(rule_.most_pixels));
+    const int most = std::min(wished, int(context_.candidate().limits.maxImageDimension2D));
+    // As many as their surroundings at least: more memory sooner than every pixel many times.
+    const int rows = height <= most ? height : std::max(halo, whole(most));
+    const bool fits = left == wished || std::min(height, rows + 2 * halo) <= left;
+    return fits ? rows : std::min(rows, std::max(kTile, whole(left)));  // one row of tiles, if need be
+}
+
+void RealtimeDrawer::let_go() {
+    const std::lock_guard lock(mutex_);
+    idle_.clear();
 }
 
 }  // namespace petzval::device::vulkan

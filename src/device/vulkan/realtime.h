@@ -29,9 +29,12 @@ public:
     // Writes all of `out`. Throws Failed. plant: as in RealtimePass::record().
     void draw(const engine::RealtimePlan& plan, Target out, bool plant = false);
     int passes_made() const;
+    // Of what is kept for the next frame.
+    void let_go();
 
 private:
     class Frame;
+    int rows_at_once(int width, int height, int halo) const;
     std::unique_ptr<Frame> frame_of(std::uint32_t width, std::uint32_t height);
     void keep(std::unique_ptr<Frame> frame);
 

@@ -29,6 +29,11 @@ struct TilePart {
     std::size_t tile, begin, end;
 };
 
+// The next light to be drawn: a tile, a place in the order.
+struct Place {
+    std::size_t tile = 0, at = 0;
+};
+
 // Blocks of cells, and the lights that touch each.
 struct Blocks {
     std::vector<Rect> cells;
@@ -40,28 +45,30 @@ public:
     Stamper(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, const StampRule& rule)
         : context_(context), plan_(plan), atlas_(atlas), rule_(rule) {}
 
-    // The next parts that are drawn together; empty: there are none left.
-    std::vector<TilePart> next() {
+    // The next parts that are drawn together, and moves on to what follows them; empty: there are none left.
+    std::vector<TilePart> next(Place& place) const {
         std::vector<TilePart> parts;
         std::size_t lights = 0, bytes = 0;
         std::uint64_t taps = 0;
         std::set<std::uint32_t> kernels;
-        for (; tile_ + 1 < plan_.tiles.size() && parts.size() < rule_.most_tiles; ++tile_) {
-            const std::size_t end = plan_.tiles[tile_ + 1].first_light;
-            at_ = std::max(at_, plan_.tiles[tile_].first_light);
-            TilePart part{tile_, at_, at_};
+        const std::size_t most_tiles = context_.at_once(rule_.most_tiles),
+                          most_lights = context_.at_once(rule_.most_lights),
+                          most_bytes = context_.at_once(rule_.most_weight_bytes);
+        for (; place.tile + 1 < plan_.tiles.size() && parts.size() < most_tiles; ++place.tile) {
+            const std::size_t end = plan_.tiles[place.tile + 1].first_light;
+            place.at = std::max(place.at, plan_.tiles[place.tile].first_light);
+            TilePart part{place.tile, place.at, place.at};
             for (bool is_full = false; part.end < end; ++part.end, ++lights) {
-                const PackedSet& kernel = atlas_[plan_.lights[plan_.order[part.end]].kernel];
-                const bool is_new = !kernels.contains(plan_.lights[plan_.order[part.end]].kernel);
+                const PackedSet& kernel = atlas_[light(part.end).kernel];
+                const bool is_new = !kernels.contains(light(part.end).kernel);
                 const std::size_t more = is_new ? kernel.weights.size() * sizeof(float) : 0;
-                is_full =
-                    lights > 0 && (lights >= rule_.most_lights || bytes + more > rule_.most_weight_bytes ||
-                                   4 * (taps + kernel.taps) > rule_.most_multiply_adds);
+                is_full = lights > 0 && (lights >= most_lights || bytes + more > most_bytes ||
+                                         4 * (taps + kernel.taps) > rule_.most_multiply_adds);
                 if (is_full) break;
-                kernels.insert(plan_.lights[plan_.order[part.end]].kernel);
+                kernels.insert(light(part.end).kernel);
                 bytes += more, taps += kernel.taps;
             }
-            at_ = part.end;
+            place.at = part.end;
             if (part.begin < part.end) parts.push_back(part);
             if (part.end < end) break;
         }
@@ -191,7 +198,6 @@ private:
     const LightsPlan& plan_;
     const PackedAtlas& atlas_;
     const StampRule rule_;
-    std::size_t tile_ = 0, at_ = 0;  // the next to be drawn: a tile, a place in the order
     // Of the batch.
     std::vector<std::uint32_t> words_, lights_;
     Blocks blocks_;
@@ -204,8 +210,17 @@ Work stamp_planned_lights(Context& context, const LightsPlan& plan, const Packed
                           const Control& control, const StampRule& rule) {
     Stamper stamper(context, plan, atlas, rule);
     std::uint64_t taps = 0;
-    for (auto parts = stamper.next(); !parts.empty() && !control.progress.cancelled(); parts = stamper.next())
-        taps += stamper.draw(parts, out);
+    for (Place place; !control.progress.cancelled();) {
+        Place end = place;
+        const std::vector<TilePart> parts = stamper.next(end);
+        if (parts.empty()) break;
+        try {
+            taps += stamper.draw(parts, out);
+            place = end;
+        } catch (const Failed& failed) {
+            if (!context.halves(failed)) throw;
+        }
+    }
     return Work::of_taps(taps);
 }
 

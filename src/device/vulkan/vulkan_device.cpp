@@ -28,7 +28,9 @@ public:
     explicit VulkanDevice(std::shared_ptr<Context> context)
         : context_(std::move(context)),
           name_(context_->name() + " " + context_->candidate().name),
-          realtime_(*context_) {}
+          realtime_(*context_) {
+        context_->lets_go_by([this] { realtime_.let_go(); });
+    }
 
     const char* name() const override { return name_.c_str(); }
     std::unique_ptr<Canvas> canvas(Picture memory) const override {
@@ -65,9 +67,14 @@ public:
         return add_planned_glare(*context_, plan, dynamic_cast<DeviceCanvas&>(picture));
     }
     Picture highlights(Canvas& picture, float threshold, Workers&) const override {
-        const Piece* const sent = dynamic_cast<DeviceCanvas&>(picture).sent();
         const Size size{std::uint32_t(picture.width()), std::uint32_t(picture.height())};
-        return sent ? highlights_at_home(*context_, *sent, size, threshold) : Picture();
+        try {
+            const Piece* const sent = dynamic_cast<DeviceCanvas&>(picture).sent();
+            return sent ? highlights_at_home(*context_, *sent, size, threshold) : Picture();
+        } catch (const Failed& failed) {
+            if (failed.error.code != ErrorCode::OutOfMemory) throw;
+            return {};  // nothing was done to the picture
+        }
     }
     std::vector<std::uint16_t> develop(const colour::DevelopPlan& plan, Canvas& picture,
                                        Workers& workers) const override {

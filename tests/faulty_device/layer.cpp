@@ -1,7 +1,10 @@
-// A layer of Vulkan that loses the device as soon as the file that $PETZVAL_LOSE_DEVICE names is there. (How
-// a layer is asked and finds the next one: LoaderLayerInterface.md of the Vulkan loader.)
+// A layer of Vulkan for tests: it loses the device as soon as the file that $PETZVAL_LOSE_DEVICE names is
+// there, and lets it have no more memory at once than $PETZVAL_DEVICE_BYTES. (How a layer is asked and finds
+// the next one: LoaderLayerInterface.md of the Vulkan loader.)
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <unistd.h>
 #include <vulkan/vk_layer.h>
 
@@ -10,11 +13,22 @@ namespace {
 PFN_vkGetInstanceProcAddr next_of_instance = nullptr;
 PFN_vkGetDeviceProcAddr next_of_device = nullptr;
 PFN_vkQueueSubmit next_submit = nullptr;
+PFN_vkAllocateMemory next_allocate = nullptr;
+PFN_vkFreeMemory next_free = nullptr;
 VkInstance instance = VK_NULL_HANDLE;
 
 bool is_lost() {
     const char* file = std::getenv("PETZVAL_LOSE_DEVICE");
     return file && access(file, F_OK) == 0;
+}
+
+std::mutex mutex;
+std::map<VkDeviceMemory, VkDeviceSize> held;
+
+bool is_too_much(VkDeviceSize more) {
+    const char* most = std::getenv("PETZVAL_DEVICE_BYTES");
+    for (const auto& [memory, bytes] : held) more += bytes;
+    return most && more > std::strtoull(most, nullptr, 10);
 }
 
 // The link of the chain that leads to the next layer.
@@ -48,8 +62,10 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice on, const VkDevice
         link->u.pLayerInfo->pfnNextGetInstanceProcAddr(instance, "vkCreateDevice"));
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
     const VkResult done = create(on, info, memory, made);
-    if (done == VK_SUCCESS)
-        next_submit = reinterpret_cast<PFN_vkQueueSubmit>(next_of_device(*made, "vkQueueSubmit"));
+    if (done != VK_SUCCESS) return done;
+    next_submit = reinterpret_cast<PFN_vkQueueSubmit>(next_of_device(*made, "vkQueueSubmit"));
+    next_allocate = reinterpret_cast<PFN_vkAllocateMemory>(next_of_device(*made, "vkAllocateMemory"));
+    next_free = reinterpret_cast<PFN_vkFreeMemory>(next_of_device(*made, "vkFreeMemory"));
     return done;
 }
 
@@ -58,9 +74,26 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
     return is_lost() ? VK_ERROR_DEVICE_LOST : next_submit(queue, count, infos, fence);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                        const VkAllocationCallbacks* memory, VkDeviceMemory* made) {
+    const std::lock_guard lock(mutex);
+    if (is_too_much(info->allocationSize)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    const VkResult done = next_allocate(device, info, memory, made);
+    if (done == VK_SUCCESS) held[*made] = info->allocationSize;
+    return done;
+}
+
+VKAPI_ATTR void VKAPI_CALL let_go(VkDevice device, VkDeviceMemory gone, const VkAllocationCallbacks* memory) {
+    const std::lock_guard lock(mutex);
+    held.erase(gone);
+    next_free(device, gone, memory);
+}
+
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL of_device(VkDevice device, const char* name) {
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(of_device);
     if (std::strcmp(name, "vkQueueSubmit") == 0) return reinterpret_cast<PFN_vkVoidFunction>(submit);
+    if (std::strcmp(name, "vkAllocateMemory") == 0) return reinterpret_cast<PFN_vkVoidFunction>(allocate);
+    if (std::strcmp(name, "vkFreeMemory") == 0) return reinterpret_cast<PFN_vkVoidFunction>(let_go);
     return next_of_device(device, name);
 }
 
