@@ -1,7 +1,10 @@
 #include "device/vulkan/instance.h"
 
+#include "base/check.h"
+
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <mutex>
@@ -52,6 +55,9 @@ Result<std::shared_ptr<Instance>> Instance::open() {
 Instance::~Instance() {
     if (messenger_) vk_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
     if (instance_) vk_.vkDestroyInstance(instance_, nullptr);
+    const std::string unheard = complaints();
+    std::fputs(unheard.c_str(), stderr);
+    PETZVAL_CHECK(unheard.empty());
     if (library_) dlclose(library_);
 }
 

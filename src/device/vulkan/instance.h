@@ -43,7 +43,9 @@ public:
     // Hardware first, then software, each in the order of the loader.
     const std::vector<Candidate>& candidates() const { return candidates_; }
     // What the validation layer said since it was last asked; empty: nothing, or it is not on. It is on, with
-    // its checks of synchronisation, where $PETZVAL_VULKAN_VALIDATION is set: for tests.
+    // its checks of synchronisation, where $PETZVAL_VULKAN_VALIDATION is set: for tests. What nobody asked
+    // for when the last device has gone ends the process: it is printed, and no test that was run there
+    // passes.
     std::string complaints();
 
 private:

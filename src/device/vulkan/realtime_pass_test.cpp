@@ -63,6 +63,20 @@ TEST_F(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
     EXPECT_NE(said_of(true).find("SYNC-HAZARD"), std::string::npos);
 }
 
+// What is complained of when nobody draws any more: here a device that goes before all that was made of it.
+TEST_F(Watched, WhatIsSaidAfterTheLastFrameEndsTheProcess) {
+    if (said_of(false) == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    const auto leave_a_fence_behind = [] {
+        const auto context = any_context();
+        VkFenceCreateInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        VkFence fence = VK_NULL_HANDLE;
+        context->vk().vkCreateFence(context->handle(), &info, nullptr, &fence);
+    };
+    EXPECT_DEATH(leave_a_fence_behind(), "vkDestroyDevice.*broken promise");
+}
+
 // A picture with something before and behind focus, and a lamp.
 struct Given {
     Picture colour{100, 150, {0.2f, 0.3f, 0.4f, 1}};
