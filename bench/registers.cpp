@@ -30,6 +30,7 @@ constexpr std::array kPrograms{
     Named{Shader::AddLights, "add lights"},
     Named{Shader::AddCells, "add cells"},
     Named{Shader::Gather, "gather"},
+    Named{Shader::SpreadColumns, "spread columns"},
     Named{Shader::SpreadCells, "spread cells"},
     Named{Shader::BlurCells, "blur cells"},
     Named{Shader::MixBlurs, "mix blurs"},

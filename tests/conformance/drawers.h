@@ -49,7 +49,6 @@ inline const std::vector<Tolerances>& tolerances() {
          .corner_db = 42.5},
         {.engine = "gaussian",
          .light = 2e-3,       // its tails are cut at the picture
-         .radius = 0.021,     // two Gaussians on coarse grids, mixed by variance
          .tails = 5e-3,       // a Gaussian ends nowhere
          .near_edge = 0.045,  // and falls off otherwise than a disc: all below follows from that
          .points_db = 16,

@@ -52,28 +52,35 @@ TEST(Gaussian, AConstantPictureStaysConstantUpToTheBorder) {
         }
 }
 
-// Radius of the disc that has the same mean square distance; a pixel's own square adds 1/6.
-TEST(Gaussian, APointHasTheSecondMomentOfItsDiscAtEveryConstantRadius) {
-    for (const GaussianStyle style : {GaussianStyle::Plain})
-        for (const float coc : {-40.0f, -12.5f, -3.3f, 1.5f, 2.7f, 7.0f, 13.0f, 32.0f}) {
-            double mean_sum = 0, mean_radius = 0;
-            for (int at = 148; at < 156; ++at) {
-                Shot shot = flat(301, 301, {0, 0, 0, 1}, coc);
-                shot.coc_px(0, 0) = 1.4f * coc;  // a larger radius somewhere: this one is mixed
-                shot.colour(at, at) = {100, 100, 100, 1};
+// Lines of light, each elsewhere in the coarse cells that it is shared between: on all of them, by one blur
+// and between two, along x and along y.
+TEST(Gaussian, ALightIsAsWideAsItsDiscAndLiesWhereItIsOnEveryPlaceOfItsGrids) {
+    constexpr int kLines = 9;
+    for (const GaussianStyle style : {GaussianStyle::Layered, GaussianStyle::Plain})
+        for (const float coc : {2.0f, -4.1f, 6.0f, 8.0f, -11.0f, 16.0f, 23.0f, 33.0f, -64.0f, 90.0f, 128.0f})
+            for (const bool across : {true, false}) {
+                const int radius = int(std::abs(coc)), apart = 7 * radius + 13, reach = 3 * radius + 6;
+                const int length = (kLines + 2) * apart;
+                Shot shot = across ? flat(length, 2, {0, 0, 0, 1}, coc) : flat(2, length, {0, 0, 0, 1}, coc);
+                const auto line = [&](int i) { return apart * (i + 1) + i * (radius / 7 + 1); };
+                for (int i = 0; i < kLines; ++i)
+                    for (int k = 0; k < 2; ++k)
+                        (across ? shot.colour(line(i), k) : shot.colour(k, line(i))) = {9, 9, 9, 1};
+                shot.coc_px(0, 0) = radius % 2 ? 1.4f * coc : coc;
                 const Picture image = rendered(job_of(shot, style));
-                double sum = 0, moment = 0;
-                for (int y = 0; y < 301; ++y)
-                    for (int x = 0; x < 301; ++x) {
-                        sum += double(image(x, y).g);
-                        moment += double(image(x, y).g) * (std::pow(x - at, 2) + std::pow(y - at, 2));
+                for (int i = 0; i < kLines; ++i) {
+                    double sum = 0, place = 0, moment = 0;
+                    for (int d = -reach; d <= reach; ++d) {
+                        const double light =
+                            double((across ? image(line(i) + d, 1) : image(1, line(i) + d)).g);
+                        sum += light / 9, place += light / 9 * d, moment += light / 9 * d * d;
                     }
-                mean_sum += sum / 8, mean_radius += std::sqrt(2 * (moment / sum - 1.0 / 6)) / 8;
+                    const double disc = double(coc) * double(coc) / 4 + 1.0 / 12;
+                    EXPECT_NEAR(sum, 1, 2e-3) << coc << " style " << int(style) << " line " << i;
+                    EXPECT_NEAR(place, 0, 0.1) << coc << " style " << int(style) << " line " << i;
+                    EXPECT_NEAR(moment, disc, 0.01 * disc) << coc << " style " << int(style) << " line " << i;
+                }
             }
-            EXPECT_NEAR(mean_sum, 100, 1) << coc << " style " << int(style);
-            EXPECT_NEAR(mean_radius, std::abs(coc), 0.02 * std::abs(coc) + 0.05)
-                << coc << " style " << int(style);
-        }
 }
 
 // Stripes finer than the blur vanish, also where something else is blurred far more.

@@ -82,30 +82,31 @@ void blur_cells(float* cells, int width, int height, int channels, const BlurAxi
 
 }  // namespace
 
-std::vector<CellPlace> places_in_cells(const Blur& blur, int width) {
-    const CellAxis axis(blur.level, blur.cells_across());
-    std::vector<CellPlace> places;
-    for (int x = 0; x < width; ++x) {
-        const float at = axis.place(x);
-        const int left = int(at);
-        places.push_back(
-            {std::size_t(left), std::size_t(std::min(left + 1, axis.cells() - 1)), at - float(left)});
-    }
-    return places;
+LitCells RowOfLight::cells() const {
+    return {across_->cell(pixels_.begin, 0), across_->cell(pixels_.end - 1, 2) + 1};
+}
+
+void RowOfLight::fold_ends() {
+    const std::size_t last = light_.size() - 2;
+    light_[1] += light_[0], covered_[1] += covered_[0];
+    light_[last] += light_[last + 1], covered_[last] += covered_[last + 1];
+    light_[0] = light_[last + 1] = {}, covered_[0] = covered_[last + 1] = 0;
 }
 
 void RowOfLight::add_to(Rgba* light, float* covered, LitCells& lit, float share) const {
-    for (int i = lit_.begin; i < lit_.end; ++i) {
-        light[i] += share * light_[std::size_t(i)];
-        covered[i] += share * covered_[std::size_t(i)];
+    const LitCells own = cells();
+    for (int i = own.begin; i < own.end; ++i) {
+        light[i] += share * light_[std::size_t(i) + 1];
+        covered[i] += share * covered_[std::size_t(i) + 1];
     }
-    lit.add(lit_);
+    lit.add(own);
 }
 
 void RowOfLight::clear() {
-    std::fill(light_.begin() + lit_.begin, light_.begin() + lit_.end, Rgba{});
-    std::fill(covered_.begin() + lit_.begin, covered_.begin() + lit_.end, 0.0f);
-    lit_ = {};
+    const LitCells own = cells();
+    std::fill(light_.begin() + own.begin + 1, light_.begin() + own.end + 1, Rgba{});
+    std::fill(covered_.begin() + own.begin + 1, covered_.begin() + own.end + 1, 0.0f);
+    pixels_ = {};
 }
 
 void blur_layer(BlurLayer& layer, const Blur& blur, Workers& workers) {
@@ -123,25 +124,21 @@ void blur_layer(BlurLayer& layer, const Blur& blur, Workers& workers) {
 }
 
 bool BlurReader::go_to_row(int y) {
-    const int cells = layer_->light.width(), last = layer_->light.height() - 1;
-    const float at = CellAxis(level_, last + 1).place(y);
-    const int top = int(at), bottom = std::min(top + 1, last);
-    const float share = at - float(top);
-    LitCells lit = layer_->lit[std::size_t(top)];
-    lit.add(layer_->lit[std::size_t(bottom)]);
+    const auto row_of = [&](int k) { return down_->cell(y, k); };
+    LitCells lit;
+    for (int k = 0; k < 3; ++k) lit.add(layer_->lit[std::size_t(row_of(k))]);
     lit_begin_ = lit_end_ = 0;
     if (lit.empty()) return false;
-    // Pixels between a cell that is lit and one that is not are lit.
-    const int size = 1 << level_;
-    lit_begin_ = lit.begin == 0 ? 0 : (lit.begin - 1) * size + size / 2;
-    lit_end_ = lit.end == cells ? int(places_->size()) : lit.end * size + size / 2;
-    for (int x = std::max(0, lit.begin - 1); x < std::min(cells, lit.end + 1); ++x) {
-        const std::size_t i = std::size_t(x);
-        const Rgba a = layer_->light(x, top), b = layer_->light(x, bottom);
-        light_[i] = a + share * (b - a);
-        const float c = layer_->covered(x, top), d = layer_->covered(x, bottom);
-        covered_[i] = c + share * (d - c);
-    }
+    lit_begin_ = across_->begin(lit.begin), lit_end_ = across_->end(lit.end);
+    const int last = across_->cells() - 1;
+    const auto [before, own, after] = down_->shares(y);
+    const auto cells = [&](const auto& plane, auto& to) {
+        const auto a = plane.row(row_of(0)), b = plane.row(row_of(1)), c = plane.row(row_of(2));
+        for (int x = std::max(0, lit.begin - 2); x < std::min(last + 1, lit.end + 2); ++x)
+            to[std::size_t(x) + 1] = down_->level() == 0 ? b[x] : before * a[x] + own * b[x] + after * c[x];
+        to.front() = to[1], to.back() = to[std::size_t(last) + 1];
+    };
+    cells(layer_->light, light_), cells(layer_->covered, covered_);
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include "petzval/workers.h"
 
 #include "engine/gaussian/plan.h"
+#include "engine/waist/cells.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -36,35 +37,36 @@ struct BlurLayer {
           lit(std::size_t(blur.cells_down())) {}
 };
 
-// Where the pixels of a row lie between the cells of a level.
-struct CellPlace {
-    std::size_t left, right;
-    float share;  // of the right one
-};
-std::vector<CellPlace> places_in_cells(const engine::Blur& blur, int width);
-
 // The light of one row of pixels on its way into the cells of one layer.
 class RowOfLight {
 public:
-    explicit RowOfLight(const std::vector<CellPlace>& places, int cells)
-        : places_(&places), light_(std::size_t(cells)), covered_(light_.size()) {}
+    explicit RowOfLight(const engine::CellSplines& across)
+        : across_(&across), light_(std::size_t(across.cells()) + 2), covered_(light_.size()) {}
     void add(int x, Rgba colour, float covered) {
-        const CellPlace& p = (*places_)[std::size_t(x)];
-        light_[p.left] += (1 - p.share) * colour, covered_[p.left] += (1 - p.share) * covered;
-        if (p.share > 0) light_[p.right] += p.share * colour, covered_[p.right] += p.share * covered;
-        lit_.add({int(p.left), int(p.right) + 1});
+        const int cell = across_->cell(x);
+        const auto& shares = across_->shares(x);
+        const auto add_to = [&](int k) {
+            const auto i = std::size_t(cell + k);
+            light_[i] += shares[std::size_t(k)] * colour, covered_[i] += shares[std::size_t(k)] * covered;
+        };
+        add_to(1);
+        if (across_->level() > 0) add_to(0), add_to(2);
+        pixels_.add({x, x + 1});
     }
-    bool empty() const { return lit_.empty(); }
-    std::size_t cells() const { return light_.size(); }
+    bool empty() const { return pixels_.empty(); }
+    std::size_t size() const { return light_.size() - 2; }  // in cells
+    // What went beyond the ends goes to the last cells. Call it before add_to().
+    void fold_ends();
     // Adds `share` of it to a row of cells.
     void add_to(Rgba* light, float* covered, LitCells& lit, float share) const;
     void clear();
 
 private:
-    const std::vector<CellPlace>* places_;
-    std::vector<Rgba> light_;
+    LitCells cells() const;
+    const engine::CellSplines* across_;
+    std::vector<Rgba> light_;  // one cell more at either end
     std::vector<float> covered_;
-    LitCells lit_;
+    LitCells pixels_;  // that were added
 };
 
 // In place.
@@ -73,31 +75,31 @@ void blur_layer(BlurLayer& layer, const engine::Blur& blur, Workers& workers);
 // Reads a layer at the pixels of one row after another.
 class BlurReader {
 public:
-    BlurReader(const BlurLayer& layer, int level, const std::vector<CellPlace>& places)
+    BlurReader(const BlurLayer& layer, const engine::CellSplines& across, const engine::CellSplines& down)
         : layer_(&layer),
-          places_(&places),
-          level_(level),
-          light_(std::size_t(layer.light.width())),
+          across_(&across),
+          down_(&down),
+          light_(std::size_t(across.cells()) + 2),
           covered_(light_.size()) {}
     // Whether anything of it may be seen in that row.
     bool go_to_row(int y);
     bool is_lit(int x) const { return x >= lit_begin_ && x < lit_end_; }
     // Of lit pixels.
-    Rgba light(int x) const {
-        const CellPlace& p = (*places_)[std::size_t(x)];
-        return light_[p.left] + p.share * (light_[p.right] - light_[p.left]);
-    }
-    float covered(int x) const {
-        const CellPlace& p = (*places_)[std::size_t(x)];
-        return covered_[p.left] + p.share * (covered_[p.right] - covered_[p.left]);
-    }
+    Rgba light(int x) const { return read(light_, x); }
+    float covered(int x) const { return read(covered_, x); }
 
 private:
+    template <typename T>
+    T read(const std::vector<T>& row, int x) const {
+        const T* const cell = row.data() + across_->cell(x);
+        if (across_->level() == 0) return cell[1];
+        const auto& shares = across_->shares(x);
+        return shares[0] * cell[0] + shares[1] * cell[1] + shares[2] * cell[2];
+    }
     const BlurLayer* layer_;
-    const std::vector<CellPlace>* places_;
-    int level_;
+    const engine::CellSplines *across_, *down_;
     int lit_begin_ = 0, lit_end_ = 0;  // pixels
-    std::vector<Rgba> light_;          // the row, between two rows of cells
+    std::vector<Rgba> light_;          // the row, of three rows of cells; one cell more at either end
     std::vector<float> covered_;
 };
 

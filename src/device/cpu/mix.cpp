@@ -39,7 +39,7 @@ public:
         parallel_for((height_ + kBand - 1) / kBand, workers_, [&](int band) {
             Readers readers;
             for (std::size_t k = 0; k < layers_.size(); ++k)
-                readers.all.emplace_back(layers_[k], plan_.blurs[k].level, places_[k]);
+                readers.all.emplace_back(layers_[k], across_[k], down_[k]);
             for (int y = band * kBand; y < std::min(height_, (band + 1) * kBand); ++y) {
                 readers.go_to_row(y, plan_);
                 for (int x = 0; x < width_; ++x)
@@ -70,7 +70,8 @@ private:
         int coarsest = 4;
         for (const Blur& blur : plan_.blurs) {
             layers_.emplace_back(blur);
-            places_.push_back(places_in_cells(blur, width_));
+            across_.emplace_back(blur.level, blur.cells_across());
+            down_.emplace_back(blur.level, blur.cells_down());
             coarsest = std::max(coarsest, blur.level);
         }
         // Bands are whole cells of the coarsest. What one puts into the cells beside it is added later, in
@@ -90,20 +91,19 @@ private:
     // Pixel rows begin…end-1, which are whole cells; returns two rims for each layer.
     std::vector<Rim> deposit(int begin, int end) {
         std::vector<RowOfLight> rows;
-        for (std::size_t k = 0; k < layers_.size(); ++k)
-            rows.emplace_back(places_[k], plan_.blurs[k].cells_across());
+        for (const CellSplines& across : across_) rows.emplace_back(across);
         std::vector<Rim> rims(2 * layers_.size());
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < width_; ++x) is_layered() ? spread(rows, x, y) : spread_to_all(rows, x, y);
             for (std::size_t k = 0; k < layers_.size(); ++k) {
                 if (rows[k].empty()) continue;
-                const Blur& blur = plan_.blurs[k];
-                const CellAxis down(blur.level, blur.cells_down());
-                const float per_row = std::ldexp(1.0f, -blur.level);
-                const int top = int(down.place(y)), first = begin >> blur.level,
-                          last = (end - 1) >> blur.level;
-                for (int row = top; row <= top + 1; ++row) {
-                    const float share = per_row * down.share(y, row);
+                rows[k].fold_ends();
+                const CellSplines& down = down_[k];
+                const float per_row = std::ldexp(1.0f, -2 * down.level());
+                const int first = down.cell(begin), last = down.cell(end - 1);
+                for (int i = 0; i < 3; ++i) {
+                    const int row = down.cell(y, i);
+                    const float share = per_row * down.shares(y)[std::size_t(i)];
                     if (share <= 0) continue;
                     if (row >= first && row <= last)
                         rows[k].add_to(layers_[k].light.row(row), layers_[k].covered.row(row),
@@ -118,7 +118,7 @@ private:
     }
 
     static void add_to_rim(const RowOfLight& from, Rim& rim, int row, float share) {
-        if (rim.row < 0) rim.row = row, rim.light.resize(from.cells()), rim.covered.resize(from.cells());
+        if (rim.row < 0) rim.row = row, rim.light.resize(from.size()), rim.covered.resize(from.size());
         from.add_to(rim.light.data(), rim.covered.data(), rim.lit, share);
     }
 
@@ -204,8 +204,8 @@ private:
     Workers& workers_;
     const Passed& passed_;
     int width_, height_;
-    std::vector<BlurLayer> layers_;               // as the plan's blurs
-    std::vector<std::vector<CellPlace>> places_;  // of pixels in these
+    std::vector<BlurLayer> layers_;           // as the plan's blurs
+    std::vector<CellSplines> across_, down_;  // their grids
 };
 
 }  // namespace

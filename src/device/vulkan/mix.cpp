@@ -16,8 +16,6 @@ using engine::Blur;
 using engine::GaussianPlan;
 using engine::LayeredSample;
 
-constexpr int kWideLevel = 3;  // cells from which on a group fills each
-
 struct Push {
     std::uint32_t blur = 0, axis = 0;
     std::uint32_t width = 0, height = 0, first_row = 0;
@@ -72,7 +70,7 @@ public:
                        {&words_, &colours_, &values_, &extra_of_, &extras_, &light_, &covered_, &result},
                        push, invocations(count),
                        {count * (2 * sizeof(Rgba) + sizeof(float)) + all_cells_ * kCellBytes,
-                        count * plan_.blurs.size() * 4 * kSums});
+                        count * plan_.blurs.size() * 9 * kSums});
         Delivery delivery(context_, out);
         delivery.rows(recording, result, rows.begin, rows.begin, rows.end);
         recording.run();
@@ -96,18 +94,18 @@ private:
 
     // Rows of a blur's cells that these rows of the result depend on.
     static Span cells_for(const Blur& blur, Span rows) {
-        const int first = ((2 * rows.begin + 1 - (1 << blur.level)) >> (blur.level + 1)) - blur.y.radius();
-        const int last = ((2 * rows.end - 1 - (1 << blur.level)) >> (blur.level + 1)) + 1 + blur.y.radius();
-        return {std::clamp(first, 0, blur.cells_down() - 1), std::clamp(last + 1, 1, blur.cells_down())};
+        const engine::CellSplines down(blur.level, blur.cells_down());
+        return {std::max(0, down.cell(rows.begin, 0) - blur.y.radius()),
+                std::min(blur.cells_down(), down.cell(rows.end - 1, 2) + 1 + blur.y.radius())};
     }
 
     Span pixels_for(Span rows) const {
         Span pixels = rows;
         for (const Blur& blur : plan_.blurs) {
             const Span cells = cells_for(blur, rows);
-            const engine::CellAxis down(blur.level, blur.cells_down());
+            const engine::CellSplines down(blur.level, blur.cells_down());
             pixels.begin = std::min(pixels.begin, down.begin(cells.begin));
-            pixels.end = std::max(pixels.end, std::min(height(), down.end(cells.end - 1)));
+            pixels.end = std::max(pixels.end, std::min(height(), down.end(cells.end)));
         }
         return pixels;
     }
@@ -116,15 +114,21 @@ private:
         return std::size_t(blur.cells_across()) * std::size_t(cells_for(blur, rows).size());
     }
 
-    // Pixels and what they become; cells twice.
+    // What is shared down the columns of pixels, where cells are wider than these.
+    std::size_t columns_of(const Blur& blur, Span rows) const {
+        return blur.level == 0 ? 0 : std::size_t(width()) * std::size_t(cells_for(blur, rows).size());
+    }
+
+    // Pixels and what they become; cells, and as much between passes.
     std::size_t bytes_of(Span rows) const {
         constexpr std::size_t kOne = sizeof(Rgba) + sizeof(float);
-        std::size_t cells = 0;
-        for (const Blur& blur : plan_.blurs) cells += cells_of(blur, rows);
+        std::size_t cells = 0, columns = 0;
+        for (const Blur& blur : plan_.blurs)
+            cells += cells_of(blur, rows), columns = std::max(columns, columns_of(blur, rows));
         const std::size_t extras = plan_.guessed.empty() ? 0 : sizeof(std::uint32_t) + sizeof(Extra);
         return std::size_t(width()) * (std::size_t(pixels_for(rows).size()) * (kOne + extras) +
                                        std::size_t(rows.size()) * sizeof(Rgba)) +
-               2 * cells * kOne;
+               (cells + std::max(cells, columns)) * kOne;
     }
 
     // As mix.glsl reads them.
@@ -194,34 +198,50 @@ private:
 
     // Shares light between them and blurs them, along x and along y.
     void make_cells(Span rows, Push push, Recording& recording) {
+        std::size_t most_between = 0;
         all_cells_ = 0;
-        for (const Blur& blur : plan_.blurs) all_cells_ += cells_of(blur, rows);
-        const std::size_t pixels = std::size_t(pixels_for(rows).size()) * std::size_t(width());
-        const auto room = [&](std::size_t one) {
-            return context_.heap().allocate(Kind::OnDevice, all_cells_ * one);
+        for (const Blur& blur : plan_.blurs)
+            all_cells_ += cells_of(blur, rows), most_between = std::max(most_between, columns_of(blur, rows));
+        most_between = std::max(most_between, all_cells_);
+        const auto room = [&](std::size_t count, std::size_t one) {
+            return context_.heap().allocate(Kind::OnDevice, count * one);
         };
-        light_ = room(sizeof(Rgba)), covered_ = room(sizeof(float));
-        light_between_ = room(sizeof(Rgba)), covered_between_ = room(sizeof(float));
+        light_ = room(all_cells_, sizeof(Rgba)), covered_ = room(all_cells_, sizeof(float));
+        light_between_ = room(most_between, sizeof(Rgba)),
+        covered_between_ = room(most_between, sizeof(float));
         for (std::size_t k = 0; k < plan_.blurs.size(); ++k) {
-            const std::size_t cells = cells_of(plan_.blurs[k], rows);
+            const Blur& blur = plan_.blurs[k];
+            const std::size_t cells = cells_of(blur, rows);
             push.blur = std::uint32_t(k);
-            const bool wide = plan_.blurs[k].level >= kWideLevel;
-            recording.pass("spread cells", context_.program(Shader::SpreadCells, wide ? 1 : 0),
-                           {&words_, &colours_, &values_, &extra_of_, &extras_, &light_, &covered_}, push,
-                           wide ? groups_of(cells) : invocations(cells),
-                           {(pixels + cells) * kCellBytes, pixels * 4 * kSums});
+            spread(blur, rows, push, recording);
             const auto blurred = [&](const engine::BlurAxis& axis) {
                 return PassWork{2 * cells * kCellBytes, cells * axis.weights.size() * kSums};
             };
             push.axis = 0;
             recording.pass("blur cells", context_.program(Shader::BlurCells),
                            {&words_, &light_, &covered_, &light_between_, &covered_between_}, push,
-                           invocations(cells), blurred(plan_.blurs[k].x));
+                           invocations(cells), blurred(blur.x));
             push.axis = 1;
             recording.pass("blur cells", context_.program(Shader::BlurCells),
                            {&words_, &light_between_, &covered_between_, &light_, &covered_}, push,
-                           invocations(cells), blurred(plan_.blurs[k].y));
+                           invocations(cells), blurred(blur.y));
         }
+    }
+
+    // Down the columns, then along the rows; where cells are pixels there is one in each.
+    void spread(const Blur& blur, Span rows, const Push& push, Recording& recording) {
+        const std::size_t pixels = std::size_t(pixels_for(rows).size()) * std::size_t(width());
+        const std::size_t cells = cells_of(blur, rows), columns = columns_of(blur, rows);
+        const bool wide = blur.level > 0;
+        recording.pass("spread columns", context_.program(Shader::SpreadColumns),
+                       {&words_, &colours_, &values_, &extra_of_, &extras_, wide ? &light_between_ : &light_,
+                        wide ? &covered_between_ : &covered_},
+                       push, invocations(wide ? columns : cells),
+                       {(pixels + columns) * kCellBytes, pixels * 3 * kSums});
+        if (wide)
+            recording.pass("spread cells", context_.program(Shader::SpreadCells),
+                           {&words_, &light_between_, &covered_between_, &light_, &covered_}, push,
+                           invocations(cells), {(columns + cells) * kCellBytes, columns * 3 * kSums});
     }
 
     Context& context_;

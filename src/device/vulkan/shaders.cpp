@@ -27,6 +27,9 @@ constexpr std::uint32_t kAddCells[] =
 constexpr std::uint32_t kGather[] =
 #include "gather.comp.inc"
     ;
+constexpr std::uint32_t kSpreadColumns[] =
+#include "spread_columns.comp.inc"
+    ;
 constexpr std::uint32_t kSpreadCells[] =
 #include "spread_cells.comp.inc"
     ;
@@ -126,7 +129,8 @@ ShaderWords words_of(Shader shader) {
         ShaderWords{kAddLights, buffers(6), 36},
         ShaderWords{kAddCells, buffers(3), 8},
         ShaderWords{kGather, buffers(4), 36},
-        ShaderWords{kSpreadCells, buffers(7), 72},
+        ShaderWords{kSpreadColumns, buffers(7), 72},
+        ShaderWords{kSpreadCells, buffers(5), 72},
         ShaderWords{kBlurCells, buffers(5), 72},
         ShaderWords{kMixBlurs, buffers(8), 72},
         ShaderWords{kPlaceTiles, buffers(3), 12},

@@ -16,6 +16,7 @@ enum class Shader {
     AddLights,
     AddCells,
     Gather,
+    SpreadColumns,
     SpreadCells,
     BlurCells,
     MixBlurs,

@@ -16,7 +16,8 @@ double sigma_of(double radius_px) { return std::sqrt(radius_px * radius_px / 4 +
 
 double sigma_in_cells(double sigma_px, int level) {
     const double s = std::ldexp(1.0, level);
-    return std::sqrt(std::max(0.0, sigma_px * sigma_px - (level > 0 ? (s * s + 0.5) / 3 : 0))) / s;
+    const double splines = level > 0 ? 2 * CellSplines::kVariance : 0;
+    return std::sqrt(std::max(0.0, sigma_px * sigma_px / (s * s) - splines));
 }
 
 // Weights at -radius…radius that sum to 1 and whose variance is that asked for: a cut Gaussian is narrower
@@ -25,7 +26,7 @@ std::vector<float> gaussian_weights(double sigma) {
     const int radius = std::max(1, int(std::ceil(3 * sigma)));
     std::vector<double> weights(std::size_t(2 * radius + 1));
     double wider = std::max(sigma, 0.05);
-    for (int pass = 0; pass < 4; ++pass) {
+    for (int pass = 0; pass < 16; ++pass) {
         double sum = 0, moment = 0;
         for (int k = -radius; k <= radius; ++k) {
             const double w = std::exp(-0.5 * k * k / (wider * wider));
@@ -39,12 +40,13 @@ std::vector<float> gaussian_weights(double sigma) {
 }
 
 // How much of a kernel at each cell lies inside the picture; cells at its ends may lie inside in part.
-std::vector<float> share_inside(const std::vector<float>& weights, const CellAxis& axis, int pixels) {
-    const int radius = int(weights.size() / 2), cells = axis.cells();
+std::vector<float> share_inside(const std::vector<float>& weights, int level, int cells, int pixels) {
+    const int radius = int(weights.size() / 2);
+    const CellSplines splines(level, cells);
     std::vector<float> inside(std::size_t(cells), 0.0f), shares = inside;
-    for (int k = 0; k < cells; ++k)
-        for (int x = axis.begin(k); x < std::min(pixels, axis.end(k)); ++x)
-            inside[std::size_t(k)] += axis.share(x, k);
+    for (int x = 0; x < pixels; ++x)
+        for (int k = 0; k < 3; ++k)
+            inside[std::size_t(splines.cell(x, k))] += std::ldexp(splines.shares(x)[std::size_t(k)], -level);
     for (int i = 0; i < cells; ++i)
         for (int k = std::max(0, i - radius); k <= std::min(cells - 1, i + radius); ++k)
             shares[std::size_t(i)] += weights[std::size_t(k - i + radius)] * inside[std::size_t(k)];
@@ -53,7 +55,7 @@ std::vector<float> share_inside(const std::vector<float>& weights, const CellAxi
 
 BlurAxis axis_of(std::vector<float> weights, int level, int pixels) {
     const int cells = (pixels + (1 << level) - 1) >> level;
-    std::vector<float> inside = share_inside(weights, CellAxis(level, cells), pixels);
+    std::vector<float> inside = share_inside(weights, level, cells, pixels);
     return {std::move(weights), std::move(inside)};
 }
 

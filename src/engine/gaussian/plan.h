@@ -19,12 +19,12 @@ struct BlurAxis {
 
 // A Gaussian blur that costs the same however wide it is: light is shared between cells 2^level pixels wide
 // (waist/cells.h: so that it stays where it is), blurred there by a separable kernel with a sigma of about
-// one to two cells, and read back between the cells. Beyond the picture nothing is known: kernels are
+// one to two cells, and read back from them. Beyond the picture nothing is known: kernels are
 // renormalised to what lies inside.
 //
-// Per axis, sharing between cells s wide and bilinear reading are tents, each of (s^2 + 1/2) / 6 px^2; the
-// kernel adds the rest of sigma^2, so the second moment is exact. (Pyramids of cells: L. Williams, "Pyramidal
-// parametrics", 1983.)
+// Per axis, sharing between cells s wide and reading from them are quadratic B-splines, each of s^2 / 4 px^2
+// wherever in its cell a pixel lies; the kernel adds the rest of sigma^2, so the second moment is exact.
+// (Pyramids of cells: L. Williams, "Pyramidal parametrics", 1983.)
 struct Blur {
     int level = 0;
     BlurAxis x, y;

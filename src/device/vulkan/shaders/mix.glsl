@@ -18,6 +18,33 @@ layout(push_constant) uniform Push {
 uint fact(uint blur, uint which) { return words[kBlurWords * blur + which]; }
 float number(uint word) { return uintBitsToFloat(words[word]); }
 
+// engine/waist/cells.h, CellSplines. On level 0 cells are pixels.
+struct Span {
+    int begin, end;
+};
+// That have a share in a cell, along an axis of so many pixels.
+Span pixels_of(int cell, int level, int pixels) {
+    if (level == 0) return Span(cell, cell + 1);
+    return Span(max(0, (cell - 1) << level), min((cell + 2) << level, pixels));
+}
+// Of a pixel, in the cell before its own, in its own and in that after.
+vec3 spline_shares(int pixel, int level) {
+    const int size = 1 << level;
+    const float from_middle = (float(pixel & (size - 1)) + 0.5) / float(size) - 0.5;
+    const float before = 0.5 - from_middle, after = 0.5 + from_middle;
+    return vec3(0.5 * before * before, 0.75 - from_middle * from_middle, 0.5 * after * after);
+}
+// In one of them, as a part of the cell; at the ends all goes to the last cell.
+float spline_share(int pixel, int cell, int level, int cells) {
+    if (level == 0) return 1;
+    const vec3 shares = spline_shares(pixel, level);
+    const int own = pixel >> level;
+    float share = cell == own ? shares.y : cell < own ? shares.x : shares.z;
+    if (cell == own && cell == 0) share += shares.x;
+    if (cell == own && cell + 1 == cells) share += shares.z;
+    return ldexp(share, -level);
+}
+
 // engine/gaussian/gaussian_mix.cpp: blurs numbered from the narrowest, 1; 0 is the sharp picture.
 struct Mix {
     int lower;

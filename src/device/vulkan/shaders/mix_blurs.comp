@@ -17,19 +17,25 @@ layout(std430, binding = 7) writeonly buffer Result { vec4 result[]; };
 const float kLeastArea = 1e-5;
 const uint kViewSmall = 1u, kViewLarge = 2u, kViewIndex = 3u;
 
-// A blur at a pixel, between its cells.
+// A blur at a pixel, of the cells around it.
 void read(uint blur, uvec2 pixel, out vec4 light, out float covered) {
-    const float per_cell = 1 / float(1u << fact(blur, 0u));
-    const ivec2 last = ivec2(fact(blur, 1u), fact(blur, 2u)) - 1;
-    const vec2 place = clamp((vec2(pixel) + 0.5) * per_cell - 0.5, vec2(0), vec2(last));
-    const ivec2 low = ivec2(place), high = min(low + 1, last);
-    const vec2 share = place - vec2(low);
-    const int across = last.x + 1, row = int(fact(blur, 3u)), first = int(fact(blur, 5u));
-    const int a = first + (low.y - row) * across, b = first + (high.y - row) * across;
-    light = mix(mix(light_of[a + low.x], light_of[b + low.x], share.y),
-                mix(light_of[a + high.x], light_of[b + high.x], share.y), share.x);
-    covered = mix(mix(covered_of[a + low.x], covered_of[b + low.x], share.y),
-                  mix(covered_of[a + high.x], covered_of[b + high.x], share.y), share.x);
+    const int level = int(fact(blur, 0u));
+    const ivec2 last = ivec2(fact(blur, 1u), fact(blur, 2u)) - 1, own = ivec2(pixel) >> level;
+    const int first = int(fact(blur, 5u)) - int(fact(blur, 3u)) * (last.x + 1);
+    if (level == 0) {
+        const int k = first + own.y * (last.x + 1) + own.x;
+        light = light_of[k], covered = covered_of[k];
+        return;
+    }
+    const vec3 across = spline_shares(int(pixel.x), level), down = spline_shares(int(pixel.y), level);
+    const int left = max(0, own.x - 1), right = min(last.x, own.x + 1);
+    light = vec4(0), covered = 0;
+    for (int y = -1; y <= 1; ++y) {
+        const int row = first + clamp(own.y + y, 0, last.y) * (last.x + 1);
+        const vec3 share = down[y + 1] * across;
+        light += share.x * light_of[row + left] + share.y * light_of[row + own.x] + share.z * light_of[row + right];
+        covered += dot(share, vec3(covered_of[row + left], covered_of[row + own.x], covered_of[row + right]));
+    }
 }
 
 // Each layer takes of the pixel's lens what it arrives with, or what is left.
