@@ -4,6 +4,9 @@
 #include "kernel/lenses/kernel_testing.h"
 #include "kernel/lenses/make_lens.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace petzval::kernel {
@@ -39,6 +42,22 @@ TEST(Barrel, ARimInFrontCutsTheSideOfTheFieldAndARimBehindTheOther) {
     EXPECT_GT(centre(-15), 1);
     EXPECT_NEAR(centre(15), -centre(-15), 0.01);
     EXPECT_NEAR(centre(0), 0, 0.01);
+}
+
+// The hood of a rectilinear lens of 120 degrees: its rim's shadow on the pupil moves by distance *
+// tan(angle).
+TEST(Barrel, AHoodAt120DegreesCutsByItsShadow) {
+    Mount wide = full_frame();
+    wide.camera.focal_length_mm = 18 / std::tan(60 * std::numbers::pi / 180);   // 36 mm are seen under 120
+    const double pupil_mm = wide.camera.focal_length_mm / 4, distance_mm = 10;  // of f/2
+    const double field = 18 / (0.5 * std::hypot(36.0, 20.25));  // the middle of the frame's right edge
+    // Where its edge crosses the pupil's middle it leaves half, less by how it is bent.
+    LensChoice choice;
+    choice.barrel = {{distance_mm * std::tan(60 * std::numbers::pi / 180), distance_mm}};
+    const auto area_of = [&](FieldPosition at) { return 1 / brightest(spread(choice, 30, at, wide)); };
+    EXPECT_NEAR(area_of({0, 0}), std::numbers::pi * 30 * 30, 20);
+    const double left = 0.5 - pupil_mm / choice.barrel[0].radius_mm / (3 * std::numbers::pi);
+    EXPECT_NEAR(area_of({field, 0}) / area_of({0, 0}), left, 0.005);
 }
 
 TEST(Barrel, TwoRimsMakeALemonOneRimAOneSidedCut) {
