@@ -63,9 +63,10 @@ BlurAxis axis(double sigma_px, int level, int pixels) {
     return axis_of(gaussian_weights(sigma_in_cells(sigma_px, level)), level, pixels);
 }
 
-// On cells so small that columns stay as they are: pixels, but for the widest.
+// On cells so small that columns stay as they are: pixels, up to radii of some 270 px. It takes hundreds of
+// weights for wide ones; nobody looks at it but to see how the blur is made.
 Blur blur_of_rows(double radius_px, double pixel_aspect, int width, int height) {
-    const int level = std::max(0, blur_level(radius_px, pixel_aspect) - 3);
+    const int level = std::max(0, blur_level(radius_px, pixel_aspect) - 6);
     return {level, axis(sigma_of(radius_px), level, width), axis_of({1}, level, height)};
 }
 
