@@ -52,33 +52,56 @@ TEST(Gaussian, AConstantPictureStaysConstantUpToTheBorder) {
         }
 }
 
-// Lines of light, each elsewhere in the coarse cells that it is shared between: on all of them, by one blur
-// and between two, along x and along y.
+// Lines of light across a narrow picture, each elsewhere in the coarse cells that it is shared between.
+class Lines {
+public:
+    static constexpr int kCount = 9;
+    Lines(float coc, bool across)
+        : coc_(coc), across_(across), radius_(int(std::abs(coc))), apart_(7 * radius_ + 13) {}
+    // Of one blur, or between two: beside a larger radius.
+    Shot shot(bool mixed) const {
+        const int length = (kCount + 2) * apart_;
+        Shot shot = across_ ? flat(length, 2, {0, 0, 0, 1}, coc_) : flat(2, length, {0, 0, 0, 1}, coc_);
+        for (int i = 0; i < kCount; ++i)
+            for (int k = 0; k < 2; ++k)
+                (across_ ? shot.colour(place(i), k) : shot.colour(k, place(i))) = {9, 9, 9, 1};
+        if (mixed) shot.coc_px(0, 0) = 1.4f * coc_;
+        return shot;
+    }
+    struct Seen {
+        double light = 0, place = 0, moment = 0;
+    };
+    Seen seen(const Picture& image, int line) const {
+        Seen sum;
+        const int reach = 3 * radius_ + 6;
+        for (int d = -reach; d <= reach; ++d) {
+            const int at = place(line) + d;
+            const double light = double((across_ ? image(at, 1) : image(1, at)).g) / 9;
+            sum.light += light, sum.place += light * d, sum.moment += light * d * d;
+        }
+        return sum;
+    }
+
+private:
+    int place(int line) const { return apart_ * (line + 1) + line * (radius_ / 7 + 1); }
+    float coc_;
+    bool across_;
+    int radius_, apart_;
+};
+
 TEST(Gaussian, ALightIsAsWideAsItsDiscAndLiesWhereItIsOnEveryPlaceOfItsGrids) {
-    constexpr int kLines = 9;
     for (const GaussianStyle style : {GaussianStyle::Layered, GaussianStyle::Plain})
         for (const float coc : {2.0f, -4.1f, 6.0f, 8.0f, -11.0f, 16.0f, 23.0f, 33.0f, -64.0f, 90.0f, 128.0f})
             for (const bool across : {true, false}) {
-                const int radius = int(std::abs(coc)), apart = 7 * radius + 13, reach = 3 * radius + 6;
-                const int length = (kLines + 2) * apart;
-                Shot shot = across ? flat(length, 2, {0, 0, 0, 1}, coc) : flat(2, length, {0, 0, 0, 1}, coc);
-                const auto line = [&](int i) { return apart * (i + 1) + i * (radius / 7 + 1); };
-                for (int i = 0; i < kLines; ++i)
-                    for (int k = 0; k < 2; ++k)
-                        (across ? shot.colour(line(i), k) : shot.colour(k, line(i))) = {9, 9, 9, 1};
-                shot.coc_px(0, 0) = radius % 2 ? 1.4f * coc : coc;
+                const Lines lines(coc, across);
+                const Shot shot = lines.shot(int(coc) % 2 != 0);
                 const Picture image = rendered(job_of(shot, style));
-                for (int i = 0; i < kLines; ++i) {
-                    double sum = 0, place = 0, moment = 0;
-                    for (int d = -reach; d <= reach; ++d) {
-                        const double light =
-                            double((across ? image(line(i) + d, 1) : image(1, line(i) + d)).g);
-                        sum += light / 9, place += light / 9 * d, moment += light / 9 * d * d;
-                    }
-                    const double disc = double(coc) * double(coc) / 4 + 1.0 / 12;
-                    EXPECT_NEAR(sum, 1, 2e-3) << coc << " style " << int(style) << " line " << i;
-                    EXPECT_NEAR(place, 0, 0.1) << coc << " style " << int(style) << " line " << i;
-                    EXPECT_NEAR(moment, disc, 0.01 * disc) << coc << " style " << int(style) << " line " << i;
+                const double disc = double(coc) * double(coc) / 4 + 1.0 / 12;
+                for (int i = 0; i < Lines::kCount; ++i) {
+                    const Lines::Seen seen = lines.seen(image, i);
+                    EXPECT_NEAR(seen.light, 1, 2e-3) << coc << " style " << int(style) << " line " << i;
+                    EXPECT_NEAR(seen.place, 0, 0.1) << coc << " style " << int(style) << " line " << i;
+                    EXPECT_NEAR(seen.moment, disc, 0.01 * disc) << coc << " style " << int(style) << " " << i;
                 }
             }
 }

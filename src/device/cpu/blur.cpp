@@ -131,11 +131,12 @@ bool BlurReader::go_to_row(int y) {
     if (lit.empty()) return false;
     lit_begin_ = across_->begin(lit.begin), lit_end_ = across_->end(lit.end);
     const int last = across_->cells() - 1;
-    const auto [before, own, after] = down_->shares(y);
+    const std::array<float, 3> shares = down_->shares(y);
     const auto cells = [&](const auto& plane, auto& to) {
         const auto a = plane.row(row_of(0)), b = plane.row(row_of(1)), c = plane.row(row_of(2));
         for (int x = std::max(0, lit.begin - 2); x < std::min(last + 1, lit.end + 2); ++x)
-            to[std::size_t(x) + 1] = down_->level() == 0 ? b[x] : before * a[x] + own * b[x] + after * c[x];
+            to[std::size_t(x) + 1] =
+                down_->level() == 0 ? b[x] : shares[0] * a[x] + shares[1] * b[x] + shares[2] * c[x];
         to.front() = to[1], to.back() = to[std::size_t(last) + 1];
     };
     cells(layer_->light, light_), cells(layer_->covered, covered_);
