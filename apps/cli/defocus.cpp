@@ -393,6 +393,7 @@ Status Run::write() {
                                             {"contrast", settings.develop.contrast},
                                             {"tone", name_of(settings.develop.tone)},
                                             {"ocio", flags_.ocio.view}};
+    if (flags_.ocio.is_on()) report_["codes_device"] = "cpu";
     std::string done_to_it =
         shot_.history + (shot_.history.empty() ? "" : "\n") + history_line(shot_, look());
     std::vector<Frame> others;

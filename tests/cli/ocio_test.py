@@ -125,7 +125,9 @@ class Ocio(CommandLineTest):
         for x, y in ((1, 0), (5, 3), (11, 7)):
             self.assertAlmostEqual(rows[y][3 * x], 255 * (x + y) / 24, delta=1.01)
         with open(self.path("report.json")) as file:
-            self.assertEqual(json.load(file)["parameters"]["display"]["ocio"], "sRGB,Half")
+            report = json.load(file)
+        self.assertEqual(report["parameters"]["display"]["ocio"], "sRGB,Half")
+        self.assertEqual(report["codes_device"], "cpu")
 
     def test_defocus_says_what_is_wrong_before_it_works(self):
         self.need()
