@@ -172,7 +172,9 @@ bool App::waits_for_pictures() const {
 
 // On to the next frame when something of this one was to be seen, 24 a second at most.
 void App::play() {
-    const bool is_seen = !reading_ && ((sides_[0].whole && !sides_[0].whole_is_old) || !trouble.empty());
+    const SideFrames& left = sides_[0];
+    const bool is_seen =
+        !reading_ && (((left.whole || left.codes) && !left.whole_is_old) || !trouble.empty());
     if (!state.timeline.playing || !is_seen) return;
     if (Clock::now() - shown_since_ >= std::chrono::milliseconds(41)) go_to(state.timeline.stepped(1));
 }
@@ -408,7 +410,7 @@ void App::take_shot(ReadShot read) {
     }
     for (SideFrames& side : sides_) {  // what was made of the frame before stays until there is something new
         side.wish.reset(), side.radii.reset();
-        if (side.whole && side.whole_area != shot_->shot.place.data_window) side = {};
+        if ((side.whole || side.codes) && side.whole_area != shot_->shot.place.data_window) side = {};
     }
     note_action();
 }
@@ -421,12 +423,16 @@ void App::take_frame(MadeFrame made) {
     if (made.error) return;
     if (made.side == 0) time_draft(made);
     if (made.radii) frames.radii = made.radii;
+    if (made.codes) {
+        frames.codes = std::move(made.codes), frames.whole_area = made.area, frames.whole_is_old = false;
+        frames.whole.reset(), frames.detail.reset(), frames.numbers.reset(), frames.panels.reset();
+    }
     if (made.picture) {
         const bool is_part = made.is_part;
         (is_part ? frames.detail : frames.whole) = made.picture;
         (is_part ? frames.detail_area : frames.whole_area) = made.area;
         (is_part ? frames.detail_is_old : frames.whole_is_old) = false;
-        if (!is_part) frames.detail.reset();
+        if (!is_part) frames.detail.reset(), frames.codes.reset();
         frames.numbers = made.numbers;
         frames.panels =
             made.panels.empty() ? nullptr : std::make_shared<const std::vector<Panel>>(made.panels);
@@ -444,8 +450,10 @@ void App::take_print(Print print) {
     shown.print = std::move(print);
     const SideFrames& left = sides_[0];
     const auto& picture = shown.print.of.picture;
-    const bool is_new = picture && ((picture == left.whole && !left.whole_is_old) ||
-                                    (picture == left.detail && !left.detail_is_old));
+    const auto& codes = shown.print.of.codes;
+    const bool is_new = (codes && codes == left.codes && !left.whole_is_old) ||
+                        (picture && ((picture == left.whole && !left.whole_is_old) ||
+                                     (picture == left.detail && !left.detail_is_old)));
     if (changed_ && is_new) {
         const double ms = std::chrono::duration<double, std::milli>(Clock::now() - *changed_).count();
         slowest.first_picture = std::max(slowest.first_picture, ms), slowest.last_picture = ms;

@@ -28,6 +28,7 @@ struct SideFrames {
     std::uint64_t number = 0;  // of it
     bool complete = false;     // its last step is there
     std::shared_ptr<const Picture> whole, detail;
+    std::shared_ptr<const DraftCodes> codes;  // of a draft, in place of the whole
     Rect whole_area, detail_area;
     bool whole_is_old = false, detail_is_old = false;  // of another wish
     std::shared_ptr<const Plane> numbers;              // in place of the whole; else null

@@ -68,12 +68,15 @@ void App::ask_frame(int index, const Side& side) {
     if (!side.engine.empty()) wish.look.engine = side.engine;
     wish.on_cpu = side.on_cpu;
     wish.region = region_for(frames, wish);
+    if (state.channel == Channel::Colour && !state.choice.ocio && wish.shown == "result" && !wish.region)
+        wish.codes = state.choice.develop;
     if (!is_live()) wish.coarse = coarse_by();
     const bool same = frames.wish && same_frame(*frames.wish, wish);
     if (same && frames.wish->region == wish.region && frames.wish->final_quality == wish.final_quality)
         return;
     if (!same) frames.whole_is_old = frames.detail_is_old = true;
-    if (frames.wish && frames.wish->shown != wish.shown) frames.whole.reset(), frames.detail.reset();
+    if (frames.wish && frames.wish->shown != wish.shown)
+        frames.whole.reset(), frames.detail.reset(), frames.codes.reset();
     if (!same && index == 0 && !changed_) changed_ = acted_;
     frames.complete = false;
     frames.wish = wish;
@@ -108,6 +111,8 @@ void App::ask_prints(int index, const Side& side) {
     } else if (is_made(side.shown) && frames.whole) {
         whole.picture = frames.whole, whole.area = frames.whole_area, whole.panels = frames.panels;
         whole.reduce = frames.last.coarse;
+    } else if (is_made(side.shown) && frames.codes) {
+        whole.codes = frames.codes, whole.area = frames.whole_area, whole.reduce = frames.last.coarse;
     } else {
         whole.picture = borrowed(shot_, shot_->shot.colour);
     }
@@ -152,21 +157,23 @@ void App::take_lens(LensMade made) {
 // What is seen of it, and a little more, so that moving about shows no gaps; as fine as the screen.
 void App::ask_print(int target, Negative negative) {
     Shown& shown = on_screen_[std::size_t(target)];
-    if (!negative.picture && !negative.plane) return clear_print(target);
+    if (!negative.picture && !negative.codes && !negative.plane) return clear_print(target);
     const double scale = std::min(mapping.scale_x, mapping.scale_y);
     if (!(scale > 0)) return;
     const Rect seen = mapping.seen();
     const Rect wanted = seen.intersected(negative.area);
     if (wanted.empty()) return clear_print(target);
-    negative.reduce = std::max(negative.reduce, int(std::floor(1 / scale)));
-    negative.part = seen.grown(std::max(seen.width(), seen.height()) / 4 + 1).intersected(negative.area);
+    if (!negative.codes) negative.reduce = std::max(negative.reduce, int(std::floor(1 / scale)));
+    negative.part =
+        negative.codes ? negative.area
+                       : seen.grown(std::max(seen.width(), seen.height()) / 4 + 1).intersected(negative.area);
     negative.permissible_radius_px = setup_.permissible_radius_px;
     negative.develop = state.choice.develop;
     negative.ocio = state.choice.ocio;
     negative.channel = state.channel;
     if (shown.asked) {  // the part that was asked for will do while it holds what is seen
         const Rect& before = shown.asked->part;
-        if (shown.asked->area == negative.area && shown.asked->reduce == negative.reduce &&
+        if (!negative.codes && shown.asked->area == negative.area && shown.asked->reduce == negative.reduce &&
             holds(before, wanted) && area(before) < 6 * area(negative.part))
             negative.part = before;
         if (*shown.asked == negative) return;

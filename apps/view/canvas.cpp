@@ -31,7 +31,7 @@ Mapping mapping_of(const App& app, const ImVec2& min, const ImVec2& size) {
 
 void draw_shown(const Mapping& m, const Shown& shown, ImU32 tint) {
     const Negative& of = shown.print.of;
-    if (shown.texture.empty() || (!of.picture && !of.plane)) return;
+    if (shown.texture.empty() || (!of.picture && !of.codes && !of.plane)) return;
     // From twice its size on one looks at pixels, below at a picture.
     shown.texture.enlarge_smoothly(m.scale_y < 2 && m.scale_y != 1);
     // The last block of a reduced picture may reach beyond the part.

@@ -114,6 +114,12 @@ void paint_numbers(const Negative& of, Print& print) {
     }
 }
 
+void put_codes(const std::vector<std::uint16_t>& rgb, Print& print) {
+    print.rgba.assign(rgb.size() / 3 * 4, 255);
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i)
+        for (std::size_t c = 0; c < 3; ++c) print.rgba[4 * i + c] = std::uint8_t(rgb[3 * i + c]);
+}
+
 void print_light(const Negative& of, const Rect& part, const Darkroom::OcioCodes& ocio_codes, Print& print) {
     Picture light = reduced(*of.picture, part, of.reduce);
     print.width = light.width(), print.height = light.height();
@@ -133,12 +139,7 @@ void print_light(const Negative& of, const Rect& part, const Darkroom::OcioCodes
             settings.transfer = Transfer::Linear;
         }
     }
-    const auto codes = develop(light, settings);
-    print.rgba.resize(4 * light.size());
-    for (std::size_t i = 0; i < light.size(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c) print.rgba[4 * i + c] = std::uint8_t(codes[3 * i + c]);
-        print.rgba[4 * i + 3] = 255;
-    }
+    put_codes(develop(light, settings), print);
     if (of.panels) paint_numbers(of, print);
 }
 
@@ -149,8 +150,8 @@ bool Negative::operator==(const Negative& o) const {
         return a.exposure_stops == b.exposure_stops && a.contrast == b.contrast && a.tone == b.tone &&
                a.transfer == b.transfer;
     };
-    return picture == o.picture && plane == o.plane && panels == o.panels && area == o.area &&
-           part == o.part && reduce == o.reduce && numbers == o.numbers &&
+    return picture == o.picture && codes == o.codes && plane == o.plane && panels == o.panels &&
+           area == o.area && part == o.part && reduce == o.reduce && numbers == o.numbers &&
            permissible_radius_px == o.permissible_radius_px && same_display(develop, o.develop) &&
            ocio == o.ocio && channel == o.channel;
 }
@@ -159,7 +160,10 @@ Print developed(const Negative& negative, const Darkroom::OcioCodes& ocio_codes)
     Print print;
     print.of = negative;
     const Rect part = negative.part.moved(-negative.area.x0, -negative.area.y0);
-    if (negative.numbers == Numbers::Light)
+    if (negative.codes)
+        print.width = negative.codes->width, print.height = negative.codes->height,
+        put_codes(negative.codes->rgb, print);
+    else if (negative.numbers == Numbers::Light)
         print_light(negative, part, ocio_codes, print);
     else
         print_numbers(negative, part, print);

@@ -28,8 +28,15 @@ enum class Numbers {
     Depth,    // near bright, far dark: 1/depth
 };
 
+// Codes of a display that came in place of light, three a pixel.
+struct DraftCodes {
+    int width = 0, height = 0;
+    std::vector<std::uint16_t> rgb;
+};
+
 struct Negative {
     std::shared_ptr<const Picture> picture;
+    std::shared_ptr<const DraftCodes> codes;  // in its place: of all of the area, reduced already
     std::shared_ptr<const Plane> plane;
     std::shared_ptr<const std::vector<Panel>> panels;  // some of which may hold numbers; may be null
     Rect area;                                         // where its pixels lie

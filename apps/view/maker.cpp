@@ -2,7 +2,7 @@
 
 #include "petzval/names.h"
 
-#include "thinning.h"
+#include "first_look.h"
 #include "warmup.h"
 
 #include <algorithm>
@@ -93,36 +93,6 @@ std::shared_ptr<const Picture> flat(const DeepPicture& deep) {
     Plane depth;
     flatten(deep, *picture, depth);
     return picture;
-}
-
-// A first look is of no more pixels than can be drawn at once: of every n-th.
-constexpr double kFirstPixels = 4e5;
-
-int thinning_of(const Wish& wish) {
-    const double pixels = double(wish.shot->shot.colour.size());
-    return std::max({wish.shot->coarse, wish.coarse, int(std::ceil(std::sqrt(pixels / kFirstPixels)))});
-}
-
-// What is seen alone, on a sensor of fewer pixels.
-Result<Picture> first_look(Session& session, const DefocusJob& rendered, Look look, int by,
-                           const Control& control, DefocusReport& report) {
-    DefocusJob job;
-    job.camera = rendered.camera;
-    const Picture colour = thinned(rendered.colour, by);
-    Plane depth = thinned(rendered.coc_px.empty() ? rendered.depth_m : rendered.coc_px, by);
-    for (std::size_t i = 0; i < depth.size() && !rendered.coc_px.empty(); ++i) depth.pixels()[i] /= float(by);
-    job.colour = colour;
-    (rendered.coc_px.empty() ? job.depth_m : job.coc_px) = depth;
-    const Rect &frame = rendered.place.display_window, &data = rendered.place.data_window;
-    const int x = (data.x0 - frame.x0) / by, y = (data.y0 - frame.y0) / by;
-    job.place = {{0, 0, std::max(1, frame.width() / by), std::max(1, frame.height() / by)},
-                 Rect{x, y, x + colour.width(), y + colour.height()},
-                 rendered.place.pixel_aspect};
-    look.coc.max_radius_px /= by;
-    auto done = session.take(job, look, control);
-    if (!done) return done.error();
-    report = std::move(*done);
-    return enlarged<Rgba>(report.image, by, rendered.colour.width(), rendered.colour.height());
 }
 
 }  // namespace
@@ -373,6 +343,12 @@ Session& Maker::session_of(const Wish& wish) const {
     return cpu_session_ && (wish.on_cpu || device_is_lost_ || is_cold(wish)) ? *cpu_session_ : *session_;
 }
 
+// A draft that a device draws: light follows it. On the CPU the darkroom makes codes beside the next draft.
+bool Maker::comes_as_codes(const Order& order, const Look& look) const {
+    return order.step == 0 && order.wish.codes && cpu_session_ && &session_of(order.wish) == session_.get() &&
+           look.gather.stage == GatherStage::Final;
+}
+
 void Maker::warm_up() {
     for (const auto& order : orders_)
         if (order && is_cold(order->wish))
@@ -419,26 +395,24 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     const Wish& wish = order.wish;
     Look look = look_of_step(wish, order.step);
     if (Status done = read_lens_images(look); !done) return done.error();
-    Result<DefocusReport> done = Error{ErrorCode::InvalidArgument, ""};
-    const int by = order.step == 0 ? thinning_of(wish) : 1;
-    if (wish.shown == "result" && by > 1) {
-        DefocusReport report;
-        auto look_at_it = first_look(session_of(wish), rendered, look, by, control, report);
-        if (!look_at_it) return look_at_it.error();
-        report.image = std::move(*look_at_it);
-        done = std::move(report);
-    } else {
-        done = shown(wish, rendered, look, control);
-    }
+    const int by = order.step == 0 && wish.shown == "result" ? thinning_of(wish) : 1;
+    Control wanted = control;
+    if (comes_as_codes(order, look)) wanted.codes = CodesWanted{*wish.codes, rendered.place.data_window};
+    auto done = by > 1 ? first_look(session_of(wish), rendered, look, by, wanted)
+                       : shown(wish, rendered, look, wanted);
     if (!done) return done.error();
     if (is_view(wish.shown)) frame.last = order.step > 0 || done->engine == "gaussian";
     frame.is_part = control.region.has_value();
-    if (wish.shown == "result") frame.coarse = by;
+    frame.coarse = by;
     if (frame.is_part) frame.area = *control.region;
     if (is_buffer(wish.shown)) frame.area = done->image.rect();
     if (look.engine == "gather" && look.gather.stage == GatherStage::Coc && wish.shown == "result")
         frame.numbers = std::make_shared<const Plane>(red_of(done->image));
-    frame.picture = std::make_shared<const Picture>(std::move(done->image));
+    if (done->codes.empty())
+        frame.picture = std::make_shared<const Picture>(std::move(done->image));
+    else
+        frame.codes = std::make_shared<const DraftCodes>(DraftCodes{
+            (frame.area.width() + by - 1) / by, (frame.area.height() + by - 1) / by, std::move(done->codes)});
     frame.panels = std::move(done->panels);
     frame.engine = done->engine;
     frame.device = done->device;

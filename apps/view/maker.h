@@ -7,6 +7,7 @@
 #include "petzval/session.h"
 #include "petzval/shot.h"
 
+#include "darkroom.h"
 #include "depth_histogram.h"
 #include "live_scene.h"
 #include "tev.h"
@@ -53,8 +54,10 @@ struct Wish {
     bool final_quality = false;       // after standard quality
     bool on_cpu = false;              // in place of the session's device
     int coarse = 1;                   // so many by so many pixels are one in its draft
+    // How its draft is shown, if nothing but that is asked of it: it may come as codes. No wish for another.
+    std::optional<DevelopSettings> codes = {};
 };
-// But for the region, how far it is refined and how coarse it begins.
+// But for the region, how far it is refined, how coarse it begins and how that is shown.
 bool same_frame(const Wish& a, const Wish& b);
 
 // One step of it, done.
@@ -68,6 +71,7 @@ struct MadeFrame {
     bool is_part = false;  // they are those of the wish's region
     int coarse = 1;        // so many by so many of them are one
     std::shared_ptr<const Picture> picture;
+    std::shared_ptr<const DraftCodes> codes;  // in place of the picture
     std::shared_ptr<const Plane>
         numbers;                         // signed radii in place of the picture, where that is what it holds
     std::shared_ptr<const Plane> radii;  // of the whole data window; with the first step
@@ -147,6 +151,7 @@ private:
     // The device has not drawn with the wish's engine yet: the CPU makes its draft, the rest waits.
     bool is_cold(const Wish& wish) const;
     bool can_be_made(const std::optional<Order>& order) const;
+    bool comes_as_codes(const Order& order, const Look& look) const;
     void warm_up();
     Status take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
                         MadeFrame& frame);

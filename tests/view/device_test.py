@@ -43,10 +43,16 @@ class DeviceTest(window.WindowTest):
             expect no error
             say frame.device
             expect frame.engine scatter
+            set fstop 2.8
+            until frame.passes develop
+            wait
+            expect no error
+            say frame.passes
         """, "table.exr", "--device", "gpu")
-        first, last = out.splitlines()
+        first, last, passes = out.splitlines()
         self.assertEqual(first, "cpu")
         self.assertIn("gpu", last)
+        self.assertNotIn("develop", passes, "light follows the codes of a draft")
 
     def test_a_command_says_so_in_one_line(self):
         open(self.gone, "w").close()

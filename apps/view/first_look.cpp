@@ -1,0 +1,39 @@
+#include "first_look.h"
+
+#include "thinning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::view {
+
+int thinning_of(const Wish& wish) {
+    constexpr double kFirstPixels = 4e5;
+    const double pixels = double(wish.shot->shot.colour.size());
+    return std::max({wish.shot->coarse, wish.coarse, int(std::ceil(std::sqrt(pixels / kFirstPixels)))});
+}
+
+Result<DefocusReport> first_look(Session& session, const DefocusJob& rendered, Look look, int by,
+                                 const Control& control) {
+    DefocusJob job;
+    job.camera = rendered.camera;
+    const Picture colour = thinned(rendered.colour, by);
+    Plane depth = thinned(rendered.coc_px.empty() ? rendered.depth_m : rendered.coc_px, by);
+    for (std::size_t i = 0; i < depth.size() && !rendered.coc_px.empty(); ++i) depth.pixels()[i] /= float(by);
+    job.colour = colour;
+    (rendered.coc_px.empty() ? job.depth_m : job.coc_px) = depth;
+    const Rect &frame = rendered.place.display_window, &data = rendered.place.data_window;
+    const int x = (data.x0 - frame.x0) / by, y = (data.y0 - frame.y0) / by;
+    job.place = {{0, 0, std::max(1, frame.width() / by), std::max(1, frame.height() / by)},
+                 Rect{x, y, x + colour.width(), y + colour.height()},
+                 rendered.place.pixel_aspect};
+    look.coc.max_radius_px /= by;
+    Control of_few = control;
+    if (of_few.codes) of_few.codes->window = job.place.data_window;
+    auto done = session.take(job, look, of_few);
+    if (done && done->codes.empty())
+        done->image = enlarged<Rgba>(done->image, by, rendered.colour.width(), rendered.colour.height());
+    return done;
+}
+
+}  // namespace petzval::view

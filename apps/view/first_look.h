@@ -1,0 +1,16 @@
+// The first look at a frame: of no more pixels than can be drawn at once.
+#pragma once
+
+#include "maker.h"
+
+namespace petzval::view {
+
+// Of every so-manieth pixel of every so-manieth row.
+int thinning_of(const Wish& wish);
+
+// The frame on a sensor of fewer pixels, enlarged to its own; its codes, where control wants them, as they
+// are.
+Result<DefocusReport> first_look(Session& session, const DefocusJob& rendered, Look look, int by,
+                                 const Control& control);
+
+}  // namespace petzval::view
