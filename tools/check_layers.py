@@ -30,7 +30,7 @@ ALLOWED = {
     "engine/samples": MODEL | {"engine/waist"},
     "engine/lights": WAIST,
     "engine/scatter": WAIST | {"engine/lights"},
-    "engine/gather": WAIST,
+    "engine/gather": WAIST | {"engine/lights"},
     "engine/gaussian": WAIST,
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": LENS | {"engine/waist"},
@@ -54,7 +54,6 @@ TESTS = {
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
     "engine/gather": {"kernel/lenses"},
-    "engine/sprites": {"kernel/lenses"},
     "session": {"lens_facts"},
 }
 # Devices know plans, the data that engines leave, and nothing else of engines.

@@ -252,9 +252,9 @@ std::vector<LookRow> rows_of_engines() {
         row("Engine sprites", "--background", "sprites.background", name<SpriteBackground>(),
             "the engine that draws everything else (default gather)"),
         row("Engine sprites", "--find-points", "sprites.find_points", on_or_off(),
-            "draw the picture's own bright points as kernels too (default on)"),
+            "of gather too: draw the picture's own bright points each as a whole kernel (default on)"),
         row("Engine sprites", "--bright-factor", "sprites.bright_factor", value("N", parse_positive),
-            "how many times its surroundings a bright point is (default 3)"),
+            "of gather too: how many times its surroundings a bright point is (default 3)"),
     };
 }
 

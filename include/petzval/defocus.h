@@ -76,7 +76,7 @@ struct DefocusJob {
     ScatterOptions scatter;
     GatherOptions gather;      // gather, and sprites over it
     GaussianOptions gaussian;  // gaussian, and sprites over it
-    SpriteOptions sprites;
+    SpriteOptions sprites;     // sprites; what it finds, gather finds as well
     // sprites only: lights to draw on top, hidden by what is nearer than they are. Those that cannot be drawn
     // (not finite, negative, out of sight) are left out, counted and reported.
     const std::vector<LightPoint>* points = nullptr;

@@ -95,7 +95,7 @@ enum class SpriteBackground { Gather, Gaussian };
 
 struct SpriteOptions {
     SpriteBackground background = SpriteBackground::Gather;  // what everything else is drawn by
-    bool find = true;          // also draw the picture's own bright points as kernels
+    bool find = true;          // gather too: also draw the picture's own bright points as kernels
     double bright_factor = 3;  // of its surroundings: from where on light is a bright point; > 0
 
     bool operator==(const SpriteOptions&) const = default;

@@ -76,9 +76,14 @@ Rules rules_of_engines() {
          }},
         {{"gaussian.depth_offset", "gaussian.depth_along", "gaussian.depth_band_range_m"},
          [](const Look& l) { return unless(is_wgld(l), "without gaussian.style wgld of engine gaussian"); }},
-        {{"sprites.background", "sprites.find_points", "sprites.bright_factor"},
+        {{"sprites.background"},
          [](const Look& l) {
              return unless(l.engine == "sprites", with_engine(l) + "; it is for engine sprites");
+         }},
+        {{"sprites.find_points", "sprites.bright_factor"},
+         [](const Look& l) {
+             return unless(l.engine == "sprites" || (l.engine == "gather" && !is_published_stage(l)),
+                           "without engine gather itself, or sprites");
          }},
         {{"sprites.bright_factor"},
          [](const Look& l) { return unless(l.sprites.find, "with sprites.find_points off"); }},

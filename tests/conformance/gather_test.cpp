@@ -137,6 +137,7 @@ TEST(Gather, ALensThatDiffersOverTheFieldTearsNoDiscWhereTilesMeet) {
         shot.colour(x, 64) = {100, 100, 100, 1};
         DefocusJob job = shot.job("gather");
         job.lens.cats_eye = 1;
+        job.sprites.find = false;
         return rendered(job);
     };
     constexpr int kApart = 32;
@@ -186,6 +187,41 @@ TEST(Gather, HolesInAWallLetNoMoreLightThroughWhereSomethingStandsBeforeIt) {
     const float open = image(20, 40).g;
     EXPECT_NEAR(open, 2.018f, 0.05f);
     for (int x = 20; x < 56; ++x) EXPECT_LT(image(x, 40).g, 1.05f * open) << x;
+}
+
+// The same by rings alone and with bright points drawn one by one, against the truth.
+struct Drawn {
+    double by_rings = 0, by_sprites = 0;
+    Drawn(const Shot& shot, int pupil_points) {
+        DefocusJob job = shot.job("reference");
+        job.pupil_points = pupil_points;
+        const Picture truth = rendered(job);
+        job.engine = "gather";
+        by_sprites = psnr_inside(truth, rendered(job), 16);
+        job.sprites.find = false;
+        by_rings = psnr_inside(truth, rendered(job), 16);
+    }
+};
+
+TEST(Gather, ABarCutsTheDiscOfABrightPoint) {
+    Shot shot = flat(90, 90, {0.05f, 0.05f, 0.05f, 1}, 14);
+    shot.colour(45, 45) = {500, 500, 500, 1};
+    for (int y = 0; y < 90; ++y)
+        for (int x = 48; x < 60; ++x) shot.coc_px(x, y) = -20;
+    const Drawn drawn(shot, 4096);
+    EXPECT_GT(drawn.by_sprites, drawn.by_rings + 4);
+}
+
+// What is bright, wide and behind wires goes on behind them as bright as it shows.
+TEST(Gather, ALitWindowBehindWiresIsNoDarkerForBeingDrawnPointByPoint) {
+    Shot shot = flat(120, 90, {0.1f, 0.1f, 0.1f, 1}, 5);
+    for (int y = 25; y < 60; ++y)
+        for (int x = 40; x < 80; ++x) shot.colour(x, y) = {4, 4, 3, 1};
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 120; ++x)
+            if ((x + y) % 14 < 3) shot.colour(x, y) = {0.2f, 0.2f, 0.2f, 1}, shot.coc_px(x, y) = -8;
+    const Drawn drawn(shot, 512);
+    EXPECT_GT(drawn.by_sprites, drawn.by_rings - 0.05);
 }
 
 }  // namespace

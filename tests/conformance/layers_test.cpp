@@ -72,7 +72,9 @@ TEST(ColourLayers, SumToThePictureAlsoWhereTheLensDistorts) {
 }
 
 TEST(ColourLayers, SumToThePictureInEnginesThatRunThemOneByOne) {
-    const Shot shot = noise_at_several_depths();
+    Shot shot = noise_at_several_depths();
+    for (const int x : {30, 80, 110})
+        shot.colour(x, 40) = {60, 50, 40, 1};  // points that gather draws as such
     const Lights lights(shot);
     for (const char* engine : {"gather", "gaussian"})
         for (const double distortion : {0.0, 0.1}) {

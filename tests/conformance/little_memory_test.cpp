@@ -90,8 +90,11 @@ Look look_of(const std::string& engine) {
 TEST_F(LittleMemory, EveryEngineDrawsTheSamePicture) {
     const Shot shot = lit_shot(160, 100, 3);
     for (const auto& [engine, bytes] :
-         {std::pair("scatter", 2'000'000), {"gather", 800'000}, {"gaussian", 1'100'000}})
-        expect_the_same(shot.job(engine), look_of(engine), {std::size_t(bytes)}, true);
+         {std::pair("scatter", 2'000'000), {"gather", 800'000}, {"gaussian", 1'100'000}}) {
+        Look look = look_of(engine);
+        look.sprites.find = false;  // lights through masks have a test of their own
+        expect_the_same(shot.job(engine), look, {std::size_t(bytes)}, true);
+    }
 }
 
 TEST_F(LittleMemory, LightsAreAddedByPieces) {

@@ -1,11 +1,13 @@
 // The preview engine: rings of the lens's kernels gathered at half resolution, near and far apart
-// (docs/published.md).
+// (docs/published.md); bright points with kernels of their own.
 #include "engine/gather/gather.h"
 
 #include "device/device.h"
 #include "engine/gather/gather_stages.h"
 #include "engine/gather/plan.h"
 #include "engine/gather/realtime_plan.h"
+#include "engine/lights/bright_points.h"
+#include "engine/lights/sprites.h"
 #include "engine/waist/memory.h"
 #include "engine/waist/stopwatch.h"
 
@@ -27,7 +29,7 @@ struct Strips {
     std::size_t least_bytes = 0;  // of job.max_memory_bytes
 };
 
-Strips plan_strips(const Input& input, const RingSizes& sizes) {
+Strips plan_strips(const Input& input, const RingSizes& sizes, const BrightPoints& found) {
     constexpr std::size_t kBytesPerPixel = 94;  // of cells, light and what is hidden, where many depths meet
     const int cell = 1 << (sizes.levels() - 1);
     const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.nearest_coc_px)});
@@ -38,10 +40,13 @@ Strips plan_strips(const Input& input, const RingSizes& sizes) {
     Strips strips{whole_units(input.height()),
                   whole_units(1.05 * input.lens(0).reach_px(largest) +
                               double(fill_reach_px(input.nearest_coc_px)) + 4.0 * cell + 8)};
-    const std::size_t row_bytes = kBytesPerPixel * std::size_t(input.width());
-    const std::size_t held =
-        held_bytes(input) + sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
-    strips.least_bytes = held + std::size_t(std::min(unit + 2 * strips.halo, input.height())) * row_bytes;
+    const std::size_t row_bytes =
+        kBytesPerPixel * std::size_t(input.width()) + found.bytes_beside(1) - found.bytes_beside(0);
+    const std::size_t held = held_bytes(input) + found.bytes_beside(0) +
+                             sizeof(Rgba) * std::size_t(input.width()) * std::size_t(input.height());
+    strips.least_bytes =
+        held + std::max(std::size_t(std::min(unit + 2 * strips.halo, input.height())) * row_bytes,
+                        sprites_bytes(input, found.count()));
     const std::size_t rows = (std::max(input.max_memory_bytes, held) - held) / row_bytes;
     if (input.max_memory_bytes == 0 || rows >= std::size_t(input.height())) return strips;
     strips.rows = std::max(unit, (int(rows) - 2 * strips.halo) / unit * unit);
@@ -57,24 +62,33 @@ public:
     explicit Gather(const Input& input) : frame_(input), sizes_(ring_sizes(input)), kernels_(input, sizes_) {}
 
     Result<Output> run() {
-        const Strips strips = plan_strips(frame_, sizes_);
+        Stopwatch watch(stages_);
+        const BrightPoints found(frame_);
+        if (BrightPoints::are_looked_for(frame_)) watch.lap("bright points");
+        const Strips strips = plan_strips(frame_, sizes_, found);
         if (frame_.max_memory_bytes > 0 && frame_.max_memory_bytes < strips.least_bytes)
             return too_little_memory("gather", strips.least_bytes);
         Output output;
         output.canvas = frame_.device->canvas(Picture::uninitialised(frame_.width(), frame_.height()));
         for (int y = 0; y < frame_.height() && !frame_.progress->cancelled(); y += strips.rows)
             draw(Rect{0, y, frame_.width(), y + strips.rows}.intersected(frame_.colour.rect()), strips.halo,
-                 *output.canvas);
+                 found, *output.canvas);
+        if (!frame_.progress->cancelled() && (!found.empty() || !frame_.points.empty())) {
+            Stopwatch lights(stages_);
+            const device::Work work = draw_sprites(frame_, found.sprites(), *output.canvas);
+            lights.lap("sprites", work.bytes, work.multiply_adds);
+        }
         if (frame_.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
         output.stages = std::move(stages_);
         return output;
     }
 
 private:
-    void draw(const Rect& rows, int halo, device::Target out) {
+    void draw(const Rect& rows, int halo, const BrightPoints& found, device::Target out) {
         Stopwatch watch(stages_);
         const int first = std::max(0, rows.y0 - halo), last = std::min(frame_.height(), rows.y1 + halo);
-        const Input strip = frame_.rows(first, last);
+        const BrightPoints::Rest rest = found.rest(first, last);
+        const Input& strip = rest.input();
         const GatherPlan plan = plan_gather(strip, rows.moved(0, -first), first, sizes_, kernels_);
         watch.lap("prefilter");
         const device::Control control{*strip.workers, *strip.progress,
@@ -109,10 +123,6 @@ std::shared_ptr<const RealtimeLens> kept_realtime_lens(const Input& input) {
                 realtime_lens(input.lens(0), kernel::FieldPosition{}, near_px, far_px));
         });
     return {kept, &kept->lens};
-}
-
-std::size_t least_gather_bytes(const Input& input) {
-    return plan_strips(input, ring_sizes(input)).least_bytes;
 }
 
 Result<Output> run_gather(const Input& input) {

@@ -5,10 +5,7 @@
 
 namespace petzval::engine {
 
-// The least job.max_memory_bytes that it runs in.
-std::size_t least_gather_bytes(const Input& input);
-
-// Errors: Cancelled, OutOfMemory.
+// Draws given points as well. Errors: Cancelled, OutOfMemory.
 Result<Output> run_gather(const Input& input);
 
 // The front view alone, in one go, by the pass for real time (docs/design/realtime.md).

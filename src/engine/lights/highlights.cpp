@@ -52,13 +52,14 @@ float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int
 
 HighlightSplit::HighlightSplit(const Input& input, const HighlightRule& rule)
     : rule_(rule),
-      colour_(input.deep.empty() ? input.colour : View<const Rgba>{}),
+      colour_(input.deep.empty() ? input.judged() : View<const Rgba>{}),
       coc_px_(input.coc_px),
       width_(input.width()),
       height_(input.height()) {
     Workers& workers = *input.workers;
-    find_contested(input.coc_px, workers);
-    const Plane reciprocal = reciprocal_cells(input.colour, kCell, workers);
+    if (rule.contested_floor < rule.least_floor || rule.floor_at_1px > 0)
+        find_contested(input.coc_px, workers);
+    const Plane reciprocal = reciprocal_cells(input.judged(), kCell, workers);
     surroundings_ = Plane(reciprocal.width(), reciprocal.height());
     parallel_for(reciprocal.height(), workers, [&](int y) {
         for (int x = 0; x < reciprocal.width(); ++x) {
@@ -67,7 +68,7 @@ HighlightSplit::HighlightSplit(const Input& input, const HighlightRule& rule)
             surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
         }
     });
-    white_ = white_of(input.all().colour, workers);
+    white_ = white_of(input.all().judged(), workers);
 }
 
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all
@@ -100,7 +101,8 @@ float HighlightSplit::floor_at(int x, int y, float coc_px) const {
     const float open = std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
     // The base goes on beyond the frame, highlights do not: near its edge only true ones count.
     const int to_edge = std::min(std::min(x, width_ - 1 - x), std::min(y, height_ - 1 - y));
-    const bool contested = coc_px > contested_(x / kBlock, y / kBlock) && float(to_edge) >= radius + 1;
+    const bool contested =
+        !contested_.empty() && coc_px > contested_(x / kBlock, y / kBlock) && float(to_edge) >= radius + 1;
     if (!contested) return white_ * open;
     constexpr float kRisesFromPx = 8;  // a wide disc of little light shows no shadow
     return white_ * std::min(open, rule_.contested_floor * std::max(1.0f, radius / kRisesFromPx));

@@ -83,7 +83,9 @@ private:
     float white_ = 0;
     Plane surroundings_;  // per cell of kCell x kCell pixels
     static constexpr int kCell = 4;
-    Plane contested_;  // per block of kBlock pixels: the radius from which on something nearer is in the way
+    // Per block of kBlock pixels: the radius from which on something nearer is in the way. Empty: the rule
+    // does not ask.
+    Plane contested_;
     static constexpr int kBlock = 16;
 };
 

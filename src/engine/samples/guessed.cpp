@@ -302,7 +302,7 @@ HiddenFill fill_hidden(const Input& input, View<const Touched> touched) {
 Guessed guess(const Input& input, bool fills) {
     const Image<Touched> touched = find_touched(input.coc_px, *input.workers);
     Guessed guessed;
-    if (fills) guessed.fill = fill_hidden(input, touched);
+    if (fills) guessed.fill = fill_hidden(input.with_all_light(), touched);
     guessed.rims = find_rims(input.colour, input.judged(), input.coc_px, touched, *input.workers);
     return guessed;
 }

@@ -128,6 +128,9 @@ struct Input : LensOnPicture {
     Picture* spent = nullptr;
     // Where `colour` is a layer of a picture: that picture. Empty otherwise.
     View<const Rgba> picture;
+    // Both with the light that was taken out of them to be drawn by itself: what goes on behind an edge is as
+    // bright as what shows. Empty: none was.
+    View<const Rgba> lit, lit_picture;
     // Every sample of every pixel, when the input knows more than its front view (deep files, hidden layers);
     // then colour and coc_px are not all there is to hit. Empty otherwise.
     CocSamplesView deep;
@@ -180,6 +183,11 @@ struct Input : LensOnPicture {
     // What decisions look at, so that those of all layers agree.
     View<const Rgba> judged() const { return picture.empty() ? colour : picture; }
     const Input& all() const { return whole ? *whole : *this; }
+    Input with_all_light() const {
+        Input with = *this;
+        if (!lit.empty()) with.colour = lit, with.picture = lit_picture;
+        return with;
+    }
     // Rows y0…y1-1 as an input of their own, while this one lasts. The edges towards the other rows count as
     // open.
     Input rows(int y0, int y1) const {
@@ -188,6 +196,8 @@ struct Input : LensOnPicture {
         const Rect r{0, y0, width(), y1};
         part.colour = colour.part(r), part.coc_px = coc_px.part(r);
         if (!picture.empty()) part.picture = picture.part(r);
+        if (!lit.empty()) part.lit = lit.part(r);
+        if (!lit_picture.empty()) part.lit_picture = lit_picture.part(r);
         if (!depth_m.empty()) part.depth_m = depth_m.part(r);
         if (!plate.empty()) part.plate = {plate.colour.part(r), plate.coc_px.part(r), plate.all};
         for (Layer& layer : part.layers) layer.colour = layer.colour.part(r);

@@ -1,4 +1,4 @@
-#include "engine/sprites/sprites_kernels.h"
+#include "engine/lights/sprite_kernels.h"
 
 #include <algorithm>
 #include <cmath>

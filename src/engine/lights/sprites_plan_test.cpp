@@ -1,5 +1,5 @@
 // What is planned of many lights, told from the plan alone: nothing is drawn here.
-#include "engine/sprites/plan.h"
+#include "engine/lights/sprites_plan.h"
 
 #include "base/progress.h"
 #include "kernel/lenses/make_lens.h"

@@ -1,4 +1,4 @@
-#include "engine/sprites/plan.h"
+#include "engine/lights/sprites_plan.h"
 
 #include "base/parallel.h"
 #include "engine/lights/pupil_masks.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/lights/plan.h"
-#include "engine/sprites/sprites_kernels.h"
+#include "engine/lights/sprite_kernels.h"
 #include "engine/waist/engine.h"
 
 #include <span>

@@ -1,0 +1,56 @@
+// The picture's bright points, found to be drawn as sprites, and the picture without them.
+#pragma once
+
+#include "engine/lights/sprite_kernels.h"
+#include "engine/waist/engine.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace petzval::engine {
+
+class HighlightSplit;
+
+// Light above `sprites.bright_factor` times its surroundings and above white, out of focus. Layers of a
+// picture give the shares of their light that the picture gives of its own (Input::judged()).
+class BrightPoints {
+public:
+    // Of a frame, which outlives this; none unless sprites.find says so. Pictures whose samples dim each
+    // other have none, since what dims a light in its own pixel is not looked for.
+    explicit BrightPoints(const Input& frame);
+
+    static bool are_looked_for(const Input& frame) { return frame.sprites.find && !frame.deep_dims_itself; }
+    bool empty() const { return sprites_.empty(); }
+    std::span<const Sprite> sprites() const { return sprites_; }
+    std::size_t count() const { return sprites_.size(); }
+    // That they take, and a rest of so many rows.
+    std::size_t bytes_beside(int rows) const;
+
+    // Rows of the frame without them. Their light is in Input::lit.
+    class Rest {
+    public:
+        const Input& input() const { return input_; }
+
+    private:
+        friend class BrightPoints;
+        Picture colour_, picture_;
+        CocSamples samples_;
+        Input input_;
+    };
+    Rest rest(int first_row, int last_row) const;
+
+private:
+    struct Taken {
+        float stays;         // share of the pixel's light that is no bright point
+        std::size_t sample;  // of a picture with hidden layers: that from which it was taken
+    };
+    void find_in_row(const HighlightSplit& split, int y, std::vector<Sprite>& sprites,
+                     std::vector<Taken>& taken) const;
+
+    const Input& frame_;
+    std::vector<Sprite> sprites_;  // row by row
+    std::vector<Taken> taken_;     // of each
+};
+
+}  // namespace petzval::engine

@@ -1,0 +1,21 @@
+// Lights drawn one by one with the lens's own kernels: very many, of few kernels, shadowed by 8 x 8 rays
+// each.
+#pragma once
+
+#include "device/device.h"
+#include "engine/lights/sprite_kernels.h"
+#include "engine/waist/engine.h"
+
+#include <cstddef>
+#include <span>
+
+namespace petzval::engine {
+
+// Adds lights that were found in the picture and those that are given, each in the light of its lamp.
+// `input`: all of what may stand in their way.
+device::Work draw_sprites(const Input& input, std::span<const Sprite> found, device::Target out);
+
+// What drawing them takes besides the picture and the result.
+std::size_t sprites_bytes(const Input& input, std::size_t found);
+
+}  // namespace petzval::engine
