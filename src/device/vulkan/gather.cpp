@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ using engine::GatherPlan;
 constexpr int kTile = GatherPlan::kTile;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
 constexpr std::uint32_t kGroupsPerTile = 64;
-constexpr std::size_t kMostTiles = 16;  // of one submission, so that none is long
+constexpr std::size_t kMostTiles = 16;  // of one submission
 
 static_assert(kTile == 128 && GatherPlan::kTentBorder == 1, "as gather.comp has it");
 
@@ -30,49 +31,73 @@ struct Push {
 };
 static_assert(sizeof(Push) == 36);
 
-// Cells of one level, rows begin…end - 1: their light by turn.
+// Cells of one level in a window: their light by turn.
 struct Cells {
-    int width = 0, height = 0, begin = 0, end = 0;
-    std::vector<std::uint32_t> first;
+    int width = 0, height = 0;  // of the level
+    Rect window;
+    std::vector<std::uint32_t> first;  // row by row, and the end
     std::vector<CellLight> lights;
 };
 
 class Gatherer {
 public:
     Gatherer(Context& context, const GatherPlan& plan, const PackedAtlas& atlas, Workers& workers)
-        : context_(context), plan_(plan), atlas_(atlas), workers_(workers) {
+        : context_(context),
+          plan_(plan),
+          atlas_(atlas),
+          workers_(workers),
+          taps_(plan.tiles.size(), kUnknown) {
         for (const auto& turn : plan.sizes.turns()) {
             std::uint64_t taps = 0;
-            for (int zone = 0; zone < plan.zones.count() && taps == 0; ++zone)
-                if (const std::uint32_t kernel = plan.kernel(turn.ring, zone); kernel < atlas.size())
-                    taps = atlas[kernel].taps;
-            taps_of_turn_.push_back(taps);
+            int reach = 0;
+            for (int zone = 0; zone < plan.zones.count(); ++zone) {
+                const std::uint32_t kernel = plan.kernel(turn.ring, zone);
+                if (kernel >= atlas.size()) continue;
+                if (taps == 0) taps = atlas[kernel].taps;
+                for (const PackedSet::Kernel& k : atlas[kernel].kernels) {
+                    const Rect& e = k.extent;
+                    reach = std::max({reach, -e.x0, -e.y0, e.x1 - 1, e.y1 - 1});
+                }
+            }
+            taps_of_turn_.push_back(taps), reach_of_turn_.push_back(reach);
         }
+        upload_kernels();
     }
 
-    // Tiles begin…end - 1, which lie in one row. False: they are too many at once, and none is drawn.
-    bool draw(std::size_t begin, std::size_t end, Target out) const {
-        std::vector<Rect> tiles;
-        for (std::size_t t = begin; t < end; ++t) tiles.push_back(plan_.tiles[t].pixels);
-        Push push;
+    // Tiles from `begin` on that are drawn at once: of one row, at most so many, of one kind.
+    std::size_t end_of(std::size_t begin, std::size_t at_once) {
+        const auto& tiles = plan_.tiles;
+        const std::uint64_t most = context_.most_work("gather");
         std::uint64_t taps = 0;
-        const std::vector<std::uint32_t> said = words_of(tiles, push, taps);
+        std::size_t end = begin;
+        for (; end < tiles.size() && end - begin < at_once; ++end) {
+            if (tiles[end].is_sharp != tiles[begin].is_sharp ||
+                tiles[end].pixels.y0 != tiles[begin].pixels.y0)
+                break;
+            if (!tiles[end].is_sharp) taps += taps_of(end);
+            if (kSums * taps > most && end > begin) break;
+        }
+        return end;
+    }
+
+    // Tiles begin…end - 1, which lie in one row.
+    void draw(std::size_t begin, std::size_t end, Target out) {
+        std::vector<Rect> tiles;
+        std::uint64_t taps = 0;
+        for (std::size_t t = begin; t < end; ++t) tiles.push_back(plan_.tiles[t].pixels), taps += taps_of(t);
+        Push push;
+        const std::vector<std::uint32_t> said = words_of(tiles, push);
         const std::uint64_t multiply_adds = kSums * taps;
-        if (multiply_adds > context_.most_work("gather") && end - begin > 1) return false;
         Recording recording(context_);
         const Piece words = recording.uploaded(std::span<const std::uint32_t>(said));
-        std::vector<std::uint32_t> all(atlas_.size());
-        for (std::uint32_t k = 0; k < all.size(); ++k) all[k] = k;
-        const KernelsOnDevice kernels = atlas_.uploaded(all, recording);
-        push.records = kernels.records;
+        push.records = kernels_.records;
         const std::size_t bytes = tiles.size() * kTilePixels * sizeof(Rgba);
         const Piece result = context_.heap().allocate(Kind::OnDevice, bytes);
         recording.pass("gather", context_.program(Shader::Gather),
-                       {&words, &kernels.words, &kernels.weights, &result}, push,
+                       {&words, &kernels_.words, &kernels_.weights, &result}, push,
                        {std::uint32_t(tiles.size()) * kGroupsPerTile},
                        {said.size() * sizeof(std::uint32_t) + atlas_.weight_bytes() + bytes, multiply_adds});
         context_.note_work("gather", multiply_adds, deliver(recording, result, tiles, out));
-        return true;
     }
 
     // Tiles begin…end - 1 as the picture has them.
@@ -92,6 +117,15 @@ public:
 
 private:
     static constexpr std::uint64_t kSums = 6;  // of a tap: colour, covered, beyond
+    static constexpr std::uint64_t kUnknown = ~std::uint64_t(0);
+
+    void upload_kernels() {
+        std::vector<std::uint32_t> all(atlas_.size());
+        std::iota(all.begin(), all.end(), 0u);
+        Recording recording(context_);
+        kernels_ = atlas_.uploaded(all, recording);
+        recording.run();
+    }
 
     // Runs what was recorded; returns the seconds that it took.
     double deliver(Recording& recording, const Piece& squares, std::vector<Rect> tiles, Target out) const {
@@ -103,9 +137,7 @@ private:
         return seconds;
     }
 
-    // taps: of the lights in the tiles themselves, each once.
-    std::vector<std::uint32_t> words_of(const std::vector<Rect>& tiles, Push& push,
-                                        std::uint64_t& taps) const {
+    std::vector<std::uint32_t> words_of(const std::vector<Rect>& tiles, Push& push) const {
         std::vector<std::uint32_t> words;
         const auto here = [&] { return std::uint32_t(words.size()); };
         for (const Rect& r : tiles)
@@ -114,13 +146,11 @@ private:
         push.places = here(), push.ring_count = std::uint32_t(plan_.sizes.count());
         words.insert(words.end(), plan_.places.begin(), plan_.places.end());
         push.levels = here();
-        constexpr std::size_t kLevelWords = 8;
+        constexpr std::size_t kLevelWords = 9;
         words.resize(words.size() + std::size_t(plan_.sizes.levels()) * kLevelWords);
         std::vector<bool> has_light(plan_.sizes.turns().size());
         for (int level = 0; level < plan_.sizes.levels(); ++level) {
             const Cells cells = cells_for(tiles, level);
-            taps +=
-                taps_in(cells, {tiles.front().x0, tiles.front().y0, tiles.back().x1, tiles.back().y1}, level);
             const std::uint32_t first = here();
             words.insert(words.end(), cells.first.begin(), cells.first.end());
             const std::uint32_t lights = here();
@@ -132,20 +162,20 @@ private:
             }
             const auto middle = [&](int cell) { return std::ldexp(cell + 0.5, level) - 0.5; };
             const std::uint32_t columns = here();
-            for (int x = 0; x < cells.width; ++x)
+            for (int x = cells.window.x0; x < cells.window.x1; ++x)
                 words.push_back(std::uint32_t(plan_.zones.column_of(middle(x))));
             const std::uint32_t rows = here();
-            for (int y = 0; y < cells.height; ++y)
+            for (int y = cells.window.y0; y < cells.window.y1; ++y)
                 words.push_back(std::uint32_t(plan_.zones.row_of(middle(y)) * plan_.zones.columns));
-            const std::array<std::uint32_t, kLevelWords> header{
-                std::uint32_t(cells.width),
-                std::uint32_t(cells.height),
-                std::uint32_t(cells.begin),
-                first,
-                lights,
-                columns,
-                rows,
-                std::uint32_t(plan_.reach[std::size_t(level)])};
+            const std::array<std::uint32_t, kLevelWords> header{std::uint32_t(cells.width),
+                                                                std::uint32_t(cells.height),
+                                                                std::uint32_t(cells.window.x0),
+                                                                std::uint32_t(cells.window.y0),
+                                                                std::uint32_t(cells.window.width()),
+                                                                first,
+                                                                lights,
+                                                                columns,
+                                                                rows};
             std::copy(header.begin(), header.end(),
                       words.begin() + std::ptrdiff_t(push.levels + std::size_t(level) * kLevelWords));
         }
@@ -153,7 +183,10 @@ private:
         for (std::uint32_t turn = 0; turn < has_light.size(); ++turn) {
             const auto [ring, hidden] = plan_.sizes.turns()[turn];
             if (hidden && !has_light[turn]) continue;
-            words.insert(words.end(), {turn, std::uint32_t(ring), std::uint32_t(plan_.sizes.level(ring))});
+            const int level = plan_.sizes.level(ring);
+            const int reach = std::min(reach_of_turn_[turn], plan_.reach[std::size_t(level)]);
+            words.insert(words.end(),
+                         {turn, std::uint32_t(ring), std::uint32_t(level), std::uint32_t(reach)});
             ++push.turn_count;
         }
         const engine::OpenEdges& open = plan_.strip.open_edges;
@@ -163,33 +196,39 @@ private:
         return words;
     }
 
-    // Of the lights of these pixels' cells; kernels as they are in the first zone that has them.
-    std::uint64_t taps_in(const Cells& cells, const Rect& pixels, int level) const {
-        std::uint64_t taps = 0;
-        const int last_row = std::min((pixels.y1 - 1) >> level, cells.end - 1),
-                  last_column = std::min((pixels.x1 - 1) >> level, cells.width - 1);
-        for (int y = std::max(pixels.y0 >> level, cells.begin); y <= last_row; ++y) {
-            const std::size_t row = std::size_t(y - cells.begin) * std::size_t(cells.width);
-            const std::uint32_t first = cells.first[row + std::size_t(pixels.x0 >> level)],
-                                last = cells.first[row + std::size_t(last_column) + 1];
-            for (std::uint32_t i = first; i < last; ++i)
-                taps += taps_of_turn_[std::size_t(cells.lights[i].turn)];
-        }
+    // Of the lights in a tile itself, each once; kernels as they are in the first zone that has them.
+    std::uint64_t taps_of(std::size_t tile) {
+        std::uint64_t& taps = taps_[tile];
+        if (taps != kUnknown) return taps;
+        taps = 0;
+        for (int level = 0; level < plan_.sizes.levels(); ++level)
+            for (const CellLight& light :
+                 cells_in(engine::cells_of(plan_.tiles[tile].pixels, level, 0), level).lights)
+                taps += taps_of_turn_[std::size_t(light.turn)];
         return taps;
     }
 
     // All that the tiles may read.
     Cells cells_for(const std::vector<Rect>& tiles, int level) const {
+        const Rect first = GatherPlan::cells_of(tiles.front(), level),
+                   last = GatherPlan::cells_of(tiles.back(), level);
+        return cells_in(Rect{first.x0, first.y0, last.x1, last.y1}.grown(plan_.reach[std::size_t(level)]),
+                        level);
+    }
+
+    // Cells of a window that there are; beyond the picture, those at its edge.
+    Cells cells_in(const Rect& window, int level) const {
         Cells cells;
         const CellLevel* const from = level > 0 ? &plan_.levels[std::size_t(level - 1)] : nullptr;
         cells.width = from ? from->width() : plan_.strip.width();
         cells.height = from ? from->height() : plan_.strip.height();
-        const Rect window = GatherPlan::cells_of(tiles.front(), level).grown(plan_.reach[std::size_t(level)]);
-        cells.begin = std::clamp(window.y0, 0, cells.height - 1);
-        cells.end = std::clamp(window.y1, cells.begin + 1, cells.height);
+        Rect& w = cells.window;
+        w.x0 = std::clamp(window.x0, 0, cells.width - 1), w.y0 = std::clamp(window.y0, 0, cells.height - 1);
+        w.x1 = std::clamp(window.x1, w.x0 + 1, cells.width);
+        w.y1 = std::clamp(window.y1, w.y0 + 1, cells.height);
         if (!from) return pixels(std::move(cells));
-        for (int y = cells.begin; y < cells.end; ++y)
-            for (int x = 0; x < cells.width; ++x) {
+        for (int y = w.y0; y < w.y1; ++y)
+            for (int x = w.x0; x < w.x1; ++x) {
                 cells.first.push_back(std::uint32_t(cells.lights.size()));
                 const auto lights = from->at(x, y);
                 cells.lights.insert(cells.lights.end(), lights.begin(), lights.end());
@@ -204,12 +243,12 @@ private:
             std::vector<std::uint32_t> first;
             std::vector<CellLight> lights;
         };
-        std::vector<Row> rows(std::size_t(cells.end - cells.begin));
+        std::vector<Row> rows(std::size_t(cells.window.height()));
         parallel_for(int(rows.size()), workers_, [&](int i) {
             Row& row = rows[std::size_t(i)];
-            for (int x = 0; x < cells.width; ++x) {
+            for (int x = cells.window.x0; x < cells.window.x1; ++x) {
                 row.first.push_back(std::uint32_t(row.lights.size()));
-                add_pixel(x, cells.begin + i, row.lights);
+                add_pixel(x, cells.window.y0 + i, row.lights);
             }
         });
         for (const Row& row : rows) {
@@ -240,39 +279,28 @@ private:
     const GatherPlan& plan_;
     const PackedAtlas& atlas_;
     Workers& workers_;
-    std::vector<std::uint64_t> taps_of_turn_;
+    std::vector<int> reach_of_turn_;
+    std::vector<std::uint64_t> taps_of_turn_, taps_;  // by tile, as far as they are known
+    KernelsOnDevice kernels_;
 };
 
 }  // namespace
 
 void gather_tiles(Context& context, const GatherPlan& plan, const PackedAtlas& atlas, Target out,
                   const Control& control) {
-    const Gatherer gatherer(context, plan, atlas, control.workers);
+    Gatherer gatherer(context, plan, atlas, control.workers);
     const std::size_t tiles = plan.tiles.size();
-    std::size_t at_once = kMostTiles;
     for (std::size_t begin = 0; begin < tiles && !control.progress.cancelled();) {
-        std::size_t end = begin;
-        at_once = std::min(at_once, context.at_once(kMostTiles));
-        const auto joins = [&] {
-            return end < tiles && plan.tiles[end].is_sharp == plan.tiles[begin].is_sharp &&
-                   plan.tiles[end].pixels.y0 == plan.tiles[begin].pixels.y0 && end - begin < at_once;
-        };
-        while (joins()) ++end;
-        bool is_drawn = plan.tiles[begin].is_sharp;
+        const std::size_t end = gatherer.end_of(begin, context.at_once(kMostTiles));
         try {
-            if (is_drawn)
+            if (plan.tiles[begin].is_sharp)
                 gatherer.copy(begin, end, out);
             else
-                is_drawn = gatherer.draw(begin, end, out);
+                gatherer.draw(begin, end, out);
         } catch (const Failed& failed) {
             if (end - begin == 1 || !context.halves(failed)) throw;
-            is_drawn = false;
-        }
-        if (!is_drawn) {
-            at_once = (end - begin) / 2;
             continue;
         }
-        at_once = std::min(kMostTiles, 2 * at_once);
         control.progress.advance(control.share * double(end - begin) / double(tiles));
         begin = end;
     }

@@ -15,10 +15,10 @@ layout(push_constant) uniform Push {
     uint open_edges;  // bits: left, top, right, bottom
 } at;
 
-// A tile: its rectangle. A level: cells across and down, the first row that is here, where the first lights of
-// its cells, the lights, zones of columns and zones of rows begin, and how far kernels reach. A light: colour,
-// covered, beyond, turn. A turn: its number, ring and level. Places: kernels by zone and ring.
-const uint kTileWords = 4, kLevelWords = 8, kLightWords = 7, kTurnWords = 3, kNowhere = 0xffffffffu;
+// A tile: its rectangle. A level: cells across and down, the first column and row that are here and how many of a
+// row, where the first lights of its cells, the lights, and zones of columns and of rows that are here begin. A light: colour,
+// covered, beyond, turn. A turn: its number, ring and level, and how far its kernels reach. Places: kernels by zone and ring.
+const uint kTileWords = 4, kLevelWords = 9, kLightWords = 7, kTurnWords = 4, kNowhere = 0xffffffffu;
 const int kChunk = 256, kBorder = 1;
 const float kLeastArea = 1e-6;
 
@@ -49,15 +49,16 @@ uint find_hits(uint turn, uint level, Box window, Box box, int index) {
     uint light = 0u, record = 0u;
     const ivec2 size = ivec2(words[level], words[level + 1u]);
     const ivec2 cell = clamp(place, ivec2(0), size - 1);
+    const uvec2 here = uvec2(cell - ivec2(words[level + 2u], words[level + 3u]));
     if (index < wide.x * wide.y) {
-        const uint first = words[level + 3u] + uint((cell.y - int(words[level + 2u])) * size.x + cell.x);
+        const uint first = words[level + 5u] + here.y * words[level + 4u] + here.x;
         for (uint i = words[first]; i < words[first + 1u] && !hits; ++i) {
-            light = words[level + 4u] + kLightWords * i;
+            light = words[level + 6u] + kLightWords * i;
             hits = words[light + 6u] == words[turn];
         }
     }
     if (hits) {
-        const uint zone = words[words[level + 5u] + uint(cell.x)] + words[words[level + 6u] + uint(cell.y)];
+        const uint zone = words[words[level + 7u] + here.x] + words[words[level + 8u] + here.y];
         const uint kernel = words[at.places + zone * at.ring_count + words[turn + 1u]];
         hits = kernel != kNowhere;
         if (hits) {
@@ -98,7 +99,7 @@ uint find_hits(uint turn, uint level, Box window, Box box, int index) {
 
 // What arrives at a cell in one turn: from every hit whose number is `slice` of `slices`.
 Sums gathered(uint turn, uint level, Box box, ivec2 cell, bool wanted, uint slice, uint slices) {
-    const int reach = int(words[level + 7u]);
+    const int reach = int(words[turn + 3u]);
     const Box window = Box(box.low - reach, box.high + reach);
     const ivec2 wide = window.high - window.low;
     Sums sums = Sums(vec4(0), vec2(0));
