@@ -232,6 +232,7 @@ private:
             return;
         const Viewpoint view{here.point(0, 0, 0), normalised(here.direction(1, 0, 0)),
                              normalised(here.direction(0, 1, 0)), normalised(here.direction(0, 0, -1))};
+        if (!is_somewhere(view.position) || !is_somewhere(view.right + view.up + view.forward)) return;
         std::string name = node.name.empty() ? camera.name : node.name;
         if (name.empty()) name = std::to_string(cameras_.size() + 1);
         cameras_.push_back({name, view, 0.5 * 36 * 9 / 16 / std::tan(0.5 * camera.perspective.yfov)});
@@ -270,7 +271,7 @@ private:
         Mesh mesh;
         for (std::size_t i = 0; i < places->count; ++i) {
             const Vec3 p = here.point(places->at(i, 0), places->at(i, 1), places->at(i, 2));
-            if (!std::isfinite(dot(p, p)) || dot(p, p) > 1e24f) return broken("a vertex that is nowhere");
+            if (!is_somewhere(p)) return broken("a vertex that is nowhere");
             mesh.positions.push_back(p);
         }
         if (Status done = take_triangles(part.indices, mesh); !done) return done;

@@ -92,6 +92,18 @@ TEST_F(GltfScenes, TrianglesStandWhereTheFilesCameraSeesThem) {
     EXPECT_TRUE(std::isinf(seen.depth_m(0, 0)));
 }
 
+TEST_F(GltfScenes, ACameraThatIsNowhereOrFlatIsPassedOver) {
+    for (const char* broken :
+         {R"({"camera":0,"translation":[1e30,0,0]})", R"({"camera":0,"scale":[0,0,0]})"}) {
+        std::string text = two_squares();
+        const std::string sound = R"({"camera":0})";
+        text.replace(text.find(sound), sound.size(), broken);
+        auto standing = build(text);
+        ASSERT_TRUE(standing) << standing.error().message;
+        EXPECT_TRUE(standing->render(settings_)) << "from a place of our own";
+    }
+}
+
 // The first square with a light above its middle, everything else dark.
 std::string lit_by(const std::string& light, const std::string& place = "0,0,-2") {
     std::string text = two_squares();

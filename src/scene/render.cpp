@@ -8,8 +8,10 @@
 #include "scene/tracing.h"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace petzval {
 namespace scene {
@@ -89,6 +91,12 @@ Vec3 single(const ScenePoint& p) { return {float(p.x), float(p.y), float(p.z)}; 
 
 // The scene's own view, moved and turned as asked for. Upright, so it cannot look straight up or down.
 Result<Viewpoint> moved(Viewpoint view, const SceneSettings& s) {
+    const std::pair<const std::optional<ScenePoint>&, const char*> places[] = {
+        {s.camera_at, "scene.camera_at"}, {s.look_at, "scene.look_at"}};
+    for (const auto& [place, field] : places)
+        if (place && !is_somewhere(single(*place)))
+            return Error{ErrorCode::InvalidArgument,
+                         std::string(field) + " must lie within 1e12 m of the world's origin", field};
     if (s.camera_at) view.position = single(*s.camera_at);
     if (!s.look_at) return view;
     const Vec3 towards = single(*s.look_at) - view.position;

@@ -204,6 +204,16 @@ TEST(BuiltInScenes, ACameraThatLooksStraightUpIsRefused) {
     EXPECT_NE(refused.error().message.find("scene.look_at"), std::string::npos);
 }
 
+TEST(BuiltInScenes, ACameraBeyondAllMeasureIsRefused) {
+    for (const double far : {1e19, 1e300, std::nan("")}) {
+        SceneSettings s = small();
+        s.camera_at = ScenePoint{far, 0, 0};
+        EXPECT_EQ(render_scene("bars", s).error().field, "scene.camera_at") << far;
+        s.camera_at.reset(), s.look_at = ScenePoint{0, 0, far};
+        EXPECT_EQ(render_scene("bars", s).error().field, "scene.look_at") << far;
+    }
+}
+
 TEST(BuiltInScenes, SoftDepthChangesTheDepthAlone) {
     SceneSettings s = small();
     s.want_layers = s.want_truth = true;

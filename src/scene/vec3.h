@@ -26,6 +26,8 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
+// A place in metres that rays can be traced from and to; false for NaN.
+inline bool is_somewhere(Vec3 place) { return dot(place, place) <= 1e24f; }
 inline Vec3 normalised(Vec3 a) { return a / std::max(length(a), 1e-20f); }
 inline float mix(float a, float b, float t) { return a + (b - a) * t; }
 inline Vec3 mix(Vec3 a, Vec3 b, float t) { return a + (b - a) * t; }
