@@ -24,6 +24,8 @@ public:
     }
 
     std::vector<SeenCaster> collect() {
+        constexpr std::size_t kUsual = 256;
+        seen_.reserve(kUsual);
         constexpr int kBlock = ShadowCasters::kBlock;
         const int farthest = int(reach_of(casters().nearest_coc_px())) + kBlock;
         const Plane& blocks = casters().nearest_of_blocks();
