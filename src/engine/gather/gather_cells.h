@@ -7,6 +7,7 @@
 
 #include "engine/gather/gather_rings.h"
 #include "engine/samples/guessed.h"
+#include "engine/samples/seen_first.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>
@@ -42,48 +43,6 @@ void for_each_deep_sample(const Input& input, int x, int y, Emit& emit) {
     }
     if (open > 0) emit(Rgba{}, last_px, open);
 }
-
-// Rays that pass an edge see of what lies behind it what the pinhole sees, before anything that is hidden.
-// But between near and far they cross in focus, and see either.
-inline bool is_hidden(float in_front_px, float coc_px) { return coc_px <= 0 || in_front_px >= 0; }
-
-// The samples of a pixel, from the nearest, as a gather takes them: what a straight ray sees of one first,
-// then what others in front of it hide. Right behind these no ray to speak of comes past: within two rings,
-// whose light is mixed, what hides would be seen through, so there is room but for what they leave open.
-template <typename Emit>
-class SeenFirst {
-public:
-    explicit SeenFirst(const Emit& emit) : emit_(emit) {}
-    void operator()(Rgba colour, float coc_px, float covered) {
-        const float seen = std::min(covered, open_), share = covered > 0 ? seen / covered : 1;
-        const float hidden = std::min(covered, room(coc_px)) - seen;
-        if (share > 0) emit_(share * colour, coc_px, seen, false);
-        if (hidden > 0) emit_(hidden / covered * colour, coc_px, hidden, is_hidden(in_front_px_, coc_px));
-        open_ -= seen;
-        if (covered <= 0) return;
-        in_front_px_ = coc_px;
-        fronts_[std::size_t(count_++) % fronts_.size()] = {coc_px, covered};
-    }
-
-private:
-    struct Front {
-        float coc_px, covered;
-    };
-
-    // Of a pixel's lens, beside what lies too close in front.
-    float room(float coc_px) const {
-        const float close_px = std::max(1.0f, 0.3f * std::abs(coc_px));
-        float room = 1;
-        for (std::size_t i = 0; i < std::min(std::size_t(count_), fronts_.size()); ++i)
-            if (coc_px - fronts_[i].coc_px < close_px) room -= fronts_[i].covered;
-        return room;
-    }
-
-    const Emit& emit_;
-    float open_ = 1, in_front_px_ = -1e30f;
-    std::array<Front, 6> fronts_;  // the last ones
-    int count_ = 0;
-};
 
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
 template <typename Emit>

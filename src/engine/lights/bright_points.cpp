@@ -2,36 +2,25 @@
 
 #include "base/parallel.h"
 #include "engine/lights/highlights.h"
+#include "engine/samples/seen_first.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace petzval::engine {
 namespace {
 
 constexpr float kWithinPixelPx = 0.5f;  // light that is out of focus by less needs no kernel
 
-// Of a pixel, that sample which shows most of its light: what is hidden keeps its own.
-struct Brightest {
-    std::size_t sample = 0;  // from the first of the pixel
-    float share = 0;         // of its light that shows
-};
-
-Brightest brightest_of(std::span<const CocSample> samples) {
-    Brightest brightest;
-    float open = 1, most = 0;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        const CocSample& s = samples[k];
-        const float seen = std::min(s.colour.a, open), shown = s.colour.a > 0 ? seen / s.colour.a : open;
-        if (const float light = shown * luminance(s.colour); light > most)
-            brightest = {k, shown}, most = light;
-        open -= seen;
-    }
-    return brightest;
-}
-
 Rgba with_light(Rgba light, float alpha) { return {light.r, light.g, light.b, alpha}; }
+
+// Of light at this place and radius, what is no bright point.
+float share_that_stays(const HighlightSplit& split, int x, int y, float coc_px, Rgba light) {
+    const float brightness = luminance(light);
+    if (std::abs(coc_px) <= kWithinPixelPx || brightness <= 0) return 1;
+    return luminance(split.base(x, y, coc_px, light)) / brightness;
+}
 
 }  // namespace
 
@@ -41,48 +30,54 @@ BrightPoints::BrightPoints(const Input& frame) : frame_(frame) {
                                        .least_floor = 1,
                                        .floor_at_1px = 0,
                                        .contested_floor = 1});
-    struct Row {
-        std::vector<Sprite> sprites;
-        std::vector<Taken> taken;
-    };
     std::vector<Row> rows{std::size_t(frame.height())};
-    parallel_for(frame.height(), *frame.workers, [&](int y) {
-        find_in_row(split, y, rows[std::size_t(y)].sprites, rows[std::size_t(y)].taken);
-    });
+    parallel_for(frame.height(), *frame.workers, [&](int y) { rows[std::size_t(y)] = row(split, y); });
     for (const Row& row : rows) {
         sprites_.insert(sprites_.end(), row.sprites.begin(), row.sprites.end());
         taken_.insert(taken_.end(), row.taken.begin(), row.taken.end());
     }
 }
 
-void BrightPoints::find_in_row(const HighlightSplit& split, int y, std::vector<Sprite>& sprites,
-                               std::vector<Taken>& taken) const {
+void BrightPoints::Row::add(int x, int y, float coc_px, Rgba light, const Taken& from) {
+    sprites.push_back({float(x) + 0.5f, float(y) + 0.5f, coc_px, light.r, light.g, light.b});
+    taken.push_back(from);
+}
+
+BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
     const View<const Rgba> judged = frame_.judged();
+    Row row;
     for (int x = 0; x < frame_.width(); ++x) {
-        const Rgba light = judged(x, y);
-        const float coc = frame_.coc_px(x, y), brightness = luminance(light);
-        if (std::abs(coc) <= kWithinPixelPx || brightness <= 0) continue;
-        const float stays = luminance(split.base(x, y, coc, light)) / brightness;
-        if (stays >= 1) continue;
-        Rgba bright = (1 - stays) * frame_.colour(x, y);
-        float radius_px = 0;
-        std::size_t sample = 0;
-        if (frame_.deep.empty()) {
-            radius_px = radius_of_brightest(judged, frame_.coc_px, x, y);
-        } else {
-            const auto samples = frame_.deep.at(x, y);
-            const Brightest from = brightest_of(samples);
-            if (from.share <= 0) continue;
-            const CocSample& s = samples[from.sample];
-            const auto most = [&](float of_sample, float wanted) {
-                return std::clamp(from.share * of_sample, 0.0f, std::max(0.0f, wanted));
-            };
-            bright = {most(s.colour.r, bright.r), most(s.colour.g, bright.g), most(s.colour.b, bright.b), 0};
-            radius_px = s.coc_px;
-            sample = std::size_t(&s - frame_.deep.samples().data());
+        if (!frame_.deep.empty()) {
+            find_in_samples(split, x, y, row);
+            continue;
         }
-        sprites.push_back({float(x) + 0.5f, float(y) + 0.5f, radius_px, bright.r, bright.g, bright.b});
-        taken.push_back({stays, sample});
+        const float stays = share_that_stays(split, x, y, frame_.coc_px(x, y), judged(x, y));
+        if (stays < 1)
+            row.add(x, y, radius_of_brightest(judged, frame_.coc_px, x, y), (1 - stays) * frame_.colour(x, y),
+                    {stays, 1, 0});
+    }
+    return row;
+}
+
+// Of each sample what shows; of what is hidden all that the background would draw of it. (The rest of what
+// shows in part lies behind an edge within its pixel, which is too fine for the shadows of sprites.)
+void BrightPoints::find_in_samples(const HighlightSplit& split, int x, int y, Row& row) const {
+    Rgba drawn;
+    const auto add = [&](Rgba light, float, float, bool) { drawn += light; };
+    SeenFirst take(add);
+    float open = 1;
+    for (const CocSample& s : frame_.deep.at(x, y)) {
+        const float covered = s.colour == Rgba{} ? 1.0f : s.colour.a;
+        const float shows = covered > 0 ? std::min(covered, open) / covered : 1.0f;
+        drawn = {};
+        take(s.colour, s.coc_px, covered);
+        open -= shows * covered;
+        const float stays = share_that_stays(split, x, y, s.coc_px, s.colour);
+        if (stays >= 1 || luminance(drawn) <= 0) continue;
+        const float all = luminance(drawn) / luminance(s.colour),
+                    taken = (1 - stays) * (shows > 0 ? shows : all);
+        row.add(x, y, s.coc_px, taken * s.colour,
+                {1 - taken / all, shows > 0 ? all : 0.0f, std::size_t(&s - frame_.deep.samples().data())});
     }
 }
 
@@ -90,41 +85,47 @@ BrightPoints::Rest BrightPoints::rest(int first_row, int last_row) const {
     Rest rest;
     rest.input_ = frame_.rows(first_row, last_row);
     Input& input = rest.input_;
-    const auto row_of = [](const Sprite& s) { return int(s.y); };
-    const auto begin = std::ranges::lower_bound(sprites_, first_row, {}, row_of) - sprites_.begin(),
-               end = std::ranges::lower_bound(sprites_, last_row, {}, row_of) - sprites_.begin();
-    if (begin == end) return rest;
-    const auto less = [&](View<const Rgba>& picture, Picture& copy, View<const Rgba>& lit) {
-        lit = picture;
-        copy = Picture::uninitialised(picture.width(), picture.height());
-        parallel_for(picture.height(), *input.workers, [&](int y) {
-            for (int x = 0; x < lit.width(); ++x) copy(x, y) = lit(x, y);
-        });
-        for (auto i = begin; i < end; ++i) {
-            const Sprite& s = sprites_[std::size_t(i)];
-            Rgba& at = copy(int(s.x), int(s.y) - first_row);
-            at = with_light(taken_[std::size_t(i)].stays * at, at.a);
-        }
-        picture = copy;
+    const auto first_in = [&](int row) {
+        const auto row_of = [](const Sprite& s) { return int(s.y); };
+        return std::size_t(std::ranges::lower_bound(sprites_, row, {}, row_of) - sprites_.begin());
     };
-    less(input.colour, rest.colour_, input.lit);
-    if (!input.picture.empty()) less(input.picture, rest.picture_, input.lit_picture);
-    if (input.deep.empty()) return rest;
-
-    const auto all_first = input.deep.first();
-    const auto samples =
-        input.deep.samples().subspan(all_first.front(), all_first.back() - all_first.front());
-    rest.samples_.width = input.width();
-    rest.samples_.samples.assign(samples.begin(), samples.end());
-    rest.samples_.first.reserve(all_first.size());
-    std::ranges::transform(all_first, std::back_inserter(rest.samples_.first),
-                           [&](std::size_t i) { return i - all_first.front(); });
-    for (auto i = begin; i < end; ++i) {
-        const Sprite& s = sprites_[std::size_t(i)];
-        Rgba& from = rest.samples_.samples[taken_[std::size_t(i)].sample - all_first.front()].colour;
-        from -= {s.r, s.g, s.b, 0};
+    const std::size_t begin = first_in(first_row), end = first_in(last_row);
+    if (begin == end) return rest;
+    rest.colour_ = without(input.colour, begin, end, first_row);
+    input.lit = std::exchange(input.colour, rest.colour_);
+    if (!input.picture.empty()) {
+        rest.picture_ = without(input.picture, begin, end, first_row);
+        input.lit_picture = std::exchange(input.picture, rest.picture_);
     }
-    input.deep = rest.samples_;
+    if (!input.deep.empty()) input.deep = rest.samples_ = samples_without(input.deep, begin, end);
+    return rest;
+}
+
+Picture BrightPoints::without(View<const Rgba> picture, std::size_t begin, std::size_t end,
+                              int first_row) const {
+    Picture rest = Picture::uninitialised(picture.width(), picture.height());
+    for (int y = 0; y < picture.height(); ++y) std::copy_n(picture.row(y), picture.width(), rest.row(y));
+    for (std::size_t i = begin; i < end; ++i) {
+        const Taken& taken = taken_[i];
+        Rgba& at = rest(int(sprites_[i].x), int(sprites_[i].y) - first_row);
+        const Rgba all = frame_.deep.empty() ? at : frame_.deep.samples()[taken.sample].colour;
+        at = with_light(at - taken.seen * (1 - taken.stays) * all, at.a);
+    }
+    return rest;
+}
+
+CocSamples BrightPoints::samples_without(const CocSamplesView& deep, std::size_t begin,
+                                         std::size_t end) const {
+    const std::size_t first = deep.first().front();
+    const auto samples = deep.samples().subspan(first, deep.first().back() - first);
+    CocSamples rest;
+    rest.width = deep.width();
+    rest.samples.assign(samples.begin(), samples.end());
+    for (const std::size_t i : deep.first()) rest.first.push_back(i - first);
+    for (std::size_t i = begin; i < end; ++i) {
+        Rgba& from = rest.samples[taken_[i].sample - first].colour;
+        from = with_light(taken_[i].stays * from, from.a);
+    }
     return rest;
 }
 

@@ -42,11 +42,19 @@ public:
 
 private:
     struct Taken {
-        float stays;         // share of the pixel's light that is no bright point
+        float stays;         // share of the pixel's light, or the sample's, that is no bright point
+        float seen;          // share of the sample that the pixel shows
         std::size_t sample;  // of a picture with hidden layers: that from which it was taken
     };
-    void find_in_row(const HighlightSplit& split, int y, std::vector<Sprite>& sprites,
-                     std::vector<Taken>& taken) const;
+    struct Row {
+        std::vector<Sprite> sprites;
+        std::vector<Taken> taken;
+        void add(int x, int y, float coc_px, Rgba light, const Taken& from);
+    };
+    Row row(const HighlightSplit& split, int y) const;
+    void find_in_samples(const HighlightSplit& split, int x, int y, Row& row) const;
+    Picture without(View<const Rgba> picture, std::size_t begin, std::size_t end, int first_row) const;
+    CocSamples samples_without(const CocSamplesView& deep, std::size_t begin, std::size_t end) const;
 
     const Input& frame_;
     std::vector<Sprite> sprites_;  // row by row

@@ -97,18 +97,23 @@ TEST(BrightPoints, AreTakenFromTheSampleThatShowsThem) {
         for (int x = 0; x < kWidth; ++x) {
             samples.first.push_back(samples.samples.size());
             samples.samples.push_back({scene.colour()(x, y), 6, 6, 0});
-            samples.samples.push_back({{9, 9, 9, 1}, 9, 9, 0});
+            const float hidden = x == 40 && y == 20 ? 70.0f : 0.3f;
+            samples.samples.push_back({{hidden, hidden, hidden, 1}, 15, 15, 0});
         }
     samples.first.push_back(samples.samples.size());
     scene.input().deep = samples;
     const BrightPoints found(scene.input());
-    ASSERT_EQ(found.count(), 2u);
+    ASSERT_EQ(found.count(), 3u);
     const BrightPoints::Rest rest = found.rest(8, kHeight);
-    const auto left = rest.input().deep.at(20, 2);
+    const auto left = rest.input().deep.at(20, 2), left_behind = rest.input().deep.at(40, 12);
     ASSERT_EQ(left.size(), 2u);
     EXPECT_NEAR(left[0].colour.r + found.sprites()[0].r, 50, 1e-4f);
     EXPECT_LT(left[0].colour.r, 2);
-    EXPECT_EQ(left[1].colour, (Rgba{9, 9, 9, 1}));
+    EXPECT_EQ(left[1].colour, (Rgba{0.3f, 0.3f, 0.3f, 1}));
+    EXPECT_EQ(found.sprites()[1].coc_px, 15);
+    EXPECT_NEAR(left_behind[1].colour.r + found.sprites()[1].r, 70, 1e-4f);
+    EXPECT_LT(left_behind[1].colour.r, 2);
+    EXPECT_EQ(rest.input().colour(40, 12), scene.colour()(40, 20));  // nothing of it shows
     EXPECT_EQ(rest.input().deep.at(3, 5)[0].colour, scene.colour()(3, 13));
     scene.input().deep_dims_itself = true;
     EXPECT_TRUE(BrightPoints(scene.input()).empty());
