@@ -49,7 +49,7 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
     // The last pixel of a sign may be dark, between letters, or have lost its light to what hides it.
     const Place before{from.x + int(std::lround(outwards.x)), from.y + int(std::lround(outwards.y)),
                        from.coc_px};
-    float light = light_of(own);
+    float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     if (shows(before.x, before.y, from.coc_px)) {
         const float told = 0.5f * edges_.passes({before.x, before.y}, hidden, from.coc_px);
         light = std::max(light, light_of((1 - told) * own + told * colour(before.x, before.y)));
@@ -59,18 +59,23 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
     return own * (1 - falls) + falls * shown(from, outwards, distance_px, own);
 }
 
+// What blurs it hides detail, too: the mean of at least a part of that blur, here and farther outwards.
 Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px) const {
+    constexpr float kWide = 0.2f;  // to either side, of the distance and of the blur
+    constexpr float kDeep = 0.25f, kDeepestPx = 8;
     const CutEdges::Point hidden = behind(at, outwards, distance_px);
+    const float blur_px = std::abs(at.coc_px), wide = kWide * std::max(distance_px, blur_px);
     Rgba sum = colour(at.x, at.y);
     float total = 1;
-    for (const float aside : {-0.2f, -0.1f, 0.1f, 0.2f}) {
-        const float far = aside * distance_px;
-        const int dx = -int(std::lround(far * outwards.y)), dy = int(std::lround(far * outwards.x));
-        const int x = at.x + dx, y = at.y + dy;
-        if ((dx == 0 && dy == 0) || !shows(x, y, at.coc_px)) continue;
-        const float weight = edges_.passes({x, y}, hidden, at.coc_px);
-        sum += weight * colour(x, y), total += weight;
-    }
+    for (const float out : {0.0f, std::min(kDeepestPx, kDeep * blur_px)})
+        for (const float aside : {-wide, 0.0f, wide}) {
+            const int dx = int(std::lround(out * outwards.x - aside * outwards.y)),
+                      dy = int(std::lround(out * outwards.y + aside * outwards.x));
+            const int x = at.x + dx, y = at.y + dy;
+            if ((dx == 0 && dy == 0) || !shows(x, y, at.coc_px)) continue;
+            const float weight = edges_.passes({x, y}, hidden, at.coc_px);
+            sum += weight * colour(x, y), total += weight;
+        }
     return sum * (1 / total);
 }
 
