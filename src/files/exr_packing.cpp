@@ -18,10 +18,15 @@ struct FreeCompressor {
 
 // Even bytes, then odd ones, each as its difference to the one before, plus 128; and back.
 void predict(std::span<const unsigned char> from, std::span<unsigned char> to) {
+    if (from.empty()) return;
     const std::size_t half = (from.size() + 1) / 2;
-    for (std::size_t i = 0; i < from.size() / 2; ++i) to[i] = from[2 * i], to[half + i] = from[2 * i + 1];
-    if (from.size() % 2 == 1) to[half - 1] = from.back();
-    for (std::size_t i = to.size(); i-- > 1;) to[i] = static_cast<unsigned char>(to[i] - to[i - 1] + 128);
+    const auto step = [&](std::size_t at, std::size_t before) {
+        return static_cast<unsigned char>(from[at] - from[before] + 128);
+    };
+    to[0] = from[0];
+    for (std::size_t i = 1; i < half; ++i) to[i] = step(2 * i, 2 * i - 2);
+    if (half < to.size()) to[half] = step(1, 2 * half - 2);
+    for (std::size_t i = 1; i < from.size() / 2; ++i) to[half + i] = step(2 * i + 1, 2 * i - 1);
 }
 
 void undo_predictor(std::span<const unsigned char> from, std::span<unsigned char> to) {
