@@ -228,8 +228,14 @@ std::vector<LookRow> rows_of_engines() {
         row("Engine gather", "--gather-taps", "gather.taps",
             one_of({{"16", "16"}, {"22", "22"}, {"43", "43"}, {"71", "71"}}),
             "samples of the published disc (default 43)"),
+        row("Engine gather", "--gather-tap-offset", "gather.tap_offset", value("N", parse_positive),
+            "published four-tap blur: how far its taps stand off, in half-size pixels (default 0.5, a tent; "
+            "published: 1; at most 4)"),
         row("Engine gather", "--gather-pixel-size", "gather.pixel_size_px", value("PX", parse_not_negative),
             "published combine and cure: radii up to this stay sharp (default 0.2; less than 1)"),
+        row("Engine gather", "--gather-blurred-from", "gather.blurred_px", value("PX", parse_positive),
+            "published combine and cure: radii from this on are wholly blurred (default 1, in cure 1.2, as "
+            "published; at least 1)"),
         row("Engine gather", "--gather-coc", "gather.coc",
             one_of({{"mean", "\"mean\""}, {"extreme", "\"extreme\""}}),
             "the radius of 2 x 2 pixels in the published prefilter (default mean)"),

@@ -50,10 +50,16 @@ enum class GatherStage {
 
 struct GatherOptions {
     GatherStage stage = GatherStage::Final;
-    int taps = 43;               // of the article's disc: 16, 22, 43 or 71
+    int taps = 43;  // of the article's disc: 16, 22, 43 or 71
+    // The article's four-tap blur: how far its taps stand off, along x and y, in pixels of half resolution.
+    // Half a pixel is a tent; the article's are at 1. More than 0, at most 4.
+    double tap_offset = 0.5;
     double pixel_size_px = 0.2;  // combine and cure: radii up to this stay sharp; 0 or more, less than 1
-    bool extreme_coc = false;    // article's prefilter: the CoC largest in size of 2 x 2, not their mean
-    bool fill_hidden = true;     // the engine: continue what lies behind near things under their soft edges
+    // combine and cure: radii from this on are wholly blurred, at least 1; not said: 1, and 1.2 in cure, as
+    // published.
+    std::optional<double> blurred_px;
+    bool extreme_coc = false;  // article's prefilter: the CoC largest in size of 2 x 2, not their mean
+    bool fill_hidden = true;   // the engine: continue what lies behind near things under their soft edges
 
     bool operator==(const GatherOptions&) const = default;
 };

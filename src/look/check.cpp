@@ -113,7 +113,15 @@ Rules rules_of_gather() {
                            std::string("with gather.stage ") + name_of(l.gather.stage) +
                                ", which does not ask for the radius of 2 x 2 pixels");
          }},
-        {{"gather.pixel_size_px"},
+        {{"gather.tap_offset"},
+         [](const Look& l) {
+             return unless(
+                 l.engine == "gather" &&
+                     (l.gather.stage == GatherStage::DiscBlur || l.gather.stage == GatherStage::Blur ||
+                      l.gather.stage == GatherStage::Combine || l.gather.stage == GatherStage::Cure),
+                 "without gather.stage disc-blur, blur, combine or cure");
+         }},
+        {{"gather.pixel_size_px", "gather.blurred_px"},
          [](const Look& l) {
              return unless(l.engine == "gather" && (l.gather.stage == GatherStage::Combine ||
                                                     l.gather.stage == GatherStage::Cure),

@@ -106,7 +106,9 @@ std::vector<Field> lens_fields() {
 std::vector<Field> engine_fields() {
     return {field("gather.stage", MEMBER(gather.stage)),
             field("gather.taps", MEMBER(gather.taps)),
+            field("gather.tap_offset", MEMBER(gather.tap_offset)),
             field("gather.pixel_size_px", MEMBER(gather.pixel_size_px)),
+            field("gather.blurred_px", MEMBER(gather.blurred_px)),
             either("gather.coc", "mean", "extreme", MEMBER(gather.extreme_coc)),
             field("gather.fill", MEMBER(gather.fill_hidden)),
             field("gaussian.style", MEMBER(gaussian.style)),

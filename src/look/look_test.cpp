@@ -72,7 +72,9 @@ Changes changes_of_focus_and_lens() {
 Changes changes_of_engines_and_light() {
     return {[](Look& l) { l.gather.stage = GatherStage::NearFar; },
             [](Look& l) { l.gather.taps = 71; },
+            [](Look& l) { l.gather.tap_offset = 1; },
             [](Look& l) { l.gather.pixel_size_px = 0.5; },
+            [](Look& l) { l.gather.blurred_px = 3; },
             [](Look& l) { l.gather.extreme_coc = true; },
             [](Look& l) { l.gather.fill_hidden = false; },
             [](Look& l) { l.gaussian.style = GaussianStyle::Wgld; },

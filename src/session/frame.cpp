@@ -123,6 +123,10 @@ Status check_job(const DefocusJob& job) {
         return invalid("gaussian.depth_along ray counts metres; radii were given");
     if (!(job.gather.pixel_size_px >= 0 && job.gather.pixel_size_px < 1))
         return invalid("gather.pixel_size_px must be 0 or more, and less than 1");
+    if (!(job.gather.tap_offset > 0 && job.gather.tap_offset <= 4))
+        return invalid("gather.tap_offset must be more than 0, and at most 4");
+    if (const double from = job.gather.blurred_px.value_or(1); !(from >= 1 && std::isfinite(from)))
+        return invalid("gather.blurred_px must be at least 1");
     if (!(job.sprites.bright_factor > 0)) return invalid("sprites.bright_factor must be more than 0");
     if (job.pupil_points < 1) return invalid("job.pupil_points must be at least 1");
     return Done{};

@@ -112,6 +112,45 @@ TEST(GatherStages, ThePixelSizeSaysWhatStaysSharp) {
     EXPECT_FALSE(defocus(job));
 }
 
+// As published four texels a whole one off, the corners around each; by default a tent.
+TEST(GatherStages, TheFourTapsStandWhereTheyAreAskedFor) {
+    Shot shot = flat(64, 64, {0, 0, 0, 1}, 0);
+    for (const int y : {32, 33})
+        for (const int x : {32, 33}) shot.colour(x, y) = {16, 16, 16, 1};
+    shot.coc_px(0, 0) = 5e-4f;  // the disc is a point, but there is one
+    DefocusJob job = shot.job("gather");
+    job.gather.stage = GatherStage::DiscBlur;
+    // Of one cell among black ones, enlarged: a cell's own four pixels hold 9/16 of it.
+    const Picture tent = rendered(job);
+    EXPECT_NEAR(tent(32, 32).g, 16 * 0.25 * (0.75 * 0.75 + 2 * 0.75 * 0.25 * 0.5 + 0.25 * 0.25 * 0.25), 1e-3);
+    job.gather.tap_offset = 1;
+    const Picture corners = rendered(job);
+    EXPECT_NEAR(corners(32, 32).g, 16 * 0.25 * 0.25 * 0.25, 1e-3);
+    EXPECT_NEAR(corners(30, 30).g, 16 * 0.25 * 0.75 * 0.75, 1e-3);
+    job.gather.tap_offset = 0;
+    EXPECT_FALSE(defocus(job));
+}
+
+// In combine and in cure, where it is 1.2 for what is far, as published.
+TEST(GatherStages, FromARadiusThatMayBeChosenOnAllIsBlurred) {
+    Shot shot = flat(60, 44, {}, 1.1f);
+    paint_noise(shot.colour, 4);
+    shot.coc_px(0, 0) = 9;
+    DefocusJob job = shot.job("gather");
+    for (const GatherStage stage : {GatherStage::Combine, GatherStage::Cure}) {
+        job.gather.stage = stage, job.gather.blurred_px.reset();
+        const Picture published = rendered(job);
+        job.gather.blurred_px = stage == GatherStage::Cure ? 1.2 : 1;
+        EXPECT_EQ(largest_difference(rendered(job), published), 0);
+        job.gather.blurred_px = 4;
+        const Picture sharper = rendered(job);
+        EXPECT_LT(std::abs(sharper(30, 20).g - shot.colour(30, 20).g),
+                  std::abs(published(30, 20).g - shot.colour(30, 20).g));
+    }
+    job.gather.blurred_px = 0.9;
+    EXPECT_FALSE(defocus(job));
+}
+
 // Orange lines of samples that count arrive in the middle; where all is nearly sharp none but its own does.
 TEST(GatherStages, TheDrawingShowsWhichSamplesReachTheMiddle) {
     const auto bright_pixels = [](float coc) {

@@ -76,7 +76,9 @@ std::vector<Choice> changes_of_all_else() {
             {"lens.wave", "true"},
             {"gather.stage", "near-far"},
             {"gather.taps", "16"},
+            {"gather.tap_offset", "1"},
             {"gather.pixel_size_px", "0.6"},
+            {"gather.blurred_px", "3"},
             {"gather.coc", "extreme"},
             {"gather.fill", "false"},
             {"gaussian.style", "plain"},
@@ -163,7 +165,8 @@ bool is_idle(const Look& look, const std::string& path) {
 // blur, rims that cut a beam, radii of about a pixel.
 bool depends_on_the_shot(const std::string& path) {
     return path == "quality" || path == "depth.edges" || path == "focus.near_scale" ||
-           path == "gather.pixel_size_px" || path == "glare.ghosts" || path == "lens.name";
+           path == "gather.pixel_size_px" || path == "gather.blurred_px" || path == "glare.ghosts" ||
+           path == "lens.name";
 }
 
 // Of the fields whose paths begin so.

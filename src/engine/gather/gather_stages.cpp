@@ -10,7 +10,7 @@
 namespace petzval::engine {
 namespace {
 
-// Where the article's picture is wholly blurred, and its far part, px.
+// Where the article's picture is wholly blurred, and its far part, px, if nothing else is asked for.
 constexpr float kBlurredPx = 1, kFarBlurredPx = 1.2f;
 
 // |CoC| is that of infinity in much of a picture, and so the distance of the outermost taps to the bit: they
@@ -185,14 +185,15 @@ private:
         });
     }
 
-    // Four taps half a cell off on both axes: with bilinear reads a tent of 3 x 3. (The article's taps are a
-    // whole texel off.)
+    // Four taps, as far off on both axes: at half a cell, with bilinear reads, a tent of 3 x 3; at a whole
+    // one, as published, the corners of that alone.
     Picture blurred(const Picture& half) const {
         const View<const Rgba> from = half;
+        const float off = float(in_.gather.tap_offset);
         return each(half.width(), half.height(), [&](int x, int y) {
             Rgba sum;
-            for (const float dx : {-0.5f, 0.5f})
-                for (const float dy : {-0.5f, 0.5f})
+            for (const float dx : {-off, off})
+                for (const float dy : {-off, off})
                     sum += 0.25f * bilinear(float(x) + dx, float(y) + dy,
                                             [&](int i, int j) { return from.clamped(i, j); });
             return sum;
@@ -209,13 +210,14 @@ private:
 
     Picture combined(const Picture& bokeh, bool apart) const {
         const float sharp_px = float(in_.gather.pixel_size_px);
+        const float blurred_px = float(in_.gather.blurred_px.value_or(apart ? kFarBlurredPx : kBlurredPx));
         return each([&](int x, int y) {
             const Rgba sharp = in_.colour(x, y);
             Rgba soft = bokeh(x, y);
             const float near = soft.a;
             if (apart) soft.a = sharp.a;
-            if (!apart) return mixed(sharp, soft, smoothstep(sharp_px, kBlurredPx, std::abs(coc(x, y))));
-            const Rgba with_far = mixed(sharp, soft, smoothstep(sharp_px, kFarBlurredPx, coc(x, y)));
+            if (!apart) return mixed(sharp, soft, smoothstep(sharp_px, blurred_px, std::abs(coc(x, y))));
+            const Rgba with_far = mixed(sharp, soft, smoothstep(sharp_px, blurred_px, coc(x, y)));
             return mixed(with_far, soft, near);
         });
     }
