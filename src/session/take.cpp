@@ -144,8 +144,15 @@ std::optional<CodesWanted> codes_wanted(const Control& control, const Place& pla
     return wanted;
 }
 
-// Of a frame whose light was changed here. lies: where its pixels are.
+// What was made of the picture, if it is still there, and of its layers.
+void cut(DefocusReport& report, const Rect& pixels) {
+    if (!report.image.empty()) report.image = part_of(report.image, pixels);
+    for (Picture& layer : report.layers) layer = part_of(layer, pixels);
+}
+
+// Of a frame that has no codes yet, as its light was changed here. lies: where its pixels are.
 void develop_at_home(DefocusReport& report, const Rect& lies, const CodesWanted& wanted, Workers& workers) {
+    if (!report.codes.empty()) return;
     engine::Stopwatch stopwatch(report.stages);
     device::Canvas picture(std::move(report.image));
     FrameCodes made = codes_of(picture, lies, lies, wanted, device::cpu_device(), workers);
@@ -242,17 +249,13 @@ Result<DefocusReport> Session::take(const DefocusJob& rendered, const Look& look
             if (!report || !report->panels.empty()) return report;
             if (const Status done = lighting.finish(*report); !done) return done.error();
             contents_->trim(contents_->most_kept_bytes());
-            if (made != asked) {
-                const Rect pixels = asked.moved(-made.x0, -made.y0);
-                if (!report->image.empty()) report->image = part_of(report->image, pixels);
-                for (Picture& layer : report->layers) layer = part_of(layer, pixels);
-            }
+            if (made != asked) cut(*report, asked.moved(-made.x0, -made.y0));
             const Rect pixels = made_pixels(rendered, control.region);
             if (look.expand_highlights)
                 report->image = compress_highlights(report->image, expanded.view().part(pixels),
                                                     rendered.colour.part(pixels), look.expansion);
             limit_by_mask(*report, rendered, pixels, workers);
-            if (wanted && report->codes.empty()) develop_at_home(*report, asked, *wanted, workers);
+            if (wanted) develop_at_home(*report, asked, *wanted, workers);
             return report;
         });
     if (taken)
