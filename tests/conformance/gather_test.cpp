@@ -251,17 +251,5 @@ TEST(Gather, ABarCutsTheDiscOfABrightPoint) {
     EXPECT_GT(drawn.by_sprites, drawn.by_rings + 4);
 }
 
-// What is bright, wide and behind wires goes on behind them as bright as it shows.
-TEST(Gather, ALitWindowBehindWiresIsNoDarkerForBeingDrawnPointByPoint) {
-    Shot shot = flat(120, 90, {0.1f, 0.1f, 0.1f, 1}, 5);
-    for (int y = 25; y < 60; ++y)
-        for (int x = 40; x < 80; ++x) shot.colour(x, y) = {4, 4, 3, 1};
-    for (int y = 0; y < 90; ++y)
-        for (int x = 0; x < 120; ++x)
-            if ((x + y) % 14 < 3) shot.colour(x, y) = {0.2f, 0.2f, 0.2f, 1}, shot.coc_px(x, y) = -8;
-    const Drawn drawn(shot, 512);
-    EXPECT_GT(drawn.by_sprites, drawn.by_rings - 0.05);
-}
-
 }  // namespace
 }  // namespace petzval::conformance

@@ -56,5 +56,20 @@ TEST(HiddenFill, DoesNotFanOutLamps) {
         }
 }
 
+// A window whose light is drawn by itself is dimmed, but as bright as it was where it goes on behind the
+// wire.
+TEST(HiddenFill, IsAsBrightAsWhatShowsAlsoWhereLightIsDrawnByItself) {
+    Wire wire([](int, int) { return 4.0f; });
+    Picture lit(64, 64);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            if (lit(x, y) = wire.colour(x, y); wire.coc_px(x, y) == 0)
+                wire.colour(x, y) = {0.1f, 0.1f, 0.1f, 1};
+    const auto behind_the_wire = [&] { return guess(wire.input, true).fill.at(32, 32)->colour.g; };
+    EXPECT_NEAR(behind_the_wire(), 0.1f, 1e-3);
+    wire.input.lit = lit;
+    EXPECT_NEAR(behind_the_wire(), 4, 1e-2);
+}
+
 }  // namespace
 }  // namespace petzval::engine
