@@ -11,21 +11,29 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  # As it asks of those who precompile headers (ccache's manual, "Precompiled headers"), here and below.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
+include(petzval_precompiled)
 
+# What the compiler says of all of it, programs and benches as well.
+add_library(petzval_warnings INTERFACE)
+target_compile_options(petzval_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  # GCC 12 sees overlaps and overflows in every "literal" + std::string (GCC bug 105651).
+  "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds>")
 add_library(petzval_options INTERFACE)
 target_include_directories(petzval_options INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 # No -ffast-math: results must be the same bits on every run and thread count. -ffp-contract=off keeps them
 # the same with and without FMA outside the SIMD files, which choose it themselves.
-target_compile_options(petzval_options INTERFACE
-  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -ffp-contract=off
-  # GCC 12 sees an overlap in every "literal" + std::string (GCC bug 105651).
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+target_compile_options(petzval_options INTERFACE -ffp-contract=off)
+target_link_libraries(petzval_options INTERFACE petzval_warnings)
 if(NOT PETZVAL_SIMD)
   target_compile_definitions(petzval_options INTERFACE HWY_COMPILE_ONLY_SCALAR)
 endif()
+petzval_precompiled(rooms LINKS petzval_options)
 
 # petzval_room(NAME USES rooms… LINKS libraries… TESTS_USE rooms…): src/NAME/*.cpp, and its tests *_test.cpp. A room
 # `a/b` is the target petzval_a_b, its tests are named a.b.Test; tests may look into rooms of TESTS_USE as well.
@@ -46,12 +54,14 @@ function(petzval_room name)
   add_library(petzval_${target} STATIC ${sources})
   set_target_properties(petzval_${target} PROPERTIES OUTPUT_NAME petzval_room_${target})
   target_link_libraries(petzval_${target} PUBLIC $<BUILD_INTERFACE:petzval_options> ${ROOM_LINKS})
+  petzval_precompile(petzval_${target} rooms)
   foreach(used ${ROOM_USES})
     target_link_libraries(petzval_${target} PUBLIC petzval_${used})
   endforeach()
   if(PETZVAL_TESTS AND tests)
     add_executable(test_${target} ${tests})
     target_link_libraries(test_${target} PRIVATE petzval_${target} petzval_gtest)
+    petzval_precompile(test_${target} tests)
     foreach(used ${ROOM_TESTS_USE})
       target_link_libraries(test_${target} PRIVATE petzval_${used})
     endforeach()

@@ -65,8 +65,17 @@ def tidy(build, source):
     return source, result.returncode, re.sub(r"^\d+ warnings.*\n", "", result.stdout, flags=re.MULTILINE)
 
 
+def without_precompiled(build):
+    """A folder with the commands of the build that clang takes: GCC's precompiled headers are not its own."""
+    text = (ROOT / build / "compile_commands.json").read_text()
+    (ROOT / build / "lint").mkdir(exist_ok=True)
+    (ROOT / build / "lint" / "compile_commands.json").write_text(
+        re.sub(r" -Winvalid-pch| -fpch-preprocess|( -Xclang)? -include(-pch)?( -Xclang)? \S*cmake_pch\S*", "", text))
+    return f"{build}/lint", json.loads(text)
+
+
 def main(build, words):
-    entries = json.loads((ROOT / build / "compile_commands.json").read_text())
+    build, entries = without_precompiled(build)
     compiled = {os.path.relpath(e["file"], ROOT) for e in entries}
     compiled = {c for c in compiled if not c.startswith(("..", "build"))}
     paths = sorted(compiled) if words == ["--all"] else words or changed()
