@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace petzval::device::vulkan {
 
@@ -28,9 +29,9 @@ const Piece* DeviceCanvas::sent() {
     if (!is_home_) return drawn_on();
     if (!fits()) return nullptr;
     Recording recording(context_);
-    pixels_ = recording.uploaded(std::span<const Rgba>(memory_.pixels(), memory_.size()));
+    Piece pixels = recording.uploaded(std::span<const Rgba>(memory_.pixels(), memory_.size()));
     recording.run();
-    is_home_ = false;
+    pixels_ = std::move(pixels), is_home_ = false;
     return &pixels_;
 }
 
