@@ -52,7 +52,7 @@ Result<Output> run_sprites(const Input& input) {
     }
     output->stages = {background, sprites};
     if (input.sprites.find && !BrightPoints::are_looked_for(input))
-        output->warnings.emplace_back("bright points are not looked for in pictures with hidden layers");
+        output->warnings.emplace_back("bright points are not looked for in deep pictures");
     return output;
 }
 
