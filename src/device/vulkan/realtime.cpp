@@ -180,9 +180,8 @@ void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, bool pla
             keep(std::move(frame));
             y = end;
         } catch (const Failed& failed) {
-            do
+            while (rows_at_once(width, height, halo) >= rows)
                 if (rows <= kTile || !context_.halves(failed)) throw;
-            while (rows_at_once(width, height, halo) >= rows);
         }
     }
 }
