@@ -64,7 +64,7 @@ bool LayersView::read(const Input& input, const engine::CompletedPicture& comple
             engine::LayersOfPixel layers(!input.deep.empty());
             int n = 0;
             for (const CocSample& s : samples.at(x, y)) {
-                const int number = layers.next(s) / engine::kNextLayer;
+                const int number = layers.next(s).layer / engine::kNextLayer;
                 if (!holds_light(s) || n == int(ranks)) continue;
                 atlas(x, n * height + y) = s.colour;
                 atlas(width + x, n * height + y).r = float(number);

@@ -188,6 +188,22 @@ TEST_P(Law, AnOpaqueSheetHidesWhatIsStatedBehindIt) {
     }
 }
 
+// A pixel's layers are means of their surfaces over all of it; what shows of them it shows itself.
+TEST_P(Law, HiddenLayersChangeNothingInFocus) {
+    Shot shot = flat(60, 40, {}, 0);
+    paint_noise(shot.colour, 7);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> any(0, 1);
+    shot.behind = DeepPicture::made_of(60, 40, [&](int, int, std::vector<DeepSample>& samples) {
+        const float share = any(random), r = 0.5f * any(random);
+        samples.push_back({{share * r, share * 0.4f, share * 0.2f, share}, -0.01f, -0.01f});
+        samples.push_back({{0.1f, 0.6f * r, 0.5f, 1}, 0.0f, 0.0f});
+        samples.push_back({{3, 2, 1, 1}, 0.02f, 0.02f});
+    });
+    // The reference meets each share with a whole number of its 1024 rays.
+    EXPECT_LE(largest_difference(picture(shot), shot.colour), traces() ? 0.03 : allows().in_focus + 1e-5);
+}
+
 TEST_P(Law, EmptinessStaysEmptyAndCoverageIsBlurredAsColourIs) {
     for (const float coc : {-8.0f, 6.0f, 20.0f}) {
         if (traces() && coc == 20) continue;

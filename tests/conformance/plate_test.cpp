@@ -11,10 +11,10 @@ constexpr float kFarPx = 11;
 struct Strands {
     Shot shot, plate, known;
 
-    explicit Strands(float near_px) : shot(flat(kWidth, kHeight, {}, kFarPx)) {
+    explicit Strands(float near_px, float far_px = kFarPx) : shot(flat(kWidth, kHeight, {}, far_px)) {
         paint_rectangles(shot.colour, 12);
-        plate = {shot.colour.clone(), Plane(kWidth, kHeight, kFarPx), {}};
-        known = {Picture(kWidth, kHeight), Plane(kWidth, kHeight, kFarPx), {}};
+        plate = {shot.colour.clone(), Plane(kWidth, kHeight, far_px), {}};
+        known = {Picture(kWidth, kHeight), Plane(kWidth, kHeight, far_px), {}};
         const Rgba hair{0.2f, 0.1f, 0.05f, 1};
         const auto draw = [&](int x, int y, std::vector<DeepSample>& samples) {
             const Rgba behind = plate.colour(x, y);
@@ -23,7 +23,7 @@ struct Strands {
             if (in_strand(float(x) + 0.5f, float(y) + 0.5f)) shot.coc_px(x, y) = near_px;
             known.colour(x, y) = shot.colour(x, y), known.coc_px(x, y) = shot.coc_px(x, y);
             if (share > 0) samples.push_back({share * hair, near_px, near_px});
-            if (share > 0) samples.push_back({behind, kFarPx, kFarPx});
+            if (share > 0) samples.push_back({behind, far_px, far_px});
         };
         known.behind = DeepPicture::made_of(kWidth, kHeight, draw);
     }
@@ -32,6 +32,7 @@ struct Strands {
             shot, [&](int x, int y) { return plate.colour(x, y); }, [](int, int) { return kFarPx; });
         return score();
     }
+    double known_whole() const { return psnr_inside(truth(256), rendered(known.job("scatter")), 16); }
     double without() {
         shot.behind = {};
         return score();
@@ -49,10 +50,11 @@ private:
             inside += in_strand(x + (float(i % kSide) + 0.5f) / kSide, y + (float(i / kSide) + 0.5f) / kSide);
         return float(inside) / (kSide * kSide);
     }
-    double score() const {
+    double score() const { return psnr_inside(truth(1024), rendered(shot.job("scatter")), 16); }
+    Picture truth(int points) const {
         DefocusJob truth = known.job("reference");
-        truth.pupil_points = 1024;
-        return psnr_inside(rendered(truth), rendered(shot.job("scatter")), 16);
+        truth.pupil_points = points;
+        return rendered(truth);
     }
 };
 
@@ -62,6 +64,12 @@ TEST(Plate, StrandsComeOutBetterWithWhatIsBehindThem) {
     EXPECT_GT(with, 30);
     EXPECT_GT(with, sharp.without() + 2);
     EXPECT_GT(blurred.with_plate(), 45);
+}
+
+TEST(Plate, StrandsStandBeforeWhatNearlyTouchesThem) {
+    // Their radii lie in one interval of compositing.
+    for (const auto& [near_px, far_px] : {std::pair{2.0f, 2.4f}, {-3.4f, -2.6f}})
+        EXPECT_GT(Strands(near_px, far_px).known_whole(), 45) << near_px << " before " << far_px;
 }
 
 TEST(Plate, OneThatHoldsNothingInFrontChangesNothing) {

@@ -29,6 +29,28 @@ void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
                   samples.end());
 }
 
+// A stated sample is the mean of its surface over the pixel. What a pixel shows of its samples from `first`
+// on is made to sum to what the picture shows there, as far as they lie so close together that no lens sees
+// past one of them to the next.
+void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba picture) {
+    constexpr float kTogetherPx = 0.5f, kApartPx = 1, kCovered = 1 - 1e-6f, kDark = 1e-9f;
+    float covered = 0, in_front = 0, span_px = 0;
+    Rgba shown;
+    std::size_t end = first;
+    for (; end < samples.size(); ++end) {
+        const CocSample& s = samples[end];
+        if (end > first && s.coc_px > samples[end - 1].coc_px) in_front = covered;
+        if (in_front > kCovered) break;
+        covered += s.colour.a, span_px = s.coc_px - samples[first].coc_px;
+        if (s.colour.a > 0) shown += std::min(1.0f, (1 - in_front) / s.colour.a) * s.colour;
+    }
+    const float together = std::clamp((kApartPx - span_px) / (kApartPx - kTogetherPx), 0.0f, 1.0f);
+    const auto times = [&](float is, float want) { return is > kDark ? 1 + together * (want / is - 1) : 1; };
+    const float r = times(shown.r, picture.r), g = times(shown.g, picture.g), b = times(shown.b, picture.b);
+    for (std::size_t k = first; k < end; ++k)
+        samples[k].colour.r *= r, samples[k].colour.g *= g, samples[k].colour.b *= b;
+}
+
 }  // namespace
 
 bool is_same_or_in_front(const StatedPicture& p, float depth, float visible) {
@@ -59,6 +81,7 @@ CocSamples all_samples(const StatedPicture& p, Workers& workers) {
             std::stable_sort(all.samples.begin() + std::ptrdiff_t(all.first.back()), all.samples.end(),
                              [](const CocSample& a, const CocSample& b) { return a.coc_px < b.coc_px; });
             hide_what_is_covered(all.samples, all.first.back());
+            if (complete) match_what_shows(all.samples, all.first.back(), colour(x, y));
         }
     all.first.push_back(all.samples.size());
     return all;

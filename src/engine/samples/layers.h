@@ -36,17 +36,38 @@ public:
         if (hidden_known_ && own >= opaque_ + kNearlyTouch) return own;
         return std::max(own, opaque_ + kBehindTouching);
     }
-    int next(const CocSample& s) {
+    // A sample's layer, and how much of it lies there: the rest comes in the next one.
+    struct Place {
+        int layer;
+        float shows;  // 0…1
+    };
+    Place next(const CocSample& s) {
         constexpr float kOpaque = 0.97f;
         const int layer = at(s.coc_px);
         if (s.colour.a + s.empty > kOpaque) opaque_ = layer, hides_ = true;
-        return layer;
+        return {layer, shows(s, layer)};
     }
 
 private:
+    // What those before it leave of a sample, if they lie in its interval or the one before: there their
+    // discs and its own cannot tell which is in front. Of samples at one radius none hides another.
+    float shows(const CocSample& s, int layer) {
+        if (layer > touching_ + kNextLayer)
+            touching_ = layer, covered_ = in_front_ = 0;
+        else if (s.coc_px > last_coc_px_)
+            in_front_ = covered_;
+        last_coc_px_ = s.coc_px, covered_ += s.colour.a + s.empty;
+        constexpr float kLeast = 1e-3f;
+        const float room = std::max(0.0f, 1 - in_front_);
+        if (s.empty > 0 || s.colour.a <= room + kLeast) return 1;
+        return room < kLeast ? 0 : room / s.colour.a;
+    }
+
     static constexpr int kNearlyTouch = 2 * kNextLayer, kBehindTouching = 6 * kNextLayer;
     bool hidden_known_, hides_ = false;
-    int opaque_ = 0;  // layer of the last one, where there is one
+    int opaque_ = 0;                                      // layer of the last one, where there is one
+    int touching_ = -(1 << 20);                           // layer of the first of those that touch each other
+    float covered_ = 0, in_front_ = 0, last_coc_px_ = 0;  // by those; by the ones nearer than the last
 };
 
 }  // namespace petzval::engine

@@ -109,7 +109,7 @@ public:
         const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
         LayersOfPixel layers(rule_.hidden_known);
         for (const CocSample& s : samples_.at(u, v - first_row_)) {
-            const int layer = layers.next(s);
+            const auto [layer, shows] = layers.next(s);
             // Only what is seen has a known slope.
             const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
             const Slope slope = visible ? slope_at(coc_px_, connected_, u, v) : Slope{};
@@ -121,7 +121,8 @@ public:
                 put(level, Gathered(in_layer, share * light, s.coc_px, tilt));
                 if (share < 1) put(level - 1, Gathered(in_layer, (1 - share) * light, s.coc_px, tilt));
             };
-            if (s.colour.a > 0) put_both(layer, s.colour);
+            if (s.colour.a > 0 && shows > 0) put_both(layer, shows * s.colour);
+            if (s.colour.a > 0 && shows < 1) put_both(layer + kNextLayer, (1 - shows) * s.colour);
             if (s.empty > 0)
                 put_both(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
         }
