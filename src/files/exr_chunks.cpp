@@ -1,6 +1,7 @@
 #include "files/exr_chunks.h"
 
 #include "base/parallel.h"
+#include "base/workspaces.h"
 #include "files/wording.h"
 
 #include <algorithm>
@@ -73,13 +74,13 @@ std::uint64_t FlatChunks::promised_bytes(const Rect& r) const {
 }
 
 // As it stands in the file.
-RawBytes FlatChunks::packed(int chunk, std::uint64_t promised) {
+void FlatChunks::read_packed(int chunk, std::uint64_t promised, RawBytes& bytes) {
     int size = int(promised);
-    RawBytes bytes(promised);
+    bytes.resize(promised);
     if (!is_tiled_) {
         input_.rawPixelDataToBuffer(pixels_of(chunk).y0, reinterpret_cast<char*>(bytes.data()), size);
-        bytes.shorten(std::size_t(size));
-        return bytes;
+        bytes.resize(std::min(std::size_t(size), promised));
+        return;
     }
     const std::lock_guard lock(mutex_);
     if (exr_.layout.parts.size() == 1) seek(chunk);
@@ -88,9 +89,8 @@ RawBytes FlatChunks::packed(int chunk, std::uint64_t promised) {
     input_.rawTileData(x, y, level_x, level_y, from, size);
     if (x != column(chunk) || y != row(chunk) || level_x != 0 || level_y != 0)
         throw Iex::InputExc("its table of chunks leads to the wrong tile");
-    bytes.shorten(std::size_t(size));
+    bytes.resize(std::min(std::size_t(size), promised));
     std::memcpy(bytes.data(), from, bytes.bytes().size());
-    return bytes;
 }
 
 // Of a file of one part OpenEXR's rawTileData reads whatever tile comes next, and tiles may stand in any
@@ -105,16 +105,18 @@ void FlatChunks::seek(int chunk) {
     exr_.stream->seekg(place);
 }
 
-Result<RawBytes> FlatChunks::unpacked(int chunk) {
+Status FlatChunks::unpack_chunk(int chunk, Buffers& buffers) {
     const Rect pixels = pixels_of(chunk);
     const std::uint64_t promised = promised_bytes(pixels);
-    const RawBytes from = packed(chunk, promised);
-    const bool plain = is_plain_packing(compression_);
-    RawBytes bytes(plain ? promised : 0);
-    std::optional<std::size_t> found = from.bytes().empty() ? 0 : promised;
-    if (plain) found = unpack(from.bytes(), compression_, bytes.bytes());
+    read_packed(chunk, promised, buffers.packed);
+    const std::span<const unsigned char> packed = buffers.packed.bytes();
+    std::optional<std::size_t> found = packed.empty() ? 0 : promised;
+    if (is_plain_packing(compression_)) {
+        buffers.pixels.resize(promised);
+        found = unpack(packed, compression_, buffers.pixels.bytes(), buffers.between);
+    }
     if (found != promised) return damaged(exr_, part_, pixels, found, "pixels", promised);
-    return bytes;
+    return Done{};
 }
 
 Status FlatChunks::for_pixels(const std::vector<std::string>& names, int y0, int y1,
@@ -129,18 +131,19 @@ Status FlatChunks::for_pixels(const std::vector<std::string>& names, int y0, int
     const int first = std::max(y0 - window_.y0, 0) / height_ * columns(),
               last = std::min((y1 - 1 - window_.y0) / height_ + 1, rows()) * columns();
     std::vector<std::optional<Error>> errors(std::size_t(std::max(last - first, 0)));
+    Workspaces<Buffers> workspaces;
     parallel_for(last - first, *exr_.workers, [&](int i) {
-        const Result<RawBytes> bytes = unpacked(first + i);
-        if (!bytes) {
-            errors[std::size_t(i)] = bytes.error();
+        const auto buffers = workspaces.take();
+        if (const Status whole = unpack_chunk(first + i, *buffers); !whole) {
+            errors[std::size_t(i)] = whole.error();
             return;
         }
         const Rect r = pixels_of(first + i);
         const auto width = std::size_t(r.width());
         for (std::size_t n = 0; n < names.size(); ++n)
             for (int y = std::max(r.y0, y0); y < std::min(r.y1, y1); ++y)
-                take(n, {bytes->data() + width * (pixel_bytes * std::size_t(y - r.y0) + before[n]), r.x0, y,
-                         r.width()});
+                take(n, {(*buffers).pixels.data() + width * (pixel_bytes * std::size_t(y - r.y0) + before[n]),
+                         r.x0, y, r.width()});
     });
     for (const std::optional<Error>& error : errors)
         if (error) return *error;
@@ -161,8 +164,9 @@ Status check_deep_chunk(const ExrFile& exr, std::size_t part, const DeepChunk& c
                            std::uint64_t packed_from, const char* what) -> Status {
         std::optional<std::size_t> found = packed.empty() ? 0 : promised;
         if (is_plain_packing(compression)) {
-            const RawBytes to(packed_from);  // thrown away
-            found = unpack(packed, compression, to.bytes());
+            RawBytes to, between;  // thrown away
+            to.resize(packed_from);
+            found = unpack(packed, compression, to.bytes(), between);
         }
         return found == promised ? Status(Done{}) : damaged(exr, part, chunk.pixels, found, what, promised);
     };

@@ -46,11 +46,15 @@ private:
     int row(int chunk) const { return chunk / columns(); }
     Rect pixels_of(int chunk) const;
     std::uint64_t promised_bytes(const Rect& r) const;
-    RawBytes packed(int chunk, std::uint64_t promised);
+    // Of one chunk after the other: as it stands in the file, on its way, and its pixels.
+    struct Buffers {
+        RawBytes packed, between, pixels;
+    };
+    void read_packed(int chunk, std::uint64_t promised, RawBytes& bytes);
     void seek(int chunk);
-    // All of a chunk's lines, of each all channels in the order of the part's; nothing of what cannot be
-    // unpacked here.
-    Result<RawBytes> unpacked(int chunk);
+    // All of a chunk's lines into buffers.pixels, of each all channels in the order of the part's; nothing of
+    // what cannot be unpacked here.
+    Status unpack_chunk(int chunk, Buffers& buffers);
 
     const ExrFile& exr_;
     const std::size_t part_;

@@ -87,16 +87,16 @@ std::vector<unsigned char> zipped(std::vector<unsigned char> raw) {
 }
 
 std::optional<std::size_t> unpack(std::span<const unsigned char> packed, Imf::Compression compression,
-                                  std::span<unsigned char> to) {
+                                  std::span<unsigned char> to, RawBytes& between) {
     if (compression == Imf::NO_COMPRESSION || packed.size() >= to.size()) {
         std::copy_n(packed.begin(), std::min(packed.size(), to.size()), to.begin());
         return packed.size();
     }
-    const RawBytes predicted(to.size());
+    between.resize(to.size());
     const std::optional<std::size_t> found = compression == Imf::RLE_COMPRESSION
-                                                 ? unpack_runs(packed, predicted.bytes())
-                                                 : unpack_zlib(packed, predicted.bytes());
-    if (found == to.size()) undo_predictor(predicted.bytes(), to);
+                                                 ? unpack_runs(packed, between.bytes())
+                                                 : unpack_zlib(packed, between.bytes());
+    if (found == to.size()) undo_predictor(between.bytes(), to);
     return found;
 }
 

@@ -17,14 +17,17 @@ namespace petzval {
 // Bytes that are about to be written: not cleared.
 class RawBytes {
 public:
-    explicit RawBytes(std::size_t size) : bytes_(new unsigned char[size]), size_(size) {}
+    // Keeps its memory, if not what it holds, when it has been larger.
+    void resize(std::size_t size) {
+        if (size > room_) bytes_.reset(new unsigned char[size]), room_ = size;
+        size_ = size;
+    }
     unsigned char* data() const { return bytes_.get(); }
     std::span<unsigned char> bytes() const { return {bytes_.get(), size_}; }
-    void shorten(std::size_t size) { size_ = std::min(size_, size); }
 
 private:
     std::unique_ptr<unsigned char[]> bytes_;
-    std::size_t size_;
+    std::size_t size_ = 0, room_ = 0;
 };
 
 // Whether unpacked() knows the format.
@@ -34,9 +37,9 @@ inline bool is_plain_packing(Imf::Compression compression) { return compression 
 std::vector<unsigned char> zipped(std::vector<unsigned char> raw);
 
 // Unpacks into `to`, which is as large as it should become: how many bytes it became, to.size() + 1 if more
-// than fit, nothing if the stream is damaged. What is as large as it should be is not packed. Requires:
-// is_plain_packing().
+// than fit, nothing if the stream is damaged. What is as large as it should be is not packed. `between` may
+// hold anything. Requires: is_plain_packing().
 std::optional<std::size_t> unpack(std::span<const unsigned char> packed, Imf::Compression compression,
-                                  std::span<unsigned char> to);
+                                  std::span<unsigned char> to, RawBytes& between);
 
 }  // namespace petzval

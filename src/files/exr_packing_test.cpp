@@ -11,6 +11,11 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
+std::optional<std::size_t> unpack(const Bytes& packed, Imf::Compression compression, Bytes& to) {
+    static RawBytes between;  // whatever was there
+    return petzval::unpack(packed, compression, to, between);
+}
+
 Bytes smooth(std::size_t size) {
     Bytes bytes(size);
     for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<unsigned char>(i / 7 + i % 2 * 90);

@@ -1,7 +1,7 @@
 #include "device/cpu/composite.h"
 
 #include "base/parallel.h"
-#include "device/cpu/workspaces.h"
+#include "base/workspaces.h"
 #include "engine/waist/holdout.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/workspaces.h"
 #include "device/cpu/gather_taps.h"
-#include "device/cpu/workspaces.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "device/cpu/stamp_lights.h"
 
 #include "base/parallel.h"
+#include "base/workspaces.h"
 #include "device/cpu/dimmer.h"
-#include "device/cpu/workspaces.h"
 #include "engine/waist/cells.h"
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// Scratch memory of the workers of one draw call: kept from piece to piece, gone when the call ends.
+// Scratch memory of the workers of one loop: kept from piece to piece, gone when the loop ends.
 #pragma once
 
 #include <memory>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace petzval::device {
+namespace petzval {
 
 template <typename Workspace>
 class Workspaces {
@@ -45,4 +45,4 @@ private:
     std::vector<std::unique_ptr<Workspace>> free_;
 };
 
-}  // namespace petzval::device
+}  // namespace petzval
