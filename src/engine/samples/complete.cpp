@@ -28,6 +28,14 @@ CocSample sample(Rgba colour, float coc_px, float share) {
     return {colour, coc_px, coc_px, empty > kLeastShare ? empty : 0};
 }
 
+// Of another size, to be written: in the memory that there is.
+void restart(CocSamples& samples, int width, int height, std::size_t count) {
+    samples.width = width;
+    samples.first.clear(), samples.samples.clear();  // nothing is to be kept
+    samples.first.resize(std::size_t(width) * std::size_t(height) + 1);
+    samples.samples.resize(count);
+}
+
 // How many pixels away (the larger of columns and rows) the picture is transparent; many where it nowhere is.
 Image<int> distance_to_emptiness(View<const Rgba> picture) {
     constexpr int kFar = 1 << 20;
@@ -102,13 +110,10 @@ public:
         count();
     }
 
-    CocSamples rows(int y0, int y1) const override {
+    void rows(int y0, int y1, CocSamples& all) const override {
         const int width = input_.width();
         const std::size_t before = first_of_row_[std::size_t(y0)];
-        CocSamples all;
-        all.width = width;
-        all.first.resize(std::size_t(width) * std::size_t(y1 - y0) + 1);
-        all.samples.resize(first_of_row_[std::size_t(y1)] - before);
+        restart(all, width, y1 - y0, first_of_row_[std::size_t(y1)] - before);
         parallel_for(y1 - y0, *input_.workers, [&](int row) {
             std::size_t at = first_of_row_[std::size_t(y0 + row)] - before;
             const std::size_t pixel = std::size_t(row) * std::size_t(width);
@@ -117,7 +122,6 @@ public:
                 [&](const CocSample& s) { all.samples[at++] = s; });
         });
         all.first.back() = all.samples.size();
-        return all;
     }
 
 private:
@@ -186,16 +190,14 @@ public:
         sample_count = all_.samples.size();
         largest_coc_px = SampleSource(all_).largest_coc_px();
     }
-    CocSamples rows(int y0, int y1) const override {
+    void rows(int y0, int y1, CocSamples& part) const override {
         const auto pixels = CocSamplesView(all_).rows(y0, y1).first();
         const std::size_t begin = pixels.front(), end = pixels.back();
-        CocSamples part;
-        part.width = all_.width;
-        part.first.reserve(pixels.size());
-        for (const std::size_t first : pixels) part.first.push_back(first - begin);
-        part.samples.assign(all_.samples.begin() + std::ptrdiff_t(begin),
-                            all_.samples.begin() + std::ptrdiff_t(end));
-        return part;
+        restart(part, all_.width, y1 - y0, end - begin);
+        std::transform(pixels.begin(), pixels.end(), part.first.begin(),
+                       [begin](std::size_t first) { return first - begin; });
+        std::copy(all_.samples.begin() + std::ptrdiff_t(begin), all_.samples.begin() + std::ptrdiff_t(end),
+                  part.samples.begin());
     }
 
 private:
@@ -206,9 +208,9 @@ CocSamples completed_before_plate(const Input& input, View<const unsigned char> 
     Input plate = input;
     plate.colour = input.plate.colour, plate.coc_px = input.plate.coc_px;
     const int height = input.height();
-    const CocSamples back =
-        FlatPicture(plate, connections(plate.coc_px, *input.workers), dim).rows(0, height);
-    CocSamples all = FlatPicture(input, connected, dim, &back).rows(0, height);
+    CocSamples back, all;
+    FlatPicture(plate, connections(plate.coc_px, *input.workers), dim).rows(0, height, back);
+    FlatPicture(input, connected, dim, &back).rows(0, height, all);
     if (!input.plate.all) drop_out_of_sight(all, input.lens(0).reach_px(1), *input.workers);
     return all;
 }

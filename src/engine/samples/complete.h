@@ -20,9 +20,13 @@ class CompletedPicture {
 public:
     // `input` outlives this.
     CompletedPicture(const Input& input, View<const unsigned char> connected, const Dim& dim);
-    // Rows y0…y1-1; from any thread.
-    CocSamples rows(int y0, int y1) const { return parts_->rows(y0, y1); }
-    CocSamples all() const { return rows(0, height_); }
+    // Rows y0…y1-1; from any thread. In place of what was in `into`, with its memory.
+    void rows(int y0, int y1, CocSamples& into) const { parts_->rows(y0, y1, into); }
+    CocSamples all() const {
+        CocSamples samples;
+        rows(0, height_, samples);
+        return samples;
+    }
     std::size_t sample_count() const { return parts_->sample_count; }
     float largest_coc_px() const { return parts_->largest_coc_px; }  // of any |radius|
 
@@ -33,7 +37,7 @@ public:
         Parts() = default;
         Parts(const Parts&) = delete;
         virtual ~Parts() = default;
-        virtual CocSamples rows(int y0, int y1) const = 0;
+        virtual void rows(int y0, int y1, CocSamples& into) const = 0;
     };
 
 private:

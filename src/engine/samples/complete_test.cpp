@@ -47,9 +47,10 @@ TEST(CompletedPicture, RowsAreThoseOfAll) {
     EXPECT_EQ(picture.sample_count(), all.samples.size());
     EXPECT_GT(all.samples.size(), std::size_t(kWidth * kHeight));
     EXPECT_EQ(picture.largest_coc_px(), SampleSource(all).largest_coc_px());
+    CocSamples rows;  // one memory for all
     for (int y0 = 0; y0 < kHeight; y0 += SampleSource::kRows) {
         const int y1 = std::min(y0 + SampleSource::kRows, kHeight);
-        const CocSamples rows = picture.rows(y0, y1);
+        picture.rows(y0, y1, rows);
         ASSERT_EQ(rows.height(), y1 - y0);
         for (int y = y0; y < y1; ++y)
             for (int x = 0; x < kWidth; ++x) {

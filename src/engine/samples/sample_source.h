@@ -1,11 +1,13 @@
 // The samples of a picture, by rows: all of a 4K frame at once would be the largest thing that it holds.
 #pragma once
 
+#include "base/workspaces.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace petzval::engine {
@@ -20,8 +22,9 @@ public:
         for (const CocSample& s : all.samples)
             largest_coc_px_ = std::max(largest_coc_px_, std::abs(s.coc_px));
     }
-    // make(y0, y1): rows y0…y1-1, asked from any thread; largest_coc_px: of any |radius|.
-    SampleSource(int width, int height, float largest_coc_px, std::function<CocSamples(int, int)> make)
+    // make(y0, y1, into): rows y0…y1-1, asked from any thread; largest_coc_px: of any |radius|.
+    using Make = std::function<void(int, int, CocSamples&)>;
+    SampleSource(int width, int height, float largest_coc_px, Make make)
         : make_(std::move(make)), width_(width), height_(height), largest_coc_px_(largest_coc_px) {}
 
     int width() const { return width_; }
@@ -31,13 +34,15 @@ public:
     template <typename Use>
     void rows(int y0, int y1, const Use& use) const {
         if (all_) return use(CocSamplesView(*all_).rows(y0, y1));
-        const CocSamples made = make_(y0, y1);
-        use(CocSamplesView(made));
+        const auto made = memory_->take();
+        make_(y0, y1, *made);
+        use(CocSamplesView(*made));
     }
 
 private:
     const CocSamples* all_ = nullptr;
-    std::function<CocSamples(int, int)> make_;
+    Make make_;
+    std::shared_ptr<Workspaces<CocSamples>> memory_ = std::make_shared<Workspaces<CocSamples>>();
     int width_ = 0, height_ = 0;
     float largest_coc_px_ = 0;
 };

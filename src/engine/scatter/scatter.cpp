@@ -218,27 +218,26 @@ private:
     };
 
     // The samples of a strip's rows, less the highlights.
-    CocSamples base_of(const Strip& strip, const CompletedPicture& completed, int y0, int y1,
-                       Found& found) const {
-        CocSamples rows = completed.rows(y0, y1);
+    void base_of(const Strip& strip, const CompletedPicture& completed, int y0, int y1, Found& found,
+                 CocSamples& rows) const {
+        completed.rows(y0, y1, rows);
         std::vector<Highlight>& taken = found.highlights[std::size_t(y0 / SampleSource::kRows)];
         taken = take_highlights(rows, split_, strip.first_row + y0, kLargestSquare, *strip.input.workers);
         for (Highlight& h : taken) h.y += y0;
         if (strip.input.deep_dims_itself) share_lens_area(rows, *strip.input.workers);
         found.casters.add(y0, rows);
-        return rows;
     }
     // The same, held at once for layers alone; else what was completed lasts until every row was asked for.
     SampleSource base_of(Strip& strip, Found& found) const {
         const std::shared_ptr<const CompletedPicture> completed = std::move(strip.completed);
         const int width = strip.input.width(), height = strip.input.height();
         if (!strip.input.layers.empty()) {
-            strip.base = base_of(strip, *completed, 0, height, found);
+            base_of(strip, *completed, 0, height, found, strip.base);
             return strip.base;
         }
         return {width, height, completed->largest_coc_px(),
-                [this, &strip, completed, &found](int y0, int y1) {
-                    return base_of(strip, *completed, y0, y1, found);
+                [this, &strip, completed, &found](int y0, int y1, CocSamples& rows) {
+                    base_of(strip, *completed, y0, y1, found, rows);
                 }};
     }
 
