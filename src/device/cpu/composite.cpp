@@ -2,6 +2,8 @@
 
 #include "base/parallel.h"
 #include "base/workspaces.h"
+#include "device/cpu/budget.h"
+#include "device/cpu/stamp.h"
 #include "engine/waist/holdout.h"
 
 #include <algorithm>
@@ -16,25 +18,14 @@ using namespace engine;
 
 namespace {
 
-// What one sector of the pupil, or all of it, has given to each pixel of a tile so far: what a holdout lets
-// through of that.
-struct Budget {
-    Picture sum, more;  // as LensLeft::Taken
-    Image<LensLeft> left;
-
-    void start(const Rect& tile) {
-        sum = Picture(tile.width(), tile.height()), more = Picture(tile.width(), tile.height());
-        left = Image<LensLeft>(tile.width(), tile.height());
-    }
-};
-
 // Memory one worker keeps from tile to tile.
 struct Workspace {
     using Accumulators = std::array<Accumulator, LevelRule::kMostSectors>;
     Accumulators light, emptiness;
     std::vector<Accumulators> coarse;  // per level
     std::array<Budget, LevelRule::kMostSectors> budgets;
-    std::vector<Rgba> added, added_more;  // of one row
+    std::vector<Rgba> added, added_more, given;  // of one row
+    std::vector<float> taken;
     std::vector<float> enlarging;
 };
 
@@ -59,10 +50,10 @@ struct Interval {
 
 // Adds what the holdout lets through of what a layer gave to row y of the tile.
 void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, int y,
-              std::span<const Rgba> row, Picture& sum) {
+              std::span<const Rgba> row, Rgba* sum) {
     for (int x = 0; x < tile.width(); ++x)
         if (const Rgba added = row[std::size_t(x)]; added != Rgba{})
-            sum(x, y) += added * let_through(holdout.at(tile.x0 + x, tile.y0 + y), radii.low, radii.high);
+            sum[x] += added * let_through(holdout.at(tile.x0 + x, tile.y0 + y), radii.low, radii.high);
 }
 
 // Runs of a plan, one after the other.
@@ -81,7 +72,7 @@ public:
           first_layer_(plan.tiles[tile].first_layer),
           last_layer_(plan.tiles[tile + 1].first_layer),
           w_(w) {
-        for (int c = 0; c < sectors_; ++c) w.budgets[std::size_t(c)].start(tile_);
+        for (int c = 0; c < sectors_; ++c) w.budgets[std::size_t(c)].start(tile_.width(), tile_.height());
         w.coarse.resize(plan.levels.size());
     }
     // Returns the taps of what was stamped.
@@ -106,10 +97,8 @@ private:
     // Whether no pixel has any lens area left for what is yet to come.
     bool is_spent() const {
         constexpr float kSpent = 0.002f;  // what an opaque surface's discrete sources leave
-        return std::all_of(w_.budgets.begin(), w_.budgets.begin() + sectors_, [](const Budget& b) {
-            return std::all_of(b.left.pixels(), b.left.pixels() + b.left.size(),
-                               [](const LensLeft& left) { return left.free() < kSpent; });
-        });
+        return std::all_of(w_.budgets.begin(), w_.budgets.begin() + sectors_,
+                           [](const Budget& b) { return b.is_spent(kSpent); });
     }
     // Signed radii in pixels.
     Interval radii_of(const RunRange& runs) const {
@@ -157,32 +146,32 @@ private:
         Rows rows = light.touched();
         if (partly_empty) rows = rows.with(emptiness.touched());
         for (int y = rows.begin - tile_.y0; y < rows.end - tile_.y0; ++y) {
-            if (held())
-                for (std::vector<Rgba>* added : {&w_.added, &w_.added_more})
-                    added->assign(std::size_t(tile_.width()), Rgba{});
-            take_budget(light.row(tile_.y0 + y), partly_empty ? emptiness.row(tile_.y0 + y) : nullptr, layer,
-                        held() ? w_.added.data() : budget.sum.row(y),
-                        held() ? w_.added_more.data() : budget.more.row(y), budget.left.row(y),
-                        tile_.width());
-            if (!held()) continue;
-            add_held(plan_.holdout, radii, tile_, y, w_.added, budget.sum);
-            add_held(plan_.holdout, radii, tile_, y, w_.added_more, budget.more);
+            const Rgba* const arrived = light.row(tile_.y0 + y);
+            const Rgba* const empty = partly_empty ? emptiness.row(tile_.y0 + y) : nullptr;
+            if (!held()) {
+                budget.take(y, arrived, empty, layer);
+                continue;
+            }
+            for (std::vector<Rgba>* added : {&w_.added, &w_.added_more})
+                added->assign(std::size_t(tile_.width()), Rgba{});
+            budget.take(y, arrived, empty, layer, w_.added.data(), w_.added_more.data());
+            add_held(plan_.holdout, radii, tile_, y, w_.added, budget.sum(y));
+            add_held(plan_.holdout, radii, tile_, y, w_.added_more, budget.more(y));
         }
     }
     // Discrete sources leave a little of the lens free; it goes to those that did arrive.
     void write(View<Rgba> out) const {
-        for (int y = 0; y < tile_.height(); ++y)
+        for (int y = 0; y < tile_.height(); ++y) {
+            w_.given.assign(std::size_t(tile_.width()), Rgba{});
+            w_.taken.assign(std::size_t(Budget::whole_registers(tile_.width())), 0.0f);
+            for (int c = 0; c < sectors_; ++c)
+                w_.budgets[std::size_t(c)].add_to(y, w_.given.data(), w_.taken.data());
+            Rgba* const row = &out(tile_.x0, plan_.first_row + tile_.y0 + y);
             for (int x = 0; x < tile_.width(); ++x) {
-                Rgba light;
-                float taken = 0;
-                for (int c = 0; c < sectors_; ++c) {
-                    const Budget& budget = w_.budgets[std::size_t(c)];
-                    const LensLeft& left = budget.left(x, y);
-                    light += budget.sum(x, y) + budget.more(x, y) * left.share_of_more();
-                    taken += left.taken();
-                }
-                out(tile_.x0 + x, plan_.first_row + tile_.y0 + y) = taken > 0 ? light * (1 / taken) : Rgba{};
+                const float taken = w_.taken[std::size_t(x)];
+                row[x] = taken > 0 ? w_.given[std::size_t(x)] * (1 / taken) : Rgba{};
             }
+        }
     }
 
     const ScatterPlan& plan_;

@@ -1,5 +1,5 @@
 // The inner loops of spreading, for the instructions of this machine: kernels added to accumulators, layers
-// enlarged and composited. Chosen at run time; stamp_simd.cpp is compiled once per instruction set, scalar
+// enlarged. Chosen at run time; stamp_simd.cpp is compiled once per instruction set, scalar
 // included.
 #pragma once
 
@@ -89,12 +89,6 @@ void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float
 // Adds `coarse`, whose cells are 2^level pixels wide, to `fine`: Catmull-Rom.
 // Requires: coarse covers the cells of fine's area and two more on every side. `scratch` may hold anything.
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch);
-
-// The lens-area budget, pixel by pixel: the light of a layer comes in proportion to what it may take of the
-// lens area it arrives with (its a, and that of the emptiness at its depth; null: none), into `sum`, and to
-// what it might take more, into `more`. n pixels.
-void take_budget(const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more, LensLeft* left,
-                 int n);
 
 // "AVX3", "AVX2", "SSE4", "SCALAR", …: what the loops above run on here.
 const char* instruction_set();

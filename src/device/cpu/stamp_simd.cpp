@@ -224,24 +224,6 @@ void AddEnlarged(const Accumulator& coarse, int level, Accumulator& fine, std::v
     }
 }
 
-void AddShare(const float* in, float share, float* out) {
-    const OnePixel one;
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(one))
-        hn::StoreU(hn::MulAdd(hn::Set(one, share), hn::LoadU(one, in + k), hn::LoadU(one, out + k)), one,
-                   out + k);
-}
-
-void TakeBudget(const Rgba* HWY_RESTRICT light, const Rgba* emptiness, int layer, Rgba* HWY_RESTRICT sum,
-                Rgba* HWY_RESTRICT more, LensLeft* HWY_RESTRICT left, int n) {
-    for (int i = 0; i < n; ++i) {
-        const float arrives = light[i].a + (emptiness ? emptiness[i].a : 0);
-        if (arrives <= 0) continue;
-        const LensLeft::Taken taken = left[i].take(arrives, layer);
-        AddShare(&light[i].r, taken.area / arrives, &sum[i].r);
-        if (taken.more > 0) AddShare(&light[i].r, taken.more / arrives, &more[i].r);
-    }
-}
-
 const char* Name() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace petzval::engine::HWY_NAMESPACE
@@ -254,7 +236,6 @@ HWY_EXPORT(Stamp);
 HWY_EXPORT(StampDimmed);
 HWY_EXPORT(AddShares);
 HWY_EXPORT(AddEnlarged);
-HWY_EXPORT(TakeBudget);
 HWY_EXPORT(Name);
 
 void stamp(std::span<const StampKernel> kernels, int x, int y, Rgba light, float tilt_x, float tilt_y,
@@ -270,10 +251,6 @@ void add_shares(std::span<const Rgba> weights, Rgba light, std::span<const float
 }
 void add_enlarged(const Accumulator& coarse, int level, Accumulator& fine, std::vector<float>& scratch) {
     HWY_DYNAMIC_DISPATCH(AddEnlarged)(coarse, level, fine, scratch);
-}
-void take_budget(const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more, LensLeft* left,
-                 int n) {
-    HWY_DYNAMIC_DISPATCH(TakeBudget)(light, emptiness, layer, sum, more, left, n);
 }
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(Name)(); }
 

@@ -1,0 +1,172 @@
+// Compiled once per instruction set by Highway (foreach_target.h includes this file again for each).
+#include "device/cpu/budget.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "device/cpu/budget_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace petzval::engine::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, 16>;
+using OnePixel = hn::CappedTag<float, 4>;  // or as much of it as one register holds
+using V = hn::Vec<Floats>;
+
+HWY_INLINE V Free(Floats d, V before, V own) { return hn::Mul(before, hn::Sub(hn::Set(d, 1.0f), own)); }
+
+// LensLeft::take, of those that something arrives at. Returns what they take of it, and might take more.
+struct Shares {
+    V area, more;
+};
+HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, const Budget::Left<float>& left,
+                       std::int32_t* HWY_RESTRICT layers) {
+    const hn::Rebind<std::int32_t, Floats> signed_d;
+    const hn::Rebind<std::uint32_t, Floats> unsigned_d;
+    constexpr float kGoesOn = kNextLayer, kAnother = 5 * kNextLayer;
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const auto arrived = hn::Gt(arrives, zero);
+    const auto old_layer = hn::Load(signed_d, layers);
+    const auto old_before = hn::Load(d, left.before), old_own = hn::Load(d, left.own),
+               old_beside = hn::Load(d, left.beside), old_more = hn::Load(d, left.more);
+
+    // A gap of more than kAnother is as one of just that.
+    const auto apart = hn::BitCast(unsigned_d, hn::Sub(hn::Set(signed_d, at_layer), old_layer));
+    const auto gap =
+        hn::ConvertTo(d, hn::BitCast(signed_d, hn::Min(apart, hn::Set(unsigned_d, std::uint32_t(kAnother)))));
+    const auto goes_on = hn::Min(
+        hn::Max(hn::Div(hn::Sub(hn::Set(d, kAnother), gap), hn::Set(d, kAnother - kGoesOn)), zero), one);
+    const auto free = Free(d, old_before, old_own);
+    const auto before = hn::Add(hn::Mul(goes_on, old_before), hn::Mul(hn::Sub(one, goes_on), free));
+    const auto any_before = hn::Gt(before, zero);
+    const auto own = hn::IfThenElse(any_before, hn::Sub(one, hn::Div(free, before)), one);
+
+    auto of_own = arrives;
+    if (at_layer == kEmptyLayer) of_own = hn::IfThenElse(any_before, hn::Div(arrives, before), arrives);
+    const auto share = hn::Min(of_own, hn::Sub(one, own)), side_by_side = hn::Min(arrives, old_beside);
+    const auto area = hn::Mul(share, before), more = hn::Max(zero, hn::Sub(side_by_side, area));
+
+    hn::Store(hn::IfThenElse(arrived, before, old_before), d, left.before);
+    hn::Store(hn::IfThenElse(arrived, hn::Add(own, share), old_own), d, left.own);
+    hn::Store(hn::IfThenElse(arrived, hn::Sub(old_beside, side_by_side), old_beside), d, left.beside);
+    hn::Store(hn::IfThenElse(arrived, hn::Add(old_more, more), old_more), d, left.more);
+    hn::Store(hn::IfThenElse(hn::RebindMask(signed_d, arrived), hn::Set(signed_d, at_layer), old_layer),
+              signed_d, layers);
+    return {hn::IfThenElseZero(arrived, hn::Div(area, arrives)),
+            hn::IfThenElseZero(arrived, hn::Div(more, arrives))};
+}
+
+HWY_INLINE void AddShare(const Rgba& light, float share, Rgba& sum) {
+    const OnePixel one;
+    const float* const in = &light.r;
+    float* const out = &sum.r;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(one))
+        hn::StoreU(hn::MulAdd(hn::Set(one, share), hn::LoadU(one, in + k), hn::LoadU(one, out + k)), one,
+                   out + k);
+}
+
+void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness, int layer,
+             Rgba* HWY_RESTRICT sum, Rgba* HWY_RESTRICT more, Budget::Left<float> left,
+             std::int32_t* HWY_RESTRICT layers, int n) {
+    const Floats d;
+    const int lanes = int(hn::Lanes(d));
+    for (int x = 0; x < n; x += lanes) {
+        const int here = std::min(lanes, n - x);
+        HWY_ALIGN float arrives[16] = {}, areas[16], mores[16];
+        for (int i = 0; i < here; ++i) arrives[i] = light[x + i].a + (emptiness ? emptiness[x + i].a : 0);
+        const auto all = hn::Load(d, arrives);
+        if (hn::AllFalse(d, hn::Gt(all, hn::Zero(d)))) continue;
+        const Shares taken =
+            Take(d, all, layer, {left.before + x, left.own + x, left.beside + x, left.more + x}, layers + x);
+        hn::Store(taken.area, d, areas);
+        hn::Store(taken.more, d, mores);
+        for (int i = 0; i < here; ++i)
+            if (areas[i] != 0) AddShare(light[x + i], areas[i], sum[x + i]);
+        if (hn::AllFalse(d, hn::Gt(taken.more, hn::Zero(d)))) continue;
+        for (int i = 0; i < here; ++i)
+            if (mores[i] > 0) AddShare(light[x + i], mores[i], more[x + i]);
+    }
+}
+
+bool AllSpent(Budget::Left<const float> left, float least, int n) {
+    const Floats d;
+    for (int x = 0; x < n; x += int(hn::Lanes(d))) {
+        const auto free = Free(d, hn::Load(d, left.before + x), hn::Load(d, left.own + x));
+        const auto in_row = hn::FirstN(d, std::size_t(std::min(int(hn::Lanes(d)), n - x)));
+        if (!hn::AllFalse(d, hn::And(in_row, hn::Not(hn::Lt(free, hn::Set(d, least)))))) return false;
+    }
+    return true;
+}
+
+// LensLeft::share_of_more and taken.
+void AddGiven(const Rgba* HWY_RESTRICT sum, const Rgba* HWY_RESTRICT more, Budget::Left<const float> left,
+              Rgba* HWY_RESTRICT light, float* HWY_RESTRICT taken, int n) {
+    const Floats d;
+    const int lanes = int(hn::Lanes(d));
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    for (int x = 0; x < n; x += lanes) {
+        const auto free = Free(d, hn::Load(d, left.before + x), hn::Load(d, left.own + x));
+        const auto noted = hn::Load(d, left.more + x);
+        const auto meet = hn::Div(hn::Sub(free, hn::Load(d, left.beside + x)), noted);
+        const auto share = hn::IfThenElseZero(hn::Gt(noted, zero), hn::Min(hn::Max(meet, zero), one));
+        const auto area = hn::Add(hn::Sub(one, free), hn::Mul(share, noted));
+        hn::StoreU(hn::Add(hn::LoadU(d, taken + x), area), d, taken + x);
+        HWY_ALIGN float shares[16];
+        hn::Store(share, d, shares);
+        for (int i = 0; i < std::min(lanes, n - x); ++i) light[x + i] += sum[x + i] + more[x + i] * shares[i];
+    }
+}
+
+}  // namespace petzval::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace petzval::engine {
+
+HWY_EXPORT(TakeRow);
+HWY_EXPORT(AllSpent);
+HWY_EXPORT(AddGiven);
+
+void Budget::start(int width, int height) {
+    const int padded = whole_registers(width);
+    if (width != width_ || height != height_) {
+        width_ = width, height_ = height;
+        sum_ = Picture::uninitialised(width, height), more_ = Picture::uninitialised(width, height);
+        for (Plane* plane : {&before_, &own_, &beside_, &area_of_more_})
+            *plane = Plane::uninitialised(padded, height);
+        layer_ = Image<std::int32_t>::uninitialised(padded, height);
+    }
+    const LensLeft all;
+    std::fill_n(sum_.pixels(), sum_.size(), Rgba{});
+    std::fill_n(more_.pixels(), more_.size(), Rgba{});
+    std::fill_n(before_.pixels(), before_.size(), all.before);
+    std::fill_n(own_.pixels(), own_.size(), all.own);
+    std::fill_n(beside_.pixels(), beside_.size(), all.beside);
+    std::fill_n(area_of_more_.pixels(), area_of_more_.size(), all.more);
+    std::fill_n(layer_.pixels(), layer_.size(), all.layer);
+}
+
+void Budget::take(int y, const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more) {
+    HWY_DYNAMIC_DISPATCH(TakeRow)
+    (light, emptiness, layer, sum, more, {before_.row(y), own_.row(y), beside_.row(y), area_of_more_.row(y)},
+     layer_.row(y), width_);
+}
+
+bool Budget::is_spent(float least) const {
+    for (int y = 0; y < height_; ++y)
+        if (!HWY_DYNAMIC_DISPATCH(AllSpent)({before_.row(y), own_.row(y), nullptr, nullptr}, least, width_))
+            return false;
+    return true;
+}
+
+void Budget::add_to(int y, Rgba* light, float* taken) const {
+    HWY_DYNAMIC_DISPATCH(AddGiven)
+    (sum_.row(y), more_.row(y), {before_.row(y), own_.row(y), beside_.row(y), area_of_more_.row(y)}, light,
+     taken, width_);
+}
+
+}  // namespace petzval::engine
+#endif
