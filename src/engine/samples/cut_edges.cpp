@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -56,12 +57,15 @@ private:
         Changes c;
         const Rect window =
             Rect{x - kReach, y - kReach, x + kReach + 1, y + kReach + 1}.intersected(radii_.rect().grown(-1));
+        if (window.empty()) return c;
+        const Lights lights = lights_of(window.grown(1), coc_px);
         for (int v = window.y0; v < window.y1; ++v)
             for (int u = window.x0; u < window.x1; ++u) {
-                if (!clean(u, v - 1, coc_px) || !clean(u, v + 1, coc_px) || !clean(u - 1, v, coc_px) ||
-                    !clean(u + 1, v, coc_px))
-                    continue;
-                const float dx = change(u - 1, v, u + 1, v), dy = change(u, v - 1, u, v + 1);
+                const float* const here =
+                    &lights[std::size_t((v - window.y0 + 1) * kSide + u - window.x0 + 1)];
+                const float left = here[-1], right = here[1], up = here[-kSide], down = here[kSide];
+                if (std::min({left, right, up, down}) < 0) continue;
+                const float dx = change(left, right), dy = change(up, down);
                 const float sum = dx * dx + dy * dy, at_x = float(u - x), at_y = float(v - y);
                 c.sum += sum, c.xx += dx * dx, c.xy += dx * dy, c.yy += dy * dy;
                 c.at_x += sum * at_x, c.at_y += sum * at_y;
@@ -71,16 +75,24 @@ private:
     }
     // Whether something nearer hides what comes two pixels on.
     bool hidden(int x, int y, float into_x, float into_y, float coc_px) const {
-        const int u = x + int(std::lround(2 * into_x)), v = y + int(std::lround(2 * into_y));
+        const int u = x + nearest_pixel(2 * into_x), v = y + nearest_pixel(2 * into_y);
         return radii_.rect().contains(u, v) && radii_(u, v) <= coc_px - kBehindPx;
     }
     bool clean(int x, int y, float coc_px) const {
         return std::abs(radii_(x, y) - coc_px) < 1 && !mixtures_.at(x, y);
     }
-    float change(int x0, int y0, int x1, int y1) const {
-        const float from = light(x0, y0), to = light(x1, y1);
-        return (to - from) / (from + to + 2 * dark_);
+    // Rows of kSide: light of the surface's clean pixels, -1 of others.
+    static constexpr int kSide = 2 * kReach + 3;
+    using Lights = std::array<float, std::size_t(kSide) * kSide>;
+    Lights lights_of(const Rect& pixels, float coc_px) const {
+        Lights lights;
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            for (int x = pixels.x0; x < pixels.x1; ++x)
+                lights[std::size_t((y - pixels.y0) * kSide + x - pixels.x0)] =
+                    clean(x, y, coc_px) ? light(x, y) : -1;
+        return lights;
     }
+    float change(float from, float to) const { return (to - from) / (from + to + 2 * dark_); }
     float light(int x, int y) const { return std::max(0.0f, luminance(comparable(picture_.dim(x, y)))); }
 
     const LitPicture& picture_;
@@ -130,8 +142,7 @@ void CutEdges::sort_into_cells(int width, int height) {
     const auto cell = [](int at, int cells) { return std::clamp(at / kCell, 0, cells - 1); };
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         const Edge& e = edges_[i];
-        const int x = e.at.x + int(std::lround(kHalf * e.into_x)),
-                  y = e.at.y + int(std::lround(kHalf * e.into_y));
+        const int x = e.at.x + nearest_pixel(kHalf * e.into_x), y = e.at.y + nearest_pixel(kHalf * e.into_y);
         for (int v = cell(y - kHalf, rows); v <= cell(y + kHalf, rows); ++v)
             for (int u = cell(x - kHalf, columns_); u <= cell(x + kHalf, columns_); ++u)
                 near_[std::size_t(v * columns_ + u)].push_back(int(i));

@@ -121,16 +121,18 @@ private:
         const int width = (coc_.width() + kBlock - 1) / kBlock,
                   height = (coc_.height() + kBlock - 1) / kBlock;
         beyond_ = Plane(width, height, 1e9f);
-        free_ = Image<int>(width, height, 1 << 20);
+        blocks_ = Image<Block>(width, height);
         Plane far(width, height, -1e30f), nearest(width, height, 1e30f);
         parallel_for(height, workers, [&](int by) {
             for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_.height()); ++y)
                 for (int x = 0; x < coc_.width(); ++x) {
                     const int bx = x / kBlock;
                     nearest(bx, by) = std::min(nearest(bx, by), coc_(x, y));
+                    Block& block = blocks_(bx, by);
+                    block.farthest = std::max(block.farthest, known_.radii()(x, y));
                     const Mixture* m = mixtures_.at(x, y);
                     if (!m) continue;
-                    free_(bx, by) = -kBlock;
+                    block.free = -kBlock;
                     if (m->far_coc_px > far(bx, by))
                         beyond_(bx, by) = -std::abs(m->far_coc_px) - 2 * kBlock, far(bx, by) = m->far_coc_px;
                 }
@@ -138,7 +140,7 @@ private:
         constexpr float kSide = 0.955f * kBlock, kDiagonal = 1.3693f * kBlock;
         const auto relax = [&](int x, int y, int dx, int dy) {
             if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
-            free_(x, y) = std::min(free_(x, y), free_(x + dx, y + dy) + kBlock);
+            blocks_(x, y).free = std::min(blocks_(x, y).free, blocks_(x + dx, y + dy).free + kBlock);
             const float reached = beyond_(x + dx, y + dy) + (dx != 0 && dy != 0 ? kDiagonal : kSide);
             if (reached >= beyond_(x, y) || far(x + dx, y + dy) <= nearest(x, y) + kBehindPx) return;
             beyond_(x, y) = reached, far(x, y) = far(x + dx, y + dy);
@@ -159,8 +161,7 @@ private:
             Path& path = paths_[std::size_t(k)];
             path.direction = {float(std::cos(angle)), float(std::sin(angle))};
             for (float t = 1; t <= longest; t += std::max(1.0f, t / 8)) {
-                const int dx = int(std::lround(t * path.direction.x)),
-                          dy = int(std::lround(t * path.direction.y));
+                const int dx = nearest_pixel(t * path.direction.x), dy = nearest_pixel(t * path.direction.y);
                 path.steps.push_back({t, dx, dy, std::ptrdiff_t(dy) * coc_.width() + dx});
             }
             for (std::size_t i = 0; i < path.steps.size(); ++i)
@@ -181,7 +182,9 @@ private:
         while (step != end && step->t <= longest) {
             const unsigned u = unsigned(x + step->x), v = unsigned(y + step->y);
             if (u >= width || v >= height) break;
-            const float c = start[step->offset];
+            const Block& block = blocks_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
+            // (Of a block all of which lies in front, no pixel is looked at: their plane fills no cache.)
+            const float c = block.farthest > behind ? start[step->offset] : behind;
             if (c > behind && c > own + step->t * own_per_px + kBehindPx) {
                 if (step->t <= std::abs(own) + std::abs(c) + kPastEdgePx) {
                     hits[n++] = {true, int(u), int(v), c, step->t};
@@ -191,12 +194,11 @@ private:
                 if (n == kHits || behind >= farthest_) break;
             }
             // No other surface comes before the next silhouette.
-            const int free = free_(int(u / unsigned(kBlock)), int(v / unsigned(kBlock)));
-            if (free <= 1) {
+            if (block.free <= 1) {
                 ++step;
                 continue;
             }
-            const std::size_t distance = std::size_t(step->t) + std::size_t(free);
+            const std::size_t distance = std::size_t(step->t) + std::size_t(block.free);
             if (distance >= path.at_distance.size()) break;
             step = std::max(step + 1, path.steps.data() + path.at_distance[distance]);
         }
@@ -216,7 +218,7 @@ private:
         Patch patch;
         for (int k = 0; k < kPatch; ++k) {
             const Direction o = offsets[std::size_t(k)];
-            const int u = x + int(std::lround(o.x)), v = y + int(std::lround(o.y));
+            const int u = x + nearest_pixel(o.x), v = y + nearest_pixel(o.y);
             const bool usable = known_.shows(u, v, hit.coc_px);
             patch[std::size_t(k)] = comparable(usable ? known_.colour(u, v) : known_.colour(x, y));
         }
@@ -319,8 +321,12 @@ private:
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Sparse<Mixture>& mixtures_;
-    Plane beyond_;     // see measure_distances
-    Image<int> free_;  // pixels one can go from anywhere in a block without meeting a silhouette
+    Plane beyond_;  // see measure_distances
+    struct Block {
+        float farthest = -1e30f;  // known radius in it
+        int free = 1 << 20;       // pixels one can go from anywhere in it without meeting a silhouette
+    };
+    Image<Block> blocks_;
     std::array<Path, kDirections> paths_;
     float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
     std::size_t every_;         // of the directions is looked in

@@ -36,8 +36,7 @@ KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc,
       edges_(picture, radii_, mixtures, white, workers) {}
 
 CutEdges::Point KnownSurfaces::behind(Place at, Direction outwards, float distance_px) {
-    return {at.x - int(std::lround(distance_px * outwards.x)),
-            at.y - int(std::lround(distance_px * outwards.y))};
+    return {at.x - nearest_pixel(distance_px * outwards.x), at.y - nearest_pixel(distance_px * outwards.y)};
 }
 
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
@@ -47,8 +46,7 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
     if (white_ <= 0) return own;
     const CutEdges::Point hidden = behind(from, outwards, distance_px);
     // The last pixel of a sign may be dark, between letters, or have lost its light to what hides it.
-    const Place before{from.x + int(std::lround(outwards.x)), from.y + int(std::lround(outwards.y)),
-                       from.coc_px};
+    const Place before{from.x + nearest_pixel(outwards.x), from.y + nearest_pixel(outwards.y), from.coc_px};
     float light = std::max(light_of(own), light_of(colour(from.x, from.y)));
     if (shows(before.x, before.y, from.coc_px)) {
         const float told = 0.5f * edges_.passes({before.x, before.y}, hidden, from.coc_px);
@@ -69,8 +67,8 @@ Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px)
     float total = 1;
     for (const float out : {0.0f, std::min(kDeepestPx, kDeep * blur_px)})
         for (const float aside : {-wide, 0.0f, wide}) {
-            const int dx = int(std::lround(out * outwards.x - aside * outwards.y)),
-                      dy = int(std::lround(out * outwards.y + aside * outwards.x));
+            const int dx = nearest_pixel(out * outwards.x - aside * outwards.y),
+                      dy = nearest_pixel(out * outwards.y + aside * outwards.x);
             const int x = at.x + dx, y = at.y + dy;
             if ((dx == 0 && dy == 0) || !shows(x, y, at.coc_px)) continue;
             const float weight = edges_.passes({x, y}, hidden, at.coc_px);
@@ -90,8 +88,7 @@ Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, Rgb
     for (int part = 0; part < kParts; ++part) {
         const float nearer = (float(part) + 0.5f) / kParts;
         const float far = distance_px * nearer / (1 - nearer);
-        const int x = from.x + int(std::lround(far * outwards.x)),
-                  y = from.y + int(std::lround(far * outwards.y));
+        const int x = from.x + nearest_pixel(far * outwards.x), y = from.y + nearest_pixel(far * outwards.y);
         if (far > kWidestLightPx || !radii_.rect().contains(x, y)) break;
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
         const float weight = edges_.passes({x, y}, hidden, from.coc_px);
