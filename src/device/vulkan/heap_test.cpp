@@ -1,11 +1,9 @@
 #include "device/vulkan/heap.h"
 
 #include "device/failure.h"
-#include "device/vulkan/recording.h"
 #include "device/vulkan/test_context.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,19 +52,6 @@ TEST(Heap, RefusesWhatNoDeviceHas) {
         EXPECT_NE(failed.error.message.find("gpu:"), std::string::npos);
     }
     EXPECT_EQ(context->heap().allocated_bytes(), 0u);
-}
-
-TEST(Recording, BringsBackWhatItTook) {
-    const auto context = any_context();
-    if (!context) GTEST_SKIP() << "no device of Vulkan";
-    std::vector<std::uint32_t> words(100000);
-    std::iota(words.begin(), words.end(), 7u);
-    Recording recording(*context);
-    const Piece there = recording.uploaded(std::span<const std::uint32_t>(words));
-    const std::size_t bytes = words.size() * sizeof(std::uint32_t);
-    const std::byte* const back = recording.downloaded(there, bytes);
-    recording.run();
-    EXPECT_TRUE(std::equal(back, back + bytes, reinterpret_cast<const std::byte*>(words.data())));
 }
 
 }  // namespace

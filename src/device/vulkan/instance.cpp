@@ -118,7 +118,9 @@ VkBool32 Instance::note(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMess
                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
     auto& instance = *static_cast<Instance*>(self);
     const std::lock_guard lock(instance.mutex_);
-    instance.complaints_ += std::string(data->pMessage) + "\n";
+    // Newer layers do not begin the message with its name.
+    const std::string name = data->pMessageIdName ? data->pMessageIdName : "", said = data->pMessage;
+    instance.complaints_ += (said.find(name) == std::string::npos ? name + ": " : "") + said + "\n";
     return VK_FALSE;
 }
 

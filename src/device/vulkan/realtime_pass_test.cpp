@@ -35,28 +35,22 @@ TEST(RealtimeLens, CountsOneOfAPlaneAtEveryRadius) {
     EXPECT_NEAR(lens.fours[norms].r, 1, 1e-6) << "the smallest disc is one tap";
 }
 
-class Watched : public testing::Test {
-protected:
-    // The validation layer is asked for when the instance is made: nobody holds one yet.
-    static void SetUpTestSuite() { setenv("PETZVAL_VULKAN_VALIDATION", "1", 1); }
-    static void TearDownTestSuite() { unsetenv("PETZVAL_VULKAN_VALIDATION"); }
-    static std::string said_of(bool plant) {
-        const auto context = any_context();
-        if (!context) return "skipped";
-        const Picture colour(64, 48, {0.5f, 0.5f, 0.5f, 1});
-        const Plane coc_px(64, 48, -6.0f);
-        Picture out(64, 48);
-        try {
-            RealtimeDrawer(*context).draw({colour, coc_px, 6, 1, ideal_lens()}, out, plant);
-        } catch (const Failed& failed) {
-            return failed.error.message;
-        }
-        EXPECT_NEAR(out(30, 20).g, 0.5, 2e-3);
-        return "";
+std::string said_of(bool plant) {
+    const auto context = watched_context();
+    if (!context) return "skipped";
+    const Picture colour(64, 48, {0.5f, 0.5f, 0.5f, 1});
+    const Plane coc_px(64, 48, -6.0f);
+    Picture out(64, 48);
+    try {
+        RealtimeDrawer(*context).draw({colour, coc_px, 6, 1, ideal_lens()}, out, plant);
+    } catch (const Failed& failed) {
+        return failed.error.message;
     }
-};
+    EXPECT_NEAR(out(30, 20).g, 0.5, 2e-3);
+    return "";
+}
 
-TEST_F(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
+TEST(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
     const std::string silent = said_of(false);
     if (silent == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
     EXPECT_EQ(silent, "");
@@ -64,11 +58,11 @@ TEST_F(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
 }
 
 // What is complained of when nobody draws any more: here a device that goes before all that was made of it.
-TEST_F(Watched, WhatIsSaidAfterTheLastFrameEndsTheProcess) {
+TEST(Watched, WhatIsSaidAfterTheLastFrameEndsTheProcess) {
     if (said_of(false) == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const auto leave_a_fence_behind = [] {
-        const auto context = any_context();
+        const auto context = watched_context();
         VkFenceCreateInfo info = {};
         info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
         VkFence fence = VK_NULL_HANDLE;

@@ -2,6 +2,7 @@
 
 #include "device/vulkan/failure.h"
 
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <limits>
@@ -13,7 +14,8 @@ constexpr std::uint32_t kMostBuffers = 8;  // of a pass
 
 }  // namespace
 
-Recording::Recording(Context& context) : context_(context), vk_(context.vk()) {
+Recording::Recording(Context& context)
+    : context_(context), vk_(context.vk()), times_passes_(context.times_passes()) {
     const std::string what = "commands";
     VkCommandPoolCreateInfo pool = {};
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -24,11 +26,6 @@ Recording::Recording(Context& context) : context_(context), vk_(context.vk()) {
     commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
     commands.commandPool = pool_, commands.commandBufferCount = 1;
     check(vk_.vkAllocateCommandBuffers(context.handle(), &commands, &commands_), context.name(), what);
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kMostPasses * kMostBuffers};
-    VkDescriptorPoolCreateInfo sets = {};
-    sets.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    sets.maxSets = kMostPasses, sets.poolSizeCount = 1, sets.pPoolSizes = &size;
-    check(vk_.vkCreateDescriptorPool(context.handle(), &sets, nullptr, &sets_), context.name(), what);
     VkFenceCreateInfo fence = {};
     fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     check(vk_.vkCreateFence(context.handle(), &fence, nullptr, &fence_), context.name(), what);
@@ -36,12 +33,6 @@ Recording::Recording(Context& context) : context_(context), vk_(context.vk()) {
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vk_.vkBeginCommandBuffer(commands_, &begin), context.name(), what);
-    if (!context.times_passes()) return;
-    VkQueryPoolCreateInfo queries = {};
-    queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    queries.queryType = VK_QUERY_TYPE_TIMESTAMP, queries.queryCount = 2 * kMostPasses;
-    check(vk_.vkCreateQueryPool(context.handle(), &queries, nullptr, &queries_), context.name(), what);
-    vk_.vkCmdResetQueryPool(commands_, queries_, 0, 2 * kMostPasses);
 }
 
 Recording::~Recording() {
@@ -49,9 +40,11 @@ Recording::~Recording() {
     if (submitted_)
         vk_.vkWaitForFences(context_.handle(), 1, &fence_, VK_TRUE,
                             std::numeric_limits<std::uint64_t>::max());
-    if (queries_) vk_.vkDestroyQueryPool(context_.handle(), queries_, nullptr);
+    for (const Pools& pools : pools_) {
+        if (pools.queries) vk_.vkDestroyQueryPool(context_.handle(), pools.queries, nullptr);
+        if (pools.sets) vk_.vkDestroyDescriptorPool(context_.handle(), pools.sets, nullptr);
+    }
     if (fence_) vk_.vkDestroyFence(context_.handle(), fence_, nullptr);
-    if (sets_) vk_.vkDestroyDescriptorPool(context_.handle(), sets_, nullptr);
     if (pool_) vk_.vkDestroyCommandPool(context_.handle(), pool_, nullptr);
 }
 
@@ -89,10 +82,33 @@ void Recording::check_range(const Piece& piece) const {
                                               " MiB; session.device cpu has no such limit"}};
 }
 
+Recording::Pools& Recording::pools_of_next() {
+    if (passes_.size() == pools_.size() * kPassesOfPools) add_pools();
+    return pools_.back();
+}
+
+void Recording::add_pools() {
+    Pools& pools = pools_.emplace_back();
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kPassesOfPools * kMostBuffers};
+    VkDescriptorPoolCreateInfo sets = {};
+    sets.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    sets.maxSets = kPassesOfPools, sets.poolSizeCount = 1, sets.pPoolSizes = &size;
+    check(vk_.vkCreateDescriptorPool(context_.handle(), &sets, nullptr, &pools.sets), context_.name(),
+          "commands");
+    if (!times_passes_) return;
+    VkQueryPoolCreateInfo queries = {};
+    queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP, queries.queryCount = 2 * kPassesOfPools;
+    check(vk_.vkCreateQueryPool(context_.handle(), &queries, nullptr, &pools.queries), context_.name(),
+          "commands");
+    vk_.vkCmdResetQueryPool(commands_, pools.queries, 0, 2 * kPassesOfPools);
+}
+
 VkDescriptorSet Recording::set_for(const Program& program, std::initializer_list<const Piece*> buffers) {
     VkDescriptorSetAllocateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    info.descriptorPool = sets_, info.descriptorSetCount = 1, info.pSetLayouts = &program.set_layout;
+    info.descriptorPool = pools_of_next().sets;
+    info.descriptorSetCount = 1, info.pSetLayouts = &program.set_layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     check(vk_.vkAllocateDescriptorSets(context_.handle(), &info, &set), context_.name(), "buffers of a pass");
     std::vector<VkDescriptorBufferInfo> ranges;
@@ -123,16 +139,18 @@ void Recording::pass(const char* name, const Program& program, std::initializer_
 }
 
 void Recording::begin_pass(const char* name, const PassWork& work) {
-    if (queries_)
-        vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_,
-                                std::uint32_t(2 * passes_.size()));
+    pools_of_next();
+    write_time(2 * passes_.size());
     passes_.push_back({name, work});
 }
 
-void Recording::end_pass() {
-    if (queries_)
-        vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries_,
-                                std::uint32_t(2 * passes_.size() - 1));
+void Recording::end_pass() { write_time(2 * passes_.size() - 1); }
+
+void Recording::write_time(std::size_t query) {
+    const VkQueryPool queries = pools_.back().queries;
+    if (queries)
+        vk_.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, queries,
+                                std::uint32_t(query % (2 * kPassesOfPools)));
 }
 
 const std::byte* Recording::downloaded(const Piece& piece, std::size_t bytes) {
@@ -166,15 +184,17 @@ double Recording::run() {
 }
 
 void Recording::note_times() {
-    if (!queries_ || passes_.empty()) return;
-    std::vector<std::uint64_t> ticks(2 * passes_.size());
-    check(vk_.vkGetQueryPoolResults(context_.handle(), queries_, 0, std::uint32_t(ticks.size()),
-                                    ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
-                                    VK_QUERY_RESULT_64_BIT),
-          context_.name(), "timing");
+    if (!times_passes_) return;
     const double period = double(context_.candidate().limits.timestampPeriod) * 1e-9;
-    for (std::size_t i = 0; i < passes_.size(); ++i)
-        context_.add_time(passes_[i].name, double(ticks[2 * i + 1] - ticks[2 * i]) * period, passes_[i].work);
+    std::array<std::uint64_t, 2> ticks;
+    for (std::size_t i = 0; i < passes_.size(); ++i) {
+        const auto first = std::uint32_t(2 * i % (2 * kPassesOfPools));
+        check(vk_.vkGetQueryPoolResults(context_.handle(), pools_[i / kPassesOfPools].queries, first, 2,
+                                        sizeof ticks, ticks.data(), sizeof(std::uint64_t),
+                                        VK_QUERY_RESULT_64_BIT),
+              context_.name(), "timing");
+        context_.add_time(passes_[i].name, double(ticks[1] - ticks[0]) * period, passes_[i].work);
+    }
 }
 
 }  // namespace petzval::device::vulkan

@@ -62,18 +62,26 @@ public:
 private:
     void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
               std::span<const std::byte> push, Groups groups, const PassWork& work);
+    // What a number of passes are recorded with; as many as there are passes, 64 to each.
+    struct Pools {
+        VkDescriptorPool sets = VK_NULL_HANDLE;
+        VkQueryPool queries = VK_NULL_HANDLE;  // null: not timed
+    };
+    Pools& pools_of_next();
+    void add_pools();
+    void write_time(std::size_t query);
     VkDescriptorSet set_for(const Program& program, std::initializer_list<const Piece*> buffers);
     void check_range(const Piece& piece) const;
     void order(VkPipelineStageFlags to, VkAccessFlags access);
     void note_times();
 
-    static constexpr std::uint32_t kMostPasses = 64;
+    static constexpr std::uint32_t kPassesOfPools = 64;
     Context& context_;
     const Functions& vk_;
+    const bool times_passes_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    VkDescriptorPool sets_ = VK_NULL_HANDLE;
-    VkQueryPool queries_ = VK_NULL_HANDLE;
+    std::vector<Pools> pools_;
     VkFence fence_ = VK_NULL_HANDLE;
     bool submitted_ = false;
     std::vector<Piece> staging_;

@@ -3,7 +3,11 @@
 
 #include "device/vulkan/context.h"
 
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace petzval::device::vulkan {
 
@@ -14,6 +18,41 @@ inline std::shared_ptr<Context> any_context() {
     for (std::size_t i = 0; i < (*instance)->candidates().size(); ++i)
         if (auto context = Context::open(*instance, i)) return *context;
     return nullptr;
+}
+
+// Sets a variable of the environment while it lives.
+class Setting {
+public:
+    Setting(const char* name, const char* value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        setenv(name, value, 1);
+    }
+    ~Setting() {
+        if (before_)
+            setenv(name_, before_->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+    Setting(const Setting&) = delete;
+    Setting& operator=(const Setting&) = delete;
+
+private:
+    const char* const name_;
+    std::optional<std::string> before_;
+};
+
+// A device under the validation layer, where nobody holds one yet; null: there is none, or no such layer.
+inline std::shared_ptr<Context> watched_context() {
+    const Setting watched("PETZVAL_VULKAN_VALIDATION", "1");
+    return any_context();
+}
+
+// Under that of chromium-common, which sees more (tests/newer_layer).
+inline std::shared_ptr<Context> closely_watched_context() {
+    constexpr const char* kFolder = PETZVAL_SOURCE_DIR "/tests/newer_layer";
+    if (!std::filesystem::exists("/usr/lib/chromium/libVkLayer_khronos_validation.so")) return nullptr;
+    const Setting layer("VK_LAYER_PATH", kFolder), settings("VK_LAYER_SETTINGS_PATH", kFolder);
+    return watched_context();
 }
 
 }  // namespace petzval::device::vulkan
