@@ -1,6 +1,7 @@
 // A layer of Vulkan for tests: it loses the device as soon as the file that $PETZVAL_LOSE_DEVICE names is
-// there, and lets it have no more memory at once than $PETZVAL_DEVICE_BYTES. (How a layer is asked and finds
-// the next one: LoaderLayerInterface.md of the Vulkan loader.)
+// there, lets it have no more memory at once than $PETZVAL_DEVICE_BYTES, and where $PETZVAL_MEMORY_APART is
+// set hides the device's own memory from the host, as cards do: software drivers have one memory for both.
+// (How a layer is asked and finds the next one: LoaderLayerInterface.md of the Vulkan loader.)
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -12,9 +13,12 @@ namespace {
 
 PFN_vkGetInstanceProcAddr next_of_instance = nullptr;
 PFN_vkGetDeviceProcAddr next_of_device = nullptr;
+PFN_vkGetPhysicalDeviceMemoryProperties next_memory = nullptr;
 PFN_vkQueueSubmit next_submit = nullptr;
 PFN_vkAllocateMemory next_allocate = nullptr;
 PFN_vkFreeMemory next_free = nullptr;
+PFN_vkGetBufferMemoryRequirements next_buffer_needs = nullptr;
+PFN_vkGetImageMemoryRequirements next_image_needs = nullptr;
 VkInstance instance = VK_NULL_HANDLE;
 
 bool is_lost() {
@@ -29,6 +33,42 @@ bool is_too_much(VkDeviceSize more) {
     const char* most = std::getenv("PETZVAL_DEVICE_BYTES");
     for (const auto& [memory, bytes] : held) more += bytes;
     return most && more > std::strtoull(most, nullptr, 10);
+}
+
+// Where memory is apart: the driver's first type that the host sees, and the type added for it.
+struct {
+    bool is_on = false;
+    uint32_t seen = 0, added = 0;
+    unsigned allocations = 0;  // of the type added
+} apart;
+
+VKAPI_ATTR void VKAPI_CALL memory_of(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* memory) {
+    next_memory(device, memory);
+    apart = {};
+    apart.is_on = std::getenv("PETZVAL_MEMORY_APART") != nullptr;
+    if (!apart.is_on) return;
+    constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
+                                            VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    while ((memory->memoryTypes[apart.seen].propertyFlags & kHost) != kHost) ++apart.seen;
+    apart.added = memory->memoryTypeCount++;
+    memory->memoryTypes[apart.added] = {kHost, memory->memoryTypes[apart.seen].heapIndex};
+    for (uint32_t i = 0; i < apart.added; ++i) memory->memoryTypes[i].propertyFlags &= ~kHost;
+}
+
+void add_apart(VkMemoryRequirements* needs) {
+    if (apart.is_on && (needs->memoryTypeBits & (1u << apart.seen)))
+        needs->memoryTypeBits |= 1u << apart.added;
+}
+
+VKAPI_ATTR void VKAPI_CALL buffer_needs(VkDevice device, VkBuffer buffer, VkMemoryRequirements* needs) {
+    next_buffer_needs(device, buffer, needs);
+    add_apart(needs);
+}
+
+VKAPI_ATTR void VKAPI_CALL image_needs(VkDevice device, VkImage image, VkMemoryRequirements* needs) {
+    next_image_needs(device, image, needs);
+    add_apart(needs);
 }
 
 // The link of the chain that leads to the next layer.
@@ -50,6 +90,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
         reinterpret_cast<PFN_vkCreateInstance>(next_of_instance(VK_NULL_HANDLE, "vkCreateInstance"));
     const VkResult done = create(info, memory, made);
     instance = *made;
+    next_memory = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
+        next_of_instance(instance, "vkGetPhysicalDeviceMemoryProperties"));
     return done;
 }
 
@@ -66,6 +108,10 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice on, const VkDevice
     next_submit = reinterpret_cast<PFN_vkQueueSubmit>(next_of_device(*made, "vkQueueSubmit"));
     next_allocate = reinterpret_cast<PFN_vkAllocateMemory>(next_of_device(*made, "vkAllocateMemory"));
     next_free = reinterpret_cast<PFN_vkFreeMemory>(next_of_device(*made, "vkFreeMemory"));
+    next_buffer_needs = reinterpret_cast<PFN_vkGetBufferMemoryRequirements>(
+        next_of_device(*made, "vkGetBufferMemoryRequirements"));
+    next_image_needs = reinterpret_cast<PFN_vkGetImageMemoryRequirements>(
+        next_of_device(*made, "vkGetImageMemoryRequirements"));
     return done;
 }
 
@@ -78,7 +124,10 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateI
                                         const VkAllocationCallbacks* memory, VkDeviceMemory* made) {
     const std::lock_guard lock(mutex);
     if (is_too_much(info->allocationSize)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    const VkResult done = next_allocate(device, info, memory, made);
+    VkMemoryAllocateInfo real = *info;
+    if (apart.is_on && real.memoryTypeIndex == apart.added)
+        real.memoryTypeIndex = apart.seen, ++apart.allocations;
+    const VkResult done = next_allocate(device, &real, memory, made);
     if (done == VK_SUCCESS) held[*made] = info->allocationSize;
     return done;
 }
@@ -94,6 +143,10 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL of_device(VkDevice device, const char* 
     if (std::strcmp(name, "vkQueueSubmit") == 0) return reinterpret_cast<PFN_vkVoidFunction>(submit);
     if (std::strcmp(name, "vkAllocateMemory") == 0) return reinterpret_cast<PFN_vkVoidFunction>(allocate);
     if (std::strcmp(name, "vkFreeMemory") == 0) return reinterpret_cast<PFN_vkVoidFunction>(let_go);
+    if (std::strcmp(name, "vkGetBufferMemoryRequirements") == 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(buffer_needs);
+    if (std::strcmp(name, "vkGetImageMemoryRequirements") == 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(image_needs);
     return next_of_device(device, name);
 }
 
@@ -104,10 +157,18 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL of_instance(VkInstance of, const char* 
         return reinterpret_cast<PFN_vkVoidFunction>(create_instance);
     if (std::strcmp(name, "vkCreateDevice") == 0) return reinterpret_cast<PFN_vkVoidFunction>(create_device);
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(of_device);
+    if (std::strcmp(name, "vkGetPhysicalDeviceMemoryProperties") == 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(memory_of);
     return next_of_instance ? next_of_instance(of, name) : nullptr;
 }
 
 }  // namespace
+
+// How often memory was taken that the host sees, since memory is apart.
+extern "C" VK_LAYER_EXPORT unsigned petzval_allocations_apart() {
+    const std::lock_guard lock(mutex);
+    return apart.allocations;
+}
 
 extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* asked) {
