@@ -26,7 +26,7 @@ void print(const DefocusReport& report, const device::Device& device, int frames
         "%.4g, ",
         report.device.c_str(), report.image.width(), report.image.height(), wall_s,
         device::copied_bytes_per_s(device));
-    std::printf("\"passes\": {");
+    std::printf("\"longest_submission_ms\": %.2f, \"passes\": {", 1e3 * device::longest_submission_s(device));
     const char* separator = "";
     for (const device::PassTime& pass : device::pass_times(device)) {
         if (!only.empty() && pass.pass != only) continue;

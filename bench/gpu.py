@@ -110,6 +110,7 @@ def rows_of(engine, given, device, counted):
                 scaled = radius * width / 1920 if software else radius
                 found = measure(picture(scene, width), given, device["name"], engine, scaled)
                 given.copied = found["copied_bytes_per_s"]
+                given.longest = max(given.longest, found["longest_submission_ms"])
                 pixels = found["width"] * found["height"]
                 passes = found["passes"]
                 for name in sorted(passes, key=lambda n: REALTIME_PASSES.index(n) if n in REALTIME_PASSES else -1):
@@ -131,7 +132,8 @@ def page(given, device):
     say = text.append
     say(f"# {device['name']}, {device['title']}\n")
     say(f"{machine()}; `./dev bench gpu`." + (" A software driver: no milliseconds." if software else
-        f" Its memory copies {given.copied / 1e9:.0f} GB/s, reads and writes counted.") + "\n")
+        f" Its memory copies {given.copied / 1e9:.0f} GB/s, reads and writes counted; the longest submission took "
+        f"{given.longest:.0f} ms.") + "\n")
     say(table(["engine", "scene", "width", "radius", "pass", "ms", "submissions", "multiply-adds/px", "G multiply-adds/s",
                "bytes/px", "GB/s"], rows))
     if "scatter" in given.engines:
@@ -160,6 +162,7 @@ def main():
     parser.add_argument("--scenes", type=lambda s: s.split(","), default=["night", "table"])
     parser.add_argument("--repeat", type=int, default=3)
     given = parser.parse_args()
+    given.longest = 0
     device = chosen_device(given.device)
     if device["software"]:
         given.repeat = 1

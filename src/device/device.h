@@ -91,7 +91,8 @@ public:
     // Writes all of `out`.
     virtual void mix(const engine::GaussianPlan& plan, Target out, const Control& control) const = 0;
     // Writes all of `out`. The CPU has no pass for real time and says so.
-    virtual void draw_realtime(const engine::RealtimePlan& plan, Target out) const = 0;
+    virtual void draw_realtime(const engine::RealtimePlan& plan, Target out,
+                               const Control& control) const = 0;
     // Adds to the plan's rows of `out`, the whole frame.
     virtual Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                             const Control& control) const = 0;

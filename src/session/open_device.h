@@ -54,9 +54,10 @@ public:
         note();
         device_.mix(plan, out, control);
     }
-    void draw_realtime(const engine::RealtimePlan& plan, device::Target out) const override {
+    void draw_realtime(const engine::RealtimePlan& plan, device::Target out,
+                       const device::Control& control) const override {
         note();
-        device_.draw_realtime(plan, out);
+        device_.draw_realtime(plan, out, control);
     }
     device::Work add_lights(const engine::LightsPlan& plan, const device::Atlas& atlas, device::Target out,
                             const device::Control& control) const override {

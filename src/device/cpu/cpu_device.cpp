@@ -48,7 +48,7 @@ public:
     void mix(const engine::GaussianPlan& plan, Target out, const Control& control) const override {
         mix_blurs(plan, out.view(), control);
     }
-    void draw_realtime(const engine::RealtimePlan&, Target) const override {
+    void draw_realtime(const engine::RealtimePlan&, Target, const Control&) const override {
         throw Failed{{ErrorCode::Unsupported,
                       "job.engine realtime is drawn by a GPU alone: session.device gpu", "job.engine"}};
     }

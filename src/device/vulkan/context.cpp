@@ -86,7 +86,7 @@ std::vector<std::string> Context::said() {
 
 void Context::time_passes() {
     const std::lock_guard lock(mutex_);
-    times_passes_ = true, times_.clear();
+    times_passes_ = true, times_.clear(), longest_s_ = 0;
 }
 
 bool Context::times_passes() const {
@@ -99,6 +99,16 @@ void Context::add_time(const std::string& pass, double seconds, const PassWork& 
     PassTime& time = times_[pass];
     time.pass = pass, ++time.runs, time.seconds += seconds;
     time.work.bytes += work.bytes, time.work.multiply_adds += work.multiply_adds;
+}
+
+void Context::add_submission(double seconds) {
+    const std::lock_guard lock(mutex_);
+    longest_s_ = std::max(longest_s_, seconds);
+}
+
+double Context::longest_s() const {
+    const std::lock_guard lock(mutex_);
+    return longest_s_;
 }
 
 std::vector<PassTime> Context::pass_times() const {

@@ -62,6 +62,9 @@ public:
     bool times_passes() const;
     void add_time(const std::string& pass, double seconds, const PassWork& work);
     std::vector<PassTime> pass_times() const;
+    // The longest submission since then.
+    void add_submission(double seconds);
+    double longest_s() const;
 
 private:
     Context(std::shared_ptr<Instance> instance, Candidate candidate)
@@ -78,6 +81,7 @@ private:
     mutable std::mutex mutex_;  // of all below, and of the queue
     std::map<std::pair<Shader, std::uint32_t>, Program> programs_;
     std::map<std::string, PassTime> times_;
+    double longest_s_ = 0;
     std::map<std::string, Pace> paces_;
     std::vector<std::string> said_;
     std::atomic<int> halvings_{0};

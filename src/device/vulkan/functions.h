@@ -56,6 +56,7 @@ namespace petzval::device::vulkan {
     X(vkCmdBindDescriptorSets)       \
     X(vkCmdPushConstants)            \
     X(vkCmdDispatch)                 \
+    X(vkCmdDispatchBase)             \
     X(vkCmdPipelineBarrier)          \
     X(vkCmdCopyBuffer)               \
     X(vkCmdCopyBufferToImage)        \

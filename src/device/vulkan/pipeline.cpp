@@ -27,7 +27,7 @@ void make_layout(const Opened& opened, const ShaderWords& words, Program& progra
 }
 
 VkPipeline make_pipeline(const Opened& opened, const ShaderWords& words, VkPipelineLayout layout,
-                         std::uint32_t variant) {
+                         std::uint32_t variant, VkPipelineCreateFlags flags) {
     const Functions& vk = *opened.vk;
     VkShaderModuleCreateInfo module = {};
     module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -38,6 +38,7 @@ VkPipeline make_pipeline(const Opened& opened, const ShaderWords& words, VkPipel
     const VkSpecializationInfo special = {1, &entry, sizeof variant, &variant};
     VkComputePipelineCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.flags = flags;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = code, info.stage.pName = "main", info.stage.pSpecializationInfo = &special;
@@ -52,12 +53,13 @@ VkPipeline make_pipeline(const Opened& opened, const ShaderWords& words, VkPipel
 
 }  // namespace
 
-Program make_program(const Opened& opened, Shader shader, std::uint32_t variant) {
+Program make_program(const Opened& opened, Shader shader, std::uint32_t variant,
+                     VkPipelineCreateFlags flags) {
     const ShaderWords words = words_of(shader);
     Program program;
     try {
         make_layout(opened, words, program);
-        program.pipeline = make_pipeline(opened, words, program.layout, variant);
+        program.pipeline = make_pipeline(opened, words, program.layout, variant, flags);
     } catch (...) {
         destroy_program(opened, program);
         throw;

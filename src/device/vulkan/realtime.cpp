@@ -2,11 +2,14 @@
 
 #include "device/failure.h"
 #include "device/vulkan/canvas.h"
+#include "device/vulkan/parts.h"
 #include "device/vulkan/realtime_pass.h"
-#include "device/vulkan/recording.h"
+#include "device/vulkan/realtime_work.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +56,7 @@ public:
           width_(width),
           height_(height),
           pass_(context.opened(), context.candidate().memory,
-                {.width = width, .height = height, .slots = 1, .has_float_result = true}) {
+                {.width = width, .height = height, .slots = 1, .has_float_result = true, .is_cut = true}) {
         constexpr VkImageUsageFlags kInput = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         colour_ = made(VK_FORMAT_R32G32B32A32_SFLOAT, kInput);
         radii_ = made(VK_FORMAT_R32_SFLOAT, kInput);
@@ -65,35 +68,84 @@ public:
         return width == width_ && height == height_;
     }
 
-    // Draws the plan's rows from `first` on; writes rows y0…y1 - 1 of `out`.
-    void draw(const engine::RealtimePlan& plan, int first, int y0, int y1, Target out, bool plant) {
+    // Of a picture: rows y0…y1 - 1, with those from `first` on around them.
+    struct Strip {
+        int first, y0, y1;
+    };
+    // Writes the strip's rows of `out`. False: cancelled.
+    bool draw(const engine::RealtimePlan& plan, const Strip& strip, Target out, std::uint64_t most_work,
+              const Progress& progress, bool plant) {
         pass_.set_lens(plan.lens);
-        Recording recording(context_);
+        Submissions submissions(context_, "realtime", most_work);
+        const RealtimeOptics optics{0, 1, plan.most_px, plan.pixel_aspect};
+        const std::array<Piece, 2> sent = begin(submissions.recording(), plan, strip.first, optics);
+        RealtimeWork work(pass_.tiles_x(), pass_.tiles_y(), optics);
+        for (const Step step : {RealtimePass::kMeasure, RealtimePass::kSplit, RealtimePass::kReach,
+                                RealtimePass::kGather, RealtimePass::kCombine}) {
+            // The last step's work is known once it is known where lamps are.
+            if (step == RealtimePass::kCombine) count_lamps(submissions, work);
+            if (!draw_step(step, submissions, work, progress, plant)) return false;
+        }
+        Recording& last = submissions.recording();
+        move(last.commands(), result_, kWritten, kCopiedFrom);
+        const Piece made = context_.heap().allocate(Kind::OnDevice, sent[0].size());
+        const VkBufferImageCopy whole = copy_of(made);
+        context_.vk().vkCmdCopyImageToBuffer(last.commands(), result_.handle(), kCopiedFrom.layout,
+                                             made.buffer(), 1, &whole);
+        Delivery delivery(context_, out);
+        delivery.rows(last, made, strip.first, strip.y0, strip.y1);
+        submissions.run();
+        delivery.finish();
+        return true;
+    }
+
+private:
+    using Step = RealtimePass::Step;
+
+    // Returns what is to live until it has run.
+    std::array<Piece, 2> begin(Recording& recording, const engine::RealtimePlan& plan, int first,
+                               const RealtimeOptics& optics) {
         const std::vector<Rgba> colours = packed<Rgba>(plan.colour, first, first + int(height_));
         const std::vector<float> radii = packed<float>(plan.coc_px, first, first + int(height_));
-        const Piece colour = recording.uploaded(std::span(colours)),
-                    radius = recording.uploaded(std::span(radii));
+        std::array<Piece, 2> sent{recording.uploaded(std::span(colours)),
+                                  recording.uploaded(std::span(radii))};
         recording.wait_for_uploads();
-        fill(recording.commands(), colour, colour_), fill(recording.commands(), radius, radii_);
+        fill(recording.commands(), sent[0], colour_), fill(recording.commands(), sent[1], radii_);
         move(recording.commands(), result_, kFresh, kWritten);
         RealtimeImages images;
         images.colour.view = colour_.view(), images.depth.view = radii_.view();
         images.result = result_.view();
-        pass_.record(recording.commands(), 0, images, {0, 1, plan.most_px, plan.pixel_aspect}, &recording,
-                     plant);
-        move(recording.commands(), result_, kWritten, kCopiedFrom);
-        const std::size_t bytes = colours.size() * sizeof(Rgba);
-        const Piece made = context_.heap().allocate(Kind::OnDevice, bytes);
-        const VkBufferImageCopy whole = copy_of(made);
-        context_.vk().vkCmdCopyImageToBuffer(recording.commands(), result_.handle(), kCopiedFrom.layout,
-                                             made.buffer(), 1, &whole);
-        Delivery delivery(context_, out);
-        delivery.rows(recording, made, first, y0, y1);
-        recording.run();
-        delivery.finish();
+        pass_.begin(recording.commands(), 0, images, optics);
+        return sent;
     }
 
-private:
+    // What does not fit a submission goes to the next. False: cancelled.
+    bool draw_step(Step step, Submissions& submissions, const RealtimeWork& work, const Progress& progress,
+                   bool plant) {
+        const Groups all = pass_.groups(step);
+        const auto work_of = [&](std::uint32_t x, std::uint32_t y) { return work.of_group(step, x, y); };
+        for (std::size_t first = 0; first < std::size_t(all.x) * all.y;) {
+            if (submissions.left() == 0) submissions.run(), submissions.begin_next();
+            if (progress.cancelled()) return false;
+            const Part part = part_from(first, all, submissions.left(), work_of);
+            pass_.record(submissions.recording(), 0, step, part, plant);
+            submissions.add(part.work);
+            first += part.groups();
+        }
+        return true;
+    }
+
+    void count_lamps(Submissions& submissions, RealtimeWork& work) {
+        const std::size_t bytes = std::size_t(pass_.tiles_x()) * pass_.tiles_y() * 4 * sizeof(std::uint32_t);
+        Recording& recording = submissions.recording();
+        const std::byte* const kept = recording.downloaded(pass_.lamps_kept(), bytes);
+        const std::byte* const boxes = recording.downloaded(pass_.lamp_boxes(), bytes);
+        submissions.run();
+        work.take_lamps(reinterpret_cast<const std::uint32_t*>(kept),
+                        reinterpret_cast<const std::int32_t*>(boxes));
+        submissions.begin_next();
+    }
+
     DeviceImage made(VkFormat format, VkImageUsageFlags usage) const {
         ImageKind kind;
         kind.format = format, kind.width = width_, kind.height = height_, kind.usage = usage;
@@ -161,7 +213,8 @@ void RealtimeDrawer::keep(std::unique_ptr<Frame> frame) {
     if (idle_.size() < kMostIdle) idle_.push_back(std::move(frame));
 }
 
-void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, bool plant) {
+void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, const Progress& progress,
+                          bool plant) {
     const int width = plan.colour.width(), height = plan.colour.height();
     const std::uint32_t most = context_.candidate().limits.maxImageDimension2D;
     if (std::uint32_t(width) > most)
@@ -176,8 +229,10 @@ void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, bool pla
         const int first = std::max(0, y - halo), last = std::min(height, end + halo);
         try {
             auto frame = frame_of(std::uint32_t(width), std::uint32_t(last - first));
-            frame->draw(plan, first, y, end, out, plant);
+            const bool is_drawn =
+                frame->draw(plan, {first, y, end}, out, rule_.most_multiply_adds, progress, plant);
             keep(std::move(frame));
+            if (!is_drawn) return;
             y = end;
         } catch (const Failed& failed) {
             while (rows_at_once(width, height, halo) >= rows)

@@ -6,6 +6,7 @@
 #include "engine/gather/realtime_plan.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -14,7 +15,8 @@ namespace petzval::device::vulkan {
 
 // How much is drawn at once. More is drawn in strips of rows, each with as many around it as can matter.
 struct RealtimeRule {
-    std::size_t most_pixels = std::size_t(9) << 20;  // a little more than 4K, about 100 bytes each
+    std::size_t most_pixels = std::size_t(9) << 20;        // a little more than 4K, about 100 bytes each
+    std::uint64_t most_multiply_adds = ~std::uint64_t(0);  // of a submission, besides what a Pace allows
 };
 
 // The pass, its programs, images and memory are kept from frame to frame of one size. Safe to use from many
@@ -26,8 +28,9 @@ public:
     RealtimeDrawer(const RealtimeDrawer&) = delete;
     RealtimeDrawer& operator=(const RealtimeDrawer&) = delete;
 
-    // Writes all of `out`. Throws Failed. plant: as in RealtimePass::record().
-    void draw(const engine::RealtimePlan& plan, Target out, bool plant = false);
+    // Writes all of `out`, unless cancelled. Throws Failed. plant: as in RealtimePass::record().
+    void draw(const engine::RealtimePlan& plan, Target out, const Progress& progress = {},
+              bool plant = false);
     int passes_made() const;
     // Of what is kept for the next frame.
     void let_go();

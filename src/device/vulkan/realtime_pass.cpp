@@ -1,7 +1,6 @@
 #include "device/vulkan/realtime_pass.h"
 
 #include "device/vulkan/failure.h"
-#include "device/vulkan/recording.h"
 
 #include <cstring>
 #include <utility>
@@ -14,13 +13,6 @@ constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr std::uint32_t kGroup = 8;   // invocations along a side
 constexpr std::uint32_t kLevels = 4;  // of cells
-
-struct Push {
-    std::int32_t width, height, tiles_x, tiles_y;
-    RealtimeOptics optics;
-    std::uint32_t has_layer;
-};
-static_assert(sizeof(Push) == 36, "as shaders/realtime.glsl has it");
 
 }  // namespace
 
@@ -60,8 +52,9 @@ void RealtimePass::make() {
     lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
     make_sampler(VK_FILTER_NEAREST, nearest_);
     make_sampler(VK_FILTER_LINEAR, linear_);
+    const VkPipelineCreateFlags flags = settings_.is_cut ? VK_PIPELINE_CREATE_DISPATCH_BASE_BIT : 0;
     for (std::size_t step = 0; step < kSteps; ++step)
-        programs_[step] = make_program(opened_, shader_of(step));
+        programs_[step] = make_program(opened_, shader_of(step), 0, flags);
     make_sets();
 }
 
@@ -212,7 +205,7 @@ void RealtimePass::order(VkCommandBuffer commands, VkPipelineStageFlags from, Vk
 }
 
 // After all of the frame before: its images are ours again, and the lens is written.
-void RealtimePass::begin(VkCommandBuffer commands, Slot& slot) {
+void RealtimePass::take_lens(VkCommandBuffer commands, Slot& slot) {
     constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     {
         const std::lock_guard lock(mutex_);
@@ -240,37 +233,64 @@ void RealtimePass::begin(VkCommandBuffer commands, Slot& slot) {
           VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT, kCompute);
 }
 
-void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
-                          const RealtimeOptics& optics, Recording* timed, bool plant) {
-    begin(commands, slots_[slot]);
+void RealtimePass::begin(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                         const RealtimeOptics& optics) {
+    take_lens(commands, slots_[slot]);
     write_given(slots_[slot], images);
-    const Push push{std::int32_t(settings_.width),
-                    std::int32_t(settings_.height),
-                    std::int32_t(tiles_x()),
-                    std::int32_t(tiles_y()),
-                    optics,
-                    images.layer.view ? 1u : 0u};
-    static constexpr std::array kNames{"measure", "split", "reach", "gather", "combine"};
+    slots_[slot].push = {std::int32_t(settings_.width),
+                         std::int32_t(settings_.height),
+                         std::int32_t(tiles_x()),
+                         std::int32_t(tiles_y()),
+                         optics,
+                         images.layer.view ? 1u : 0u};
+}
+
+Groups RealtimePass::groups(Step step) const {
     const auto up = [](std::uint32_t count, std::uint32_t of) { return (count + of - 1) / of; };
-    const std::array<std::array<std::uint32_t, 2>, kSteps> groups{
-        {{tiles_x(), tiles_y()},
-         {tiles_x(), tiles_y()},
-         {up(tiles_x() * tiles_y(), 64), 1},
-         {tiles_x(), tiles_y()},
-         {up(settings_.width, kGroup), up(settings_.height, kGroup)}}};
-    for (std::size_t step = 0; step < kSteps; ++step) {
-        if (step > 0 && !(plant && step == kGather))
-            order(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
-        const Program& program = programs_[step];
-        vk_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
-        vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
-                                    &slots_[slot].sets[step], 0, nullptr);
-        vk_.vkCmdPushConstants(commands, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
-        if (timed) timed->begin_pass(kNames[step], {least_bytes(Step(step)), 0});
-        vk_.vkCmdDispatch(commands, groups[step][0], groups[step][1], 1);
-        if (timed) timed->end_pass();
+    switch (step) {
+        case kReach:
+            return {up(tiles_x() * tiles_y(), 64)};
+        case kCombine:
+            return {up(settings_.width, kGroup), up(settings_.height, kGroup)};
+        default:
+            return {tiles_x(), tiles_y()};
     }
+}
+
+void RealtimePass::bind(VkCommandBuffer commands, const Slot& slot, Step step, bool plant) {
+    if (step > 0 && !(plant && step == kGather))
+        order(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+              VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+    const Program& program = programs_[step];
+    vk_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
+    vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
+                                &slot.sets[step], 0, nullptr);
+    vk_.vkCmdPushConstants(commands, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof slot.push,
+                           &slot.push);
+}
+
+void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                          const RealtimeOptics& optics) {
+    begin(commands, slot, images, optics);
+    for (const Step step : {kMeasure, kSplit, kReach, kGather, kCombine}) {
+        bind(commands, slots_[slot], step, false);
+        const Groups all = groups(step);
+        vk_.vkCmdDispatch(commands, all.x, all.y, 1);
+    }
+}
+
+void RealtimePass::record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant) {
+    static constexpr std::array kNames{"measure", "split", "reach", "gather", "combine"};
+    const Groups all = groups(step);
+    bind(recording.commands(), slots_[slot], step, plant);
+    recording.begin_pass(kNames[step], {least_bytes(step) * part.groups() / (std::size_t(all.x) * all.y), 0});
+    // Debian's synchronisation validation does not look at dispatches with a base: the first part is one
+    // without.
+    if (part.x == 0 && part.y == 0)
+        vk_.vkCmdDispatch(recording.commands(), part.width, part.height, 1);
+    else
+        vk_.vkCmdDispatchBase(recording.commands(), part.x, part.y, 0, part.width, part.height, 1);
+    recording.end_pass();
 }
 
 }  // namespace petzval::device::vulkan

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/vulkan/image.h"
+#include "device/vulkan/parts.h"
 #include "device/vulkan/pipeline.h"
 #include "engine/gather/realtime_plan.h"
 
@@ -17,9 +18,8 @@ struct RealtimeSettings {
     std::uint32_t width = 0, height = 0;  // pixels
     std::uint32_t slots = 1;              // frames that may be in flight
     bool has_float_result = false;        // rgba32f; else rgba16f
+    bool is_cut = false;                  // frames are recorded in parts
 };
-
-class Recording;
 
 // A signed radius, in pixels, is add_px + per_depth_px * depth.
 struct RealtimeOptics {
@@ -49,15 +49,35 @@ public:
     void set_lens(std::shared_ptr<const engine::RealtimeLens> lens);
     // Allocates nothing, waits for nothing. Requires: what was recorded into this slot before has run; all
     // that is recorded runs on one queue; the inputs are visible to reads of compute shaders, and the result
-    // may be written by them. `timed` is what the commands are of. `plant` leaves out a barrier, to see that
-    // it is missed.
+    // may be written by them.
     void record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
-                const RealtimeOptics& optics, Recording* timed = nullptr, bool plant = false);
+                const RealtimeOptics& optics);
+
+    // The same in parts, in any number of submissions: begin(), then all parts of each step in turn. The bits
+    // do not depend on them.
+    enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
+    void begin(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+               const RealtimeOptics& optics);
+    // Requires: settings.is_cut. `plant` leaves out a barrier, to see that it is missed.
+    void record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant = false);
+    Groups groups(Step step) const;
+    // What lamps there are, once step kReach has run: of each tile, row by row, which of its cells have one
+    // (two words of four), and the first and last column and row of the tiles whose lamps reach it.
+    const Piece& lamps_kept() const { return kept_; }
+    const Piece& lamp_boxes() const { return boxes_; }
+    std::uint32_t tiles_x() const { return (settings_.width + 15) / 16; }
+    std::uint32_t tiles_y() const { return (settings_.height + 15) / 16; }
 
 private:
-    enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
+    struct Push {
+        std::int32_t width = 0, height = 0, tiles_x = 0, tiles_y = 0;
+        RealtimeOptics optics;
+        std::uint32_t has_layer = 0;
+    };
+    static_assert(sizeof(Push) == 36, "as shaders/realtime.glsl has it");
     struct Slot {
         std::array<VkDescriptorSet, kSteps> sets = {};
+        Push push;
         Piece lens;                                       // written by the host
         std::shared_ptr<const engine::RealtimeLens> has;  // what is in it
     };
@@ -72,12 +92,11 @@ private:
     void write_image(VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
                      const VkDescriptorImageInfo& info) const;
     void write_buffer(VkDescriptorSet set, std::uint32_t binding, const Piece& piece) const;
-    void begin(VkCommandBuffer commands, Slot& slot);
+    void take_lens(VkCommandBuffer commands, Slot& slot);
+    void bind(VkCommandBuffer commands, const Slot& slot, Step step, bool plant);
     std::uint64_t least_bytes(Step step) const;
     void order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
                VkPipelineStageFlags to) const;
-    std::uint32_t tiles_x() const { return (settings_.width + 15) / 16; }
-    std::uint32_t tiles_y() const { return (settings_.height + 15) / 16; }
 
     const Opened opened_;
     const Functions& vk_;

@@ -42,7 +42,7 @@ std::string said_of(bool plant) {
     const Plane coc_px(64, 48, -6.0f);
     Picture out(64, 48);
     try {
-        RealtimeDrawer(*context).draw({colour, coc_px, 6, 1, ideal_lens()}, out, plant);
+        RealtimeDrawer(*context).draw({colour, coc_px, 6, 1, ideal_lens()}, out, {}, plant);
     } catch (const Failed& failed) {
         return failed.error.message;
     }
@@ -118,6 +118,45 @@ TEST(RealtimeDrawer, DrawsFramesSideBySide) {
     for (std::thread& thread : threads) thread.join();
     EXPECT_LE(drawer.passes_made(), 2);
     EXPECT_EQ(std::memcmp(made[0].pixels(), made[1].pixels(), made[0].size() * sizeof(Rgba)), 0);
+}
+
+// Each group of invocations in a submission of its own, a few rows of them, or as many as the pace allows.
+TEST(Watched, AFrameIsTheSameBitsHoweverItIsCut) {
+    const auto context = watched_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    const Given given;
+    Picture whole(100, 150);
+    RealtimeDrawer(*context).draw(given.plan(), whole);
+    EXPECT_GT(whole(22, 63).r, 1) << "no lamp";
+    for (const std::uint64_t most : {std::uint64_t(1), std::uint64_t(1) << 24}) {
+        Picture cut(100, 150);
+        context->time_passes();
+        RealtimeDrawer(*context, {.most_multiply_adds = most}).draw(given.plan(), cut);
+        EXPECT_EQ(std::memcmp(whole.pixels(), cut.pixels(), whole.bytes()), 0) << most;
+        for (const PassTime& pass : context->pass_times()) {
+            // 7 x 10 tiles and 13 x 19 squares of 8 x 8 pixels.
+            const std::uint64_t groups = pass.pass == "combine" ? 247 : pass.pass == "reach" ? 2 : 70;
+            EXPECT_TRUE(most > 1 || pass.runs == groups) << pass.pass << ": " << pass.runs;
+            EXPECT_TRUE(pass.pass != "gather" || pass.runs > 4) << most << ": " << pass.runs;
+        }
+    }
+}
+
+TEST(RealtimeDrawer, LeavesOffBetweenSubmissionsWhereAsked) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    const Given given;
+    int asked = 0;
+    const Progress progress({}, [&] { return ++asked > 20; });
+    Picture out(100, 150, {7, 7, 7, 7});
+    RealtimeDrawer drawer(*context, {.most_multiply_adds = 1});
+    drawer.draw(given.plan(), out, progress);
+    EXPECT_EQ(asked, 21);
+    EXPECT_EQ(out(50, 75).g, 7) << "half a frame was handed out";
+    Picture whole(100, 150), after(100, 150);
+    RealtimeDrawer(*context).draw(given.plan(), whole);
+    drawer.draw(given.plan(), after);
+    EXPECT_EQ(std::memcmp(whole.pixels(), after.pixels(), whole.bytes()), 0);
 }
 
 // A large picture is drawn in strips that nobody sees: here of 48 rows, with 48 around them.

@@ -177,6 +177,7 @@ double Recording::run() {
           context_.name(), "drawing");
     submitted_ = false;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    context_.add_submission(seconds);
     note_times();
     if (const std::string said = context_.instance().complaints(); !said.empty())
         throw Failed{{ErrorCode::Unsupported, context_.name() + ": " + said}};

@@ -53,8 +53,8 @@ public:
     void mix(const engine::GaussianPlan& plan, Target out, const Control& control) const override {
         mix_blurs(*context_, plan, out, control);
     }
-    void draw_realtime(const engine::RealtimePlan& plan, Target out) const override {
-        realtime_.draw(plan, out);
+    void draw_realtime(const engine::RealtimePlan& plan, Target out, const Control& control) const override {
+        realtime_.draw(plan, out, control.progress);
     }
     Work add_lights(const engine::LightsPlan& plan, const Atlas& atlas, Target out,
                     const Control& control) const override {
@@ -143,6 +143,8 @@ std::vector<std::string> said_by(const Device& device) {
 void start_timing(const Device& device) { context_of(device).time_passes(); }
 
 std::vector<PassTime> pass_times(const Device& device) { return context_of(device).pass_times(); }
+
+double longest_submission_s(const Device& device) { return context_of(device).longest_s(); }
 
 double copied_bytes_per_s(const Device& device) {
     constexpr std::size_t kBytes = std::size_t(128) << 20;

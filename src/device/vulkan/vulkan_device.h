@@ -29,9 +29,11 @@ Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number);
 std::vector<std::string> said_by(const Device& device);
 
 // For benchmarks. Passes are timed by the device's own clock from here on, and what was noted is forgotten.
-// All three require a device of open_vulkan().
+// All of them require a device of open_vulkan().
 void start_timing(const Device& device);
 std::vector<PassTime> pass_times(const Device& device);
+// The longest submission since start_timing().
+double longest_submission_s(const Device& device);
 // What its memory copies, reads and writes counted.
 double copied_bytes_per_s(const Device& device);
 

@@ -139,7 +139,8 @@ Result<Output> run_realtime(const Input& input) {
     const RealtimePlan plan{input.colour, input.coc_px,
                             std::max(-input.nearest_coc_px, input.farthest_coc_px), float(input.pixel_aspect),
                             kept_realtime_lens(input)};
-    if (!input.progress->cancelled()) input.device->draw_realtime(plan, *output.canvas);
+    if (!input.progress->cancelled())
+        input.device->draw_realtime(plan, *output.canvas, {*input.workers, *input.progress});
     if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {
         {"realtime", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
