@@ -123,24 +123,34 @@ void blur_layer(BlurLayer& layer, const Blur& blur, Workers& workers) {
     layer.lit = std::move(reached);
 }
 
-bool BlurReader::go_to_row(int y) {
-    const auto row_of = [&](int k) { return down_->cell(y, k); };
+bool BlurReader::go_to_row(int y, LitCells pixels) {
+    y_ = y, lit_begin_ = lit_end_ = 0;
+    if (!tile_) return go_to_cells(pixels);
+    const Rect& reached = tile_->reached();
+    if (y < reached.y0 || y >= reached.y1) return false;
+    lit_begin_ = reached.x0, lit_end_ = reached.x1;
+    return true;
+}
+
+bool BlurReader::go_to_cells(LitCells pixels) {
+    const auto row_of = [&](int k) { return down_->cell(y_, k); };
     LitCells lit;
     for (int k = 0; k < 3; ++k) lit.add(layer_->lit[std::size_t(row_of(k))]);
-    lit_begin_ = lit_end_ = 0;
     if (lit.empty()) return false;
     lit_begin_ = across_->begin(lit.begin), lit_end_ = across_->end(lit.end);
     const int last = across_->cells() - 1;
-    const std::array<float, 3> shares = down_->shares(y);
+    const int begin = std::max({0, lit.begin - 2, across_->cell(pixels.begin, 0)}),
+              end = std::min({last + 1, lit.end + 2, across_->cell(pixels.end - 1, 2) + 1});
+    const std::array<float, 3> shares = down_->shares(y_);
     const auto cells = [&](const auto& plane, auto& to) {
         const auto a = plane.row(row_of(0)), b = plane.row(row_of(1)), c = plane.row(row_of(2));
-        for (int x = std::max(0, lit.begin - 2); x < std::min(last + 1, lit.end + 2); ++x)
+        for (int x = begin; x < end; ++x)
             to[std::size_t(x) + 1] =
                 down_->level() == 0 ? b[x] : shares[0] * a[x] + shares[1] * b[x] + shares[2] * c[x];
         to.front() = to[1], to.back() = to[std::size_t(last) + 1];
     };
     cells(layer_->light, light_), cells(layer_->covered, covered_);
-    return true;
+    return begin < end;
 }
 
 }  // namespace petzval::device

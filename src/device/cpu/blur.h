@@ -4,6 +4,7 @@
 #include "petzval/image.h"
 #include "petzval/workers.h"
 
+#include "device/cpu/blur_tile.h"
 #include "engine/gaussian/plan.h"
 #include "engine/waist/cells.h"
 
@@ -72,7 +73,7 @@ private:
 // In place.
 void blur_layer(BlurLayer& layer, const engine::Blur& blur, Workers& workers);
 
-// Reads a layer at the pixels of one row after another.
+// Reads a blur at some pixels of one row after another.
 class BlurReader {
 public:
     BlurReader(const BlurLayer& layer, const engine::CellSplines& across, const engine::CellSplines& down)
@@ -81,14 +82,21 @@ public:
           down_(&down),
           light_(std::size_t(across.cells()) + 2),
           covered_(light_.size()) {}
-    // Whether anything of it may be seen in that row.
-    bool go_to_row(int y);
+    explicit BlurReader(const BlurTile& tile) : tile_(&tile) {}
+
+    // Whether anything of it may be seen in those columns of pixels of that row.
+    bool go_to_row(int y, LitCells pixels);
     bool is_lit(int x) const { return x >= lit_begin_ && x < lit_end_; }
     // Of lit pixels.
-    Rgba light(int x) const { return read(light_, x); }
-    float covered(int x) const { return read(covered_, x); }
+    Rgba light(int x) const {
+        if (!tile_) return read(light_, x);
+        const float* const at = tile_->at(x, y_);
+        return {at[0], at[1], at[2], at[3]};
+    }
+    float covered(int x) const { return tile_ ? tile_->at(x, y_)[4] : read(covered_, x); }
 
 private:
+    bool go_to_cells(LitCells pixels);
     template <typename T>
     T read(const std::vector<T>& row, int x) const {
         const T* const cell = row.data() + across_->cell(x);
@@ -96,10 +104,11 @@ private:
         const auto& shares = across_->shares(x);
         return shares[0] * cell[0] + shares[1] * cell[1] + shares[2] * cell[2];
     }
-    const BlurLayer* layer_;
-    const engine::CellSplines *across_, *down_;
-    int lit_begin_ = 0, lit_end_ = 0;  // pixels
-    std::vector<Rgba> light_;          // the row, of three rows of cells; one cell more at either end
+    const BlurTile* tile_ = nullptr;  // or
+    const BlurLayer* layer_ = nullptr;
+    const engine::CellSplines *across_ = nullptr, *down_ = nullptr;
+    int y_ = 0, lit_begin_ = 0, lit_end_ = 0;  // pixels
+    std::vector<Rgba> light_;                  // the row, of three rows of cells; one cell more at either end
     std::vector<float> covered_;
 };
 

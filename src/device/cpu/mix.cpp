@@ -1,6 +1,7 @@
 #include "device/cpu/mix.h"
 
 #include "base/parallel.h"
+#include "base/workspaces.h"
 #include "device/cpu/blur.h"
 #include "engine/waist/cells.h"
 
@@ -35,41 +36,86 @@ public:
 
     void run(View<Rgba> out) {
         make_layers();
-        constexpr int kBand = 16;
-        parallel_for((height_ + kBand - 1) / kBand, workers_, [&](int band) {
-            Readers readers;
-            for (std::size_t k = 0; k < layers_.size(); ++k)
-                readers.all.emplace_back(layers_[k], across_[k], down_[k]);
-            for (int y = band * kBand; y < std::min(height_, (band + 1) * kBand); ++y) {
-                readers.go_to_row(y, plan_);
-                for (int x = 0; x < width_; ++x)
-                    out(x, y) = is_layered() ? composite(readers, x, y) : mixed(readers.all, x, y);
-            }
+        const int across = (width_ + BlurTile::kWidth - 1) / BlurTile::kWidth,
+                  down = (height_ + BlurTile::kHeight - 1) / BlurTile::kHeight;
+        Workspaces<Workspace> workspaces;
+        parallel_for(across * down, workers_, [&](int i) {
+            const int x = i % across * BlurTile::kWidth, y = i / across * BlurTile::kHeight;
+            const auto workspace = workspaces.take();
+            mix_tile(Rect{x, y, x + BlurTile::kWidth, y + BlurTile::kHeight}.intersected(out.rect()),
+                     *workspace, out);
         });
         passed("mix");
     }
 
 private:
-    struct Readers {
-        std::vector<BlurReader> all;
+    // What a worker keeps from tile to tile.
+    struct Workspace {
+        std::vector<BlurTile> narrow;
+        BlurScratch scratch;
+        std::vector<BlurReader> all;               // as the plan's blurs
         std::vector<const BlurReader*> near, far;  // of the layers that are seen in this row, nearest first
-        void go_to_row(int y, const GaussianPlan& plan) {
-            near.clear(), far.clear();
-            for (std::size_t k = 0; k < all.size(); ++k) {
-                const bool is_near = k < std::size_t(plan.near.count());
-                if (all[k].go_to_row(y)) (is_near ? near : far).push_back(&all[k]);
-            }
-        }
     };
+
+    void mix_tile(const Rect& tile, Workspace& w, View<Rgba> out) const {
+        if (w.all.empty()) make_readers(w);
+        make_narrow(tile, w);
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            w.near.clear(), w.far.clear();
+            for (std::size_t k = 0; k < w.all.size(); ++k) {
+                const bool is_near = k < std::size_t(plan_.near.count());
+                if (w.all[k].go_to_row(y, {tile.x0, tile.x1}))
+                    (is_near ? w.near : w.far).push_back(&w.all[k]);
+            }
+            for (int x = tile.x0; x < tile.x1; ++x)
+                out(x, y) = is_layered() ? composite(w, x, y) : mixed(w.all, x, y);
+        }
+    }
+
+    void make_readers(Workspace& w) const {
+        for (std::size_t k = 0; k < plan_.blurs.size(); ++k)
+            if (is_narrow(k)) w.narrow.emplace_back(plan_.blurs[k]);
+        for (std::size_t k = 0, narrow = 0; k < plan_.blurs.size(); ++k) {
+            if (is_narrow(k))
+                w.all.emplace_back(w.narrow[narrow++]);
+            else
+                w.all.emplace_back(layers_[k], across_[k], down_[k]);
+        }
+    }
+
+    void make_narrow(const Rect& tile, Workspace& w) const {
+        Rect window = tile;
+        std::vector<BlurTile*> of_blur(plan_.blurs.size());
+        for (std::size_t k = 0, narrow = 0; k < plan_.blurs.size(); ++k) {
+            if (!is_narrow(k)) continue;
+            BlurTile& blur = *(of_blur[k] = &w.narrow[narrow++]);
+            blur.go_to(tile);
+            const Rect own = blur.window();
+            window = {std::min(window.x0, own.x0), std::min(window.y0, own.y0), std::max(window.x1, own.x1),
+                      std::max(window.y1, own.y1)};
+        }
+        if (w.narrow.empty()) return;
+        window = window.intersected({0, 0, width_, height_});
+        for (int y = window.y0; y < window.y1; ++y)
+            for (int x = window.x0; x < window.x1; ++x)
+                spread(x, y, [&](std::size_t k, Rgba light, float covered) {
+                    if (of_blur[k] && of_blur[k]->window().contains(x, y))
+                        of_blur[k]->add(x, y, light, covered);
+                });
+        for (BlurTile& blur : w.narrow) blur.blur(w.scratch);
+    }
+
     void passed(const char* pass) const {
         if (passed_) passed_(pass);
     }
     bool is_layered() const { return plan_.law == GaussianPlan::Law::Layered; }
+    bool is_narrow(std::size_t blur) const { return plan_.blurs[blur].is_narrow(); }
 
+    // All but the narrow ones.
     void make_layers() {
         int coarsest = 4;
         for (const Blur& blur : plan_.blurs) {
-            layers_.emplace_back(blur);
+            layers_.push_back(blur.is_narrow() ? BlurLayer() : BlurLayer(blur));
             across_.emplace_back(blur.level, blur.cells_across());
             down_.emplace_back(blur.level, blur.cells_down());
             coarsest = std::max(coarsest, blur.level);
@@ -84,7 +130,8 @@ private:
         for (const auto& of_band : rims)
             for (std::size_t i = 0; i < of_band.size(); ++i) add_rim(layers_[i / 2], of_band[i]);
         passed("spread");
-        for (std::size_t k = 0; k < layers_.size(); ++k) blur_layer(layers_[k], plan_.blurs[k], workers_);
+        for (std::size_t k = 0; k < layers_.size(); ++k)
+            if (!is_narrow(k)) blur_layer(layers_[k], plan_.blurs[k], workers_);
         passed("blur");
     }
 
@@ -94,7 +141,10 @@ private:
         for (const CellSplines& across : across_) rows.emplace_back(across);
         std::vector<Rim> rims(2 * layers_.size());
         for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < width_; ++x) is_layered() ? spread(rows, x, y) : spread_to_all(rows, x, y);
+            for (int x = 0; x < width_; ++x)
+                spread(x, y, [&](std::size_t k, Rgba light, float covered) {
+                    if (!is_narrow(k)) rows[k].add(x, light, covered);
+                });
             for (std::size_t k = 0; k < layers_.size(); ++k) {
                 if (rows[k].empty()) continue;
                 rows[k].fold_ends();
@@ -131,26 +181,28 @@ private:
         layer.lit[std::size_t(rim.row)].add(rim.lit);
     }
 
-    void spread_to_all(std::vector<RowOfLight>& rows, int x, int y) const {
-        for (RowOfLight& row : rows) row.add(x, plan_.colour(x, y), 1);
-    }
-
-    void spread(std::vector<RowOfLight>& rows, int x, int y) const {
+    // The light of a pixel, as add(blur, light, covered).
+    template <typename Add>
+    void spread(int x, int y, const Add& add) const {
+        if (!is_layered()) {
+            for (std::size_t k = 0; k < plan_.blurs.size(); ++k) add(k, plan_.colour(x, y), 1.0f);
+            return;
+        }
         plan_.for_each_sample(x, y, [&](const LayeredSample& s) {
-            const auto add = [&](int k, float share) {
+            const auto share_out = [&](int k, float share) {
                 if (k > 0 && share > 0)
-                    rows[s.coc_px < 0 ? plan_.near_blur(k) : plan_.far_blur(k)].add(x, share * s.light,
-                                                                                    share * s.covered);
+                    add(s.coc_px < 0 ? plan_.near_blur(k) : plan_.far_blur(k), share * s.light,
+                        share * s.covered);
             };
-            add(s.mix.lower, 1 - s.mix.upper_share);
-            add(s.mix.lower + 1, s.mix.upper_share);
+            share_out(s.mix.lower, 1 - s.mix.upper_share);
+            share_out(s.mix.lower + 1, s.mix.upper_share);
         });
     }
 
     static float sharp_share(const BlurStack::Mix& mix) { return mix.lower == 0 ? 1 - mix.upper_share : 0; }
 
     // Each layer takes of the pixel's lens what it arrives with, or what is left.
-    Rgba composite(const Readers& readers, int x, int y) const {
+    Rgba composite(const Workspace& w, int x, int y) const {
         Rgba sum;
         float free = 1;
         const auto take = [&](Rgba light, float covered) {
@@ -163,12 +215,12 @@ private:
             for (const BlurReader* layer : layers)
                 if (layer->is_lit(x) && free > 0) take(layer->light(x), layer->covered(x));
         };
-        take_layers(readers.near);
+        take_layers(w.near);
         plan_.for_each_sample(x, y, [&](const LayeredSample& s) {
             const float sharp = sharp_share(s.mix);
             take(sharp * s.light, sharp * s.covered);
         });
-        take_layers(readers.far);
+        take_layers(w.far);
         return free < 1 - kLeastArea ? sum * (1 / (1 - free)) : plan_.colour(x, y);
     }
 

@@ -13,22 +13,27 @@
 namespace petzval::engine {
 namespace {
 
-// The result, the layers, what blurring copies of one at a time, and what was guessed.
-std::size_t bytes_per_pixel(const GaussianPlan& plan, const Input& input) {
-    constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float);
-    std::size_t layers = 0, largest = 0;
+// The result, the layers, what blurring copies of one at a time, and what was guessed; for every worker a
+// tile of each narrow blur.
+std::size_t working_bytes(const GaussianPlan& plan, const Input& input) {
+    constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float), kTilePixels = 288 * 96;
+    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
+    std::size_t layers = 0, largest = 0, tiles = 1;
     for (const Blur& blur : plan.blurs) {
         const std::size_t bytes = (kOfCell >> (2 * blur.level)) + 1;
-        layers += bytes, largest = std::max(largest, bytes);
+        if (blur.is_narrow())
+            ++tiles;
+        else
+            layers += bytes, largest = std::max(largest, bytes);
     }
-    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
-    return sizeof(Rgba) + layers + largest + (plan.guessed.bytes() + pixels - 1) / pixels;
+    return pixels * (sizeof(Rgba) + layers + largest) + plan.guessed.bytes() +
+           std::size_t(input.workers->width()) * tiles * kOfCell * kTilePixels;
 }
 
 }  // namespace
 
 std::size_t least_gaussian_bytes(const Input& input) {
-    return whole_picture_bytes(input, bytes_per_pixel(plan_gaussian(input), input));
+    return held_bytes(input) + working_bytes(plan_gaussian(input), input);
 }
 
 Result<Output> run_gaussian(const Input& input) {
@@ -39,7 +44,7 @@ Result<Output> run_gaussian(const Input& input) {
     const bool is_sharp =
         view == GaussianView::Sharp || (largest_px <= kWithinPixelPx && view == GaussianView::Result);
     const GaussianPlan plan = is_sharp ? GaussianPlan() : plan_gaussian(input);
-    if (const Status fits = fits_memory(input, bytes_per_pixel(plan, input), "gaussian"); !fits)
+    if (const Status fits = fits_memory(input, 0, "gaussian", working_bytes(plan, input)); !fits)
         return fits.error();
     stopwatch.lap("plan");
     output.canvas = input.device->canvas(Picture::uninitialised(input.width(), input.height()));

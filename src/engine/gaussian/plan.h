@@ -6,6 +6,7 @@
 #include "engine/samples/guessed.h"
 #include "engine/waist/engine.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace petzval::engine {
@@ -30,6 +31,9 @@ struct Blur {
     BlurAxis x, y;
     int cells_across() const { return int(x.inside.size()); }
     int cells_down() const { return int(y.inside.size()); }
+    // Of pixels, and they come from so near that it may be made where it is read, tile by tile.
+    bool is_narrow() const { return level == 0 && std::max(x.radius(), y.radius()) <= kNarrowPx; }
+    static constexpr int kNarrowPx = 16;
 };
 
 // Light of a pixel, how much of the pixel it covers, and the blurs that it is shared between.
