@@ -45,6 +45,19 @@ Landed landed(const Picture& image) {
     return s;
 }
 
+TEST(Sprites, TooLittleMemoryIsSaidOfSpritesWhateverIsBelow) {
+    for (const auto background : {SpriteBackground::Gather, SpriteBackground::Gaussian}) {
+        const Lights lights(64, 48, 9);
+        DefocusJob job = lights.job();
+        job.sprites.background = background, job.max_memory_bytes = 1;
+        const auto made = defocus(job);
+        ASSERT_FALSE(made);
+        EXPECT_EQ(made.error().code, ErrorCode::OutOfMemory);
+        EXPECT_NE(made.error().message.find("sprites takes about"), std::string::npos)
+            << made.error().message;
+    }
+}
+
 TEST(Sprites, ALightKeepsItsLightItsPlaceAndItsRadius) {
     for (const float coc : {-90.0f, -40.0f, -9.3f, 0.0f, 0.8f, 3.2f, 14.0f, 31.0f, 70.0f})
         for (const Quality quality : {Quality::Draft, Quality::Standard, Quality::Final}) {

@@ -61,13 +61,13 @@ class Gather {
 public:
     explicit Gather(const Input& input) : frame_(input), sizes_(ring_sizes(input)), kernels_(input, sizes_) {}
 
-    Result<Output> run() {
+    Result<Output> run(const char* engine) {
         Stopwatch watch(stages_);
         const BrightPoints found(frame_);
         if (BrightPoints::are_looked_for(frame_)) watch.lap("bright points");
         const Strips strips = plan_strips(frame_, sizes_, found);
         if (frame_.max_memory_bytes > 0 && frame_.max_memory_bytes < strips.least_bytes)
-            return too_little_memory("gather", strips.least_bytes);
+            return too_little_memory(engine, strips.least_bytes);
         Output output;
         output.canvas = frame_.device->canvas(Picture::uninitialised(frame_.width(), frame_.height()));
         for (int y = 0; y < frame_.height() && !frame_.progress->cancelled(); y += strips.rows)
@@ -127,8 +127,10 @@ std::shared_ptr<const RealtimeLens> kept_realtime_lens(const Input& input) {
 
 Result<Output> run_gather(const Input& input) {
     if (input.gather.stage != GatherStage::Final) return run_gather_stage(input);
-    return Gather(input).run();
+    return run_gather_for("gather", input);
 }
+
+Result<Output> run_gather_for(const char* engine, const Input& input) { return Gather(input).run(engine); }
 
 Result<Output> run_realtime(const Input& input) {
     const auto start = std::chrono::steady_clock::now();

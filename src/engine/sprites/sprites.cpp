@@ -37,10 +37,9 @@ Result<Output> run_over_gaussian(const Input& input) {
 
 Result<Output> run_sprites(const Input& input) {
     Input results = input;
-    results.gather.stage = GatherStage::Final;
     results.gaussian.view = GaussianView::Result;
     const bool over_gather = input.sprites.background == SpriteBackground::Gather;
-    Result<Output> output = over_gather ? run_gather(results) : run_over_gaussian(results);
+    Result<Output> output = over_gather ? run_gather_for("sprites", results) : run_over_gaussian(results);
     if (!output) return output.error();
     if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     StageTime background{"background"}, sprites{"sprites"};
