@@ -115,9 +115,8 @@ struct Asked {
 Rect seen_pixels(const Asked& asked, const DefocusJob& job, const engine::Input& input) {
     const Rect all = input.colour.rect();
     if (!asked.is_region) return all;
-    // What is shown instead of a result takes its measures from all it sees, and so do the zones of sprites.
-    const bool may_draw_sprites = job.engine == "sprites" || (job.engine == "gather" && job.sprites.find);
-    if (!shows_result(job) || (may_draw_sprites && input.lens(0).varies_over_field())) return all;
+    // What is shown instead of a result takes its measures from all it sees.
+    if (!shows_result(job)) return all;
     const float largest = std::max(-input.nearest_coc_px, input.farthest_coc_px);
     const int margin = region_margin_px(double(largest), input.lens(0).reach_px(double(largest)));
     constexpr int kTiles = 128;  // pixels of the largest

@@ -97,6 +97,25 @@ TEST_P(Region, SoItIsWithHiddenLayersAndAWholeLook) {
     }
 }
 
+// The wider the widest disc of a frame, the more parts of it have kernels of their own.
+TEST(RegionOfALensThatVaries, IsDrawnAsInTheWholeWhateverLightsAreFarAway) {
+    Shot shot = flat(900, 300, {0.1f, 0.1f, 0.1f, 1}, 3);
+    for (int y = 0; y < 300; ++y)
+        for (int x = 840; x < 900; ++x) shot.coc_px(x, y) = 24;
+    for (int i = 0; i < 12; ++i) shot.colour(20 + 13 * i, 40 + 17 * i) = {90, 60, 30, 1};
+    for (const char* engine : {"gather", "sprites"})
+        for (const bool far_light : {false, true}) {
+            if (far_light) shot.colour(880, 150) = {500, 400, 300, 1};
+            DefocusJob job = shot.job(engine);
+            job.lens.cats_eye = 0.7, job.camera = {50, 36, 4, 2};
+            Session session;
+            const auto whole = session.defocus(job),
+                       part = session.defocus(job, {.region = Rect{30, 40, 150, 200}});
+            ASSERT_TRUE(whole && part);
+            EXPECT_EQ(changed(part->image, whole->image, 30, 40), 0) << engine << far_light;
+        }
+}
+
 TEST(RegionMargin, GrowsWithTheRadiusAndARegionOutsideIsRefused) {
     const Shot shot = flat(64, 48, {0.5f, 0.5f, 0.5f, 1}, 5);
     Session session;

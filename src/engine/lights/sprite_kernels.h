@@ -23,6 +23,9 @@ struct Sprite {
 class SpriteGrid {
 public:
     SpriteGrid(const Input& input, std::span<const Sprite> sprites);
+    // Tells as many parts of the window apart as that of all its lights does: so a part of a frame is drawn
+    // as in the whole.
+    void take_parts_of(const SpriteGrid& whole) { columns_ = whole.columns_, rows_ = whole.rows_; }
 
     // Which kernel a light is drawn with (0…count()-1), and where it goes.
     struct Place {

@@ -1,5 +1,6 @@
 #include "engine/lights/sprites.h"
 
+#include "engine/lights/bright_points.h"
 #include "engine/lights/sprites_plan.h"
 
 #include <algorithm>
@@ -50,10 +51,17 @@ private:
     int cells_ = 0;
 };
 
-device::Work add_sprites(const Input& input, std::span<const Sprite> sprites, device::Target out,
+// of_frame: of the whole frame where `input` is a part of it. They decide how finely the lens is told apart.
+device::Work add_sprites(const Input& input, std::span<const Sprite> sprites,
+                         std::span<const Sprite> of_frame, device::Target out,
                          const std::string& light = {}) {
     if (sprites.empty()) return {};
-    const SpriteGrid grid(input, sprites);
+    SpriteGrid grid(input, sprites);
+    if (input.whole && input.lens(0).varies_over_field()) {
+        Input frame = *input.whole;
+        frame.lens_levels = input.lens_levels;
+        grid.take_parts_of(SpriteGrid(frame, of_frame));
+    }
     const LightsPlan plan = plan_sprites(input, sprites, grid);
     const device::Control control{*input.workers, *input.progress};
     const auto atlas =
@@ -70,9 +78,8 @@ std::vector<Sprite> sprites_of(std::span<const LightPoint> points, LightSpectrum
     return sprites;
 }
 
-}  // namespace
-
-device::Work draw_sprites(const Input& input, std::span<const Sprite> found, device::Target out) {
+// Those of the picture's own light, with what was found in it.
+std::vector<Sprite> sprites_of_daylight(const Input& input, std::span<const Sprite> found) {
     const auto is_of_lamp = [&](const LightPoint& p) {
         return std::any_of(input.lamps.begin(), input.lamps.end(),
                            [&](const LampLens& lamp) { return p.spectrum == lamp.light; });
@@ -80,12 +87,27 @@ device::Work draw_sprites(const Input& input, std::span<const Sprite> found, dev
     std::vector<Sprite> sprites(found.begin(), found.end());
     for (const LightPoint& p : input.points)
         if (!is_of_lamp(p)) AreaOfLight(p).add_to(sprites, p);
-    device::Work work = add_sprites(input, sprites, out);
+    return sprites;
+}
+
+// What is found in all of the frame, where a part of it must know.
+std::vector<Sprite> sprites_of_frame(const Input& input) {
+    if (!input.whole || !input.lens(0).varies_over_field()) return {};
+    return sprites_of_daylight(*input.whole, BrightPoints(*input.whole).sprites());
+}
+
+}  // namespace
+
+device::Work draw_sprites(const Input& input, std::span<const Sprite> found, device::Target out) {
+    const std::vector<Sprite> sprites = sprites_of_daylight(input, found);
+    device::Work work;
+    if (!sprites.empty()) work = add_sprites(input, sprites, sprites_of_frame(input), out);
     for (const LampLens& lamp : input.lamps) {
         Input lit = input;
         lit.lens_levels = lamp.levels;
-        work += add_sprites(lit, sprites_of(input.points, lamp.light), out,
-                            " of lamp " + std::to_string(int(lamp.light)));
+        work +=
+            add_sprites(lit, sprites_of(input.points, lamp.light), sprites_of(input.all().points, lamp.light),
+                        out, " of lamp " + std::to_string(int(lamp.light)));
     }
     return work;
 }
