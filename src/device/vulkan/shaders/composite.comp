@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
     uint held_rows, held_width, held_samples;    // row 0 of the holdout, its width; where samples begin
 } at;
 
-const int kSide = 16, kChunk = 256, kBorder = 2, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
+const int kSide = 16, kChunk = 256, kBorder = 2, kBlocks = 8, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
 const int kTilePixels = 64 * 64;
 const float kSpent = 0.002;
 
@@ -29,6 +29,7 @@ shared vec4 hit_shape[kChunk];  // tilt x, y; off the middle x, y
 shared int hit_x[kChunk], hit_y[kChunk];
 shared uint hit_corner[kChunk], hit_size[kChunk], hit_weights[kChunk];
 shared uint hit_words[kChunk / 32];
+shared uint hits_of_block[kBlocks * kChunk / 32];  // which of them touch a block
 shared uint any_free;
 
 struct Box { ivec2 low, high; };
@@ -65,14 +66,19 @@ vec4 sent(uint k, ivec2 cell) {
     return sum * hit_light[k];
 }
 
+// 8 x 4 pixels of the group's, one for each of 32 invocations that follow each other: as small a part as most
+// devices run in step looks at what touches it alone.
+ivec2 corner_of_block(uint block) { return ivec2(block % 2u, block / 2u) * ivec2(8, 4); }
+
 // Notes which arrivals from `first` on, `count` of them, touch the box; returns how many.
 uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
     const uint own = gl_LocalInvocationIndex;
     if (own < kChunk / 32) hit_words[own] = 0u;
+    if (own < kBlocks * kChunk / 32) hits_of_block[own] = 0u;
     barrier();
     bool hits = false;
     vec4 light, shape;
-    ivec2 place;
+    ivec2 place, low, high;
     uint record = 0u;
     float share = 1;
     if (own < count) {
@@ -84,8 +90,8 @@ uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
         shape = vec4(shapes.yzw, places.x);
         const ivec2 corner = place + halves(kernels[record]), size = halves(kernels[record + 1u]);
         // Neighbours of its cell may send as well.
-        const ivec2 low = corner + ivec2(min(sign(shape.zw), vec2(0)));
-        const ivec2 high = corner + size + ivec2(max(sign(shape.zw), vec2(0)));
+        low = corner + ivec2(min(sign(shape.zw), vec2(0)));
+        high = corner + size + ivec2(max(sign(shape.zw), vec2(0)));
         hits = all(lessThan(low, box.high)) && all(greaterThan(high, box.low)) && size.x > 0;
         if (hits) {
             if (at.shares != 0u) share = uintBitsToFloat(plan[at.shares + first + own]);
@@ -106,20 +112,32 @@ uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
         hit_x[rank] = place.x, hit_y[rank] = place.y;
         hit_corner[rank] = kernels[record], hit_size[rank] = kernels[record + 1u];
         hit_weights[rank] = kernels[record + 2u];
+        for (uint block = 0u; block < kBlocks; ++block) {
+            const ivec2 first = box.low + corner_of_block(block);
+            if (all(lessThan(low, first + ivec2(8, 4))) && all(greaterThan(high, first)))
+                atomicOr(hits_of_block[block * (kChunk / 32) + rank / 32u], 1u << (rank % 32u));
+        }
     }
     barrier();
     return all_hits;
 }
 
-// What a run sends to a cell: from every arrival whose number among the hits is `slice` of `slices`.
-vec4 gathered(uint run, uint sector, Box box, ivec2 cell, bool wanted, uint slice, uint slices) {
+// What a run sends to a cell: from every arrival whose number among the hits is `slice` of `slices`, or,
+// by_block, from all that touch the block of this invocation, which the cell lies in.
+vec4 gathered(uint run, uint sector, Box box, ivec2 cell, bool wanted, bool by_block, uint slice,
+              uint slices) {
     const uint word = at.runs + kRunWords * (run - at.first_run);
     const uint begin = plan[word] - at.first_arrival, end = plan[word + kRunWords] - at.first_arrival;
     const uint base = plan[word + 2u];
     vec4 sum = vec4(0);
     for (uint first = begin; first < end; first += kChunk) {
         const uint hits = find_hits(first, min(uint(kChunk), end - first), base, sector, box);
-        if (wanted)
+        if (wanted && by_block) {
+            const uint block = gl_LocalInvocationIndex / 32u * (kChunk / 32);
+            for (uint w = 0u; 32u * w < hits; ++w)
+                for (uint left = hits_of_block[block + w]; left != 0u; left &= left - 1u)
+                    sum += sent(32u * w + uint(findLSB(left)), cell);
+        } else if (wanted)
             for (uint k = slice; k < hits; k += slices) sum += sent(k, cell);
         barrier();
     }
@@ -166,7 +184,8 @@ vec4 arrived(uint run, uint sector, Box box, ivec2 pixel, bool inside) {
         cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
         wanted = own < slices * count;
     }
-    const vec4 part = gathered(run, sector, cells, cell, wanted, level > 0 ? own / count : 0u, slices);
+    const vec4 part =
+        gathered(run, sector, cells, cell, wanted, level == 0, level > 0 ? own / count : 0u, slices);
     if (level == 0) return part;
     hit_light[own] = part;
     barrier();
@@ -235,7 +254,7 @@ void main() {
     box.low = corner + kSide * ivec2(part % 4u, part / 4u);
     box.high = min(box.low + kSide, end);
     if (any(greaterThanEqual(box.low, end))) return;
-    const ivec2 pixel = box.low + ivec2(own % 16u, own / 16u);
+    const ivec2 pixel = box.low + corner_of_block(own / 32u) + ivec2(own % 8u, own / 8u % 4u);
     const bool inside = all(lessThan(pixel, box.high));
 
     vec4 sum = vec4(0), sum_of_more = vec4(0);
