@@ -179,6 +179,12 @@ def validate_lenses(*words):
     run(found[0], *words)
 
 
+def gpu_laws(*words):
+    """[--driver D] [--layer L] [SUITES]: every test that draws on a GPU, on each driver, under a validation layer"""
+    make("release")
+    run(sys.executable, "tools/gpu_laws.py", *words)
+
+
 def samples(*words):
     """[--docs]: the night through many lenses, in build/samples; --docs: small, into docs/pictures/samples"""
     if words not in ((), ("--docs",)):
@@ -189,7 +195,7 @@ def samples(*words):
 
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
-         "validate-lenses": validate_lenses, "samples": samples}
+         "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples}
 
 
 def help_text():

@@ -84,16 +84,24 @@ inline std::vector<std::string> device_names() {
 // realtime_test.cpp.)
 inline bool is_drawn_by_gpus(const std::string& engine) { return engine != "reference"; }
 
-// Keeps a device open from law to law: drivers take long to start.
-inline void keep_open(const std::string& device) {
-    static std::map<std::string, Session> kept;
-    if (device == "cpu" || kept.contains(device)) return;
-    SessionSettings settings;
-    settings.device = device;
-    const auto opened = kept.emplace(device, Session(settings))
-                            .first->second.defocus(flat(1, 1, {1, 1, 1, 1}, 1).job("scatter"));
-    EXPECT_TRUE(opened) << opened.error().message;
-}
+// Keeps devices open from law to law, as drivers take long to start, and lets go of them before the process
+// ends: by then a layer of Vulkan may have taken itself down.
+class KeptOpen : public testing::Environment {
+public:
+    void keep(const std::string& device) {
+        if (device == "cpu" || sessions_.contains(device)) return;
+        SessionSettings settings;
+        settings.device = device;
+        const auto opened = sessions_.emplace(device, Session(settings))
+                                .first->second.defocus(flat(1, 1, {1, 1, 1, 1}, 1).job("scatter"));
+        EXPECT_TRUE(opened) << opened.error().message;
+    }
+    void TearDown() override { sessions_.clear(); }
+
+private:
+    std::map<std::string, Session> sessions_;
+};
+inline auto& kept_open = dynamic_cast<KeptOpen&>(*testing::AddGlobalTestEnvironment(new KeptOpen));
 
 // What draws: an engine on a device.
 struct Drawer {
@@ -114,8 +122,14 @@ struct Drawer {
         return settings;
     }
     Result<DefocusReport> made(const DefocusJob& job) const {
-        keep_open(device);
+        kept_open.keep(device);
         return Session(session(job)).defocus(job);
+    }
+    // Of a frame in which nothing is blurred a draft is the picture that came, and the report says so.
+    static bool had_nothing_to_draw(const DefocusReport& report) {
+        return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& line) {
+            return line.find("had nothing to draw") != std::string::npos;
+        });
     }
     // The picture of a job; fails where it was not this engine and this device that drew it.
     Picture drawn(const DefocusJob& job) const {
@@ -123,7 +137,8 @@ struct Drawer {
         EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
         if (!report) return {};
         EXPECT_EQ(report->engine, engine);
-        EXPECT_TRUE(report->device.starts_with(device)) << "drawn by " << report->device;
+        EXPECT_TRUE(report->device.starts_with(device) || had_nothing_to_draw(*report))
+            << "drawn by " << report->device;
         return std::move(report->image);
     }
     friend void PrintTo(const Drawer& drawer, std::ostream* out) {

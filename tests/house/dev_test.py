@@ -70,7 +70,7 @@ class Door(unittest.TestCase):
     def test_help_names_every_verb(self):
         words = dev("help").stdout.split()
         for verb in ("demo", "build", "test", "path", "run", "bench", "format", "lint", "check", "golden",
-                     "validate-lenses"):
+                     "validate-lenses", "gpu-laws"):
             self.assertIn(verb, words)
 
 
