@@ -177,7 +177,7 @@ private:
 
     const Input& input_;
     const CocSamples* back_;
-    Sparse<Mixture> mixtures_;
+    Mixtures mixtures_;
     HiddenLayers hidden_;
     HiddenLamps lamps_;
     std::vector<std::size_t> first_of_row_;  // sample of each row; and the end

@@ -21,8 +21,7 @@ float rise(float value, float from, float to) { return std::clamp((value - from)
 
 class EdgeFinder {
 public:
-    EdgeFinder(const LitPicture& picture, View<const float> radii, const Sparse<Mixture>& mixtures,
-               float white)
+    EdgeFinder(const LitPicture& picture, View<const float> radii, const Mixtures& mixtures, float white)
         : picture_(picture), radii_(radii), mixtures_(mixtures), dark_(kDark * white) {}
 
     // The edge of a surface at coc_px that comes to (x, y), where something nearer begins.
@@ -97,7 +96,7 @@ private:
 
     const LitPicture& picture_;
     View<const float> radii_;
-    const Sparse<Mixture>& mixtures_;
+    const Mixtures& mixtures_;
     float dark_;
 };
 
@@ -118,8 +117,8 @@ void keep_strongest(std::vector<CutEdges::Edge>& edges) {
 
 }  // namespace
 
-CutEdges::CutEdges(const LitPicture& picture, View<const float> radii, const Sparse<Mixture>& mixtures,
-                   float white, Workers& workers) {
+CutEdges::CutEdges(const LitPicture& picture, View<const float> radii, const Mixtures& mixtures, float white,
+                   Workers& workers) {
     if (white <= 0) return;
     const EdgeFinder finder(picture, radii, mixtures, white);
     std::vector<std::vector<Edge>> rows(static_cast<std::size_t>(radii.height()));

@@ -15,8 +15,8 @@ class CutEdges {
 public:
     // radii_px: of what each pixel shows, as KnownSurfaces has them. white: what counts as bright,
     // scene-linear luminance; 0: no edge is looked for.
-    CutEdges(const LitPicture& picture, View<const float> radii_px, const Sparse<Mixture>& mixtures,
-             float white, Workers& workers);
+    CutEdges(const LitPicture& picture, View<const float> radii_px, const Mixtures& mixtures, float white,
+             Workers& workers);
 
     struct Point {
         int x, y;

@@ -29,9 +29,9 @@ struct Scene {
             }
         connected = connections(coc, one_thread());
     }
-    Sparse<Mixture> mixtures() const { return unmix_silhouettes({colour, {}}, coc, connected, one_thread()); }
+    Mixtures mixtures() const { return unmix_silhouettes({colour, {}}, coc, connected, one_thread()); }
     CutEdges edges(float white) const {
-        const Sparse<Mixture> mixed = mixtures();
+        const Mixtures mixed = mixtures();
         const LitPicture picture{colour, {}};
         const KnownSurfaces known(picture, coc, mixed, 0, one_thread());
         return {picture, known.radii(), mixed, white, one_thread()};
@@ -57,7 +57,7 @@ TEST(CutEdges, OtherSurfacesAndPlainOnesAreNotCut) {
 // Votes by distance alone let up to nine times the wall's light out, and keep less than half inside.
 TEST(CutEdges, AWindowEndsStraightBehindALeaf) {
     const Scene scene;
-    const Sparse<Mixture> mixed = scene.mixtures();
+    const Mixtures mixed = scene.mixtures();
     const HiddenLayers hidden = fill_hidden({scene.colour, {}}, scene.coc, scene.connected, mixed, kLeafPx,
                                             kWallPx, {}, 1, one_thread());
     const auto light = [&](int x, int y) { return luminance(hidden.at(x, y).front().colour); };

@@ -81,7 +81,7 @@ private:
 class Filler {
 public:
     Filler(const LitPicture& picture, View<const float> coc, View<const unsigned char> connected,
-           const Sparse<Mixture>& mixtures, float largest, float farthest, int directions, float white,
+           const Mixtures& mixtures, float largest, float farthest, int directions, float white,
            Workers& workers)
         : known_(picture, coc, mixtures, white, workers),
           coc_(coc),
@@ -320,7 +320,7 @@ private:
     KnownSurfaces known_;
     View<const float> coc_;
     View<const unsigned char> connected_;
-    const Sparse<Mixture>& mixtures_;
+    const Mixtures& mixtures_;
     Plane beyond_;  // see measure_distances
     struct Block {
         float farthest = -1e30f;  // known radius in it
@@ -375,55 +375,71 @@ private:
     std::vector<Answer> answers_;
 };
 
+// Rows of the picture that are filled one square after the other.
+struct Band {
+    const Filler& filler;
+    const Mixtures& mixtures;
+    View<const float> coc;
+    Rect rows;
+    float shared_from_px;
+    Image<Range> ranges;  // of its pixels in `hidden`
+    std::vector<Hidden> hidden;
+    Answers answers;
+
+    void fill_square(const Rect& square) {
+        answers.clear();
+        for (int y = square.y0; y < square.y1; ++y)
+            for (int x = square.x0; x < square.x1; ++x) {
+                const Mixture* m = mixtures.at(x, y);
+                if (m ? m->shows_far : !filler.may_hide(x, y)) continue;
+                Range& own = ranges(x, y - rows.y0);
+                if (const Range* known = answers.find(x, y, coc(x, y))) {
+                    own = *known;
+                    continue;
+                }
+                const std::size_t begin = hidden.size();
+                filler.fill(x, y, hidden);
+                own = range(begin, hidden.size());
+                if (own.count == 0) continue;  // its neighbours may lie closer to the silhouette
+                answers.add(x, y, coc(x, y), shared_square(std::span(hidden).subspan(begin), shared_from_px),
+                            own);
+            }
+    }
+};
+
 }  // namespace
 
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
-                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule,
-                         Workers& workers) {
+                         View<const unsigned char> connected, const Mixtures& mixtures, float nearest_coc_px,
+                         float farthest_coc_px, const FillRule& rule, Workers& workers) {
     return fill_hidden(picture, coc, connected, mixtures, nearest_coc_px, farthest_coc_px, rule, 0, workers);
 }
 
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
-                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule, float white,
-                         Workers& workers) {
+                         View<const unsigned char> connected, const Mixtures& mixtures, float nearest_coc_px,
+                         float farthest_coc_px, const FillRule& rule, float white, Workers& workers) {
     const int width = coc.width(), height = coc.height();
     HiddenLayers layers;
-    if (mixtures.values.empty()) return layers;
+    if (mixtures.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
     const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, rule.directions, white,
                         workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     layers.bands.resize(std::size_t(bands));
-    layers.ranges = Image<Range>::uninitialised(width, height);
-    Image<Range>& ranges = layers.ranges;
-    parallel_for(bands, workers, [&](int band) {
-        std::vector<Hidden>& here = layers.bands[std::size_t(band)];
-        Answers answers;
-        for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
-            const Rect square =
-                Rect{x0, band * kLargestSquare, x0 + kLargestSquare, (band + 1) * kLargestSquare}.intersected(
-                    coc.rect());
-            answers.clear();
-            for (int y = square.y0; y < square.y1; ++y)
-                for (int x = square.x0; x < square.x1; ++x) {
-                    const Mixture* m = mixtures.at(x, y);
-                    ranges(x, y) = {};
-                    if (m ? m->shows_far : !filler.may_hide(x, y)) continue;
-                    if (const Range* known = answers.find(x, y, coc(x, y))) {
-                        ranges(x, y) = *known;
-                        continue;
-                    }
-                    const std::size_t begin = here.size();
-                    filler.fill(x, y, here);
-                    ranges(x, y) = range(begin, here.size());
-                    if (here.size() == begin) continue;  // its neighbours may lie closer to the silhouette
-                    answers.add(x, y, coc(x, y),
-                                shared_square(std::span(here).subspan(begin), rule.shared_from_px),
-                                ranges(x, y));
-                }
-        }
+    layers.ranges = {width, height};
+    parallel_for(bands, workers, [&](int i) {
+        const Rect rows =
+            Rect{0, i * kLargestSquare, width, (i + 1) * kLargestSquare}.intersected(coc.rect());
+        Band band{filler, mixtures, coc, rows, rule.shared_from_px, Image<Range>(width, rows.height()),
+                  {},     {}};
+        for (int x = 0; x < width; x += kLargestSquare)
+            band.fill_square(Rect{x, rows.y0, x + kLargestSquare, rows.y1}.intersected(rows));
+        for (int y = rows.y0; y < rows.y1; ++y)
+            layers.ranges.find_row(y, [&](const auto& emit) {
+                for (int x = 0; x < width; ++x)
+                    if (const Range r = band.ranges(x, y - rows.y0); r.count > 0) emit(x, r);
+            });
+        layers.bands[std::size_t(i)].assign(band.hidden.begin(), band.hidden.end());  // no more room
     });
     return layers;
 }

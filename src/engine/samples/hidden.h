@@ -7,6 +7,7 @@
 
 #include "engine/samples/connectivity.h"
 #include "engine/samples/dim.h"
+#include "engine/samples/sparse_rows.h"
 #include "engine/samples/two_surfaces.h"
 
 #include <algorithm>
@@ -40,16 +41,7 @@ struct Mixture {
     float near_variance = 0, share_by_shape = 0;
 };
 
-// Sparse per-pixel values: `index` of each pixel into `values`, or -1.
-template <typename T>
-struct Sparse {
-    Image<int> index;
-    std::vector<T> values;
-    const T* at(int x, int y) const {
-        const int i = index(x, y);
-        return i < 0 ? nullptr : &values[std::size_t(i)];
-    }
-};
+using Mixtures = SparseRows<Mixture>;
 
 // How much is looked at to take a pixel of a silhouette apart.
 struct UnmixRule {
@@ -63,9 +55,8 @@ struct UnmixRule {
 // the pixel, and what it leaves unexplained is the farther surface's detail. Of those that show the nearer
 // surface hardly anything of the farther one is to be seen: it is filled in first, then unmix_nearer().
 // Light of lamps goes to one side whole: to that whose pixels nearby show more of it.
-Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
-                                  View<const unsigned char> connected, Workers& workers,
-                                  const UnmixRule& rule = {});
+Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc_px,
+                           View<const unsigned char> connected, Workers& workers, const UnmixRule& rule = {});
 
 // A sample behind the visible one that takes up `share` of its pixel; colour is premultiplied by that and by
 // its alpha.
@@ -83,17 +74,17 @@ struct HiddenLayers {
     struct Range {
         std::uint32_t begin : 30, count : 2;
     };
-    Image<Range> ranges;  // empty: nothing is hidden anywhere
+    SparseRows<Range> ranges;
     std::vector<std::vector<Hidden>> bands;
     std::span<const Hidden> at(int x, int y) const {
-        if (ranges.empty()) return {};
-        const Range range = ranges(x, y);
-        return {bands[std::size_t(y / kBand)].data() + range.begin, range.count};
+        const Range* const range = ranges.at(x, y);
+        if (!range) return {};
+        return {bands[std::size_t(y / kBand)].data() + range->begin, range->count};
     }
 };
 
 // Takes apart the pixels of silhouettes that show the nearer surface, before what is hidden behind them.
-void unmix_nearer(Sparse<Mixture>& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
+void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers);
 
 // Neighbours share what was found where it is blurred by shared_from_px or more: squares of 2, of 4 at twice,
@@ -110,7 +101,7 @@ struct FillRule {
 // fall with distance a little faster than those of the mean-value interpolant (M. Floater, "Mean value
 // coordinates", 2003), 1/distance: its power of 1.5 comes closer on the path-traced fence.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
-                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule, Workers& workers);
+                         View<const unsigned char> connected, const Mixtures& mixtures, float nearest_coc_px,
+                         float farthest_coc_px, const FillRule& rule, Workers& workers);
 
 }  // namespace petzval::engine

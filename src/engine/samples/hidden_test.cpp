@@ -21,7 +21,7 @@ Rgba grey(float v) { return {v, v, v, 1}; }
 struct Drawn {
     Picture colour{kWidth, kHeight}, behind{kWidth, kHeight};
     Plane coc{kWidth, kHeight};
-    Sparse<Mixture> mixtures;
+    Mixtures mixtures;
     HiddenLayers hidden;
 
     // The farther surface where it shows or is hidden: what the lens may see of it.

@@ -14,7 +14,7 @@ float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
 // 0 up to `from`, 1 at twice that.
 float above(float value, float from) { return std::clamp(value / from - 1, 0.0f, 1.0f); }
 
-Plane known_radii(View<const float> coc, const Sparse<Mixture>& mixtures, Workers& workers) {
+Plane known_radii(View<const float> coc, const Mixtures& mixtures, Workers& workers) {
     Plane radii = Plane::uninitialised(coc.width(), coc.height());
     parallel_for(coc.height(), workers, [&](int y) {
         for (int x = 0; x < coc.width(); ++x) {
@@ -27,8 +27,8 @@ Plane known_radii(View<const float> coc, const Sparse<Mixture>& mixtures, Worker
 
 }  // namespace
 
-KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc,
-                             const Sparse<Mixture>& mixtures, float white, Workers& workers)
+KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc, const Mixtures& mixtures,
+                             float white, Workers& workers)
     : picture_(picture),
       mixtures_(mixtures),
       radii_(known_radii(coc, mixtures, workers)),

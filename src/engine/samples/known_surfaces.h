@@ -22,8 +22,8 @@ class KnownSurfaces {
 public:
     // Borrows the picture and what was found at its silhouettes. white: what counts as bright, scene-linear
     // luminance (engine/samples/white.h); 0: nothing.
-    KnownSurfaces(const LitPicture& picture, View<const float> coc_px, const Sparse<Mixture>& mixtures,
-                  float white, Workers& workers);
+    KnownSurfaces(const LitPicture& picture, View<const float> coc_px, const Mixtures& mixtures, float white,
+                  Workers& workers);
 
     // Of what each pixel shows; far in front of everything where that is the nearer surface at a silhouette,
     // of which nothing is known.
@@ -59,7 +59,7 @@ private:
     Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise) const;
 
     const LitPicture& picture_;
-    const Sparse<Mixture>& mixtures_;
+    const Mixtures& mixtures_;
     Plane radii_;
     float white_;
     CutEdges edges_;
@@ -67,8 +67,7 @@ private:
 
 // fill_hidden() that continues what is bright by as much of it as shows.
 HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc_px,
-                         View<const unsigned char> connected, const Sparse<Mixture>& mixtures,
-                         float nearest_coc_px, float farthest_coc_px, const FillRule& rule, float white,
-                         Workers& workers);
+                         View<const unsigned char> connected, const Mixtures& mixtures, float nearest_coc_px,
+                         float farthest_coc_px, const FillRule& rule, float white, Workers& workers);
 
 }  // namespace petzval::engine

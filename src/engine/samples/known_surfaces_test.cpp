@@ -19,7 +19,7 @@ float light_behind(int columns_of_sign, float distance_px, float white = 1, int 
         for (int x = kEdge - columns_of_sign; x < kEdge - dark_columns; ++x)
             colour(x, y) = {kSign, 0.5f * kSign, kSign, 1};
     const Plane coc(kWidth, kHeight, 5);
-    const Sparse<Mixture> none{Image<int>(kWidth, kHeight, -1), {}};
+    const Mixtures none;
     const LitPicture picture{colour, {}};
     const KnownSurfaces known(picture, coc, none, white, one_thread());
     return luminance(known.going_on({kEdge - 1, kHeight / 2, 5}, kOutwards, distance_px));
@@ -33,7 +33,7 @@ float stripes_behind(float coc_px) {
     for (int y = 0; y < kHeight; ++y)
         for (int x = kEdge - 1; x >= 0; x -= 4) colour(x, y) = colour(x - 1, y) = 2 * colour(x, y);
     const Plane coc(kWidth, kHeight, coc_px);
-    const Sparse<Mixture> none{Image<int>(kWidth, kHeight, -1), {}};
+    const Mixtures none;
     const LitPicture picture{colour, {}};
     const KnownSurfaces known(picture, coc, none, 1, one_thread());
     return luminance(known.going_on({kEdge - 1, kHeight / 2, coc_px}, kOutwards, 4));

@@ -18,7 +18,7 @@ struct Pixel {
 // What lamps light of the farthest surface in a pixel, and what is nearer there.
 class LampLight {
 public:
-    LampLight(const LitPicture& picture, View<const float> coc, const Sparse<Mixture>& mixtures)
+    LampLight(const LitPicture& picture, View<const float> coc, const Mixtures& mixtures)
         : picture_(picture), coc_(coc), mixtures_(mixtures) {}
     bool contains(int x, int y) const { return coc_.rect().contains(x, y); }
     Rgba at(int x, int y) const {
@@ -53,7 +53,7 @@ public:
 private:
     const LitPicture& picture_;
     View<const float> coc_;
-    const Sparse<Mixture>& mixtures_;
+    const Mixtures& mixtures_;
 };
 
 // What shows of a lamp.
@@ -159,7 +159,7 @@ Rgba unhidden_light(const Mixture& m) {
     return m.far_light * (1 / std::max(kLeastSeen, 1 - m.near_share));
 }
 
-HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc, const Sparse<Mixture>& mixtures,
+HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc, const Mixtures& mixtures,
                          Workers& workers) {
     std::vector<std::vector<Pixel>> seeds(static_cast<std::size_t>(coc.height()));
     parallel_for(coc.height(), workers, [&](int y) {

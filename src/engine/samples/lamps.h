@@ -36,7 +36,7 @@ constexpr int kWidestLampPx = 32;
 // A lamp is taken to be as deep, across the edge that cuts it, as it is wide along that, and point-symmetric:
 // its other end is the mirror image of what shows of it. So it never holds more than twice the light that
 // shows, and fades as it slips behind the edge. `mixtures` as unmix_nearer() leaves them.
-HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc_px, const Sparse<Mixture>& mixtures,
+HiddenLamps lamps_behind(const LitPicture& picture, View<const float> coc_px, const Mixtures& mixtures,
                          Workers& workers);
 
 }  // namespace petzval::engine

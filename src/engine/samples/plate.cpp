@@ -14,7 +14,7 @@ constexpr float kOpaque = 1 - 1e-3f;
 struct Fronts {
     const LitPicture& picture;
     View<const float> coc_px;
-    const Sparse<Mixture>& mixtures;
+    const Mixtures& mixtures;
     const LitPicture& plate;
     View<const float> plate_px;
 
@@ -82,15 +82,15 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
     return back;
 }
 
-void unmix_before_plate(Sparse<Mixture>& mixtures, const LitPicture& picture, View<const float> coc_px,
+void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
                         const Input::Plate& plate, Workers& workers) {
     const LitPicture back{plate.colour, picture.dim_of};
     const Fronts front{picture, coc_px, mixtures, back, plate.coc_px};
     parallel_for(picture.colour.height(), workers, [&](int y) {
         for (int x = 0; x < picture.colour.width(); ++x) {
-            if (mixtures.index(x, y) < 0) continue;
-            Mixture& m = mixtures.values[std::size_t(mixtures.index(x, y))];
-            if (is_before_plate(m.far_coc_px, plate.coc_px(x, y))) continue;
+            Mixture* const at = mixtures.at(x, y);
+            if (!at || is_before_plate(at->far_coc_px, plate.coc_px(x, y))) continue;
+            Mixture& m = *at;
             m.far_light = {};
             if (const Rgba whole = picture.colour(x, y); whole.a < kOpaque) {  // nothing behind is mixed in
                 m.near_colour = whole, m.near_share = whole.a;

@@ -27,7 +27,7 @@ inline bool is_before_plate(float coc_px, float plate_px) {
 }
 
 // Takes those silhouettes apart anew behind which the plate lies, whose colour is known.
-void unmix_before_plate(Sparse<Mixture>& mixtures, const LitPicture& picture, View<const float> coc_px,
+void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
                         const Input::Plate& plate, Workers& workers);
 
 }  // namespace petzval::engine

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace petzval::engine {
@@ -17,35 +18,38 @@ template <typename T>
 class SparseRows {
 public:
     SparseRows() = default;  // no pixel has one
-    // Rows in parallel: find(y, emit) calls emit(x, value) of the pixels of row y that have one, from the
-    // left.
+    // To be found row by row.
+    SparseRows(int width, int height) : words_((width + 63) / 64, height), rows_(std::size_t(height)) {}
+    // Rows in parallel: find(y, emit) as of find_row().
     template <typename Find>
-    SparseRows(int width, int height, Workers& workers, const Find& find)
-        : words_((width + 63) / 64, height), rows_(std::size_t(height)) {
-        parallel_for(height, workers, [&](int y) {
-            std::vector<T> row;
-            Word* const words = words_.row(y);
-            find(y, [&](int x, const T& value) {
-                words[x / 64].has |= std::uint64_t(1) << (x % 64);
-                row.push_back(value);
-            });
-            for (int i = 1; i < words_.width(); ++i)
-                words[i].before = words[i - 1].before + std::uint32_t(std::popcount(words[i - 1].has));
-            rows_[std::size_t(y)].assign(row.begin(), row.end());  // no more room than that
-        });
+    SparseRows(int width, int height, Workers& workers, const Find& find) : SparseRows(width, height) {
+        parallel_for(height, workers, [&](int y) { find_row(y, [&](const auto& emit) { find(y, emit); }); });
         if (std::all_of(rows_.begin(), rows_.end(), [](const auto& row) { return row.empty(); }))
             words_ = {}, rows_ = {};
+    }
+    // find(emit) calls emit(x, value) of the pixels of row y that have one, from the left. Once a row.
+    template <typename Find>
+    void find_row(int y, const Find& find) {
+        std::vector<T> row;
+        Word* const words = words_.row(y);
+        find([&](int x, const T& value) {
+            words[x / 64].has |= std::uint64_t(1) << (x % 64);
+            row.push_back(value);
+        });
+        for (int i = 1; i < words_.width(); ++i)
+            words[i].before = words[i - 1].before + std::uint32_t(std::popcount(words[i - 1].has));
+        rows_[std::size_t(y)].assign(row.begin(), row.end());  // no more room than that
     }
 
     bool empty() const { return rows_.empty(); }
     const T* at(int x, int y) const {
         if (empty()) return nullptr;
         const Word& word = words_(x / 64, y);
-        const std::uint64_t from_own = word.has >> (x % 64);
-        if ((from_own & 1) == 0) return nullptr;
-        const int left = std::popcount(word.has) - std::popcount(from_own);
-        return &rows_[std::size_t(y)][word.before + std::uint32_t(left)];
+        const std::uint64_t own = std::uint64_t(1) << (x % 64);
+        if ((word.has & own) == 0) return nullptr;
+        return &rows_[std::size_t(y)][word.before + std::uint32_t(std::popcount(word.has & (own - 1)))];
     }
+    T* at(int x, int y) { return const_cast<T*>(std::as_const(*this).at(x, y)); }
     std::size_t bytes() const {
         std::size_t values = 0;
         for (const auto& row : rows_) values += row.size();

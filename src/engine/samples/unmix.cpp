@@ -194,45 +194,25 @@ Rgba composited(std::span<const Hidden> hidden) {
 
 }  // namespace
 
-Sparse<Mixture> unmix_silhouettes(const LitPicture& picture, View<const float> coc,
-                                  View<const unsigned char> connected, Workers& workers,
-                                  const UnmixRule& rule) {
+Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc,
+                           View<const unsigned char> connected, Workers& workers, const UnmixRule& rule) {
     const int width = coc.width(), height = coc.height();
     auto touching = Image<unsigned char>::uninitialised(width, height);
     parallel_for(height, workers, [&](int y) { find_touching(connected, y, touching); });
-    // Of each row, then one after the other.
-    std::vector<std::vector<Mixture>> rows(static_cast<std::size_t>(height));
-    Sparse<Mixture> mixtures{Image<int>::uninitialised(width, height), {}};
-    parallel_for(height, workers, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            mixtures.index(x, y) = touching(x, y) ? int(rows[std::size_t(y)].size()) : -1;
-            if (touching(x, y))
-                rows[std::size_t(y)].push_back(taken_apart(picture, coc, touching, x, y, rule));
-        }
-    });
-    std::vector<int> before{0};
-    for (const auto& row : rows) before.push_back(before.back() + int(row.size()));
-    mixtures.values.reserve(std::size_t(before.back()));
-    for (auto& row : rows) {
-        mixtures.values.insert(mixtures.values.end(), row.begin(), row.end());
-        row = {};
-    }
-    parallel_for(height, workers, [&](int y) {
-        if (before[std::size_t(y)] == before[std::size_t(y) + 1]) return;
-        for (int x = 0; x < width; ++x)
-            if (mixtures.index(x, y) >= 0) mixtures.index(x, y) += before[std::size_t(y)];
-    });
-    return mixtures;
+    return {width, height, workers, [&](int y, const auto& emit) {
+                for (int x = 0; x < width; ++x)
+                    if (touching(x, y)) emit(x, taken_apart(picture, coc, touching, x, y, rule));
+            }};
 }
 
-void unmix_nearer(Sparse<Mixture>& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
+void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
                   Workers& workers) {
     const View<const Rgba> colour = picture.colour;
     parallel_for(colour.height(), workers, [&](int y) {
         for (int x = 0; x < colour.width(); ++x) {
-            if (mixtures.index(x, y) < 0) continue;
-            Mixture& m = mixtures.values[std::size_t(mixtures.index(x, y))];
-            if (m.shows_far) continue;
+            Mixture* const at = mixtures.at(x, y);
+            if (!at || at->shows_far) continue;
+            Mixture& m = *at;
             if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
             const Rgba dim = picture.dim(x, y);
             m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape);

@@ -1,0 +1,35 @@
+#include "engine/samples/sparse_rows.h"
+
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kWidth = 200, kHeight = 3;  // no whole number of words
+
+bool has_one(int x, int y) { return y == 1 && (x % 7 == 3 || x == 63 || x == 64 || x == kWidth - 1); }
+
+TEST(SparseRows, GivesEachPixelItsOwn) {
+    SparseRows<int> rows(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        rows.find_row(y, [&](const auto& emit) {
+            for (int x = 0; x < kWidth; ++x)
+                if (has_one(x, y)) emit(x, x);
+        });
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            int* const value = rows.at(x, y);
+            ASSERT_EQ(value != nullptr, has_one(x, y)) << x << "," << y;
+            if (value) {
+                EXPECT_EQ((*value)++, x);
+            }
+        }
+    EXPECT_EQ(*std::as_const(rows).at(64, 1), 65);
+}
+
+TEST(SparseRows, OfNothingIsEmpty) { EXPECT_EQ(SparseRows<int>().at(5, 7), nullptr); }
+
+}  // namespace
+}  // namespace petzval::engine
