@@ -1,38 +1,32 @@
 #include "petzval/image.h"
 
-#include <array>
+#include <cstdint>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
 namespace petzval {
 namespace {
 
-TEST(View, RowsMayLieInMemoryFromTheBottomUp) {
-    std::array<float, 12> memory{9, 10, 11, -1, 6, 7,
-                                 8, -1, 3,  4,  5, -1};  // the last row first, padded to four
-    const View<float> view(&memory[8], 3, 3, -4);
-    for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x) EXPECT_EQ(view(x, y), float(3 * (y + 1) + x));
-    EXPECT_EQ(view.row(2)[1], 10);
-    EXPECT_EQ(view.clamped(-5, 8), 9);
-    const View<const float> corner = View<const float>(view).part({1, 1, 3, 3});
-    EXPECT_EQ(corner(0, 0), 7);
-    EXPECT_EQ(corner(1, 1), 11);
+TEST(AllocatePixels, GivesAlignedRoomOfAnySize) {
+    for (const std::size_t bytes : {1u, 64u, 4097u, 262080u, 262144u, 300001u, 4194304u, 5000001u}) {
+        auto* const first = static_cast<unsigned char*>(allocate_pixels(bytes));
+        auto* const second = static_cast<unsigned char*>(allocate_pixels(bytes));
+        EXPECT_EQ(reinterpret_cast<std::uintptr_t>(first) % 64, 0u) << bytes;
+        std::memset(first, 1, bytes);
+        std::memset(second, 2, bytes);
+        EXPECT_EQ(first[0], 1) << bytes;
+        EXPECT_EQ(first[bytes - 1], 1) << bytes;
+        free_pixels(first);
+        EXPECT_EQ(second[bytes - 1], 2) << bytes;
+        free_pixels(second);
+    }
+    free_pixels(nullptr);
 }
 
-TEST(ViewDeathTest, AccessOutsideStopsTheProgramWhereAssertionsAreOn) {
-#ifdef NDEBUG
-    GTEST_SKIP() << "they are off";
-#else
-    const Plane plane(4, 3);
-    const View<const float> view = plane;
-    EXPECT_DEATH(static_cast<void>(view(4, 0)), "contains");
-    EXPECT_DEATH(static_cast<void>(view(0, -1)), "contains");
-    EXPECT_DEATH(static_cast<void>(view.row(3)), "height_");
-    EXPECT_DEATH(static_cast<void>(view.part({2, 0, 5, 1})), "rect");
-    EXPECT_DEATH(static_cast<void>(plane(0, 3)), "height_");
-    EXPECT_DEATH(static_cast<void>(plane(-1, 0)), "width_");
-#endif
+TEST(AllocatePixels, WhatNobodyHasIsRefused) {
+    EXPECT_THROW(allocate_pixels(SIZE_MAX - 100), std::bad_alloc);
+    EXPECT_THROW(allocate_pixels(SIZE_MAX / 2), std::bad_alloc);
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ private:
 
 // Rows of cells of one level, as a band leaves them.
 struct Rows {
-    std::vector<Source> sources;
+    BigVector<Source> sources;
     std::vector<std::uint32_t> ends;  // of each row
     void end_row() { ends.push_back(std::uint32_t(sources.size())); }
 };
@@ -240,7 +240,7 @@ public:
         const int coarsest = int(levels.size()) - 1;
         for (int l = 1; l <= coarsest; ++l)
             cells_[std::size_t(l)].resize(std::size_t(cells_across(coarsest)) << (coarsest - l));
-        for (int l = 0; l <= coarsest; ++l)  // mostly one of a cell
+        for (int l = 0; l <= coarsest; ++l)  // mostly one of a cell; room that is not used takes no memory
             rows_[std::size_t(l)].sources.reserve(std::size_t(cells_across(l)) *
                                                   std::size_t(((rows - 1) >> l) + 1));
         for (int l = kWideLevel; l <= coarsest; ++l)
@@ -271,10 +271,7 @@ public:
             end_row(l, y >> l);
         }
     }
-    std::vector<Rows> take() {
-        for (Rows& rows : rows_) rows.sources.shrink_to_fit();
-        return std::move(rows_);
-    }
+    std::vector<Rows> take() { return std::move(rows_); }
 
 private:
     int cells_across(int level) const { return ((width_ - 1) >> level) + 1; }
