@@ -50,7 +50,7 @@ Fine fine(ivec2 pixel, vec4 sharp, float radius, float widest_px) {
     return sum;
 }
 
-// Between the four cells around it, those that are as blurred as the pixel before others.
+// Between the four cells around it, near focus those that are as blurred as the pixel before others.
 vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 - 0.5;
     const ivec2 low = ivec2(floor(place)), last = 8 * at.tiles - 1;
@@ -61,7 +61,10 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
         const ivec2 d = ivec2(i & 1, i >> 1), cell = clamp(low + d, ivec2(0), last);
         const vec4 area = texelFetch(gathered, ivec3(cell, kGatheredArea), 0);
         const vec2 near_it = mix(1 - share, share, vec2(d));
-        const float alike = radius > 0 ? exp2(-4 * abs(area.y - gathered_radius(radius)) / (1 + 0.5 * radius)) : 1.0;
+        const float own = gathered_radius(radius);
+        float alike = radius > 0 ? exp2(-4 * abs(area.y - own) / (1 + 0.5 * radius)) : 1.0;
+        // Where neither is nearly sharp, both know what is seen between them.
+        alike = mix(alike, 1.0, smoothstep(1.0, 2.5, min(own, area.y)));
         const float w = near_it.x * near_it.y * area.z * max(alike, 1e-4);
         sum += w * texelFetch(gathered, ivec3(cell, kGatheredBack), 0);
         weights += w;

@@ -67,22 +67,43 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     return area > 1e-6 ? light / area : vec4(0);
 }
 
-// Of a cell with something in it: what lies behind is seen through this cell's own disc.
-vec4 back_of(vec2 middle, vec4 own_light, vec2 own) {
-    const float own_px = own.y / own.x, radius = max(own_px, 1.0), level = level_of(radius);
-    if (own_px < 0.5) return own_light / own.x;
+// The mean radius of what is behind focus in a cell.
+float back_radius(vec4 back) { return back.y / max(back.w, 1e-7); }
+
+// What taps over a disc say of what is about as blurred as a cell of `own_px`, or else of what is far less blurred; the
+// largest radius of that.
+const float kLessBlurred = 0.4, kAsBlurred = 0.7;  // of the cell's radius
+vec4 back_over(vec2 middle, float radius, float own_px, bool is_less, out float less_px, out float area) {
+    const float level = level_of(radius);
     vec4 light = vec4(0);
-    float area = 0;
+    area = less_px = 0;
     for (int i = 0; i < kTaps; ++i) {
         const vec2 tap = lens[i].xy;
-        const vec2 there = textureLod(cells, place_of(middle, tap, radius, kBack), level).xy;
+        const vec4 there = textureLod(cells, place_of(middle, tap, radius, kBack), level);
         if (there.x == 0) continue;
-        const float share = clamp(there.y / there.x, 0.5, radius) / radius;
-        const vec4 w = norm(share).y * shape(kFarShape, tap, share);
+        const float reaches = back_radius(there), alike = smoothstep(kLessBlurred, kAsBlurred, reaches / own_px);
+        if (alike < 1 && there.x > 0.01) less_px = max(less_px, reaches);
+        const float share = clamp(reaches, 0.5, radius) / radius;
+        const vec4 w = (is_less ? 1 - alike : alike) * norm(share).y * shape(kFarShape, tap, share);
+        if (w.a == 0) continue;
         light += w * textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
         area += w.a * there.x;
     }
-    return area > 0 ? light / area : own_light / own.x;
+    return light;
+}
+// Of a cell with something in it: what lies behind is seen through this cell's own disc. What is far less blurred has but
+// a few taps of that in its own disc: it is gathered again, over as much as it reaches, and lies on top.
+vec4 back_of(vec2 middle, vec4 own_light, vec4 own) {
+    const float own_px = back_radius(own), radius = max(own_px, 1.0);
+    if (own_px < 0.5) return own_light / own.x;
+    float less_px, area, none, on_top;
+    vec4 light = back_over(middle, radius, radius, false, less_px, area);
+    light = area > 0 ? light / area : own_light / own.x;
+    if (less_px > 0) {
+        const vec4 top = back_over(middle, max(less_px, 1.0), radius, true, none, on_top);
+        light = on_top < 1 ? top + (1 - on_top) * light : top / on_top;
+    }
+    return light;
 }
 
 vec4 near_of(vec2 middle, float radius, out float area) {
@@ -105,12 +126,12 @@ void main() {
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), tile = ivec2(gl_WorkGroupID.xy);
     const float near_px = reach[tile.y * at.tiles.x + tile.x].x;
     const vec2 middle = vec2(cell) + 0.5;
-    const vec3 own = texelFetch(cells, ivec3(cell, kBack), 0).xyz;
+    const vec4 own = texelFetch(cells, ivec3(cell, kBack), 0);
     const bool has = own.z > 0.02;
     float is_known = 1, area = 0;
     vec4 back;
     if (has) {
-        back = back_of(middle, texelFetch(cells, ivec3(cell, kBackLight), 0), own.xy);
+        back = back_of(middle, texelFetch(cells, ivec3(cell, kBackLight), 0), own);
     } else {
         const vec2 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xy;
         back = hidden_of(middle, own_near.y / own_near.x, max(near_px, 1.0), is_known);
@@ -119,6 +140,6 @@ void main() {
     if (near_px > 0.5) near = near_of(middle, max(near_px, 1.0), area);
     imageStore(gathered, ivec3(cell, kGatheredBack), back);
     imageStore(gathered, ivec3(cell, kGatheredNear), near);
-    const float own_px = has ? own.y / own.x : 0.0;
+    const float own_px = has ? back_radius(own) : 0.0;
     imageStore(gathered, ivec3(cell, kGatheredArea), vec4(area, own_px, is_known, own.x));
 }

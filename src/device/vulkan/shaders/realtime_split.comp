@@ -92,7 +92,7 @@ void main() {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
     vec4 near_light = vec4(0), back_light = vec4(0);
-    float near_area = 0, near_radius = 0, back_area = 0, back_weight = 0, back_radius = 0;
+    float near_area = 0, near_radius = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
     vec2 range = vec2(1e9, -1e9), lamp_place = vec2(0);
     vec4 lamp = vec4(0), own_radii;
     for (int i = 0; i < 4; ++i) {
@@ -113,11 +113,13 @@ void main() {
         // What is in focus is hardly in it, or it would be gathered where a tap falls between two cells.
         const float weight = back * mix(1e-3, 1.0, smoothstep(0.5, 1.5, radius));
         back_light += weight * light, back_area += back, back_weight += weight;
-        back_radius += weight * (radius > 0.5 ? gathered_radius(radius) : 0.0);
+        // Emptiness has the radius of what is beside it, or that would be blurred by the radius of emptiness.
+        const float counts = weight * clamp(light.a, 1e-3, 1.0);
+        back_counts += counts, back_radius += counts * (radius > 0.5 ? gathered_radius(radius) : 0.0);
     }
     keep_lamp(cell, lamp, lamp_place);
     part[kBackLight][own] = back_light;
-    part[kBack][own] = vec4(back_weight, back_radius, back_area, 0);
+    part[kBack][own] = vec4(back_weight, back_radius, back_area, back_counts);
     part[kNearLight][own] = near_light;
     part[kNear][own] = vec4(near_area, near_radius, 0, 0);
     radii[own] = range;
