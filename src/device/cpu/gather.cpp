@@ -21,6 +21,7 @@ using engine::kGatherRows;
 using engine::OpenEdges;
 
 constexpr int kPlanes = 6;
+constexpr float kLeastArea = 1e-6f;  // what covers less covers nothing
 enum PlaneName { kRed, kGreen, kBlue, kCovered, kAlpha, kBeyond };
 
 // Planes side by side in one block of memory that is kept from tile to tile.
@@ -54,6 +55,22 @@ struct Arrival {
     float covered, beyond;
 };
 
+// Light that arrives with `area` of n cells' lenses takes that of each, or what is still free; scale: what
+// its sums are multiplied by for that. Light that covers nothing is seen through whatever part is still free.
+void take_area(int n, const float* area, const float* covered, float* free, float* scale) {
+    for (int x = 0; x < n; ++x) {
+        const bool covers = covered[x] > kLeastArea;
+        const float least = std::min(area[x], free[x]), taken = covers ? least : 0.0f;
+        const float share = taken / (covers ? covered[x] : 1.0f);
+        scale[x] = covers ? share : free[x];
+        free[x] -= taken;
+    }
+}
+
+void add_scaled(int n, const float* scale, const float* light, float* sum) {
+    for (int x = 0; x < n; ++x) sum[x] += scale[x] * light[x];
+}
+
 // What has been combined so far, per cell: light, and the part of the lens that is still free.
 struct Combined {
     Planes planes;  // red, green, blue, alpha, free
@@ -71,6 +88,9 @@ struct Workspace {
     std::vector<int> zones;  // of a turn's arrivals, each once
     Planes window, gathered, of_zone;
     Combined cells, tile;
+    Planes lines;                 // of a row of the tile, for a moment: what is combined, areas, scales
+    std::vector<int> cell_of;     // of a tile's columns: the cell before the middle of each
+    std::vector<float> right_of;  // and how far beyond its middle that lies, in cells
 };
 
 class TileGather {
@@ -104,12 +124,16 @@ private:
             return;
         Combined& into = level == 0 ? w_.tile : w_.cells;
         if (level > 0) into.reset(target_.width(), target_.height());
+        Rect lit{target_.width(), target_.height(), 0, 0};
         for (int turn = begin; turn < end; ++turn) {
             if (w_.arrivals[std::size_t(turn)].empty()) continue;
             gather_turn(turn);
+            if (reached_.empty()) continue;
+            lit = {std::min(lit.x0, reached_.x0), std::min(lit.y0, reached_.y0),
+                   std::max(lit.x1, reached_.x1), std::max(lit.y1, reached_.y1)};
             take(into);
         }
-        if (level > 0) enlarge(level);
+        if (level > 0 && !lit.empty()) enlarge(level, lit);
     }
 
     // What goes on beyond the picture is spread as the border that it repeats.
@@ -150,12 +174,14 @@ private:
 
     void find_in_picture(int begin, int end) {
         const int width = plan_.strip.width(), height = plan_.strip.height();
+        const float largest_px = plan_.sizes.light_of(0).below_px;
         for (int y = window_.y0; y < window_.y1; ++y)
             for (int x = window_.x0; x < window_.x1; ++x) {
                 const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
                 const bool outside = u != x || v != y, on = !outside || goes_on(x, y, width, height);
                 engine::for_each_sample(plan_.strip, plan_.guessed, u, v,
                                         [&](Rgba colour, float coc_px, float covered, bool hidden) {
+                                            if (std::abs(coc_px) > largest_px) return;
                                             plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
                                                 if (turn < begin || turn >= end) return;
                                                 arrive(turn, x, y, outside ? Rgba{} : share * colour,
@@ -271,62 +297,66 @@ private:
 
     // Of each cell's lens, the area that the turn's light arrives with, or what is left.
     void take(Combined& into) {
+        const int n = reached_.width();
+        w_.lines.shape(2, n, 1);
+        float *areas = w_.lines.plane(0), *scale = w_.lines.plane(1);
         for (int y = reached_.y0; y < reached_.y1; ++y) {
-            const float *covered = w_.gathered.row(kCovered, y), *beyond = w_.gathered.row(kBeyond, y);
-            const float* light[4] = {w_.gathered.row(kRed, y), w_.gathered.row(kGreen, y),
-                                     w_.gathered.row(kBlue, y),
-                                     w_.gathered.row(plan_.opaque ? kCovered : kAlpha, y)};
-            float* const sum[4] = {into.planes.row(0, y), into.planes.row(1, y), into.planes.row(2, y),
-                                   into.planes.row(3, y)};
-            float* free = into.planes.row(Combined::kFree, y);
-            for (int x = reached_.x0; x < reached_.x1; ++x) {
-                const float area = covered[x] + (has_beyond_ ? beyond[x] : 0);
-                // Light that covers nothing is seen through whatever part is still free.
-                const bool covers = covered[x] > kLeastArea;
-                const float taken = covers ? std::min(area, free[x]) : 0;
-                const float share = covers ? taken / covered[x] : free[x];
-                for (int k = 0; k < 4; ++k) sum[k][x] += share * light[k][x];
-                free[x] -= taken;
+            const auto gathered = [&](int k) { return w_.gathered.row(k, y) + reached_.x0; };
+            const auto combined = [&](int k) { return into.planes.row(k, y) + reached_.x0; };
+            const float *covered = gathered(kCovered), *area = covered;
+            if (has_beyond_) {
+                const float* const beyond = gathered(kBeyond);
+                for (int x = 0; x < n; ++x) areas[x] = covered[x] + beyond[x];
+                area = areas;
             }
+            take_area(n, area, covered, combined(Combined::kFree), scale);
+            for (int k = 0; k < 3; ++k) add_scaled(n, scale, gathered(k), combined(k));
+            add_scaled(n, scale, gathered(plan_.opaque ? kCovered : kAlpha), combined(Combined::kSumAlpha));
         }
         reached_ = {};
     }
 
-    // What a coarse group combined to takes its part of the tile's pixels.
-    void enlarge(int level) {
+    // What a coarse group combined to takes its part of the tile's pixels, where cells around these are lit.
+    void enlarge(int level, const Rect& lit) {
         const float per_cell = 1 / float(1 << level);
-        std::array<std::vector<float>, Combined::kCount> line;
-        for (auto& values : line) values.resize(std::size_t(target_.width()));
+        w_.cell_of.clear(), w_.right_of.clear();
+        for (int x = 0; x < tile_.width(); ++x) {
+            const float at = (float(tile_.x0 + x) + 0.5f) * per_cell - 0.5f - float(target_.x0);
+            w_.cell_of.push_back(int(at)), w_.right_of.push_back(at - float(int(at)));
+        }
+        const auto first_from = [&](int cell) {
+            return int(std::lower_bound(w_.cell_of.begin(), w_.cell_of.end(), cell) - w_.cell_of.begin());
+        };
+        const int x0 = first_from(lit.x0 - 1), x1 = first_from(lit.x1);
+        if (x0 == x1) return;
+        w_.lines.shape(Combined::kCount + 3, std::max(tile_.width(), target_.width()), 1);
         for (int y = 0; y < tile_.height(); ++y) {
             const float at_y = (float(tile_.y0 + y) + 0.5f) * per_cell - 0.5f - float(target_.y0);
             const int row = int(at_y);
-            const float below = at_y - float(row);
-            for (int k = 0; k < Combined::kCount; ++k) {
-                const float *a = w_.cells.planes.row(k, row), *b = w_.cells.planes.row(k, row + 1);
-                for (int x = 0; x < target_.width(); ++x)
-                    line[std::size_t(k)][std::size_t(x)] = a[x] + below * (b[x] - a[x]);
-            }
-            enlarge_row(line, y, per_cell);
+            if (row >= lit.y0 - 1 && row < lit.y1) enlarge_row(y, row, at_y - float(row), x0, x1);
         }
     }
 
-    void enlarge_row(const std::array<std::vector<float>, Combined::kCount>& line, int y, float per_cell) {
-        float* free = w_.tile.planes.row(Combined::kFree, y);
-        for (int x = 0; x < tile_.width(); ++x) {
-            const float at = (float(tile_.x0 + x) + 0.5f) * per_cell - 0.5f - float(target_.x0);
-            const std::size_t i = std::size_t(at);
-            const float right = at - float(i);
-            const auto value = [&](int k) {
-                const std::vector<float>& values = line[std::size_t(k)];
-                return values[i] + right * (values[i + 1] - values[i]);
-            };
-            const float area = 1 - value(Combined::kFree);
-            const bool covers = area > kLeastArea;
-            const float taken = covers ? std::min(area, free[x]) : 0;
-            const float share = covers ? taken / area : free[x];
-            for (int k = 0; k < 4; ++k) w_.tile.planes.row(k, y)[x] += share * value(k);
-            free[x] -= taken;
+    // Pixels x0…x1-1 of row y, which lies `below` beyond the middle of a row of cells.
+    void enlarge_row(int y, int row, float below, int x0, int x1) {
+        const int n = x1 - x0, first = w_.cell_of[std::size_t(x0)],
+                  last = w_.cell_of[std::size_t(x1 - 1)] + 1;
+        const int* cell = w_.cell_of.data() + x0;
+        const float* right = w_.right_of.data() + x0;
+        float *line = w_.lines.plane(Combined::kCount), *area = w_.lines.plane(Combined::kCount + 1),
+              *scale = w_.lines.plane(Combined::kCount + 2);
+        for (int k = 0; k < Combined::kCount; ++k) {
+            const float *a = w_.cells.planes.row(k, row), *b = w_.cells.planes.row(k, row + 1);
+            for (int x = first; x <= last; ++x) line[x] = a[x] + below * (b[x] - a[x]);
+            float* const value = w_.lines.plane(k);
+            for (int x = 0; x < n; ++x)
+                value[x] = line[cell[x]] + right[x] * (line[cell[x] + 1] - line[cell[x]]);
         }
+        const float* const free = w_.lines.plane(Combined::kFree);
+        for (int x = 0; x < n; ++x) area[x] = 1 - free[x];
+        take_area(n, area, area, w_.tile.planes.row(Combined::kFree, y) + x0, scale);
+        for (int k = 0; k < Combined::kFree; ++k)
+            add_scaled(n, scale, w_.lines.plane(k), w_.tile.planes.row(k, y) + x0);
     }
 
     void write(View<Rgba> out) {
@@ -341,8 +371,6 @@ private:
             }
         }
     }
-
-    static constexpr float kLeastArea = 1e-6f;
 
     const GatherPlan& plan_;
     const TapAtlas& atlas_;

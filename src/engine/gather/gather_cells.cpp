@@ -34,6 +34,7 @@ public:
         for (int cx = 0; cx < across_.cells(); ++cx) {
             const std::size_t begin = lights.size();
             first.push_back(begin);
+            if (first_[std::size_t(across_.begin(cx))] == first_[std::size_t(across_.end(cx))]) continue;
             for (int x = across_.begin(cx); x < across_.end(cx); ++x) {
                 const float share = across_.share(x, cx);
                 for (std::size_t i = first_[std::size_t(x)]; i < first_[std::size_t(x) + 1]; ++i) {
@@ -48,12 +49,36 @@ public:
 
 private:
     void find_columns(int cy) {
-        for (int x = 0; x < across_.end(across_.cells() - 1); ++x) {
+        const int columns = across_.end(across_.cells() - 1);
+        find_lit(columns, cy);
+        first_.reserve(std::size_t(columns) + 1);
+        for (int x = 0; x < columns; ++x) {
             const std::size_t begin = lights_.size();
             first_.push_back(begin);
+            if (!is_lit_[std::size_t(x)]) continue;
             for (int y = down_.begin(cy); y < down_.end(cy); ++y) add_pixel(x, y, down_.share(y, cy), begin);
         }
         first_.push_back(lights_.size());
+    }
+
+    // Which columns have light of this level at all: most have not.
+    void find_lit(int columns, int cy) {
+        const int width = input_.width();
+        is_lit_.assign(std::size_t(columns), input_.deep.empty() ? 0 : 1);
+        if (!input_.deep.empty()) return;
+        const float above_px = may_hold_.above_px, below_px = may_hold_.below_px;
+        const auto note = [&](int x, float coc_px) { is_lit_[std::size_t(x)] |= may_hold_.contains(coc_px); };
+        for (int y = down_.begin(cy); y < std::min(down_.end(cy), input_.height()); ++y) {
+            const float* const coc_px = input_.coc_px.row(y);
+            unsigned char* const is_lit = is_lit_.data();
+            for (int x = 0; x < width; ++x) {
+                const float size_px = std::abs(coc_px[x]);
+                is_lit[x] |= (unsigned char)((size_px > above_px) & (size_px < below_px));
+            }
+            guessed_.rims.for_each_in_row(y, [&](int x, const Rim& rim) { note(x, rim.near_coc_px); });
+            guessed_.fill.for_each_in_row(y, [&](int x, const FilledIn& fill) { note(x, fill.coc_px); });
+        }
+        std::fill(is_lit_.begin() + width, is_lit_.end(), is_lit_[std::size_t(width) - 1]);
     }
 
     // Beyond the picture its border goes on, in a colour that is not known; or there is nothing.
@@ -77,7 +102,8 @@ private:
     const RingSizes& sizes_;
     const CellAxis &across_, &down_;
     RingSizes::Sizes may_hold_;
-    std::vector<std::size_t> first_;  // of each column of pixels
+    std::vector<unsigned char> is_lit_;  // by column of pixels
+    std::vector<std::size_t> first_;     // of each column of pixels
     std::vector<CellLight> lights_;
 };
 

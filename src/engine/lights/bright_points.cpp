@@ -18,7 +18,7 @@ Rgba with_light(Rgba light, float alpha) { return {light.r, light.g, light.b, al
 // Of light at this place and radius, what is no bright point.
 float share_that_stays(const HighlightSplit& split, int x, int y, float coc_px, Rgba light) {
     const float brightness = luminance(light);
-    if (std::abs(coc_px) <= kWithinPixelPx || brightness <= 0) return 1;
+    if (std::abs(coc_px) <= kWithinPixelPx || brightness <= 0 || split.is_dim(brightness, light.a)) return 1;
     return luminance(split.base(x, y, coc_px, light)) / brightness;
 }
 

@@ -9,7 +9,6 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kLeastAlpha = 1e-4f;
 constexpr float kDark = 1e-3f;  // keeps reciprocals finite; far below anything that is compared with it
 constexpr int kNarrowReach = 1, kWideReach = 3;  // cells on either side: 12 and 28 pixels
 
@@ -129,8 +128,7 @@ float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
     const float brightness = luminance(light);
     if (light.a <= kLeastAlpha) return {0, 0, 0, light.a};
-    if (std::abs(coc_px) > kWidestHighlightPx) return light;
-    if (brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * light.a) return light;
+    if (std::abs(coc_px) > kWidestHighlightPx || is_dim(brightness, light.a)) return light;
     const float surroundings = surroundings_(x / kCell, y / kCell);
     const bool outermost = x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1;
     const float bound =
@@ -198,7 +196,7 @@ public:
                 const Cell& c = cell(x, y);
                 if (!c.lit || c.taken.colour == Rgba{}) continue;
                 if (split.may_stay(x_ + x, first_row_ + y_ + y, c.coc_px, luminance(c.taken.colour)) &&
-                    samples.samples[c.taken.sample].colour.a > kLeastAlpha)
+                    samples.samples[c.taken.sample].colour.a > HighlightSplit::kLeastAlpha)
                     samples.samples[c.taken.sample].colour += c.taken.colour;
                 else
                     out.push_back({x_ + x, y_ + y, 1, c.coc_px, c.taken.leaves * c.taken.colour});

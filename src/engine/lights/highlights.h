@@ -5,6 +5,7 @@
 
 #include "engine/waist/engine.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace petzval::engine {
@@ -53,6 +54,7 @@ float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int
 // lamps hardly raise them, surfaces do. Light without alpha (additive glow) is taken out whole.
 class HighlightSplit {
 public:
+    static constexpr float kLeastAlpha = 1e-4f;  // what has less is light without alpha
     // Of the input's picture, which must last as long, by the nearest radius of each of its pixels; white is
     // that of the whole frame.
     HighlightSplit(const Input& input, const HighlightRule& rule);
@@ -66,6 +68,11 @@ public:
     // Up to this luminance, times its coverage, dim() leaves light as it is.
     float least_of_lamps() const { return white_ * rule_.lamp_floor; }
     float white() const { return white_; }
+    // Light of a surface that base() leaves as it is wherever it is.
+    bool is_dim(float brightness, float alpha) const {
+        return alpha > kLeastAlpha &&
+               brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * alpha;
+    }
     const HighlightRule& rule() const { return rule_; }
     // Whether light so bright, left over at this place and radius, may stay whatever surrounds it.
     bool may_stay(int x, int y, float coc_px, float brightness) const {

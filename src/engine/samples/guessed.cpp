@@ -84,6 +84,7 @@ struct Seen {
 class Votes {
 public:
     explicit Votes(Fill fill) : fill_(fill) {}
+    void clear() { count_ = 0, all_ = 0; }
     void add(const Seen& seen, float weight) {
         votes_[std::size_t(count_++)] = {seen, weight};
         all_ += weight;
@@ -230,10 +231,11 @@ public:
     PixelFill(const Input& input, View<const Touched> touched)
         : input_(input), judged_(input.judged()), touched_(touched), blocks_(input) {}
 
-    std::optional<FilledIn> at(int x, int y) const {
+    // votes: room for them.
+    std::optional<FilledIn> at(int x, int y, Votes& votes) const {
         const float own = input_.coc_px(x, y);
         if (own > -kBlurredPx) return std::nullopt;
-        Votes votes(input_.fill);
+        votes.clear();
         blocks_.vote(x, y, own, votes);
         if (votes.empty()) return std::nullopt;
         if (blocks_.is_by_edge(x, y))
@@ -294,8 +296,9 @@ HiddenFill fill_hidden(const Input& input, View<const Touched> touched) {
     if (nearest > -kBlurredPx || farthest < nearest + 1) return {};
     const PixelFill pixels(input, touched);
     return HiddenFill(input.width(), input.height(), *input.workers, [&](int y, const auto& emit) {
+        Votes votes(input.fill);
         for (int x = 0; x < input.width(); ++x)
-            if (const auto hidden = pixels.at(x, y)) emit(x, *hidden);
+            if (const auto hidden = pixels.at(x, y, votes)) emit(x, *hidden);
     });
 }
 

@@ -50,6 +50,15 @@ public:
         return &rows_[std::size_t(y)][word.before + std::uint32_t(std::popcount(word.has & (own - 1)))];
     }
     T* at(int x, int y) { return const_cast<T*>(std::as_const(*this).at(x, y)); }
+    // The values of a row from the left, as visit(x, value).
+    template <typename Visit>
+    void for_each_in_row(int y, const Visit& visit) const {
+        if (empty()) return;
+        const T* value = rows_[std::size_t(y)].data();
+        for (int i = 0; i < words_.width(); ++i)
+            for (std::uint64_t has = words_(i, y).has; has != 0; has &= has - 1)
+                visit(64 * i + std::countr_zero(has), *value++);
+    }
     std::size_t bytes() const {
         std::size_t values = 0;
         for (const auto& row : rows_) values += row.size();
