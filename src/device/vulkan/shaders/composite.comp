@@ -70,6 +70,15 @@ vec4 sent(uint k, ivec2 cell) {
 // devices run in step looks at what touches it alone.
 ivec2 corner_of_block(uint block) { return ivec2(block % 2u, block / 2u) * ivec2(8, 4); }
 
+bool meet(Box a, Box b) { return all(lessThan(a.low, b.high)) && all(greaterThan(a.high, b.low)); }
+
+// Where an arrival lands; neighbours of its cell may send as well.
+Box reach(ivec2 place, vec4 shape, uint record) {
+    const ivec2 corner = place + halves(kernels[record]), size = halves(kernels[record + 1u]);
+    const vec2 to = sign(shape.zw);
+    return Box(corner + ivec2(min(to, vec2(0))), corner + size + ivec2(max(to, vec2(0))));
+}
+
 // Notes which arrivals from `first` on, `count` of them, touch the box; returns how many.
 uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
     const uint own = gl_LocalInvocationIndex;
@@ -78,7 +87,7 @@ uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
     barrier();
     bool hits = false;
     vec4 light, shape;
-    ivec2 place, low, high;
+    ivec2 place;
     uint record = 0u;
     float share = 1;
     if (own < count) {
@@ -88,11 +97,7 @@ uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
         const vec4 shapes = sources[source + 1u], places = sources[source + 2u];
         place = ivec2(floatBitsToInt(places.z), floatBitsToInt(places.w) >> 2);
         shape = vec4(shapes.yzw, places.x);
-        const ivec2 corner = place + halves(kernels[record]), size = halves(kernels[record + 1u]);
-        // Neighbours of its cell may send as well.
-        low = corner + ivec2(min(sign(shape.zw), vec2(0)));
-        high = corner + size + ivec2(max(sign(shape.zw), vec2(0)));
-        hits = all(lessThan(low, box.high)) && all(greaterThan(high, box.low)) && size.x > 0;
+        hits = meet(reach(place, shape, record), box) && (kernels[record + 1u] & 0xffffu) != 0u;
         if (hits) {
             if (at.shares != 0u) share = uintBitsToFloat(plan[at.shares + first + own]);
             light = sources[source] * share;
@@ -112,14 +117,25 @@ uint find_hits(uint first, uint count, uint base, uint sector, Box box) {
         hit_x[rank] = place.x, hit_y[rank] = place.y;
         hit_corner[rank] = kernels[record], hit_size[rank] = kernels[record + 1u];
         hit_weights[rank] = kernels[record + 2u];
+        const Box lit = reach(place, shape, record);
         for (uint block = 0u; block < kBlocks; ++block) {
             const ivec2 first = box.low + corner_of_block(block);
-            if (all(lessThan(low, first + ivec2(8, 4))) && all(greaterThan(high, first)))
+            if (meet(lit, Box(first, first + ivec2(8, 4))))
                 atomicOr(hits_of_block[block * (kChunk / 32) + rank / 32u], 1u << (rank % 32u));
         }
     }
     barrier();
     return all_hits;
+}
+
+// The first hit from number k on that touches the block of this invocation; `hits`: none does.
+uint next_of_block(uint k, uint hits) {
+    const uint block = gl_LocalInvocationIndex / 32u * (kChunk / 32);
+    for (uint mask = ~0u << (k % 32u); k < hits; mask = ~0u, k = (k / 32u + 1u) * 32u) {
+        const uint left = hits_of_block[block + k / 32u] & mask;
+        if (left != 0u) return k / 32u * 32u + uint(findLSB(left));
+    }
+    return hits;
 }
 
 // What a run sends to a cell: from every arrival whose number among the hits is `slice` of `slices`, or,
@@ -132,13 +148,11 @@ vec4 gathered(uint run, uint sector, Box box, ivec2 cell, bool wanted, bool by_b
     vec4 sum = vec4(0);
     for (uint first = begin; first < end; first += kChunk) {
         const uint hits = find_hits(first, min(uint(kChunk), end - first), base, sector, box);
-        if (wanted && by_block) {
-            const uint block = gl_LocalInvocationIndex / 32u * (kChunk / 32);
-            for (uint w = 0u; 32u * w < hits; ++w)
-                for (uint left = hits_of_block[block + w]; left != 0u; left &= left - 1u)
-                    sum += sent(32u * w + uint(findLSB(left)), cell);
-        } else if (wanted)
-            for (uint k = slice; k < hits; k += slices) sum += sent(k, cell);
+        uint k = by_block ? next_of_block(0u, hits) : slice;
+        while (wanted && k < hits) {
+            sum += sent(k, cell);
+            k = by_block ? next_of_block(k + 1u, hits) : k + slices;
+        }
         barrier();
     }
     return sum;
