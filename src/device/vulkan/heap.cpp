@@ -95,10 +95,13 @@ void Heap::make_buffer(Block& block) {
     allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocation.allocationSize = needed.size;
     allocation.memoryTypeIndex = type_for(block.kind, needed.memoryTypeBits);
+    const VkMemoryType& type = memory_.memoryTypes[allocation.memoryTypeIndex];
+    // No device may be asked for more than it has.
+    if (needed.size > memory_.memoryHeaps[type.heapIndex].size)
+        check(VK_ERROR_OUT_OF_DEVICE_MEMORY, opened_.name, what);
     check(vk.vkAllocateMemory(opened_.device, &allocation, nullptr, &block.memory), opened_.name, what);
     check(vk.vkBindBufferMemory(opened_.device, block.buffer, block.memory, 0), opened_.name, what);
-    const VkMemoryPropertyFlags has = memory_.memoryTypes[allocation.memoryTypeIndex].propertyFlags;
-    if ((has & kSeen) != kSeen) return;
+    if ((type.propertyFlags & kSeen) != kSeen) return;
     void* mapped = nullptr;
     check(vk.vkMapMemory(opened_.device, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped), opened_.name, what);
     block.mapped = static_cast<std::byte*>(mapped);

@@ -47,6 +47,9 @@ void DeviceImage::create(const VkPhysicalDeviceMemoryProperties& memory, const I
     allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocation.allocationSize = needed.size;
     allocation.memoryTypeIndex = type_for(memory, needed.memoryTypeBits, opened_.name);
+    // No device may be asked for more than it has.
+    if (needed.size > memory.memoryHeaps[memory.memoryTypes[allocation.memoryTypeIndex].heapIndex].size)
+        check(VK_ERROR_OUT_OF_DEVICE_MEMORY, opened_.name, what);
     check(vk.vkAllocateMemory(opened_.device, &allocation, nullptr, &memory_), opened_.name, what);
     check(vk.vkBindImageMemory(opened_.device, image_, memory_, 0), opened_.name, what);
     for (std::uint32_t level = 0; level < kind.levels; ++level) add_view(kind, level, 1);
