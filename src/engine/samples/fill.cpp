@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/hidden_outlines.h"
 #include "engine/samples/known_surfaces.h"
 
 #include <algorithm>
@@ -84,6 +85,7 @@ public:
            const Mixtures& mixtures, float largest, float farthest, int directions, float white,
            Workers& workers)
         : known_(picture, coc, mixtures, white, workers),
+          outlines_(coc, workers),
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
@@ -249,10 +251,17 @@ private:
         return t * t * (3 - 2 * t);
     }
 
+    // How much of what was met is of one surface, by 1/distance.
+    struct Met {
+        float all = 0, within = 0;  // its own outline
+        float unhidden = 0;         // by outlines of nearer ones
+    };
+
     // The surfaces that were met, nearest first. The farthest fills all there is; a nearer one only the share
-    // of the surroundings that it has: a wire behind a leaf goes on as a wire.
+    // of the surroundings that it has: a wire behind a leaf goes on as a wire. Where its outline goes on
+    // hidden it has all on its side of that.
     void stack(int x, int y, Hits& hits, std::vector<Hidden>& hidden) const {
-        float share_behind = 0;
+        float all_behind = 0, unhidden_behind = 0;
         std::array<Hidden, kSurfaces> surfaces{};
         int n = 0;
         for (; n < kSurfaces; ++n) {
@@ -262,18 +271,20 @@ private:
                 for (const Found& f : direction)
                     if (f.found) farthest = std::max(farthest, f.coc_px);
             if (farthest < -1e29f) break;
-            float share = 0;
-            surfaces[std::size_t(n)] = surface(x, y, hits, farthest, share);
-            share_behind += share;
-            surfaces[std::size_t(n)].share = sharpened(share / share_behind);
-            surfaces[std::size_t(n)].colour *= surfaces[std::size_t(n)].share;
+            Met met;
+            surfaces[std::size_t(n)] = surface(x, y, hits, farthest, met);
+            const float inside = met.within / met.all;
+            const float behind = all_behind + inside * (unhidden_behind - all_behind);
+            const float share = n == 0 ? 1 : sharpened(met.within / (met.within + behind + 1e-9f));
+            all_behind += met.within, unhidden_behind += met.unhidden * inside;
+            surfaces[std::size_t(n)].share = share;
+            surfaces[std::size_t(n)].colour *= share;
         }
         for (int i = n - 1; i >= 0; --i) hidden.push_back(surfaces[std::size_t(i)]);
     }
 
-    // What the hits at `coc_px` agree on, behind (x, y); they are used up. share: their weight, the sum of
-    // 1/distance.
-    Hidden surface(int x, int y, Hits& hits, float coc_px, float& share) const {
+    // What the hits at `coc_px` agree on, behind (x, y); they are used up.
+    Hidden surface(int x, int y, Hits& hits, float coc_px, Met& met) const {
         Votes votes;
         const auto take = [&](std::size_t k) -> Found* {
             for (Found& f : hits[k])
@@ -283,6 +294,12 @@ private:
         const auto passes = [&](const Found* f) {
             return f ? known_.passes({f->x, f->y, f->coc_px}, x, y) : 0;
         };
+        const auto meet = [&](const Found& f, float weight) {
+            const float share = weight / f.distance_px;
+            met.all += share;
+            met.within += share * outlines_.within({f.x, f.y}, {x, y}, f.coc_px);
+            met.unhidden += share * outlines_.unhidden({f.x, f.y}, {x, y}, f.coc_px);
+        };
         float nearest = 1e9f;
         for (std::size_t k = 0; k < kDirections; ++k)
             if (const Found* f = take(k)) nearest = std::min(nearest, f->distance_px);
@@ -290,8 +307,9 @@ private:
         for (std::size_t k = 0; k < kPairs; ++k) {
             Found *a = take(k), *b = take(k + kPairs);
             // Seen on both sides, it most likely goes on between them, unless an edge cuts one side off.
-            if (a && b) share += 2 / a->distance_px + 2 / b->distance_px;
-            if (!a != !b) share += 0.5f / (a ? a : b)->distance_px;
+            const float weight = a && b ? 2.0f : 0.5f;
+            if (a) meet(*a, weight);
+            if (b) meet(*b, weight);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
             if (a && b) add_pair(*a, *b, k, both, votes);
             if (a && from_a > both) add_alone(*a, k, nearest, from_a - both, votes);
@@ -318,6 +336,7 @@ private:
     }
 
     KnownSurfaces known_;
+    HiddenOutlines outlines_;
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Mixtures& mixtures_;
