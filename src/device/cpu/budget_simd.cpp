@@ -68,6 +68,18 @@ HWY_INLINE void AddShare(const Rgba& light, float share, Rgba& sum) {
                    out + k);
 }
 
+// Of the first n pixels; 0 of others.
+HWY_INLINE V AlphasOf(Floats d, const Rgba* HWY_RESTRICT pixels, int n) {
+    if (n == int(hn::Lanes(d))) {
+        V r, g, b, a;
+        hn::LoadInterleaved4(d, &pixels->r, r, g, b, a);
+        return a;
+    }
+    HWY_ALIGN float alphas[16] = {};
+    for (int i = 0; i < n; ++i) alphas[i] = pixels[i].a;
+    return hn::Load(d, alphas);
+}
+
 void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness, int layer,
              Rgba* HWY_RESTRICT sum, Rgba* HWY_RESTRICT more, Budget::Left<float> left,
              std::int32_t* HWY_RESTRICT layers, int n) {
@@ -75,9 +87,9 @@ void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness,
     const int lanes = int(hn::Lanes(d));
     for (int x = 0; x < n; x += lanes) {
         const int here = std::min(lanes, n - x);
-        HWY_ALIGN float arrives[16] = {}, areas[16], mores[16];
-        for (int i = 0; i < here; ++i) arrives[i] = light[x + i].a + (emptiness ? emptiness[x + i].a : 0);
-        const auto all = hn::Load(d, arrives);
+        HWY_ALIGN float areas[16], mores[16];
+        auto all = AlphasOf(d, light + x, here);
+        if (emptiness) all = hn::Add(all, AlphasOf(d, emptiness + x, here));
         if (hn::AllFalse(d, hn::Gt(all, hn::Zero(d)))) continue;
         const Shares taken =
             Take(d, all, layer, {left.before + x, left.own + x, left.beside + x, left.more + x}, layers + x);
