@@ -65,17 +65,28 @@ def tidy(build, source):
     return source, result.returncode, re.sub(r"^\d+ warnings.*\n", "", result.stdout, flags=re.MULTILINE)
 
 
-def without_precompiled(build):
+def each_alone(entries):
+    """Commands of the sources themselves where the build compiles several at once (cmake/petzval_batches.cmake)."""
+    for entry in entries:
+        if not re.search(r"/Unity/unity_\d+_cxx\.cxx$", entry["file"]):
+            yield entry
+            continue
+        for source in re.findall(r'^#include "(.*)"', pathlib.Path(entry["file"]).read_text(), flags=re.MULTILINE):
+            yield entry | {"file": source, "command": entry["command"].replace(f"-c {entry['file']}", f"-c {source}")}
+
+
+def commands_of(build):
     """A folder with the commands of the build that clang takes: GCC's precompiled headers are not its own."""
     text = (ROOT / build / "compile_commands.json").read_text()
+    text = re.sub(r" -Winvalid-pch| -fpch-preprocess|( -Xclang)? -include(-pch)?( -Xclang)? \S*cmake_pch\S*", "", text)
+    entries = list(each_alone(json.loads(text)))
     (ROOT / build / "lint").mkdir(exist_ok=True)
-    (ROOT / build / "lint" / "compile_commands.json").write_text(
-        re.sub(r" -Winvalid-pch| -fpch-preprocess|( -Xclang)? -include(-pch)?( -Xclang)? \S*cmake_pch\S*", "", text))
-    return f"{build}/lint", json.loads(text)
+    (ROOT / build / "lint" / "compile_commands.json").write_text(json.dumps(entries, indent=1))
+    return f"{build}/lint", entries
 
 
 def main(build, words):
-    build, entries = without_precompiled(build)
+    build, entries = commands_of(build)
     compiled = {os.path.relpath(e["file"], ROOT) for e in entries}
     compiled = {c for c in compiled if not c.startswith(("..", "build"))}
     paths = sorted(compiled) if words == ["--all"] else words or changed()

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSchema = 1;
 // A text that no report holds otherwise; as JSON it is  "\u0001infinity"  and is replaced by a number.
-const std::string kInfinity = "\x01infinity", kMinusInfinity = "\x01-infinity";
+const std::string kInfinityMark = "\x01infinity", kMinusInfinityMark = "\x01-infinity";
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
@@ -44,7 +44,7 @@ Json new_report(const std::string& verb) {
 
 Json number(double value) {
     if (std::isnan(value)) return nullptr;
-    if (std::isinf(value)) return value > 0 ? kInfinity : kMinusInfinity;
+    if (std::isinf(value)) return value > 0 ? kInfinityMark : kMinusInfinityMark;
     return value;
 }
 

@@ -47,7 +47,7 @@ Result<int> parse_port(const std::string& text) {
 #ifdef PETZVAL_VIEW
 
 // As a shell takes it.
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
     if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+=:%@") ==
             std::string::npos &&
         !word.empty())
@@ -91,7 +91,7 @@ std::vector<std::string> command_words(const ViewFlags& flags, const view::Choic
 std::string command_line(const ViewFlags& flags, const view::Choice& choice, const std::string& output) {
     std::string line;
     for (const std::string& word : command_words(flags, choice, output))
-        line += (line.empty() ? "" : " ") + quoted(word);
+        line += (line.empty() ? "" : " ") + shell_word(word);
     return line;
 }
 
