@@ -305,12 +305,10 @@ void App::save(const std::string& name) {
             });
     }
     if (shot_ && shot_->is_pushed) {
-        const auto numbers = camera();
-        if (!numbers) return void(error = numbers.error().message);
-        return start_saving(
-            path, [=, shot = shot_, choice = state.choice, camera = *numbers, session = setup_.session] {
-                return save_result(shot->shot, camera, choice, *session, path);
-            });
+        return start_saving(path, [=, shot = shot_, choice = state.choice, camera = found_camera(),
+                                   session = setup_.session] {
+            return save_result(shot->shot, camera, choice, *session, path);
+        });
     }
     start_saving(path, [save = setup_.save, session = setup_.session, choice = state.choice, path] {
         return save(*session, choice, path);

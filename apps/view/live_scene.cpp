@@ -34,8 +34,17 @@ double seconds_since(Clock::time_point start) {
 
 bool is_png(const std::string& path) { return path.ends_with(".png"); }
 
+// The line of petzval:history about a shot that no file was read for, with this camera.
+std::string history_of(const Shot& shot, const FoundCamera& camera, const Look& look) {
+    Shot named;  // without its pictures
+    named.colour_name = "R", named.camera = camera;
+    if (shot.has_radii()) named.depth = RadiiPx{};
+    return history_line(named, look);
+}
+
 // A PNG of its codes, else its light.
-Status write_result(const std::string& path, DefocusReport made, const Place& place) {
+Status write_result(const std::string& path, DefocusReport made, const Place& place,
+                    const std::string& history) {
     if (is_png(path)) {
         const PngPixels png{.width = place.data_window.width(),
                             .height = place.data_window.height(),
@@ -50,7 +59,9 @@ Status write_result(const std::string& path, DefocusReport made, const Place& pl
     frame.place = place;
     frame.has_alpha = true;
     frame.colour = std::move(made.image);
-    return write_exr(path, frame, {});
+    WriteOptions options;
+    options.attributes.emplace_back("petzval:history", history);
+    return write_exr(path, frame, options);
 }
 
 std::string place_text(const ScenePoint& p) {
@@ -184,18 +195,21 @@ Status record(const std::vector<Recorded>& frames) {
     return Done{};
 }
 
-Status save_result(const Shot& shot, const Camera& camera, const Choice& choice, Session& session,
+Status save_result(const Shot& shot, const FoundCamera& camera, const Choice& choice, Session& session,
                    const std::string& path) {
+    const ImageScale scale = choice.camera.image_scale;
+    const auto numbers = shot.has_radii() ? known_camera(camera, scale) : complete_camera(camera, scale);
+    if (!numbers) return numbers.error();
     auto job = rendered(shot);
     if (!job) return job.error();
-    job->camera = camera;
+    job->camera = *numbers;
     Look look = choice.look;
     if (Status done = read_lens_images(look); !done) return done;
     Control control;
     if (is_png(path)) control.codes = CodesWanted{choice.develop, shot.place.data_window};
     auto made = session.take(*job, look, control);
     if (!made) return made.error();
-    return write_result(path, std::move(*made), shot.place);
+    return write_result(path, std::move(*made), shot.place, history_of(shot, camera, look));
 }
 
 Status record_results(const std::vector<Recorded>& frames, const Choice& choice, bool follows_subject,
@@ -207,9 +221,8 @@ Status record_results(const std::vector<Recorded>& frames, const Choice& choice,
         CameraChoice camera = choice.camera;
         if (follows_subject && seen->subject_m) camera.focus_distance_m = seen->subject_m;
         const Shot& shot = seen->shot;
-        const auto numbers = complete_camera(merged_camera(shot.camera_of_file, camera), camera.image_scale);
-        if (!numbers) return numbers.error();
-        if (Status done = save_result(shot, *numbers, choice, session, one.path); !done) return done;
+        const FoundCamera found = merged_camera(shot.camera_of_file, camera);
+        if (Status done = save_result(shot, found, choice, session, one.path); !done) return done;
     }
     return Done{};
 }

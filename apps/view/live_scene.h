@@ -82,8 +82,9 @@ Status record(const std::vector<Recorded>& frames);
 // What the window shows of them: made by the session at the look's quality; .exr as light, .png developed.
 Status record_results(const std::vector<Recorded>& frames, const Choice& choice, bool follows_subject,
                       Session& session);
-// A shot made by the session, as an image file.
-Status save_result(const Shot& shot, const Camera& camera, const Choice& choice, Session& session,
+// A shot that no file was read for, made by the session, as an image file; an .exr says in petzval:history
+// how.
+Status save_result(const Shot& shot, const FoundCamera& camera, const Choice& choice, Session& session,
                    const std::string& path);
 // How `scene make` is asked for that picture.
 std::vector<std::string> scene_words(const SceneWish& wish, const std::string& output);

@@ -10,6 +10,12 @@ import window
 from window import PETZVAL
 
 
+def history_of(exr):
+    before = b"petzval:history\0string\0"
+    at = exr.index(before) + len(before) + 4
+    return exr[at:at + struct.unpack_from("<I", exr, at - 4)[0]].decode()
+
+
 class SceneTest(window.WindowTest):
     def test_a_scene_is_turned_by_a_drag_and_recorded_for_defocus(self):
         out, _ = self.do("""
@@ -250,6 +256,9 @@ class SceneTest(window.WindowTest):
         with open(os.path.join(self.shared, "live.json")) as file:
             psnr = json.load(file)["psnr_lin"]
         self.assertTrue(psnr is None or psnr == "inf" or float(psnr) > 55, psnr)  # files hold halves
+        live, made = (history_of(exr) for exr in self.contents("live.exr", "made.exr"))
+        self.assertTrue(live.startswith("defocus R: petzval "), live)
+        self.assertEqual(live, made)
         self.assertEqual(next(self.contents("live-0000.png"))[1:4], b"PNG")
 
 

@@ -38,18 +38,19 @@ TEST(Parts, HaveEveryGroupOnceAndNoMoreThanIsAllowed) {
 // Of 5 x 4 tiles the last has three lamps, which reach the six tiles around it.
 TEST(RealtimeWork, IsThatOfTheLampsThatReachATile) {
     RealtimeWork work(5, 4, {0, 1, 9, 1});
-    std::vector<std::uint32_t> kept(20 * 4);
+    std::vector<std::uint32_t> kept(80);
     std::vector<std::int32_t> boxes;
     for (int tile = 0; tile < 20; ++tile) {
         const bool is_reached = tile % 5 >= 3 && tile / 5 >= 1;
         const std::array box = is_reached ? std::array{4, 3, 4, 3} : std::array{5, 4, -1, -1};
         boxes.insert(boxes.end(), box.begin(), box.end());
     }
-    kept[4 * 19] = 0x80000001, kept[4 * 19 + 1] = 4;
+    kept[76] = 0x80000001, kept[77] = 4;
     const std::uint64_t none = work.of_group(RealtimePass::kCombine, 9, 7);
     work.take_lamps(kept.data(), boxes.data());
     const std::uint64_t three = work.of_group(RealtimePass::kCombine, 9, 7);
-    EXPECT_GT(three, none + 3 * 64 * 16) << "less than what a lamp's kernel and its shadows take";
+    EXPECT_GT(three, none + std::uint64_t(3) * 64 * 16)
+        << "less than what a lamp's kernel and its shadows take";
     EXPECT_EQ(work.of_group(RealtimePass::kCombine, 6, 2), three);
     EXPECT_EQ(work.of_group(RealtimePass::kCombine, 5, 7), none);
     EXPECT_EQ(work.of_group(RealtimePass::kCombine, 9, 1), none);
