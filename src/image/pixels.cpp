@@ -1,7 +1,6 @@
 #include "petzval/image.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <new>
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -15,7 +14,7 @@ constexpr std::size_t kAlignment = 64, kHugePage = std::size_t(2) << 20;
 // Stands before the pixels.
 struct alignas(kAlignment) Block {
     void* memory;        // where the block begins
-    std::size_t mapped;  // bytes of its own mapping; 0: of malloc's
+    std::size_t mapped;  // bytes of its own mapping; 0: of operator new's
 };
 
 std::size_t round_up(std::size_t value, std::size_t to) { return (value + to - 1) / to * to; }
@@ -41,8 +40,7 @@ void* allocate_pixels(std::size_t bytes) {
     const std::size_t whole = round_up(bytes, alignment) + alignment + sizeof(Block);
     if (whole < bytes) throw std::bad_alloc();
     Block block{map_own(whole), whole};
-    if (!block.memory) block = {std::malloc(whole), 0};
-    if (!block.memory) throw std::bad_alloc();
+    if (!block.memory) block = {::operator new(whole), 0};
     const auto begin = reinterpret_cast<std::uintptr_t>(block.memory);
     auto* const pixels = reinterpret_cast<unsigned char*>(round_up(begin + sizeof(Block), alignment));
     new (pixels - sizeof(Block)) Block(block);
@@ -62,7 +60,7 @@ void free_pixels(void* pixels) noexcept {
         return;
     }
 #endif
-    std::free(block.memory);
+    ::operator delete(block.memory);
 }
 
 }  // namespace petzval

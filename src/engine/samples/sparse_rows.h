@@ -9,7 +9,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace petzval::engine {
@@ -42,14 +41,8 @@ public:
     }
 
     bool empty() const { return rows_.empty(); }
-    const T* at(int x, int y) const {
-        if (empty()) return nullptr;
-        const Word& word = words_(x / 64, y);
-        const std::uint64_t own = std::uint64_t(1) << (x % 64);
-        if ((word.has & own) == 0) return nullptr;
-        return &rows_[std::size_t(y)][word.before + std::uint32_t(std::popcount(word.has & (own - 1)))];
-    }
-    T* at(int x, int y) { return const_cast<T*>(std::as_const(*this).at(x, y)); }
+    const T* at(int x, int y) const { return find(*this, x, y); }
+    T* at(int x, int y) { return find(*this, x, y); }
     // The values of a row from the left, as visit(x, value).
     template <typename Visit>
     void for_each_in_row(int y, const Visit& visit) const {
@@ -66,6 +59,15 @@ public:
     }
 
 private:
+    template <typename Self>
+    static auto find(Self& self, int x, int y) -> decltype(self.rows_[0].data()) {
+        if (self.empty()) return nullptr;
+        const Word& word = self.words_(x / 64, y);
+        const std::uint64_t own = std::uint64_t(1) << (x % 64);
+        if ((word.has & own) == 0) return nullptr;
+        return &self.rows_[std::size_t(y)][word.before + std::uint32_t(std::popcount(word.has & (own - 1)))];
+    }
+
     // 64 pixels of a row: which have a value, and how many to the left of them have.
     struct Word {
         std::uint64_t has = 0;
