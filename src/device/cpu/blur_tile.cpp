@@ -37,7 +37,7 @@ void BlurTile::add(int x, int y, Rgba light, float covered) {
         floats_.assign(std::size_t(stride_ * window_.height()) + kGatherGroup, 0.0f);
     }
     lit_ = {std::min(lit_.x0, x), std::min(lit_.y0, y), std::max(lit_.x1, x + 1), std::max(lit_.y1, y + 1)};
-    float* const to = row(y) + kChannels * (x - window_.x0);
+    float* const to = row(y) + in_row(x);
     to[0] += light.r, to[1] += light.g, to[2] += light.b, to[3] += light.a, to[4] += covered;
 }
 
@@ -66,7 +66,7 @@ void BlurTile::scale() {
     for (int y = reached_.y0; y < reached_.y1; ++y)
         for (int x = reached_.x0; x < reached_.x1; ++x) {
             const float scale = 1 / (blur_->x.inside[std::size_t(x)] * blur_->y.inside[std::size_t(y)]);
-            float* const pixel = row(y) + kChannels * (x - window_.x0);
+            float* const pixel = row(y) + in_row(x);
             for (int c = 0; c < kChannels; ++c) pixel[c] = scale * pixel[c];
         }
 }

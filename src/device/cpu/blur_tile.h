@@ -34,13 +34,14 @@ public:
 
     // Where anything is lit, once it is blurred; and what is.
     const Rect& reached() const { return reached_; }
-    const float* at(int x, int y) const { return row(y) + kChannels * (x - window_.x0); }
+    const float* at(int x, int y) const { return row(y) + in_row(x); }
 
 private:
     static constexpr int kChannels = 5;  // light and coverage
 
     float* row(int y) { return floats_.data() + std::ptrdiff_t(y - window_.y0) * stride_; }
     const float* row(int y) const { return floats_.data() + std::ptrdiff_t(y - window_.y0) * stride_; }
+    std::ptrdiff_t in_row(int x) const { return std::ptrdiff_t(kChannels) * (x - window_.x0); }
     void scale();
 
     const engine::Blur* blur_;
