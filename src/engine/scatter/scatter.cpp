@@ -69,7 +69,7 @@ double share_at_silhouettes(const Input& input) {
 // What a flat picture takes that is done at once, as whole commands did at their peak (docs/measurements.md,
 // Fewer bytes). Of strips, and of what is more than flat, less is known and more is reckoned with.
 std::size_t bytes_at_once(const Input& input) {
-    constexpr double kPerPixel = 60, kPerSilhouettePixel = 265, kFixed = 60 << 20, kAberrated = 28 << 20;
+    constexpr double kPerPixel = 54, kPerSilhouettePixel = 345, kFixed = 52 << 20, kAberrated = 28 << 20;
     const bool flat =
         input.deep.empty() && input.plate.empty() && input.layers.empty() && input.holdout.empty();
     if (!flat) return std::numeric_limits<std::size_t>::max();
