@@ -31,9 +31,10 @@ void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
 
 // A stated sample is the mean of its surface over the pixel. What a pixel shows of its samples from `first`
 // on is made to sum to what the picture shows there, as far as they lie so close together that no lens sees
-// past one of them to the next.
+// past one of them to the next. Where it is far brighter than they are, and something that bright lies
+// farther behind, the light is from there.
 void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba picture) {
-    constexpr float kTogetherPx = 0.5f, kApartPx = 1, kCovered = 1 - 1e-6f, kDark = 1e-9f;
+    constexpr float kTogetherPx = 0.5f, kApartPx = 1, kCovered = 1 - 1e-6f, kDark = 1e-9f, kFarBrighter = 4;
     float covered = 0, in_front = 0, span_px = 0;
     Rgba shown;
     std::size_t end = first;
@@ -44,6 +45,13 @@ void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba pic
         covered += s.colour.a, span_px = s.coc_px - samples[first].coc_px;
         if (s.colour.a > 0) shown += std::min(1.0f, (1 - in_front) / s.colour.a) * s.colour;
     }
+    const float bright = luminance(picture);
+    const auto shines_through = [&](const CocSample& s) {
+        return s.coc_px - samples[first].coc_px > 2 * kApartPx && luminance(s.colour) > bright;
+    };
+    if (bright > kFarBrighter * luminance(shown) &&
+        std::any_of(samples.begin() + std::ptrdiff_t(end), samples.end(), shines_through))
+        return;
     const float together = std::clamp((kApartPx - span_px) / (kApartPx - kTogetherPx), 0.0f, 1.0f);
     const auto times = [&](float is, float want) { return is > kDark ? 1 + together * (want / is - 1) : 1; };
     const float r = times(shown.r, picture.r), g = times(shown.g, picture.g), b = times(shown.b, picture.b);
