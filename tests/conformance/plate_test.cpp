@@ -72,6 +72,21 @@ TEST(Plate, StrandsStandBeforeWhatNearlyTouchesThem) {
         EXPECT_GT(Strands(near_px, far_px).known_whole(), 45) << near_px << " before " << far_px;
 }
 
+// Between the strand of a pixel and what lies far behind, the light is of what lies behind.
+TEST(Plate, LightThatShinesThroughAStrandIsNotTheStrands) {
+    Shot shot = flat(60, 40, {0.2f, 0.2f, 0.2f, 1}, 8);
+    const Rgba lamp{100, 100, 100, 1}, strand{0.1f, 0.1f, 0.1f, 1};
+    for (int y = 0; y < 40; ++y) shot.colour(30, y) = strand, shot.coc_px(30, y) = 0;
+    shot.colour(30, 20) = {11, 11, 11, 1};  // a tenth of the pixel shows the lamp
+    shot.behind = DeepPicture::made_of(60, 40, [&](int x, int y, std::vector<DeepSample>& samples) {
+        if (x != 30) return;
+        samples.push_back({strand, 0, 0});
+        samples.push_back({y == 20 ? lamp : Rgba{0.2f, 0.2f, 0.2f, 1}, 8, 8});
+    });
+    for (const char* engine : {"scatter", "reference"})
+        EXPECT_NEAR(rendered(shot.job(engine))(30, 20).g, 0.1, 0.02) << engine;
+}
+
 TEST(Plate, OneThatHoldsNothingInFrontChangesNothing) {
     Shot shot = noise_at_several_depths();
     const Picture without = rendered(shot.job("scatter"));

@@ -1,6 +1,7 @@
 #include "engine/samples/cut_edges.h"
 
 #include "base/parallel.h"
+#include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
 #include <array>

@@ -3,13 +3,9 @@
 
 #include "engine/samples/hidden.h"
 
-#include <cmath>
 #include <vector>
 
 namespace petzval::engine {
-
-// std::lround of what is far smaller than an int; inline, for it is asked a dozen times of every direction.
-inline int nearest_pixel(float at) { return int(double(at) + std::copysign(0.5, double(at))); }
 
 class CutEdges {
 public:

@@ -2,6 +2,7 @@
 #include "engine/samples/hidden.h"
 #include "engine/samples/hidden_outlines.h"
 #include "engine/samples/known_surfaces.h"
+#include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
 #include <array>

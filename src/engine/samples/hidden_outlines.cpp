@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/samples/known_surfaces.h"
+#include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "engine/samples/known_surfaces.h"
 
 #include "base/parallel.h"
+#include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
 
