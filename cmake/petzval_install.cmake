@@ -46,7 +46,7 @@ endforeach()
 petzval_component(petzval_lib_files PACKAGE petzval-files HEADERS ${headers}/files.h ${headers}/lens_report.h
                   ${headers}/look_file.h ${headers}/output.h ${headers}/shot.h ${headers}/frames.h ${headers}/track.h
                   ${headers}/focus_track.h
-                  REQUIRES petzval OpenEXR libpng libdeflate ${raster_modules}
+                  REQUIRES petzval OpenEXR libpng libdeflate libisal ${raster_modules}
                   DESCRIPTION "EXR, PNG, JPEG and TIFF for petzval")
 petzval_component(petzval_lib_scenes PACKAGE petzval-scenes HEADERS ${headers}/scene.h
                   REQUIRES petzval LIBS "-lembree3 ${petzval_gltf_links}" DESCRIPTION "Built-in scenes of petzval")

@@ -1,6 +1,6 @@
 // Bytes of EXR chunks, packed and unpacked by the formats that lose nothing and are not OpenEXR's own: none,
-// RLE, ZIPS and ZIP ("OpenEXR Technical Introduction"; zlib's format is RFC 1950). With libdeflate, in a
-// third of the time of zlib.
+// RLE, ZIPS and ZIP ("OpenEXR Technical Introduction"; zlib's format is RFC 1950). Packed by ISA-L, in a
+// tenth of the time of zlib, and unpacked by libdeflate, in a third.
 #pragma once
 
 #include <algorithm>
@@ -33,8 +33,12 @@ private:
 // Whether unpacked() knows the format.
 inline bool is_plain_packing(Imf::Compression compression) { return compression <= Imf::ZIP_COMPRESSION; }
 
-// Packed as ZIP, or as they are where that is not smaller: readers know it by the size.
-std::vector<unsigned char> zipped(std::vector<unsigned char> raw);
+// Scratch memory of one thread that packs: whatever was in it.
+struct ZipBuffers {
+    RawBytes predicted, packed, room;
+};
+// Packed as ZIP, or as they are where that is not smaller: readers know it by the size. Fewer than 2^32.
+std::vector<unsigned char> zipped(std::span<const unsigned char> raw, ZipBuffers& buffers);
 
 // Unpacks into `to`, which is as large as it should become: how many bytes it became, to.size() + 1 if more
 // than fit, nothing if the stream is damaged. What is as large as it should be is not packed. `between` may

@@ -1,6 +1,7 @@
 #include "files/exr_zip.h"
 
 #include "base/parallel.h"
+#include "base/workspaces.h"
 #include "files/exr_output.h"
 #include "files/exr_packing.h"
 
@@ -38,19 +39,24 @@ bool has_long_names(const Imf::Header& header) {
 }
 
 // Lines y0 … y1 - 1 of the band: of each line all channels, in the order of their names.
-std::vector<unsigned char> lines_of(std::vector<BandChannel>& band, const std::vector<std::size_t>& order,
-                                    int y0, int y1) {
+void lines_of(std::vector<BandChannel>& band, const std::vector<std::size_t>& order, int y0, int y1,
+              RawBytes& bytes) {
     std::size_t line = 0;
     for (const BandChannel& c : band) line += c.row_bytes;
-    std::vector<unsigned char> bytes(line * std::size_t(y1 - y0));
+    bytes.resize(line * std::size_t(y1 - y0));
     unsigned char* to = bytes.data();
     for (int y = y0; y < y1; ++y)
         for (const std::size_t c : order) {
             std::memcpy(to, band[c].row(y), band[c].row_bytes);
             to += band[c].row_bytes;
         }
-    return bytes;
 }
+
+// Scratch memory of one thread.
+struct Buffers {
+    RawBytes lines;
+    ZipBuffers zip;
+};
 
 }  // namespace
 
@@ -83,6 +89,7 @@ void write_zip_file(Imf::OStream& stream, const Imf::Header& header, const std::
     };
     write_table();
 
+    Workspaces<Buffers> workspaces;
     std::vector<BandChannel> band;
     std::vector<std::size_t> order;
     for (const Channel& c : channels) order.push_back(order.size()), band.push_back({c, {}, 0});
@@ -95,7 +102,9 @@ void write_zip_file(Imf::OStream& stream, const Imf::Header& header, const std::
         fill(band, window.min.y + y, window.min.y + y + count);
         std::vector<std::vector<unsigned char>> done(std::size_t((count + lines - 1) / lines));
         parallel_for(int(done.size()), workers, [&](int i) {
-            done[std::size_t(i)] = zipped(lines_of(band, order, i * lines, std::min((i + 1) * lines, count)));
+            const auto buffers = workspaces.take();
+            lines_of(band, order, i * lines, std::min((i + 1) * lines, count), (*buffers).lines);
+            done[std::size_t(i)] = zipped((*buffers).lines.bytes(), (*buffers).zip);
         });
         for (std::size_t i = 0; i < done.size(); ++i) {
             table[std::size_t(y / lines) + i] = stream.tellp();
