@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/hidden_outlines.h"
+#include "engine/samples/hidden_textures.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/nearest_pixel.h"
 
@@ -29,6 +30,7 @@ struct Found {
     bool found = false;
     int x = 0, y = 0;
     float coc_px = 0, distance_px = 0;
+    KnownSurfaces::Place place() const { return {x, y, coc_px}; }
 };
 // A few pixels around it, as seen coming from the hidden pixel: itself, one to either side, two beyond.
 constexpr int kPatch = 5;
@@ -83,16 +85,17 @@ private:
 class Filler {
 public:
     Filler(const LitPicture& picture, View<const float> coc, View<const unsigned char> connected,
-           const Mixtures& mixtures, float largest, float farthest, int directions, float white,
+           const Mixtures& mixtures, float largest, float farthest, const FillRule& rule, float white,
            Workers& workers)
         : known_(picture, coc, mixtures, white, workers),
           outlines_(coc, workers),
+          textures_(known_, mixtures, rule.textures ? largest : 0, workers),
           coc_(coc),
           connected_(connected),
           mixtures_(mixtures),
           farthest_(farthest),
           largest_(largest),
-          every_(std::size_t(kDirections / directions)) {
+          every_(std::size_t(kDirections / rule.directions)) {
         measure_distances(workers);
         lay_paths();
     }
@@ -292,9 +295,7 @@ private:
                 if (f.found && one_surface(f.coc_px, coc_px)) return &f;
             return nullptr;
         };
-        const auto passes = [&](const Found* f) {
-            return f ? known_.passes({f->x, f->y, f->coc_px}, x, y) : 0;
-        };
+        const auto passes = [&](const Found* f) { return f ? known_.passes(f->place(), x, y) : 0; };
         const auto meet = [&](const Found& f, float weight) {
             const float share = weight / f.distance_px;
             met.all += share;
@@ -312,32 +313,40 @@ private:
             if (a) meet(*a, weight);
             if (b) meet(*b, weight);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
-            if (a && b) add_pair(*a, *b, k, both, votes);
-            if (a && from_a > both) add_alone(*a, k, nearest, from_a - both, votes);
-            if (b && from_b > both) add_alone(*b, k + kPairs, nearest, from_b - both, votes);
+            const CutEdges::Point hidden{x, y};
+            if (a && b) add_pair(hidden, *a, *b, k, both, votes);
+            if (a && from_a > both) add_alone(hidden, *a, k, nearest, from_a - both, votes);
+            if (b && from_b > both) add_alone(hidden, *b, k + kPairs, nearest, from_b - both, votes);
             if (a) a->found = false;
             if (b) b->found = false;
         }
         return votes.result();
     }
     // What was met in direction k and against it.
-    void add_pair(const Found& a, const Found& b, std::size_t k, float weight, Votes& votes) const {
+    void add_pair(CutEdges::Point hidden, const Found& a, const Found& b, std::size_t k, float weight,
+                  Votes& votes) const {
         const float total = a.distance_px + b.distance_px;
         const float wa = b.distance_px / total, wb = a.distance_px / total;
         const float alike = likeness(a, paths_[k].direction, b, paths_[k + kDirections / 2].direction);
         const float closeness = 1 / a.distance_px + 1 / b.distance_px;
-        votes.add(wa * known_.colour(a.x, a.y) + wb * known_.colour(b.x, b.y), wa * a.coc_px + wb * b.coc_px,
+        const auto colour = [&](const Found& f) {
+            return textures_.going_on(f.place(), hidden, known_.colour(f.x, f.y));
+        };
+        votes.add(wa * colour(a) + wb * colour(b), wa * a.coc_px + wb * b.coc_px,
                   weight * (closeness * std::sqrt(closeness) * alike));
     }
     // What was met in direction k.
-    void add_alone(const Found& one, std::size_t k, float nearest_px, float weight, Votes& votes) const {
+    void add_alone(CutEdges::Point hidden, const Found& one, std::size_t k, float nearest_px, float weight,
+                   Votes& votes) const {
         const float away = one.distance_px * one.distance_px;
-        votes.add(known_.going_on({one.x, one.y, one.coc_px}, paths_[k].direction, one.distance_px),
-                  one.coc_px, weight * (kOneSided * nearest_px / (away * one.distance_px)));
+        const Rgba colour = known_.going_on(one.place(), paths_[k].direction, one.distance_px);
+        votes.add(textures_.going_on(one.place(), hidden, colour), one.coc_px,
+                  weight * (kOneSided * nearest_px / (away * one.distance_px)));
     }
 
     KnownSurfaces known_;
     HiddenOutlines outlines_;
+    HiddenTextures textures_;
     View<const float> coc_;
     View<const unsigned char> connected_;
     const Mixtures& mixtures_;
@@ -442,8 +451,7 @@ HiddenLayers fill_hidden(const LitPicture& picture, View<const float> coc,
     HiddenLayers layers;
     if (mixtures.empty()) return layers;
     const float largest = std::max(std::abs(nearest_coc_px), std::abs(farthest_coc_px));
-    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, rule.directions, white,
-                        workers);
+    const Filler filler(picture, coc, connected, mixtures, largest, farthest_coc_px, rule, white, workers);
     const int bands = (height + kLargestSquare - 1) / kLargestSquare;
     layers.bands.resize(std::size_t(bands));
     layers.ranges = {width, height};

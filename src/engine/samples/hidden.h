@@ -92,7 +92,8 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
 // the silhouette.
 struct FillRule {
     float shared_from_px = 6;
-    int directions = 16;  // that are looked in: 16, 8 or 4
+    int directions = 16;   // that are looked in: 16, 8 or 4
+    bool textures = true;  // what is in focus goes on as a texture, too
 };
 
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach
