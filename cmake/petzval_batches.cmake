@@ -3,19 +3,40 @@
 # of its own among them. Each still includes what it uses; ./dev lint looks at it alone.
 set(PETZVAL_BATCH 8 CACHE STRING "Sources compiled at once; 1: each alone, which is quicker where one changes")
 
-# petzval_batches(TARGET ALONE patterns…): ALONE are the sources (regular expressions of their names) that are compiled by
-# themselves, having names within that others have too. So are SIMD files: they include themselves.
+# Regular expressions of paths of sources that are compiled by themselves, having names within that others have too.
+# (SIMD files are, too: they include themselves.)
+set(petzval_alone
+    "src/optics/ray_trace"
+    "src/lens_files/(read.*|text|expected_values|lens_file_test|saved_files_test)"
+    "src/kernel/draw/(ray_map|sector_kernel_test|transmission)"
+    "src/kernel/lenses/(third_order.*|traced_model|lens_test|ideal_lens_test|disc_character_test|make_lens)"
+    "src/kernel/keep/kernel_store.*"
+    "src/engine/samples/(cut_edges|fill|guessed|plate|.*_test|out_of_sight)"
+    "src/engine/lights/(pupil_masks|.*_test)"
+    "src/device/cpu/.*"
+    "src/glare/streaks"
+    "src/device/vulkan/.*"
+    "src/lens_facts/lens_section"
+    "src/session/(take_test|session)"
+    "src/files/(tiff|depth_choice|hostile_exr_test|motion_choice_test|exr_deep_write|layer_choice.*|read_frame.*)"
+    "src/lens_sheet/.*"
+    "src/shot/(shot_camera|shot_test|seen_elsewhere_test)"
+    "src/scene/([^_]+|points_.*)"
+    "apps/view/(fields|maker|section_panel|timeline)"
+    "tests/conformance/(edges_test|layers_test)"
+)
+
 function(petzval_batches target)
-  cmake_parse_arguments(BATCH "" "" "ALONE" ${ARGN})
   if(PETZVAL_BATCH LESS 2)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${PETZVAL_BATCH})
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
-    get_filename_component(file ${source} NAME)
-    foreach(pattern .*_simd.cpp ${BATCH_ALONE})
-      if(file MATCHES "^${pattern}$")
+    get_filename_component(path ${source} ABSOLUTE)
+    file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${path})
+    foreach(pattern ".*_simd" ${petzval_alone})
+      if(path MATCHES "^${pattern}[.]cpp$")
         set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       endif()
     endforeach()

@@ -36,11 +36,11 @@ if(NOT PETZVAL_SIMD)
 endif()
 petzval_precompiled(rooms LINKS petzval_options)
 
-# petzval_room(NAME USES rooms… LINKS libraries… TESTS_USE rooms… ALONE patterns…): src/NAME/*.cpp, and its tests
+# petzval_room(NAME USES rooms… LINKS libraries… TESTS_USE rooms…): src/NAME/*.cpp, and its tests
 # *_test.cpp. A room `a/b` is the target petzval_a_b, its tests are named a.b.Test; tests may look into rooms of TESTS_USE
-# as well. ALONE: see petzval_batches.
+# as well.
 function(petzval_room name)
-  cmake_parse_arguments(ROOM "" "" "USES;LINKS;TESTS_USE;ALONE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "USES;LINKS;TESTS_USE" ${ARGN})
   string(REPLACE "/" "_" target ${name})
   string(REPLACE "/" "." prefix ${name})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
@@ -57,7 +57,7 @@ function(petzval_room name)
   set_target_properties(petzval_${target} PROPERTIES OUTPUT_NAME petzval_room_${target})
   target_link_libraries(petzval_${target} PUBLIC $<BUILD_INTERFACE:petzval_options> ${ROOM_LINKS})
   petzval_precompile(petzval_${target} rooms)
-  petzval_batches(petzval_${target} ALONE ${ROOM_ALONE})
+  petzval_batches(petzval_${target})
   foreach(used ${ROOM_USES})
     target_link_libraries(petzval_${target} PUBLIC petzval_${used})
   endforeach()
@@ -65,7 +65,7 @@ function(petzval_room name)
     add_executable(test_${target} ${tests})
     target_link_libraries(test_${target} PRIVATE petzval_${target} petzval_gtest)
     petzval_precompile(test_${target} tests)
-    petzval_batches(test_${target} ALONE ${ROOM_ALONE})
+    petzval_batches(test_${target})
     foreach(used ${ROOM_TESTS_USE})
       target_link_libraries(test_${target} PRIVATE petzval_${used})
     endforeach()
