@@ -290,6 +290,7 @@ private:
     // What the hits at `coc_px` agree on, behind (x, y); they are used up.
     Hidden surface(int x, int y, Hits& hits, float coc_px, Met& met) const {
         Votes votes;
+        HiddenTextures::Point hidden(textures_, x, y);
         const auto take = [&](std::size_t k) -> Found* {
             for (Found& f : hits[k])
                 if (f.found && one_surface(f.coc_px, coc_px)) return &f;
@@ -313,7 +314,6 @@ private:
             if (a) meet(*a, weight);
             if (b) meet(*b, weight);
             const float from_a = passes(a), from_b = passes(b), both = from_a * from_b;
-            const CutEdges::Point hidden{x, y};
             if (a && b) add_pair(hidden, *a, *b, k, both, votes);
             if (a && from_a > both) add_alone(hidden, *a, k, nearest, from_a - both, votes);
             if (b && from_b > both) add_alone(hidden, *b, k + kPairs, nearest, from_b - both, votes);
@@ -323,24 +323,24 @@ private:
         return votes.result();
     }
     // What was met in direction k and against it.
-    void add_pair(CutEdges::Point hidden, const Found& a, const Found& b, std::size_t k, float weight,
+    void add_pair(HiddenTextures::Point& hidden, const Found& a, const Found& b, std::size_t k, float weight,
                   Votes& votes) const {
         const float total = a.distance_px + b.distance_px;
         const float wa = b.distance_px / total, wb = a.distance_px / total;
         const float alike = likeness(a, paths_[k].direction, b, paths_[k + kDirections / 2].direction);
         const float closeness = 1 / a.distance_px + 1 / b.distance_px;
         const auto colour = [&](const Found& f) {
-            return textures_.going_on(f.place(), hidden, known_.colour(f.x, f.y));
+            return hidden.going_on(f.place(), known_.colour(f.x, f.y));
         };
         votes.add(wa * colour(a) + wb * colour(b), wa * a.coc_px + wb * b.coc_px,
                   weight * (closeness * std::sqrt(closeness) * alike));
     }
     // What was met in direction k.
-    void add_alone(CutEdges::Point hidden, const Found& one, std::size_t k, float nearest_px, float weight,
-                   Votes& votes) const {
+    void add_alone(HiddenTextures::Point& hidden, const Found& one, std::size_t k, float nearest_px,
+                   float weight, Votes& votes) const {
         const float away = one.distance_px * one.distance_px;
         const Rgba colour = known_.going_on(one.place(), paths_[k].direction, one.distance_px);
-        votes.add(textures_.going_on(one.place(), hidden, colour), one.coc_px,
+        votes.add(hidden.going_on(one.place(), colour), one.coc_px,
                   weight * (kOneSided * nearest_px / (away * one.distance_px)));
     }
 

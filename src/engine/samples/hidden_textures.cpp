@@ -9,6 +9,8 @@ namespace petzval::engine {
 namespace {
 
 constexpr int kScale = 2;  // pixels on a side of one of details
+// Correlations: up to where nothing, and from where all of a texture is known.
+constexpr float kLeastAlike = 0.7f, kAlike = 0.95f;
 
 }  // namespace
 
@@ -118,46 +120,64 @@ Texture HiddenTextures::texture_around(const Tile& tile) const {
     return texture;
 }
 
-Rgba HiddenTextures::with_grain(KnownSurfaces::Place shown, CutEdges::Point hidden, float grain,
-                                Rgba otherwise) const {
+void HiddenTextures::move_grain(int x, int y, Moved& moved) const {
     constexpr std::array<std::array<int, 2>, 8> kWays{
         {{4, 0}, {-4, 0}, {0, 4}, {0, -4}, {3, 3}, {-3, -3}, {3, -3}, {-3, 3}}};
     for (int far = 4; far <= 16; far += 4)
         for (const auto& way : kWays) {
-            const int u = hidden.x + far * way[0], v = hidden.y + far * way[1];
-            if (!shows(u, v, shown.coc_px)) continue;
-            const Rgba moved = mean(shown.x, shown.y) + known_.colour(u, v) - mean(u, v);
-            return (1 - grain) * otherwise + grain * light_only(moved);
+            const int u = x + far * way[0], v = y + far * way[1];
+            if (!shows(u, v, moved.coc_px)) continue;
+            moved.grain = tiles_[std::size_t(moved.tile)].texture.grain;
+            moved.grain_detail = detail_of_pixel(u, v);
+            return;
         }
-    return otherwise;
 }
 
-Rgba HiddenTextures::going_on(KnownSurfaces::Place shown, CutEdges::Point hidden, Rgba otherwise) const {
-    constexpr float kLeastAlike = 0.7f, kAlike = 0.95f;
-    constexpr float kRestPx = 4;  // how far what a repeat does not explain goes on
-    const float in_focus = std::clamp(kSharpPx - std::abs(shown.coc_px), 0.0f, 1.0f);
-    if (tiles_.empty() || in_focus <= 0) return otherwise;
-    const int tile = tile_at_(shown.x / kTile, shown.y / kTile);
-    if (tile < 0) return otherwise;
+HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int tile, float coc_px) const {
     const Texture& texture = tiles_[std::size_t(tile)].texture;
-    if (texture.grain > 0) otherwise = with_grain(shown, hidden, in_focus * texture.grain, otherwise);
+    Moved moved;
+    moved.tile = tile, moved.coc_px = coc_px;
+    if (texture.grain > 0) move_grain(x, y, moved);
     for (const Texture::Offset& o : texture.repeats) {
         if (o.alike <= kLeastAlike) break;
         const int dx = nearest_pixel(o.x), dy = nearest_pixel(o.y);
-        const int u = hidden.x + dx, v = hidden.y + dy;
-        if (!shows(u, v, shown.coc_px)) continue;
-        const Rgba around = mean(shown.x, shown.y);
-        Rgba moved = around + known_.colour(u, v) - mean(u, v);
-        if (shows(shown.x + dx, shown.y + dy, shown.coc_px)) {
-            const Rgba rest = known_.colour(shown.x, shown.y) - around -
-                              known_.colour(shown.x + dx, shown.y + dy) + mean(shown.x + dx, shown.y + dy);
-            moved +=
-                std::exp(-std::hypot(float(hidden.x - shown.x), float(hidden.y - shown.y)) / kRestPx) * rest;
-        }
-        const float told = in_focus * std::min(1.0f, (o.alike - kLeastAlike) / (kAlike - kLeastAlike));
-        return (1 - told) * otherwise + told * light_only(moved);
+        if (!shows(x + dx, y + dy, coc_px)) continue;
+        moved.alike = o.alike, moved.dx = dx, moved.dy = dy;
+        moved.detail = detail_of_pixel(x + dx, y + dy);
+        break;
     }
-    return otherwise;
+    return moved;
+}
+
+const HiddenTextures::Moved& HiddenTextures::Point::moved_to_here(int tile, float coc_px) {
+    Moved& moved = found_[std::size_t(tile) % found_.size()];
+    if (moved.tile != tile || std::abs(moved.coc_px - coc_px) > kOnePx / 2)
+        moved = textures_.moved_to(x_, y_, tile, coc_px);
+    return moved;
+}
+
+Rgba HiddenTextures::Point::going_on(KnownSurfaces::Place shown, Rgba otherwise) {
+    constexpr float kRestPx = 4;  // how far what a repeat does not explain goes on
+    const float in_focus = std::clamp(kSharpPx - std::abs(shown.coc_px), 0.0f, 1.0f);
+    const HiddenTextures& all = textures_;
+    if (all.tiles_.empty() || in_focus <= 0) return otherwise;
+    const int tile = all.tile_at_(shown.x / kTile, shown.y / kTile);
+    if (tile < 0) return otherwise;
+    const Moved& moved = moved_to_here(tile, shown.coc_px);
+    if (moved.grain <= 0 && moved.alike <= 0) return otherwise;
+    const Rgba around = all.mean(shown.x, shown.y);
+    const float grain = in_focus * moved.grain;
+    if (grain > 0) otherwise = (1 - grain) * otherwise + grain * light_only(around + moved.grain_detail);
+    if (moved.alike <= 0) return otherwise;
+    Rgba colour = around + moved.detail;
+    const float distance = std::hypot(float(x_ - shown.x), float(y_ - shown.y));
+    const int u = shown.x + moved.dx, v = shown.y + moved.dy;
+    if (distance < 4 * kRestPx && all.shows(u, v, shown.coc_px)) {
+        const Rgba rest = all.known_.colour(shown.x, shown.y) - around - all.detail_of_pixel(u, v);
+        colour += std::exp(-distance / kRestPx) * rest;
+    }
+    const float told = in_focus * std::min(1.0f, (moved.alike - kLeastAlike) / (kAlike - kLeastAlike));
+    return (1 - told) * otherwise + told * light_only(colour);
 }
 
 }  // namespace petzval::engine
