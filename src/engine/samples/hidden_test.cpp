@@ -156,6 +156,32 @@ TEST(Hidden, ALampBehindAnEdgeShinesFromBehindIt) {
         for (int x = 20; x < 28; ++x) EXPECT_LT(d.background(x, y).g, 0.3f) << "not painted behind the wire";
 }
 
+TEST(Hidden, ALampThatOnlyPixelsOfAnEdgeShowShinesFromBehindIt) {
+    // One or two of the edge's pixels are lit past it, or most of a small thing is.
+    const auto far_share = [](int lit, int thing) {
+        Drawn d;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const bool near = x >= 20 && std::abs(y - 24) <= thing;
+                d.colour(x, y) = grey(near ? 0.1f : 0.04f), d.coc(x, y) = near ? kNearPx : kFarPx;
+            }
+        for (int y = 24; y < 24 + lit; ++y)
+            for (int x = 20; x < (thing < 2 ? 48 : 21); ++x) d.colour(x, y) = grey(60);
+        const LitPicture picture{d.colour,
+                                 {[](int, int, Rgba light) { return grey(std::min(light.g, 0.2f)); }}};
+        const auto mixtures =
+            unmix_silhouettes(picture, d.coc, connections(d.coc, one_thread()), one_thread());
+        const Mixture* const m = mixtures.at(20, 24);
+        if (m && m->far_light.g > 0) {
+            EXPECT_FLOAT_EQ(m->lamp_coc_px, kFarPx);
+        }
+        return m ? m->far_light.g / (60 - 0.2f) : -1;
+    };
+    EXPECT_NEAR(far_share(1, 20), 1, 0.01);
+    EXPECT_NEAR(far_share(2, 20), 1, 0.01);
+    EXPECT_NEAR(far_share(1, 1), 0, 0.01) << "a thin thing's own light";
+}
+
 TEST(Hidden, ASmallLampHasTheLightOfItsRimAlsoNextToSomethingNearer) {
     // Two pixels have its depth, those around them the wall's; a bar passes right below, nearer than all.
     constexpr float kLampPx = 0.4f, kWallPx = 4;

@@ -122,14 +122,15 @@ float share_of_surface(const std::vector<LitPixel>& nearer) {
     return std::clamp((float(lit) / float(pixels) - kFewLit) / (kManyLit - kFewLit), kFewLit, 1.0f);
 }
 
-// The side whose pixels nearby are lit brighter, in the pixel's own colour, has the lamp.
+// The side whose pixels nearby are lit brighter, in the pixel's own colour, has the lamp. far_coc: of the
+// farther side.
 LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
-                       int x, int y, float threshold) {
+                       int x, int y, float threshold, float far_coc) {
     constexpr int kLampReach = 2;
     const Rect window =
         Rect{x - kLampReach, y - kLampReach, x + kLampReach + 1, y + kLampReach + 1}.intersected(coc.rect());
     const Rgba own = picture.colour(x, y) - picture.dim(x, y);
-    float near = 0, far = 0, far_coc = 0;
+    float near = 0, far = 0;
     std::vector<LitPixel> nearer;
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
@@ -142,7 +143,11 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
                 far = light, far_coc = coc(u, v);
             }
         }
-    near *= share_of_surface(nearer);
+    // One behind may light no pixel but those of the edge that it shows past.
+    constexpr float kUnseen = 0.33f;
+    const float sure = share_of_surface(nearer);
+    far = std::max(far, kUnseen * (1 - sure) * near);
+    near *= sure;
     const float t = std::clamp((far / std::max(1e-9f, near + far) - 0.35f) / 0.3f, 0.0f, 1.0f);
     return {t * t * (3 - 2 * t), far_coc};
 }
@@ -166,7 +171,7 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     const Rgba c = picture.dim(x, y);
     const Rgba lamps = picture.colour(x, y) - c;
     if (lamps != Rgba{}) {
-        const LampsBehind behind = find_lamps(picture, coc, touching, x, y, threshold);
+        const LampsBehind behind = find_lamps(picture, coc, touching, x, y, threshold, s.far_coc);
         m.far_light = behind.share * lamps, m.lamp_coc_px = behind.coc_px;
         m.lights_near = behind.share < 1;
     }
