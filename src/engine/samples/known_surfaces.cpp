@@ -4,11 +4,13 @@
 #include "engine/samples/nearest_pixel.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace petzval::engine {
 namespace {
 
 constexpr float kWidestLightPx = 64;  // what is wider is a lit surface, as of lamps
+constexpr float kAnyLight = std::numeric_limits<float>::infinity();
 
 float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
 
@@ -54,8 +56,21 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
         light = std::max(light, light_of((1 - told) * own + told * colour(before.x, before.y)));
     }
     const float falls = above(light, kLight * white_);
-    if (falls <= 0) return own;
-    return own * (1 - falls) + falls * shown(from, outwards, distance_px, own);
+    const Rgba dim = falls < 1 ? among_lights(own, from, outwards, distance_px) : own;
+    if (falls <= 0) return dim;
+    return dim * (1 - falls) + falls * shown(from, outwards, distance_px, own, kAnyLight);
+}
+
+// What is dark itself, but little darker than what shows with it, is the gap between the letters of a sign:
+// it does not end that, and which of the two came last at the edge does not decide what goes on. What is far
+// darker is the wall beside a lit window.
+Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px) const {
+    constexpr float kLit = 0.175f, kContrast = 12;  // times white; times the own light
+    constexpr float kLeast = 1e-3f;
+    const float usual = kContrast * std::max(kLeast * white_, light_of(own));
+    const Rgba all = shown(from, outwards, distance_px, own, usual);
+    const float lit = above(light_of(all), kLit * white_);
+    return own * (1 - lit) + lit * all;
 }
 
 // What blurs it hides detail, too: the mean of at least a part of that blur, here and farther outwards.
@@ -80,8 +95,9 @@ Rgba KnownSurfaces::wide_colour(Place at, Direction outwards, float distance_px)
 
 // The mean of what shows of the surface at r times the distance, with density 1/(1 + r)^2: of a thing that
 // shows w wide the share w/(w + distance), as if things of all widths were as common and cut anywhere.
-// Nothing counts across an edge that goes on.
-Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, Rgba otherwise) const {
+// Nothing counts across an edge that goes on, and little what is brighter than `usual`.
+Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, Rgba otherwise,
+                          float usual) const {
     constexpr int kParts = 8;  // as likely each
     Rgba sum;
     float total = 0;
@@ -92,8 +108,10 @@ Rgba KnownSurfaces::shown(Place from, Direction outwards, float distance_px, Rgb
         const int x = from.x + nearest_pixel(far * outwards.x), y = from.y + nearest_pixel(far * outwards.y);
         if (far > kWidestLightPx || !radii_.rect().contains(x, y)) break;
         if (!one_surface(radii_(x, y), from.coc_px)) continue;
-        const float weight = edges_.passes({x, y}, hidden, from.coc_px);
-        sum += weight * comparable(colour(x, y)), total += weight;
+        const Rgba light = comparable(colour(x, y));
+        const float excess = light_of(light) / usual, excess2 = excess * excess;
+        const float weight = edges_.passes({x, y}, hidden, from.coc_px) / (1 + excess2 * excess2);
+        sum += weight * light, total += weight;
     }
     return total > 0 ? sum * (1 / total) : otherwise;
 }

@@ -56,7 +56,8 @@ public:
 private:
     static CutEdges::Point behind(Place at, Direction outwards, float distance_px);
     Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
-    Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise) const;
+    Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px) const;
+    Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise, float usual) const;
 
     const LitPicture& picture_;
     const Mixtures& mixtures_;
