@@ -30,7 +30,7 @@ constexpr Rgba kHighlightColour{1, 1, 1, 1};
 Rgba colour_of(int level) { return kColours[std::size_t(level) % kColours.size()]; }
 
 std::string name_of_level(int level, const LevelRule& rule) {
-    const auto largest = int(std::lround(rule.end_of_level(level)));
+    const auto largest = int(std::lround(rule.radius_at(float(level))));
     if (level == 0) return "LEVEL 0  PIXELS, RADII TO " + std::to_string(largest) + " PX";
     return "LEVEL " + std::to_string(level) + "  CELLS " + std::to_string(1 << level) + " PX, RADII TO " +
            std::to_string(largest) + " PX";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace petzval::engine {
 namespace {
@@ -161,11 +162,9 @@ public:
     // The block's first pixel; rows count from first_row of the picture.
     Block(int x, int y, int first_row) : x_(x), y_(y), first_row_(first_row) {}
 
-    bool empty() const { return empty_; }
     void put(int x, int y, float coc_px, const Taken& taken) {
         Cell& c = cell(x - x_, y - y_);
         c = {taken, coc_px, true};
-        empty_ = false;
     }
     // Takes squares of `size` that have light in common.
     void take_squares(int size, const HighlightSplit& split, std::vector<Highlight>& out) {
@@ -216,7 +215,6 @@ private:
             for (int x = x0; x < x0 + size; ++x) visit(cell(x, y));
     }
     int x_, y_, first_row_;
-    bool empty_ = true;
     Cell cells_[kLargestSquare * kLargestSquare];
 };
 
@@ -241,7 +239,7 @@ std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit
         std::vector<Highlight>& out = found[std::size_t(band)];
         const int y0 = band * kLargestSquare;
         for (int x0 = 0; x0 < width; x0 += kLargestSquare) {
-            Block block(x0, y0, first_row);
+            std::optional<Block> block;  // made where there is light to be taken
             for (int y = y0; y < std::min(height, y0 + kLargestSquare); ++y)
                 for (int x = x0; x < std::min(width, x0 + kLargestSquare); ++x) {
                     const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
@@ -260,15 +258,17 @@ std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit
                         const float coc = std::clamp(split.radius_of_light(x, first_row + y, sample.coc_px),
                                                      -kWidestHighlightPx, kWidestHighlightPx);
                         sample.colour = base;
-                        if (in_block)
+                        if (in_block) {
                             out.push_back({x, y, 1, coc, leaves * taken});
-                        else
-                            block.put(x, y, coc, {taken, k, leaves}), in_block = true;
+                            continue;
+                        }
+                        if (!block) block.emplace(x0, y0, first_row);
+                        block->put(x, y, coc, {taken, k, leaves}), in_block = true;
                     }
                 }
-            if (block.empty()) continue;
-            for (int size = largest_square; size > 1; size /= 2) block.take_squares(size, split, out);
-            block.finish(split, samples, out);
+            if (!block) continue;
+            for (int size = largest_square; size > 1; size /= 2) block->take_squares(size, split, out);
+            block->finish(split, samples, out);
         }
     });
     std::vector<Highlight> highlights;

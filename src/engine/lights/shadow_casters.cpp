@@ -18,10 +18,17 @@ public:
     BlockCasters(CocSamplesView samples, const Rect& block, std::vector<Caster>& out)
         : samples_(samples), block_(block), out_(out) {}
 
-    // False: no pixel of the block has a sample of this rank.
-    bool add(std::size_t rank) {
+    // As many as a pixel of the block has samples.
+    std::size_t ranks() const {
+        std::size_t most = 0;
+        for (int y = block_.y0; y < block_.y1; ++y)
+            for (int x = block_.x0; x < block_.x1; ++x)
+                most = std::max(most, samples_.at(x, y - block_.y0).size());
+        return most;
+    }
+    void add(std::size_t rank) {
         rank_ = rank;
-        return add_square(block_.x0, block_.y0, ShadowCasters::kBlock);
+        add_square(block_.x0, block_.y0, ShadowCasters::kBlock);
     }
 
 private:
@@ -29,9 +36,9 @@ private:
         const auto all = samples_.at(x, y - block_.y0);
         return rank_ < all.size() ? &all[rank_] : nullptr;
     }
-    bool add_square(int x0, int y0, int size) {
+    void add_square(int x0, int y0, int size) {
         const Rect r = Rect{x0, y0, x0 + size, y0 + size}.intersected(block_);
-        if (r.empty()) return false;
+        if (r.empty()) return;
         bool any = false, whole = r.width() == size && r.height() == size;
         float low = 1e30f, high = -1e30f;
         for (int y = r.y0; y < r.y1; ++y)
@@ -41,7 +48,7 @@ private:
                 whole = whole && s && s->colour.a >= kOpaque;
                 if (s) low = std::min(low, s->coc_px), high = std::max(high, s->coc_px);
             }
-        if (!any) return false;
+        if (!any) return;
         if (size == 1) {
             const CocSample& s = *at(x0, y0);
             if (s.colour.a > 0) out_.push_back({float(x0), float(y0), 1, s.coc_px, s.colour.a});
@@ -52,7 +59,6 @@ private:
             for (const int dy : {0, size / 2})
                 for (const int dx : {0, size / 2}) add_square(x0 + dx, y0 + dy, size / 2);
         }
-        return true;
     }
 
     CocSamplesView samples_;
@@ -136,7 +142,7 @@ void ShadowCasters::add_blocks(int by, const CocSamplesView& samples, const Rect
     for (int bx = 0; bx < nearest_of_blocks_.width(); ++bx) {
         const Rect block = Rect{bx * kBlock, rows.y0, (bx + 1) * kBlock, rows.y1}.intersected(rows);
         BlockCasters casters(samples, block, fine.casters);
-        for (std::size_t rank = 0; casters.add(rank);) ++rank;
+        for (std::size_t rank = 0, ranks = casters.ranks(); rank < ranks; ++rank) casters.add(rank);
         std::stable_sort(fine.casters.begin() + std::ptrdiff_t(fine.first.back()), fine.casters.end(),
                          [](const Caster& a, const Caster& b) { return a.coc_px < b.coc_px; });
         if (fine.casters.size() > fine.first.back())

@@ -10,8 +10,9 @@ Image<unsigned char> connections(View<const float> coc, Workers& workers) {
     // Each pixel decides about its right and lower side; both pixels of the pair are marked. Rows are done in
     // two sweeps so that no two threads write one row.
     const auto joined = [&](int x, int y, int dx, int dy) {
-        return same_surface(coc(x, y), coc(x + dx, y + dy), coc(x, y) - coc.clamped(x - dx, y - dy),
-                            coc.clamped(x + 2 * dx, y + 2 * dy) - coc(x + dx, y + dy));
+        const float a = coc(x, y), b = coc(x + dx, y + dy);
+        return always_connected(a, b) ||
+               same_surface(a, b, a - coc.clamped(x - dx, y - dy), coc.clamped(x + 2 * dx, y + 2 * dy) - b);
     };
     parallel_for(height, workers, [&](int y) {
         for (int x = 0; x + 1 < width; ++x)

@@ -32,6 +32,8 @@ public:
     // The outline that is hidden from the corner (x, y) of four pixels on.
     std::optional<Outline> outline_at(int x, int y) const {
         std::array<float, 4> met{coc_(x - 1, y - 1), coc_(x, y - 1), coc_(x - 1, y), coc_(x, y)};
+        const auto [low, high] = std::minmax_element(met.begin(), met.end());
+        if (one_surface(*low, *high)) return {};
         std::sort(met.begin(), met.end());
         for (const float own : {met[1], met[2]})
             if (side(met[0], own) == Side::Nearer && side(met[3], own) == Side::Farther)

@@ -200,10 +200,10 @@ void write_tile(const TileDraft& draft, const TilePlace& at, const std::vector<s
 
 void list_tiles(ScatterPlan& plan) {
     const Rect& rows = plan.rows;
-    constexpr int kTile = ScatterPlan::kTile;
-    for (int y = rows.y0; y < rows.y1; y += kTile)
-        for (int x = rows.x0; x < rows.x1; x += kTile)
-            plan.tiles.push_back({Rect{x, y, x + kTile, y + kTile}.intersected(rows), 0, 1});
+    const int size = plan.rule.tile;
+    for (int y = rows.y0; y < rows.y1; y += size)
+        for (int x = rows.x0; x < rows.x1; x += size)
+            plan.tiles.push_back({Rect{x, y, x + size, y + size}.intersected(rows), 0, 1});
 }
 
 void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& workers, ScatterPlan& plan) {
@@ -246,17 +246,16 @@ float LevelRule::position(float coc_px) const {
     return std::min(octaves / kOctavesPerLevel, octaves + 1);
 }
 
-float LevelRule::end_of_level(int level) const {
-    return largest_cells * std::exp2(std::max(kOctavesPerLevel * float(level), float(level) - 1));
+float LevelRule::radius_at(float position) const {
+    return largest_cells * std::exp2(std::max(kOctavesPerLevel * position, position - 1));
 }
-
-float LevelRule::largest_radius() const { return largest_cells * std::exp2(kOctavesPerLevel * fade); }
 
 LevelRule level_rule(const Input& input) {
     LevelRule rule;
     switch (input.quality) {
         case Quality::Draft:
             rule = {.largest_cells = 5, .surfaces_for_sectors = std::numeric_limits<int>::max()};
+            rule.gathers_squares = true, rule.tile = 128;
             break;
         case Quality::Standard:
             rule = {.largest_cells = 8, .surfaces_for_sectors = 2};

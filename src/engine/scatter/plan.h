@@ -27,6 +27,7 @@ struct LevelRule {
     // least this many reach a tile, sectors of the pupil are composited each on its own.
     int surfaces_for_sectors = 3;
     bool hidden_known = false;  // what lies behind is given, not guessed (samples/layers.h)
+    int tile = 64;              // pixels of the result on a side that are drawn together
     // Sectors of equal light that the pupil is taken in: in the middle, and around that.
     int inner_sectors = 0, outer_sectors = 4;
     int sectors() const { return inner_sectors + outer_sectors; }
@@ -37,9 +38,12 @@ struct LevelRule {
     static constexpr float kOctavesPerLevel = 1 - 1.0f / kHalved;
     // Place of a radius on the scale of levels: 0 up to largest_cells, n where level n ends.
     float position(float coc_px) const;
-    float end_of_level(int level) const;  // the radius in pixels whose position is `level`
+    float radius_at(float position) const;  // in pixels: that whose position this is
     // Largest radius any source can have on its level.
-    float largest_radius() const;
+    float largest_radius() const { return radius_at(fade); }
+    // Squares of pixels that show one surface alone and fall into one cell of every level they are spread on
+    // are gathered at once.
+    bool gathers_squares = false;
 };
 
 LevelRule level_rule(const Input& input);
@@ -111,7 +115,7 @@ struct Tile {
 };
 
 struct ScatterPlan {
-    static constexpr int kTile = 64;
+    static constexpr int kTile = 64;   // pixels on a side
     static constexpr int kBorder = 2;  // cells around a tile that enlarging reads
     // The cells of a level that a tile needs.
     static Rect cells_of(const Rect& tile, int level) { return engine::cells_of(tile, level, kBorder); }

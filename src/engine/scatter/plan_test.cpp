@@ -42,11 +42,17 @@ public:
     const ScatterKernels& kernels() const { return *kernels_; }
     const ScatterPlan& plan() { return plan(colour_.rect()); }
     const ScatterPlan& plan(const Rect& rows) {
+        return plan(rows, [](LevelRule&) {});
+    }
+    // change(rule): what is planned by otherwise than this quality is.
+    template <typename Change>
+    const ScatterPlan& plan(const Rect& rows, const Change& change) {
         input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
         const auto [low, high] = std::minmax_element(coc_px_.pixels(), coc_px_.pixels() + coc_px_.size());
         input_.nearest_coc_px = std::min(0.0f, *low), input_.farthest_coc_px = std::max(0.0f, *high);
         input_.progress = &progress_;
-        const LevelRule rule = level_rule(input_);
+        LevelRule rule = level_rule(input_);
+        change(rule);
         kernels_ = std::make_unique<ScatterKernels>(input_, rule);
         const SampleSet set = complete_samples(input_);
         plan_ = make_plan(input_, set.samples, set.connected, rows, 0, rule, *kernels_);
@@ -111,6 +117,55 @@ TEST(ScatterPlan, EveryAskIsUsedAndEveryArrivalHasItsAsk) {
             EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
             EXPECT_GT(used.size(), 10U);
         }
+}
+
+// What a cell gathered, all layers together.
+struct CellSum {
+    double area = 0, light = 0, radius = 0, tilt = 0, off = 0;
+    void add(const Source& s) {
+        const double a = double(s.light.a);
+        area += a, light += double(s.light.g), radius += a * double(s.radius), tilt += a * double(s.tilt_x);
+        off += a * double(s.off_x);
+    }
+};
+
+std::map<std::pair<int, int>, CellSum> cells_of(const SourceArray& level) {
+    std::map<std::pair<int, int>, CellSum> cells;
+    for (const Source& s : level.sources) cells[{s.x, s.y()}].add(s);
+    return cells;
+}
+
+// Slanted on both sides of a silhouette, blurred by 0 to 25 px; every pixel of another grey.
+TEST(ScatterPlan, SquaresOfADraftAreTheirPixels) {
+    constexpr int kWidth = 179, kHeight = 133;  // squares end before the border, or would reach beyond it
+    Planned planned(kWidth, kHeight, {}, Quality::Draft);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const float grey = 0.1f + 0.05f * float((7 * x + 3 * y) % 10);
+            planned.colour()(x, y) = {grey, grey, grey, 1};
+        }
+    planned.with_radii([](int x, int y) { return (x < 90 ? -8 : 2) + 0.1f * float(x) + 0.05f * float(y); });
+    const auto levels = [&](bool squares) {
+        const auto change = [squares](LevelRule& rule) { rule.gathers_squares = squares; };
+        return planned.plan({0, 0, kWidth, kHeight}, change).levels;
+    };
+    const auto of_squares = levels(true), of_pixels = levels(false);
+    ASSERT_EQ(of_squares.size(), of_pixels.size());
+    ASSERT_GE(of_squares.size(), 4U);
+    for (std::size_t l = 0; l < of_squares.size(); ++l) {
+        const auto pixels = cells_of(of_pixels[l]);
+        for (const auto& [cell, sum] : cells_of(of_squares[l])) {
+            const CellSum expected = pixels.at(cell);
+            const double a = sum.area, b = expected.area;
+            EXPECT_NEAR(a, b, 0.04);  // of a square all is shared between levels alike
+            if (b < 0.1) continue;
+            EXPECT_NEAR(sum.light / a, expected.light / b, 0.01) << l << testing::PrintToString(cell);
+            EXPECT_NEAR(sum.radius / a, expected.radius / b, 0.03) << l << testing::PrintToString(cell);
+            EXPECT_NEAR(sum.tilt / a, expected.tilt / b, 0.003) << l << testing::PrintToString(cell);
+            if (b < 0.99) continue;  // of others pixels are shared between levels each on its own
+            EXPECT_NEAR(sum.off / a, expected.off / b, 0.03) << l << testing::PrintToString(cell);
+        }
+    }
 }
 
 TEST(ScatterPlan, TilesCoverTheRowsOnce) {

@@ -5,6 +5,7 @@
 #include "engine/scatter/scatter_kernels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace petzval::engine {
@@ -34,9 +35,17 @@ struct Gathered {
     bool same_source(const Gathered& other) const {
         return layer == other.layer && skirt_of == other.skirt_of;
     }
+    // Of pixels that show one surface alone, gathered from their samples; light.a is their coverage.
+    void add(const CocSample& s) { light += s.colour, coc += s.colour.a * s.coc_px; }
     void operator+=(const Gathered& other) {
         light += other.light, coc += other.coc, tilt_x += other.tilt_x, tilt_y += other.tilt_y;
         x += other.x, y += other.y;
+    }
+    Gathered part(float share) const {
+        Gathered p = *this;
+        p.light = share * light, p.coc = share * coc, p.tilt_x = share * tilt_x, p.tilt_y = share * tilt_y;
+        p.x = share * x, p.y = share * y;
+        return p;
     }
     // The same in a cell whose first pixel lies (dx, dy) before that of this one.
     Gathered from(int dx, int dy) const {
@@ -101,7 +110,9 @@ public:
     // `samples` are rows from first_row on.
     Maker(const CocSamplesView& samples, int first_row, View<const float> coc_px,
           View<const unsigned char> connected, const LevelRule& rule)
-        : samples_(samples), first_row_(first_row), coc_px_(coc_px), connected_(connected), rule_(rule) {}
+        : samples_(samples), first_row_(first_row), coc_px_(coc_px), connected_(connected), rule_(rule) {
+        for (int i = 0; i < kSquares; ++i) from_px_[std::size_t(i)] = rule.radius_at(float(i) + rule.fade);
+    }
 
     // Pixel (x, y), clamped to the picture; put(level, gathered).
     template <typename Put>
@@ -110,25 +121,95 @@ public:
         LayersOfPixel layers(rule_.hidden_known);
         for (const CocSample& s : samples_.at(u, v - first_row_)) {
             const auto [layer, shows] = layers.next(s);
-            // Only what is seen has a known slope.
-            const bool visible = std::abs(s.coc_px - coc_px_(u, v)) < 0.01f;
-            const Slope slope = visible ? slope_at(coc_px_, connected_, u, v) : Slope{};
-            const Slope tilt = tilt_of(slope, s.coc_px);
-            const float at = rule_.position(s.coc_px);
-            const int level = int(std::ceil(at));
-            const float share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule_.fade);
-            const auto put_both = [&](int in_layer, Rgba light) {
-                put(level, Gathered(in_layer, share * light, s.coc_px, tilt));
-                if (share < 1) put(level - 1, Gathered(in_layer, (1 - share) * light, s.coc_px, tilt));
+            const Slope tilt = tilt_at(u, v, s.coc_px);
+            const Spread spread(rule_, s.coc_px);
+            const auto put_all = [&](int in_layer, Rgba light) {
+                spread.put_both(
+                    [&](float share) { return Gathered(in_layer, share * light, s.coc_px, tilt); }, put);
             };
-            if (s.colour.a > 0 && shows > 0) put_both(layer, shows * s.colour);
-            if (s.colour.a > 0 && shows < 1) put_both(layer + kNextLayer, (1 - shows) * s.colour);
+            if (s.colour.a > 0 && shows > 0) put_all(layer, shows * s.colour);
+            if (s.colour.a > 0 && shows < 1) put_all(layer + kNextLayer, (1 - shows) * s.colour);
             if (s.empty > 0)
-                put_both(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
+                put_all(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
         }
+    }
+    // The square of pixels that begins at (x, y), put(level, gathered) as one; how many pixels it is wide. 1:
+    // there is none, and nothing was put.
+    template <typename Put>
+    int visit_square(int x, int y, const Put& put) const {
+        for (int i = largest_square_at(x, y); i > 0; --i) {
+            Gathered g;
+            if (!gather_square(x, y, i, g)) continue;
+            const float coc_px = g.coc / g.light.a;
+            const int side = 1 << i;
+            const int u = x + side / 2, v = y + side / 2;
+            const Slope tilt = tilt_at(u, v, samples_.at(u, v - first_row_)[0].coc_px);
+            const float middle = 0.5f * float(side - 1) * g.light.a;
+            g.layer = layer_of(coc_px);
+            g.tilt_x = g.light.a * tilt.x, g.tilt_y = g.light.a * tilt.y, g.x = g.y = middle;
+            Spread(rule_, coc_px).put_both([&](float share) { return g.part(share); }, put);
+            return side;
+        }
+        return 1;
     }
 
 private:
+    // The levels a radius is spread on.
+    struct Spread {
+        Spread(const LevelRule& rule, float coc_px) {
+            const float at = rule.position(coc_px);
+            level = int(std::ceil(at));
+            share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule.fade);
+        }
+        // gathered(share): of all that it sends.
+        template <typename Make, typename Put>
+        void put_both(const Make& gathered, const Put& put) const {
+            put(level, gathered(share));
+            if (share < 1) put(level - 1, gathered(1 - share));
+        }
+        int level;
+        float share;  // of its light that goes there; the rest goes to the level before
+    };
+
+    // Only what is seen has a known slope.
+    Slope tilt_at(int x, int y, float coc_px) const {
+        const bool visible = std::abs(coc_px - coc_px_(x, y)) < 0.01f;
+        return tilt_of(visible ? slope_at(coc_px_, connected_, x, y) : Slope{}, coc_px);
+    }
+    // The logarithm of its pixels on a side, by its first pixel.
+    int largest_square_at(int x, int y) const {
+        if (x >= coc_px_.width() || y >= coc_px_.height()) return 0;
+        const auto first = samples_.at(x, y - first_row_);
+        const auto fits = [&](int i) {
+            const int side = 2 << i;
+            return i < kSquares && std::abs(first[0].coc_px) >= from_px_[std::size_t(i)] &&
+                   (x | y) % side == 0 && x + side <= coc_px_.width() && y + side <= coc_px_.height();
+        };
+        int i = 0;
+        while (first.size() == 1 && fits(i)) ++i;
+        return i;
+    }
+    // Whether each of its pixels shows one surface and nothing behind that, all at nearly the same radius.
+    bool gather_square(int x, int y, int i, Gathered& g) const {
+        constexpr float kSameRadius = 0.05f;
+        const float least = from_px_[std::size_t(i - 1)];
+        const float of_first = samples_.at(x, y - first_row_)[0].coc_px,
+                    off = kSameRadius * std::abs(of_first);
+        for (int v = y; v < y + (1 << i); ++v)
+            for (int u = x; u < x + (1 << i); ++u) {
+                const auto samples = samples_.at(u, v - first_row_);
+                if (samples.size() != 1) return false;
+                const CocSample& s = samples[0];
+                if (s.empty > 0 || s.colour.a <= 0 || std::abs(s.coc_px) < least ||
+                    std::abs(s.coc_px - of_first) > off)
+                    return false;
+                g.add(s);
+            }
+        return true;
+    }
+
+    static constexpr int kSquares = 3;
+    std::array<float, kSquares> from_px_;  // |radius| from which on pixels form squares of 2, of 4, of 8
     CocSamplesView samples_;
     int first_row_;
     View<const float> coc_px_;
@@ -306,6 +387,27 @@ private:
     std::vector<std::vector<Cell>> of_row_;
 };
 
+// Pixels of the picture, and those beyond it that fill its last cells.
+void gather(const Maker& maker, const Rect& pixels, bool squares, Band& band) {
+    std::vector<int> done(std::size_t(pixels.width() + 1) / 2, pixels.y0);  // rows of each two columns
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+        for (int x = 0; x < pixels.x1;) {
+            const auto put = [&](int level, const Gathered& g) { band.put(level, x, y, g); };
+            if (done[std::size_t(x / 2)] > y) {
+                x += 2;
+                continue;
+            }
+            const int side = squares && (x | y) % 2 == 0 ? maker.visit_square(x, y, put) : 1;
+            if (side == 1)
+                maker.visit(x, y, put);
+            else
+                std::fill_n(done.begin() + x / 2, side / 2, y + side);
+            x += side;
+        }
+        band.finish_row(y);
+    }
+}
+
 }  // namespace
 
 std::vector<SourceArray> make_sources(SampleSource samples, View<const float> coc_px,
@@ -328,11 +430,8 @@ std::vector<SourceArray> make_sources(SampleSource samples, View<const float> co
         Band band(levels, kernels, coc_px.width(), y1 - y0);
         samples.rows(y0, std::min(y1, height), [&](const CocSamplesView& of_band) {
             const Maker maker(of_band, y0, coc_px, connected, rule);
-            for (int y = y0; y < y1; ++y) {
-                for (int x = 0; x < cells(coc_px.width(), coarsest) << coarsest; ++x)
-                    maker.visit(x, y, [&](int level, const Gathered& g) { band.put(level, x, y, g); });
-                band.finish_row(y);
-            }
+            gather(maker, {0, y0, cells(coc_px.width(), coarsest) << coarsest, y1}, rule.gathers_squares,
+                   band);
         });
         rows[std::size_t(i)] = band.take();
     });
