@@ -6,6 +6,7 @@
 #include "engine/samples/hidden.h"
 
 #include <cmath>
+#include <limits>
 
 namespace petzval::engine {
 
@@ -57,7 +58,11 @@ private:
     static CutEdges::Point behind(Place at, Direction outwards, float distance_px);
     Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
     Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px) const;
-    Rgba shown(Place from, Direction outwards, float distance_px, Rgba otherwise, float usual) const;
+    struct Mean {
+        float span;                                            // times the distance
+        float usual = std::numeric_limits<float>::infinity();  // what is brighter counts little
+    };
+    Rgba shown(Place from, Direction outwards, float distance_px, const Mean& mean, Rgba otherwise) const;
 
     const LitPicture& picture_;
     const Mixtures& mixtures_;
