@@ -35,6 +35,7 @@ struct Mixture {
     Rgba far_colour;           // of the farther surface, as if it filled the pixel; without lamps
     Rgba far_light;            // of lamps behind the nearer surface, as the pixel shows it; a is 0
     float near_coc_px = 0, far_coc_px = 0, lamp_coc_px = 0;
+    float lamps_behind = 0;  // 0…1: how much of the light of lamps here is of lamps behind the nearer surface
     // What is known of the nearer surface beforehand: its colour where it fills pixels, the variance of that
     // (mean of the channels), and the share that the shape of the silhouette tells.
     Rgba near_clean;

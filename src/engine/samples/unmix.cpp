@@ -14,6 +14,9 @@ namespace {
 
 constexpr float kDark = 1e-3f;  // keeps reciprocals finite
 
+// Bits of a pixel: it touches a silhouette, and lamps light it or one beside it.
+enum Touching : unsigned char { kTouches = 1, kLit = 2 };
+
 bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
     const auto at = [&](int u, int v) {
         return connected.rect().contains(u, v) ? int(connected(u, v)) : int(kAll);
@@ -22,6 +25,16 @@ bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
     constexpr int kVertical = kUp | kDown, kHorizontal = kLeft | kRight;
     return connected(x, y) != kAll || (at(x - 1, y) & at(x + 1, y) & kVertical) != kVertical ||
            (at(x, y - 1) & at(x, y + 1) & kHorizontal) != kHorizontal;
+}
+
+// Whether lamps light the pixel or one beside it: less light of theirs than makes a lamp may fall on it.
+bool lit_around(const LitPicture& picture, int x, int y) {
+    if (!picture.dim_of) return false;
+    const Rect window = Rect{x - 1, y - 1, x + 2, y + 2}.intersected(picture.colour.rect());
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u)
+            if (picture.dim(u, v) != picture.colour(u, v)) return true;
+    return false;
 }
 
 // The same for a whole row at once, where most pixels touch none.
@@ -77,15 +90,18 @@ Sides look_around(const LitPicture& picture, View<const float> coc, View<const u
 }
 
 // The colour of a thin thing that has no clean pixel: its pixels nearby count as they differ from the far
-// side.
-Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> coc, int x, int y,
-                 float threshold) {
-    Pool pool;
+// side. Those that lamps light count only where there are no others: some of that light is left in them.
+Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> coc,
+                 View<const unsigned char> touching, int x, int y, float threshold) {
+    Pool unlit, lit;
     for (int v = std::max(0, y - 2); v <= std::min(coc.height() - 1, y + 2); ++v)
-        for (int u = std::max(0, x - 2); u <= std::min(coc.width() - 1, x + 2); ++u)
-            if (coc(u, v) <= threshold)
-                pool.add(picture.dim(u, v), distance2(comparable(picture.dim(u, v)), far_colour) + 1e-9f);
-    return pool.guess();
+        for (int u = std::max(0, x - 2); u <= std::min(coc.width() - 1, x + 2); ++u) {
+            if (coc(u, v) > threshold) continue;
+            const Rgba colour = picture.dim(u, v);
+            ((touching(u, v) & kLit) != 0 ? lit : unlit)
+                .add(colour, distance2(comparable(colour), far_colour) + 1e-9f);
+        }
+    return (unlit.empty() ? lit : unlit).guess();
 }
 
 // Lamps behind the nearer surface, as the pixels around one tell: the share of the light of lamps in it that
@@ -129,7 +145,8 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     constexpr int kLampReach = 2;
     const Rect window =
         Rect{x - kLampReach, y - kLampReach, x + kLampReach + 1, y + kLampReach + 1}.intersected(coc.rect());
-    const Rgba own = picture.colour(x, y) - picture.dim(x, y);
+    Rgba own = picture.colour(x, y) - picture.dim(x, y);
+    if (own == Rgba{}) own = picture.colour(x, y);
     float near = 0, far = 0;
     std::vector<LitPixel> nearer;
     for (int v = window.y0; v < window.y1; ++v)
@@ -152,6 +169,15 @@ LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<co
     return {t * t * (3 - 2 * t), far_coc};
 }
 
+// Where lamps behind light a pixel, what the nearer surface's own colour does not explain is theirs, too.
+void give_to_lamps(Mixture& m) {
+    constexpr float kAsUsual = 3;  // times its colour around
+    if (m.lamps_behind <= 0) return;
+    const Rgba more = light_only(m.near_colour - (kAsUsual * m.near_share) * m.near_clean);
+    const Rgba given = m.lamps_behind * Rgba{more.r, more.g, more.b, 0};
+    m.near_colour -= given, m.far_light += given;
+}
+
 Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
                     int x, int y, const UnmixRule& rule) {
     float low = coc(x, y), high = coc(x, y);
@@ -161,8 +187,8 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     const float threshold = 0.5f * (low + high);
     const Sides s = look_around(picture, coc, touching, x, y, threshold, rule);
     const Guess far = (s.far_clean.empty() ? s.far_mixed : s.far_clean).guess();
-    const Guess near =
-        s.near_clean.empty() ? least_like(far.colour, picture, coc, x, y, threshold) : s.near_clean.guess();
+    const Guess near = s.near_clean.empty() ? least_like(far.colour, picture, coc, touching, x, y, threshold)
+                                            : s.near_clean.guess();
     Mixture m;
     m.shows_far = coc(x, y) > threshold;
     m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
@@ -170,10 +196,10 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
     m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
     const Rgba c = picture.dim(x, y);
     const Rgba lamps = picture.colour(x, y) - c;
-    if (lamps != Rgba{}) {
+    if ((touching(x, y) & kLit) != 0) {
         const LampsBehind behind = find_lamps(picture, coc, touching, x, y, threshold, s.far_coc);
         m.far_light = behind.share * lamps, m.lamp_coc_px = behind.coc_px;
-        m.lights_near = behind.share < 1;
+        m.lights_near = lamps != Rgba{} && behind.share < 1, m.lamps_behind = behind.share;
     }
     if (!m.shows_far) return m;
     const Explained e = expected(comparable(c), near, far, s.near_share_by_shape);
@@ -185,7 +211,9 @@ Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const
         const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
         m.far_colour = {left.r, left.g, left.b, far.colour.a};
     }
-    m.near_colour += lamps - m.far_light;
+    const Rgba lamps_before = lamps - m.far_light;
+    give_to_lamps(m);
+    m.near_colour += lamps_before;
     return m;
 }
 
@@ -203,7 +231,11 @@ Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc,
                            View<const unsigned char> connected, Workers& workers, const UnmixRule& rule) {
     const int width = coc.width(), height = coc.height();
     auto touching = Image<unsigned char>::uninitialised(width, height);
-    parallel_for(height, workers, [&](int y) { find_touching(connected, y, touching); });
+    parallel_for(height, workers, [&](int y) {
+        find_touching(connected, y, touching);
+        for (int x = 0; x < width; ++x)
+            if (touching(x, y) && lit_around(picture, x, y)) touching(x, y) |= kLit;
+    });
     return {width, height, workers, [&](int y, const auto& emit) {
                 for (int x = 0; x < width; ++x)
                     if (touching(x, y)) emit(x, taken_apart(picture, coc, touching, x, y, rule));
@@ -222,7 +254,9 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
             const Rgba dim = picture.dim(x, y);
             m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape);
             m.near_colour = light_only(dim - (1 - m.near_share) * m.far_colour);
-            m.near_colour += colour(x, y) - dim - m.far_light;
+            const Rgba lamps = colour(x, y) - dim, lamps_before = lamps - m.far_light;
+            give_to_lamps(m);
+            m.near_colour += lamps_before;
         }
     });
 }
