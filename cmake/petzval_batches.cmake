@@ -20,7 +20,7 @@ set(petzval_alone
     "src/session/(take_test|session)"
     "src/files/(tiff|depth_choice|hostile_exr_test|motion_choice_test|exr_deep_write|layer_choice.*|read_frame.*)"
     "src/lens_sheet/.*"
-    "src/shot/(shot_camera|shot_test|seen_elsewhere_test)"
+    "src/shot/(shot_camera|shot_test|seen_elsewhere_test|other_lamps_test)"
     "src/scene/([^_]+|points_.*)"
     "apps/view/(fields|maker|section_panel|timeline)"
     "tests/conformance/(edges_test|layers_test)"

@@ -227,16 +227,19 @@ Status Run::look_around() {
     if (others_.empty() || expands_plate() || !is_rendered(flags_.view)) return Done{};
     auto seen = seen_by_each_other(eyes, *own_workers(flags_.run.threads));
     for (std::size_t i = 0; i < seen.size(); ++i)
-        if (seen[i].pixels > 0) runs[i]->take_behind(std::move(seen[i]));
+        if (seen[i].pixels > 0 || !seen[i].lamps.empty()) runs[i]->take_behind(std::move(seen[i]));
     return Done{};
 }
 
 void Run::take_behind(SeenElsewhere seen) {
-    note("seen elsewhere: what lies behind " + std::to_string(seen.pixels) + " pixels");
-    report_["seen_elsewhere"] = {
-        {"pixels", seen.pixels}, {"by_motion", seen.by_motion}, {"left_out", seen.left_out}};
+    note("seen elsewhere: what lies behind " + std::to_string(seen.pixels) + " pixels, depth of lamps in " +
+         std::to_string(seen.lamps.size()));
+    report_["seen_elsewhere"] = {{"pixels", seen.pixels},
+                                 {"lamps", seen.lamps.size()},
+                                 {"by_motion", seen.by_motion},
+                                 {"left_out", seen.left_out}};
     warn(seen.left_out);
-    shot_.behind = std::move(seen.behind);
+    take_over(std::move(seen), shot_);
 }
 
 // Room around the picture for the light that leaves it, where nothing follows; views that lie in one part of

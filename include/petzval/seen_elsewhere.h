@@ -17,6 +17,12 @@ namespace petzval {
 struct SeenElsewhere {
     DeepPicture behind;  // of the shot's data window: at most one sample a pixel; empty if nothing was found
     std::size_t pixels = 0;
+    // A pixel of the data window that shows the light of a lamp, and has the depth of something else.
+    struct Lamp {
+        int x = 0, y = 0;
+        float depth_m = 0;  // of the lamp
+    };
+    std::vector<Lamp> lamps;            // by rows
     int by_motion = 0;                  // pictures that were moved by their motion vectors
     std::size_t kept_bytes = 0;         // by Neighbours: pictures for the frames that follow
     std::vector<std::string> left_out;  // pictures, or their vectors, that could not be used; a line each
@@ -42,14 +48,21 @@ struct OtherPicture {
 // half of these to look the same, else all of it is left out. With vectors it may have come nearer or gone
 // away as a whole. Pixels beside a nearer surface hold some of its light and are left out, and so is what is
 // not opaque, and what lies behind things narrower than three pixels: those are taken apart by what shows on
-// both of their sides, and are steadier so. Takes about 80 bytes a pixel beside the pictures. Errors:
-// InvalidArgument without depth in metres in `shot` itself, and without a camera or its matrix where there
-// are no vectors.
+// both of their sides, and are steadier so. But small lamps: where one lights a pixel of the shot that has
+// the depth of something else, as those narrower than a pixel and those half behind an edge do in one frame
+// and not in the next, its depth is told; where nothing shows it, it is among what is behind, with less of
+// its light the more frames later or earlier it was seen: it fades in before it comes out. Takes about 80
+// bytes a pixel beside the pictures. Errors: InvalidArgument without depth in metres in `shot` itself, and
+// without a camera or its matrix where there are no vectors.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
                                                  Workers& workers);
 // The same of one moment.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* const> others,
                                                  Workers& workers);
+
+// Puts into the shot what was found: hidden layers in place of its own, depths of lamps. Requires: found for
+// it.
+PETZVAL_API void take_over(SeenElsewhere found, Shot& shot);
 
 // Those of `views` that may show what one of them hides: they have a camera of their own, and are not deep.
 PETZVAL_API std::vector<const Shot*> other_eyes(std::span<const Shot* const> views, const Shot& of);

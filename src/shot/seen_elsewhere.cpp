@@ -1,6 +1,7 @@
 #include "petzval/seen_elsewhere.h"
 
 #include "shot/landing.h"
+#include "shot/other_lamps.h"
 
 #include <algorithm>
 #include <array>
@@ -294,6 +295,14 @@ void drop_behind_thin_things(View<const float> depth, Workers& workers, std::vec
     });
 }
 
+// Of a hidden lamp's light: all of it if it is seen at the same moment, none beyond the frames that are
+// asked.
+float share_of_hidden(const OtherPicture& other, std::span<const OtherPicture> all) {
+    int farthest = 0;
+    for (const OtherPicture& o : all) farthest = std::max(farthest, std::abs(o.frames_later));
+    return 1 - float(std::abs(other.frames_later)) / float(farthest + 1);
+}
+
 }  // namespace
 
 Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
@@ -306,6 +315,7 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPict
     const Bounds bounds = bounds_of(depth, workers);
     std::vector<DeepSample> known(std::size_t(depth.width()) * std::size_t(depth.height()));
     SeenElsewhere found;
+    OtherLamps lamps(shot);
     for (const OtherPicture& other : others) {
         auto landings = landings_of(other, others, shot, bounds, workers);
         if (!landings) {
@@ -314,9 +324,12 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPict
         }
         found.by_motion += landings->by_motion;
         if (!landings->warning.empty()) found.left_out.push_back(landings->warning);
+        lamps.add(*other.shot, landings->of_pixels, share_of_hidden(other, others), workers);
         Other(*other.shot, shot, std::move(*landings), bounds, workers).add_to(known);
     }
     drop_behind_thin_things(depth, workers, known);
+    lamps.hide(known);
+    found.lamps = lamps.depths();
     for (const DeepSample& s : known) found.pixels += s.colour.a > 0;
     if (found.pixels > 0)
         found.behind = DeepPicture::made_of(depth.width(), depth.height(), [&](int x, int y, auto& samples) {
@@ -331,6 +344,12 @@ Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* con
     std::vector<OtherPicture> pictures;
     for (const Shot* other : others) pictures.push_back({other});
     return seen_elsewhere(shot, pictures, workers);
+}
+
+void take_over(SeenElsewhere found, Shot& shot) {
+    shot.behind = std::move(found.behind);
+    if (auto* depth = std::get_if<DepthMetres>(&shot.depth))
+        for (const SeenElsewhere::Lamp& lamp : found.lamps) depth->plane(lamp.x, lamp.y) = lamp.depth_m;
 }
 
 std::vector<const Shot*> other_eyes(std::span<const Shot* const> views, const Shot& of) {
