@@ -386,7 +386,7 @@ public:
     void clear() { answers_.clear(); }
     const Range* find(int x, int y, float surface_px) const {
         for (const Answer& a : answers_)
-            if (x / a.square == a.x / a.square && y / a.square == a.y / a.square &&
+            if (((x ^ a.x) | (y ^ a.y)) < a.square &&  // squares are powers of two
                 std::abs(a.surface_px - surface_px) <= kBehindPx / 2)
                 return &a.range;
         return nullptr;

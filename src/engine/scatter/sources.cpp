@@ -26,26 +26,21 @@ struct Gathered {
     float coc = 0, tilt_x = 0, tilt_y = 0;  // summed times light.a
     float x = 0, y = 0;                     // the same, from the cell's first pixel
     Gathered() = default;
-    Gathered(int in_layer, Rgba pixel, float coc_px, Slope tilt)
+    // Of a square of so many pixels on a side, each of which gives this light.
+    Gathered(int in_layer, Rgba pixel, float coc_px, Slope tilt, int side)
         : layer(in_layer),
-          light(pixel),
-          coc(pixel.a * coc_px),
-          tilt_x(pixel.a * tilt.x),
-          tilt_y(pixel.a * tilt.y) {}
+          light(float(side * side) * pixel),
+          coc(light.a * coc_px),
+          tilt_x(light.a * tilt.x),
+          tilt_y(light.a * tilt.y),
+          x(0.5f * float(side - 1) * light.a),
+          y(x) {}
     bool same_source(const Gathered& other) const {
         return layer == other.layer && skirt_of == other.skirt_of;
     }
-    // Of pixels that show one surface alone, gathered from their samples; light.a is their coverage.
-    void add(const CocSample& s) { light += s.colour, coc += s.colour.a * s.coc_px; }
     void operator+=(const Gathered& other) {
         light += other.light, coc += other.coc, tilt_x += other.tilt_x, tilt_y += other.tilt_y;
         x += other.x, y += other.y;
-    }
-    Gathered part(float share) const {
-        Gathered p = *this;
-        p.light = share * light, p.coc = share * coc, p.tilt_x = share * tilt_x, p.tilt_y = share * tilt_y;
-        p.x = share * x, p.y = share * y;
-        return p;
     }
     // The same in a cell whose first pixel lies (dx, dy) before that of this one.
     Gathered from(int dx, int dy) const {
@@ -118,96 +113,94 @@ public:
     template <typename Put>
     void visit(int x, int y, const Put& put) const {
         const int u = std::min(x, coc_px_.width() - 1), v = std::min(y, coc_px_.height() - 1);
-        LayersOfPixel layers(rule_.hidden_known);
-        for (const CocSample& s : samples_.at(u, v - first_row_)) {
-            const auto [layer, shows] = layers.next(s);
-            const Slope tilt = tilt_at(u, v, s.coc_px);
-            const Spread spread(rule_, s.coc_px);
-            const auto put_all = [&](int in_layer, Rgba light) {
-                spread.put_both(
-                    [&](float share) { return Gathered(in_layer, share * light, s.coc_px, tilt); }, put);
-            };
-            if (s.colour.a > 0 && shows > 0) put_all(layer, shows * s.colour);
-            if (s.colour.a > 0 && shows < 1) put_all(layer + kNextLayer, (1 - shows) * s.colour);
-            if (s.empty > 0)
-                put_all(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
-        }
+        visit(samples_.at(u, v - first_row_), u, v, 1, put);
     }
-    // The square of pixels that begins at (x, y), put(level, gathered) as one; how many pixels it is wide. 1:
+    // The square of pixels that begins at (x, y), put(level, gathered) as one pixel; how many it is wide. 1:
     // there is none, and nothing was put.
     template <typename Put>
     int visit_square(int x, int y, const Put& put) const {
+        std::array<CocSample, kMostOfSquare> means;
         for (int i = largest_square_at(x, y); i > 0; --i) {
-            Gathered g;
-            if (!gather_square(x, y, i, g)) continue;
-            const float coc_px = g.coc / g.light.a;
             const int side = 1 << i;
-            const int u = x + side / 2, v = y + side / 2;
-            const Slope tilt = tilt_at(u, v, samples_.at(u, v - first_row_)[0].coc_px);
-            const float middle = 0.5f * float(side - 1) * g.light.a;
-            g.layer = layer_of(coc_px);
-            g.tilt_x = g.light.a * tilt.x, g.tilt_y = g.light.a * tilt.y, g.x = g.y = middle;
-            Spread(rule_, coc_px).put_both([&](float share) { return g.part(share); }, put);
+            const std::size_t count =
+                means_of({x, y, x + side, y + side}, from_px_[std::size_t(i - 1)], means);
+            if (count == 0) continue;
+            visit(std::span(means).first(count), x + side / 2, y + side / 2, side, put);
             return side;
         }
         return 1;
     }
 
 private:
-    // The levels a radius is spread on.
-    struct Spread {
-        Spread(const LevelRule& rule, float coc_px) {
-            const float at = rule.position(coc_px);
-            level = int(std::ceil(at));
-            share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule.fade);
+    // Samples of pixel (u, v), or of a square of pixels around that.
+    template <typename Put>
+    void visit(std::span<const CocSample> samples, int u, int v, int side, const Put& put) const {
+        LayersOfPixel layers(rule_.hidden_known);
+        const auto own = samples_.at(u, v - first_row_);
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            const CocSample& s = samples[k];
+            const auto [layer, shows] = layers.next(s);
+            // Only what is seen has a known slope.
+            const bool visible = std::abs(own[k].coc_px - coc_px_(u, v)) < 0.01f;
+            const Slope slope = visible ? slope_at(coc_px_, connected_, u, v) : Slope{};
+            const Slope tilt = tilt_of(slope, s.coc_px);
+            const float at = rule_.position(s.coc_px);
+            const int level = int(std::ceil(at));
+            const float share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule_.fade);
+            const auto put_both = [&](int in_layer, Rgba light) {
+                put(level, Gathered(in_layer, share * light, s.coc_px, tilt, side));
+                if (share < 1) put(level - 1, Gathered(in_layer, (1 - share) * light, s.coc_px, tilt, side));
+            };
+            if (s.colour.a > 0 && shows > 0) put_both(layer, shows * s.colour);
+            if (s.colour.a > 0 && shows < 1) put_both(layer + kNextLayer, (1 - shows) * s.colour);
+            if (s.empty > 0)
+                put_both(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
         }
-        // gathered(share): of all that it sends.
-        template <typename Make, typename Put>
-        void put_both(const Make& gathered, const Put& put) const {
-            put(level, gathered(share));
-            if (share < 1) put(level - 1, gathered(1 - share));
-        }
-        int level;
-        float share;  // of its light that goes there; the rest goes to the level before
-    };
-
-    // Only what is seen has a known slope.
-    Slope tilt_at(int x, int y, float coc_px) const {
-        const bool visible = std::abs(coc_px - coc_px_(x, y)) < 0.01f;
-        return tilt_of(visible ? slope_at(coc_px_, connected_, x, y) : Slope{}, coc_px);
     }
     // The logarithm of its pixels on a side, by its first pixel.
     int largest_square_at(int x, int y) const {
         if (x >= coc_px_.width() || y >= coc_px_.height()) return 0;
         const auto first = samples_.at(x, y - first_row_);
+        if (first.empty() || first.size() > kMostOfSquare) return 0;
+        float least = std::abs(first[0].coc_px);
+        for (const CocSample& s : first) least = std::min(least, std::abs(s.coc_px));
         const auto fits = [&](int i) {
             const int side = 2 << i;
-            return i < kSquares && std::abs(first[0].coc_px) >= from_px_[std::size_t(i)] &&
-                   (x | y) % side == 0 && x + side <= coc_px_.width() && y + side <= coc_px_.height();
+            return i < kSquares && least >= from_px_[std::size_t(i)] && (x | y) % side == 0 &&
+                   x + side <= coc_px_.width() && y + side <= coc_px_.height();
         };
         int i = 0;
-        while (first.size() == 1 && fits(i)) ++i;
+        while (fits(i)) ++i;
         return i;
     }
-    // Whether each of its pixels shows one surface and nothing behind that, all at nearly the same radius.
-    bool gather_square(int x, int y, int i, Gathered& g) const {
-        constexpr float kSameRadius = 0.05f;
-        const float least = from_px_[std::size_t(i - 1)];
-        const float of_first = samples_.at(x, y - first_row_)[0].coc_px,
-                    off = kSameRadius * std::abs(of_first);
-        for (int v = y; v < y + (1 << i); ++v)
-            for (int u = x; u < x + (1 << i); ++u) {
-                const auto samples = samples_.at(u, v - first_row_);
-                if (samples.size() != 1) return false;
-                const CocSample& s = samples[0];
-                if (s.empty > 0 || s.colour.a <= 0 || std::abs(s.coc_px) < least ||
-                    std::abs(s.coc_px - of_first) > off)
-                    return false;
-                g.add(s);
+    // The means of a square's samples, one of each surface, and how many: 0, if its pixels do not all have
+    // those of the first, of nearly the same radius, of at least from_px, and as much coverage.
+    std::size_t means_of(const Rect& square, float from_px, std::span<CocSample> means) const {
+        constexpr float kSameRadius = 0.05f, kSameShare = 0.01f;
+        const auto first = samples_.at(square.x0, square.y0 - first_row_);
+        std::array<CocSample, kMostOfSquare> sums{};
+        for (int y = square.y0; y < square.y1; ++y)
+            for (int x = square.x0; x < square.x1; ++x) {
+                const auto samples = samples_.at(x, y - first_row_);
+                if (samples.size() != first.size()) return 0;
+                for (std::size_t k = 0; k < samples.size(); ++k) {
+                    const CocSample &s = samples[k], &f = first[k];
+                    if (std::abs(s.coc_px) < from_px ||
+                        std::abs(s.coc_px - f.coc_px) > kSameRadius * std::abs(f.coc_px) ||
+                        std::abs(s.colour.a - f.colour.a) > kSameShare ||
+                        std::abs(s.empty - f.empty) > kSameShare)
+                        return 0;
+                    sums[k].colour += s.colour, sums[k].coc_px += s.coc_px, sums[k].empty += s.empty;
+                }
             }
-        return true;
+        const float share = 1 / float(square.width() * square.height());
+        for (std::size_t k = 0; k < first.size(); ++k)
+            means[k] = {share * sums[k].colour, share * sums[k].coc_px, first[k].coc_back_px,
+                        share * sums[k].empty};
+        return first.size();
     }
 
+    static constexpr std::size_t kMostOfSquare = 4;  // samples of a pixel
     static constexpr int kSquares = 3;
     std::array<float, kSquares> from_px_;  // |radius| from which on pixels form squares of 2, of 4, of 8
     CocSamplesView samples_;
