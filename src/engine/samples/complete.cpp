@@ -98,7 +98,7 @@ public:
         // A draft looks at half as much.
         const bool draft = input.quality == Quality::Draft;
         const UnmixRule unmix = draft ? UnmixRule{2, false} : UnmixRule{};
-        const FillRule fill = draft ? FillRule{1.5f, 8, false} : FillRule{};
+        const FillRule fill = draft ? FillRule{1.5f, 8, 4, false, 6} : FillRule{};
         mixtures_ = unmix_silhouettes(picture, input.coc_px, connected, *input.workers, unmix);
         if (input.fill != Fill::Off)
             hidden_ = fill_hidden(picture, input.coc_px, connected, mixtures_, input.nearest_coc_px,

@@ -119,13 +119,13 @@ void keep_strongest(std::vector<CutEdges::Edge>& edges) {
 }  // namespace
 
 CutEdges::CutEdges(const LitPicture& picture, View<const float> radii, const Mixtures& mixtures, float white,
-                   Workers& workers) {
+                   float to_px, Workers& workers) {
     if (white <= 0) return;
     const EdgeFinder finder(picture, radii, mixtures, white);
     std::vector<std::vector<Edge>> rows(static_cast<std::size_t>(radii.height()));
     parallel_for(radii.height(), workers, [&](int y) {
         for (int x = 0; x < radii.width(); ++x)
-            if (const Mixture* m = mixtures.at(x, y); m && !m->shows_far)
+            if (const Mixture* m = mixtures.at(x, y); m && !m->shows_far && std::abs(m->far_coc_px) <= to_px)
                 if (const auto edge = finder.edge_at(x, y, m->far_coc_px))
                     rows[std::size_t(y)].push_back(*edge);
     });

@@ -10,9 +10,10 @@ namespace petzval::engine {
 class CutEdges {
 public:
     // radii_px: of what each pixel shows, as KnownSurfaces has them. white: what counts as bright,
-    // scene-linear luminance; 0: no edge is looked for.
+    // scene-linear luminance; 0: no edge is looked for. to_px: nor is one of a surface that is blurred by
+    // more.
     CutEdges(const LitPicture& picture, View<const float> radii_px, const Mixtures& mixtures, float white,
-             Workers& workers);
+             float to_px, Workers& workers);
 
     struct Point {
         int x, y;

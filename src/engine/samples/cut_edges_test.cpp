@@ -30,11 +30,11 @@ struct Scene {
         connected = connections(coc, one_thread());
     }
     Mixtures mixtures() const { return unmix_silhouettes({colour, {}}, coc, connected, one_thread()); }
-    CutEdges edges(float white) const {
+    CutEdges edges(float white, float to_px = FillRule{}.edges_to_px) const {
         const Mixtures mixed = mixtures();
         const LitPicture picture{colour, {}};
         const KnownSurfaces known(picture, coc, mixed, 0, one_thread());
-        return {picture, known.radii(), mixed, white, one_thread()};
+        return {picture, known.radii(), mixed, white, to_px, one_thread()};
     }
 };
 
@@ -52,6 +52,12 @@ TEST(CutEdges, OtherSurfacesAndPlainOnesAreNotCut) {
     EXPECT_EQ(Scene().edges(1).passes(window, outside, 0), 1);
     EXPECT_EQ(Scene(kWall).edges(1).passes(window, outside, kWallPx), 1);
     EXPECT_EQ(Scene().edges(0).passes(window, outside, kWallPx), 1) << "nothing is known to be bright";
+}
+
+TEST(CutEdges, NoneIsLookedForOnWhatIsBlurredMore) {
+    const CutEdges::Point window{30, 40}, outside{45, 28};
+    EXPECT_FLOAT_EQ(Scene().edges(1, kWallPx).passes(window, outside, kWallPx), CutEdges::kCut);
+    EXPECT_EQ(Scene().edges(1, kWallPx - 1).passes(window, outside, kWallPx), 1);
 }
 
 // Votes by distance alone let up to nine times the wall's light out, and keep less than half inside.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kDirections = 16;      // even: opposite directions are paired
 constexpr float kBehindPx = 0.9f;    // farther by less than this in radius is not worth filling
+constexpr float kSharpPx = 3;        // what is blurred by less shows which directions were looked in
 constexpr float kPastEdgePx = 2.0f;  // how far beyond the reach of the blur to look
 constexpr float kLikeEnough =
     0.1f;                       // squared relative difference below which two patches are as good as the same
@@ -87,7 +88,7 @@ public:
     Filler(const LitPicture& picture, View<const float> coc, View<const unsigned char> connected,
            const Mixtures& mixtures, float largest, float farthest, const FillRule& rule, float white,
            Workers& workers)
-        : known_(picture, coc, mixtures, white, workers),
+        : known_(picture, coc, mixtures, white, workers, rule.edges_to_px),
           outlines_(coc, workers),
           textures_(known_, mixtures, rule.textures ? largest : 0, workers),
           coc_(coc),
@@ -95,7 +96,8 @@ public:
           mixtures_(mixtures),
           farthest_(farthest),
           largest_(largest),
-          every_(std::size_t(kDirections / rule.directions)) {
+          every_(std::size_t(kDirections / rule.directions)),
+          every_blurred_(std::size_t(kDirections / rule.blurred_directions)) {
         measure_distances(workers);
         lay_paths();
     }
@@ -111,10 +113,16 @@ public:
         Hits hits;
         bool any = false;
         const Slope slope = slope_at(coc_, connected_, x, y);
-        for (std::size_t k = 0; k < kDirections; k += every_) {
+        bool sharp = false;
+        const auto look = [&](std::size_t k) {
             hits[k] = search(x, y, own, slope, paths_[k]);
             any = any || hits[k][0].found;
-        }
+            for (const Found& f : hits[k]) sharp = sharp || (f.found && std::abs(f.coc_px) < kSharpPx);
+        };
+        for (std::size_t k = 0; k < kDirections; k += every_blurred_) look(k);
+        if (sharp || !any)
+            for (std::size_t k = 0; k < kDirections; k += every_)
+                if (k % every_blurred_ != 0) look(k);
         if (any) stack(x, y, hits, hidden);
     }
 
@@ -358,7 +366,8 @@ private:
     Image<Block> blocks_;
     std::array<Path, kDirections> paths_;
     float farthest_, largest_;  // of the frame: radius farthest behind, largest |radius|
-    std::size_t every_;         // of the directions is looked in
+    // Of the directions each such is looked in; of those where nothing sharp is met.
+    std::size_t every_, every_blurred_;
 };
 
 constexpr int kLargestSquare = HiddenLayers::kBand;

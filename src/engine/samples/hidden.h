@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -93,8 +94,11 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
 // the silhouette.
 struct FillRule {
     float shared_from_px = 6;
-    int directions = 16;   // that are looked in: 16, 8 or 4
-    bool textures = true;  // what is in focus goes on as a texture, too
+    int directions = 16;          // that are looked in: 16, 8 or 4,
+    int blurred_directions = 16;  // or no more than these where all that is met in them is blurred
+    bool textures = true;         // what is in focus goes on as a texture, too
+    // Edges across the picture go on straight on surfaces that are blurred by no more than this.
+    float edges_to_px = std::numeric_limits<float>::infinity();
 };
 
 // Continues what lies behind every surface inwards from its silhouettes, as far as any lens ray can reach

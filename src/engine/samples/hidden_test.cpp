@@ -37,7 +37,7 @@ using Paint = std::function<Rgba(int, int)>;
 
 // A wire from corner to corner, so many pixels wide along a row, before what `behind` says.
 Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float offset_px = 0.2f,
-                  const UnmixRule& unmix = {}, const FillRule& fill = {}) {
+                  const UnmixRule& unmix = {}, const FillRule& fill = {}, float far_px = kFarPx) {
     Drawn d;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
@@ -47,12 +47,12 @@ Drawn behind_wire(const Paint& behind, const Paint& wire, float width_px, float 
             const float middle = float(x) + 0.5f;
             d.behind(x, y) = behind(x, y);
             d.colour(x, y) = share * wire(x, y) + (1 - share) * behind(x, y);
-            d.coc(x, y) = middle >= left && middle < right ? kNearPx : kFarPx;
+            d.coc(x, y) = middle >= left && middle < right ? kNearPx : far_px;
         }
     const Image<unsigned char> connected = connections(d.coc, one_thread());
     const LitPicture picture{d.colour, {}};
     d.mixtures = unmix_silhouettes(picture, d.coc, connected, one_thread(), unmix);
-    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, kFarPx, fill, one_thread());
+    d.hidden = fill_hidden(picture, d.coc, connected, d.mixtures, kNearPx, far_px, fill, one_thread());
     unmix_nearer(d.mixtures, picture, d.hidden, one_thread());
     return d;
 }
@@ -107,6 +107,23 @@ TEST(Hidden, HalfAsMuchIsEnoughForADraft) {
                 apart = std::max(apart, double(std::abs(m->near_share - half.mixtures.at(x, y)->near_share)));
     EXPECT_GT(apart, 0);  // it is another way
     EXPECT_LT(apart, 0.5);
+}
+
+TEST(Hidden, FewerDirectionsAreEnoughWhereAllIsBlurredAndOnlyThere) {
+    const auto background_of = [](const FillRule& fill, float far_px) {
+        return behind_wire([](int x, int y) { return grey(0.5f + 0.4f * std::sin(0.7f * float(x - y))); },
+                           [](int, int) { return grey(0.1f); }, 4, 0.2f, {}, fill, far_px);
+    };
+    FillRule few;
+    few.blurred_directions = 4;
+    for (const float far_px : {kFarPx, 12.0f}) {
+        const Drawn all = background_of({}, far_px), fewer = background_of(few, far_px);
+        bool same = true;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) same = same && all.background(x, y) == fewer.background(x, y);
+        EXPECT_EQ(same, far_px == kFarPx);
+        EXPECT_LT(background_error(fewer), background_error(all) + 0.05) << far_px;
+    }
 }
 
 TEST(Hidden, DetailUpToAWireStays) {

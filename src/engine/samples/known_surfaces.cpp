@@ -29,12 +29,12 @@ Plane known_radii(View<const float> coc, const Mixtures& mixtures, Workers& work
 }  // namespace
 
 KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc, const Mixtures& mixtures,
-                             float white, Workers& workers)
+                             float white, Workers& workers, float edges_to_px)
     : picture_(picture),
       mixtures_(mixtures),
       radii_(known_radii(coc, mixtures, workers)),
       white_(white),
-      edges_(picture, radii_, mixtures, white, workers) {}
+      edges_(picture, radii_, mixtures, white, edges_to_px, workers) {}
 
 CutEdges::Point KnownSurfaces::behind(Place at, Direction outwards, float distance_px) {
     return {at.x - nearest_pixel(distance_px * outwards.x), at.y - nearest_pixel(distance_px * outwards.y)};

@@ -22,9 +22,9 @@ struct Direction {
 class KnownSurfaces {
 public:
     // Borrows the picture and what was found at its silhouettes. white: what counts as bright, scene-linear
-    // luminance (engine/samples/white.h); 0: nothing.
+    // luminance (engine/samples/white.h); 0: nothing. edges_to_px: as FillRule's.
     KnownSurfaces(const LitPicture& picture, View<const float> coc_px, const Mixtures& mixtures, float white,
-                  Workers& workers);
+                  Workers& workers, float edges_to_px = FillRule{}.edges_to_px);
 
     // Of what each pixel shows; far in front of everything where that is the nearer surface at a silhouette,
     // of which nothing is known.

@@ -46,11 +46,11 @@ public:
     // The values of a row from the left, as visit(x, value).
     template <typename Visit>
     void for_each_in_row(int y, const Visit& visit) const {
-        if (empty()) return;
-        const T* value = rows_[std::size_t(y)].data();
-        for (int i = 0; i < words_.width(); ++i)
-            for (std::uint64_t has = words_(i, y).has; has != 0; has &= has - 1)
-                visit(64 * i + std::countr_zero(has), *value++);
+        visit_row(*this, y, visit);
+    }
+    template <typename Visit>
+    void for_each_in_row(int y, const Visit& visit) {
+        visit_row(*this, y, visit);
     }
     std::size_t bytes() const {
         std::size_t values = 0;
@@ -66,6 +66,15 @@ private:
         const std::uint64_t own = std::uint64_t(1) << (x % 64);
         if ((word.has & own) == 0) return nullptr;
         return &self.rows_[std::size_t(y)][word.before + std::uint32_t(std::popcount(word.has & (own - 1)))];
+    }
+
+    template <typename Self, typename Visit>
+    static void visit_row(Self& self, int y, const Visit& visit) {
+        if (self.empty()) return;
+        auto* value = self.rows_[std::size_t(y)].data();
+        for (int i = 0; i < self.words_.width(); ++i)
+            for (std::uint64_t has = self.words_(i, y).has; has != 0; has &= has - 1)
+                visit(64 * i + std::countr_zero(has), *value++);
     }
 
     // 64 pixels of a row: which have a value, and how many to the left of them have.

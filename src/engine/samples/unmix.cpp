@@ -246,10 +246,8 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
                   Workers& workers) {
     const View<const Rgba> colour = picture.colour;
     parallel_for(colour.height(), workers, [&](int y) {
-        for (int x = 0; x < colour.width(); ++x) {
-            Mixture* const at = mixtures.at(x, y);
-            if (!at || at->shows_far) continue;
-            Mixture& m = *at;
+        mixtures.for_each_in_row(y, [&](int x, Mixture& m) {
+            if (m.shows_far) return;
             if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
             const Rgba dim = picture.dim(x, y);
             m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape);
@@ -257,7 +255,7 @@ void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLay
             const Rgba lamps = colour(x, y) - dim, lamps_before = lamps - m.far_light;
             give_to_lamps(m);
             m.near_colour += lamps_before;
-        }
+        });
     });
 }
 
