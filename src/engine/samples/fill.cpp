@@ -308,8 +308,8 @@ private:
         const auto meet = [&](const Found& f, float weight) {
             const float share = weight / f.distance_px;
             met.all += share;
-            met.within += share * outlines_.within({f.x, f.y}, {x, y}, f.coc_px);
-            met.unhidden += share * outlines_.unhidden({f.x, f.y}, {x, y}, f.coc_px);
+            const HiddenOutlines::Open open = outlines_.open({f.x, f.y}, {x, y}, f.coc_px);
+            met.within += share * open.within, met.unhidden += share * open.unhidden;
         };
         float nearest = 1e9f;
         for (std::size_t k = 0; k < kDirections; ++k)

@@ -4,45 +4,46 @@
 #include "petzval/image.h"
 #include "petzval/workers.h"
 
+#include "engine/samples/outline_end.h"
+
 #include <vector>
 
 namespace petzval::engine {
 
+// What it tells of a place depends on nothing farther away.
+constexpr int kOutlineReachPx = 128;
+
 // Found from radii alone: where three surfaces meet in a picture, the nearest hides how the outline of the
-// middle one, before the farthest, goes on. It is traced from there, and goes on straight behind what hides
-// it, up to where that ends.
+// middle one, before the farthest, goes on. Two ends of it that lie on one line or arc are one outline, all
+// of which is hidden between them ("relatable": P. Kellman, T. Shipley, "A theory of visual interpolation in
+// object perception", 1991). Another end goes on as it came, bent no longer than it is seen to be, up to
+// where what hides it ends.
 class HiddenOutlines {
 public:
     HiddenOutlines() = default;
     // coc_px: of each pixel, as the picture states it.
     HiddenOutlines(View<const float> coc_px, Workers& workers);
 
-    struct Point {
-        int x, y;
+    // Of a surface at coc_px that shows at `shown`: whether it goes on to a hidden point, 1, or 0 beyond its
+    // own outline; and whether it can be what is to be seen there, 0 where the outline of a nearer surface
+    // begins between them.
+    struct Open {
+        float within = 1, unhidden = 1;
     };
-    // Whether a surface at coc_px that shows at `shown` goes on to a hidden point: 1, or 0 beyond its own
-    // outline.
-    float within(Point shown, Point hidden, float coc_px) const;
-    // Whether it can be what is to be seen there: 0 where the outline of a nearer surface begins between
-    // them.
-    float unhidden(Point shown, Point hidden, float coc_px) const;
+    Open open(PixelAt shown, PixelAt hidden, float coc_px) const;
 
     struct Outline {
-        Point at;              // a corner of pixels: that of (x, y) that is nearest to (0, 0)
-        float off_x, off_y;    // from there to where it is hidden
-        float into_x, into_y;  // where it goes on; of length 1
-        float side;            // 1 or -1: on which side of that its surface lies
+        PixelAt at;  // places count from this corner of pixels: that of (x, y) that is nearest to (0, 0)
+        Arc arc;
+        bool same_is_left;  // of the arc: its surface
         float coc_px, length_px;
-        Point middle;   // of where it goes on
-        int around_px;  // columns and rows from there within which it tells what is hidden
+        PixelAt middle;  // of the arc
+        int around_px;   // columns and rows from there within which it tells what is hidden
     };
     const std::vector<Outline>& outlines() const { return outlines_; }
 
 private:
     void sort_into_cells(int width, int height);
-    // How much of a path from side `from` to the other is open, over the outlines that `concerns` picks.
-    template <typename Concerns>
-    float open(Point shown, Point hidden, float from, const Concerns& concerns) const;
 
     std::vector<Outline> outlines_;
     int columns_ = 0;

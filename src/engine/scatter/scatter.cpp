@@ -6,6 +6,7 @@
 #include "engine/lights/highlights.h"
 #include "engine/samples/complete.h"
 #include "engine/samples/connectivity.h"
+#include "engine/samples/hidden_outlines.h"
 #include "engine/samples/lamps.h"
 #include "engine/scatter/layer_light.h"
 #include "engine/scatter/plan_reader.h"
@@ -104,9 +105,10 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     StripPlan plan;
     // What is spread onto a row, and beyond that what decides what lies hidden there: the other end of a lamp
     // comes from as far again.
+    constexpr int kLookedAtPx = std::max(2 * kWidestLampPx + 16, kOutlineReachPx);
     const double reach = std::min(input.lens(0).reach_px(largest), double(input.height()));
     plan.halo = whole_units(1.2 * reach + 4.0 * (1 << coarsest) +
-                            2 * std::min(largest, double(input.height())) + 2 * kWidestLampPx + 16);
+                            2 * std::min(largest, double(input.height())) + kLookedAtPx);
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     // The caller's colour and depth, the radii and the result exist besides.
     // Of each layer too, but for the radii.
