@@ -66,8 +66,8 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
 // darker is the wall beside a lit window.
 Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px) const {
     constexpr float kLit = 0.2f, kContrast = 14;  // times white; times the own light
-    constexpr float kLeast = 1e-3f;
-    const float usual = kContrast * std::max(kLeast * white_, light_of(own));
+    const float usual = kContrast * light_of(own);
+    if (usual <= kLit * white_) return own;  // too dark to lie between letters
     const Rgba all = shown(from, outwards, distance_px, {1, usual}, own);
     const float lit = above(light_of(all), kLit * white_);
     return own * (1 - lit) + lit * all;
