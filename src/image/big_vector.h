@@ -13,6 +13,9 @@
 
 namespace petzval {
 
+// As allocate_pixels: a mapping of its own if it has so many bytes, which the system has back at once.
+void* allocate_block(std::size_t bytes, std::size_t own_from);
+
 template <typename T>
 struct PixelAllocator {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -22,7 +25,8 @@ struct PixelAllocator {
     explicit PixelAllocator(const PixelAllocator<U>&) {}
     T* allocate(std::size_t n) {
         if (n > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_array_new_length();
-        return static_cast<T*>(allocate_pixels(n * sizeof(T)));
+        constexpr std::size_t kOwnFrom = std::size_t(64) << 10;
+        return static_cast<T*>(allocate_block(n * sizeof(T), kOwnFrom));
     }
     void deallocate(T* p, std::size_t) { free_pixels(p); }
     template <typename U>

@@ -1,5 +1,7 @@
 #include "petzval/image.h"
 
+#include "image/big_vector.h"
+
 #include <cstdint>
 #include <new>
 #if defined(__linux__)
@@ -21,10 +23,9 @@ std::size_t round_up(std::size_t value, std::size_t to) { return (value + to - 1
 
 // Frames are made of blocks that come and go; of those that malloc keeps for others of their size the peak
 // would be made. (The sanitizer watches malloc's alone.)
-void* map_own([[maybe_unused]] std::size_t bytes) {
+void* map_own([[maybe_unused]] std::size_t bytes, [[maybe_unused]] std::size_t own_from) {
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-    constexpr std::size_t kOwnFrom = std::size_t(256) << 10;
-    if (bytes < kOwnFrom) return nullptr;
+    if (bytes < own_from) return nullptr;
     void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     return memory == MAP_FAILED ? nullptr : memory;
 #else
@@ -34,12 +35,12 @@ void* map_own([[maybe_unused]] std::size_t bytes) {
 
 }  // namespace
 
-void* allocate_pixels(std::size_t bytes) {
+void* allocate_block(std::size_t bytes, std::size_t own_from) {
     const bool large = bytes >= 2 * kHugePage;
     const std::size_t alignment = large ? kHugePage : kAlignment;
     const std::size_t whole = round_up(bytes, alignment) + alignment + sizeof(Block);
     if (whole < bytes) throw std::bad_alloc();
-    Block block{map_own(whole), whole};
+    Block block{map_own(whole, own_from), whole};
     if (!block.memory) block = {::operator new(whole), 0};
     const auto begin = reinterpret_cast<std::uintptr_t>(block.memory);
     auto* const pixels = reinterpret_cast<unsigned char*>(round_up(begin + sizeof(Block), alignment));
@@ -50,6 +51,9 @@ void* allocate_pixels(std::size_t bytes) {
 #endif
     return pixels;
 }
+
+// Kernels are smaller pictures, which come and go by thousands.
+void* allocate_pixels(std::size_t bytes) { return allocate_block(bytes, std::size_t(256) << 10); }
 
 void free_pixels(void* pixels) noexcept {
     if (!pixels) return;

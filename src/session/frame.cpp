@@ -146,7 +146,7 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
         repaired_layers_.push_back(finite_picture(layer.colour, *job.workers));
         input.layers.back().colour = repaired_layers_.back();
     }
-    input.coc_px = coc_px_;
+    input.coc_px = coc_px_, input.spent_coc_px = &coc_px_;
     take_samples(job, radii, lens_reach_px);
     note_radii();
     place_in_field(job);

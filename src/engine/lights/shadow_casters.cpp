@@ -154,6 +154,7 @@ void ShadowCasters::add_blocks(int by, const CocSamplesView& samples, const Rect
             row.first.push_back(row.casters.size());
         }
     }
+    for (auto& view : views_) view[std::size_t(by)].casters.shrink_to_fit();  // they last as long as the plan
 }
 
 std::span<const Caster> ShadowCasters::of_block(int view, int bx, int by) const {

@@ -70,8 +70,8 @@ struct Hidden {
 
 // Hidden samples of every pixel, nearest first; pixels may share theirs.
 struct HiddenLayers {
-    static constexpr int kBand = 8;  // rows
-    static constexpr int kMost = 3;  // samples of a pixel
+    static constexpr int kBand = SparseRows<Hidden>::kBand;  // rows
+    static constexpr int kMost = 3;                          // samples of a pixel
     // In the samples of the pixel's band.
     struct Range {
         std::uint32_t begin : 30, count : 2;

@@ -1,9 +1,11 @@
-// Values that few pixels have, found row by row.
+// Values that few pixels have, found row by row. They are held by bands of rows: of a large frame in blocks
+// that the system has back at once when they are let go.
 #pragma once
 
 #include "petzval/image.h"
 
 #include "base/parallel.h"
+#include "image/big_vector.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,17 +18,23 @@ namespace petzval::engine {
 template <typename T>
 class SparseRows {
 public:
-    SparseRows() = default;  // no pixel has one
+    static constexpr int kBand = 8;  // rows
+    SparseRows() = default;          // no pixel has one
     // To be found row by row.
-    SparseRows(int width, int height) : words_((width + 63) / 64, height), rows_(std::size_t(height)) {}
-    // Rows in parallel: find(y, emit) as of find_row().
+    SparseRows(int width, int height)
+        : words_((width + 63) / 64, height), bands_(std::size_t((height + kBand - 1) / kBand)) {}
+    // Bands in parallel: find(y, emit) as of find_row().
     template <typename Find>
     SparseRows(int width, int height, Workers& workers, const Find& find) : SparseRows(width, height) {
-        parallel_for(height, workers, [&](int y) { find_row(y, [&](const auto& emit) { find(y, emit); }); });
-        if (std::all_of(rows_.begin(), rows_.end(), [](const auto& row) { return row.empty(); }))
-            words_ = {}, rows_ = {};
+        parallel_for(int(bands_.size()), workers, [&](int band) {
+            for (int y = band * kBand; y < std::min(height, (band + 1) * kBand); ++y)
+                find_row(y, [&](const auto& emit) { find(y, emit); });
+        });
+        if (std::all_of(bands_.begin(), bands_.end(), [](const auto& band) { return band.empty(); }))
+            words_ = {}, bands_ = {};
     }
-    // find(emit) calls emit(x, value) of the pixels of row y that have one, from the left. Once a row.
+    // find(emit) calls emit(x, value) of the pixels of row y that have one, from the left. Once a row; rows
+    // of a band one after the other.
     template <typename Find>
     void find_row(int y, const Find& find) {
         std::vector<T> row;
@@ -35,12 +43,15 @@ public:
             words[x / 64].has |= std::uint64_t(1) << (x % 64);
             row.push_back(value);
         });
+        BigVector<T>& band = bands_[std::size_t(y / kBand)];
+        if (band.empty()) band.reserve(2 * kBand * row.size());  // room that is not used takes no memory
+        words[0].before = std::uint32_t(band.size());
         for (int i = 1; i < words_.width(); ++i)
             words[i].before = words[i - 1].before + std::uint32_t(std::popcount(words[i - 1].has));
-        rows_[std::size_t(y)].assign(row.begin(), row.end());  // no more room than that
+        band.insert(band.end(), row.begin(), row.end());
     }
 
-    bool empty() const { return rows_.empty(); }
+    bool empty() const { return bands_.empty(); }
     const T* at(int x, int y) const { return find(*this, x, y); }
     T* at(int x, int y) { return find(*this, x, y); }
     // The values of a row from the left, as visit(x, value).
@@ -54,36 +65,36 @@ public:
     }
     std::size_t bytes() const {
         std::size_t values = 0;
-        for (const auto& row : rows_) values += row.size();
+        for (const auto& band : bands_) values += band.size();
         return values * sizeof(T) + words_.size() * sizeof(Word);
     }
 
 private:
     template <typename Self>
-    static auto find(Self& self, int x, int y) -> decltype(self.rows_[0].data()) {
+    static auto find(Self& self, int x, int y) -> decltype(self.bands_[0].data()) {
         if (self.empty()) return nullptr;
         const Word& word = self.words_(x / 64, y);
         const std::uint64_t own = std::uint64_t(1) << (x % 64);
         if ((word.has & own) == 0) return nullptr;
-        return &self.rows_[std::size_t(y)][word.before + std::uint32_t(std::popcount(word.has & (own - 1)))];
+        return self.bands_[std::size_t(y / kBand)].data() + word.before + std::popcount(word.has & (own - 1));
     }
 
     template <typename Self, typename Visit>
     static void visit_row(Self& self, int y, const Visit& visit) {
         if (self.empty()) return;
-        auto* value = self.rows_[std::size_t(y)].data();
+        auto* value = self.bands_[std::size_t(y / kBand)].data() + self.words_(0, y).before;
         for (int i = 0; i < self.words_.width(); ++i)
             for (std::uint64_t has = self.words_(i, y).has; has != 0; has &= has - 1)
                 visit(64 * i + std::countr_zero(has), *value++);
     }
 
-    // 64 pixels of a row: which have a value, and how many to the left of them have.
+    // 64 pixels of a row: which have a value, and how many of the band have one before them.
     struct Word {
         std::uint64_t has = 0;
         std::uint32_t before = 0;
     };
     Image<Word> words_;
-    std::vector<std::vector<T>> rows_;
+    std::vector<BigVector<T>> bands_;
 };
 
 }  // namespace petzval::engine

@@ -21,6 +21,11 @@ struct TileDraft {
     std::vector<LevelRun> runs;
     std::vector<Arrival> arrivals;
     std::vector<float> shares;
+    // In the memory that there is.
+    void restart() {
+        sectors = 1;
+        layers.clear(), runs.clear(), arrivals.clear(), shares.clear();
+    }
 };
 
 // Which of all kernels there can be are asked for.
@@ -67,15 +72,14 @@ public:
     TileFinder(const ScatterPlan& plan, const ScatterKernels& kernels, AskMarks& marks)
         : plan_(plan), kernels_(kernels), marks_(marks) {}
 
-    TileDraft find(const Rect& tile) {
+    void find(const Rect& tile, TileDraft& draft) {
+        draft.restart();
         find_sources(tile);
-        TileDraft draft;
         SurfaceCount surfaces;
         for (const std::uint64_t key : keys_) surfaces.add(layer_of_key(key));
         if (surfaces.count() >= plan_.rule.surfaces_for_sectors) draft.sectors = plan_.rule.sectors();
         draft.arrivals.reserve(keys_.size());
         for (std::size_t begin = 0; begin < keys_.size();) begin = add_layer(begin, draft);
-        return draft;
     }
 
 private:
@@ -179,23 +183,51 @@ private:
     std::vector<std::uint64_t> keys_, sorted_;
 };
 
-// Where the drafts of tiles go in the plan's lists; the last entry is the end.
+// Where the draft of a tile goes in the plan's lists.
 struct TilePlace {
     std::uint32_t layer = 0, run = 0, arrival = 0;
 };
 
-void write_tile(const TileDraft& draft, const TilePlace& at, const std::vector<std::uint32_t>& places,
-                ScatterPlan& plan) {
+void write_tile(const TileDraft& draft, const TilePlace& at, ScatterPlan& plan) {
     for (std::size_t i = 0; i < draft.layers.size(); ++i) {
         const TileLayer& layer = draft.layers[i];
         plan.layers[at.layer + i] = {at.run + layer.first_run, at.run + layer.first_empty_run, layer.layer};
     }
     for (std::size_t i = 0; i < draft.runs.size(); ++i)
         plan.runs[at.run + i] = {at.arrival + draft.runs[i].first_arrival, draft.runs[i].level};
-    for (std::size_t i = 0; i < draft.arrivals.size(); ++i)
-        plan.arrivals[at.arrival + i] = {draft.arrivals[i].source, places[draft.arrivals[i].kernel]};
+    std::copy(draft.arrivals.begin(), draft.arrivals.end(),
+              plan.arrivals.begin() + std::ptrdiff_t(at.arrival));
     std::copy(draft.shares.begin(), draft.shares.end(),
               plan.shares.begin() + (plan.shares.empty() ? 0 : std::ptrdiff_t(at.arrival)));
+}
+
+// The drafts of tiles first, first + 1, … at the end of the plan's lists.
+void append(std::span<const TileDraft> drafts, std::size_t first, Workers& workers, ScatterPlan& plan) {
+    std::vector<TilePlace> at;
+    TilePlace end{std::uint32_t(plan.layers.size()), std::uint32_t(plan.runs.size()),
+                  std::uint32_t(plan.arrivals.size())};
+    for (std::size_t i = 0; i < drafts.size(); ++i) {
+        const TileDraft& d = drafts[i];
+        plan.tiles[first + i].first_layer = end.layer, plan.tiles[first + i].sectors = d.sectors;
+        at.push_back(end);
+        end = {end.layer + std::uint32_t(d.layers.size()), end.run + std::uint32_t(d.runs.size()),
+               end.arrival + std::uint32_t(d.arrivals.size())};
+        if (!d.shares.empty()) plan.shares.resize(end.arrival);
+    }
+    plan.layers.resize(end.layer), plan.runs.resize(end.run), plan.arrivals.resize(end.arrival);
+    parallel_for(int(drafts.size()), workers,
+                 [&](int i) { write_tile(drafts[std::size_t(i)], at[std::size_t(i)], plan); });
+}
+
+// In place of their numbers among all kernels, those in the plan's set.
+void name_kernels(const std::vector<std::uint32_t>& places, Workers& workers, ScatterPlan& plan) {
+    constexpr std::size_t kAtOnce = 1 << 16;
+    const std::size_t count = plan.arrivals.size();
+    parallel_for(int((count + kAtOnce - 1) / kAtOnce), workers, [&](int block) {
+        const std::size_t begin = std::size_t(block) * kAtOnce;
+        for (std::size_t i = begin; i < std::min(count, begin + kAtOnce); ++i)
+            plan.arrivals[i].kernel = places[plan.arrivals[i].kernel];
+    });
 }
 
 void list_tiles(ScatterPlan& plan) {
@@ -206,36 +238,36 @@ void list_tiles(ScatterPlan& plan) {
             plan.tiles.push_back({Rect{x, y, x + size, y + size}.intersected(rows), 0, 1});
 }
 
+// So many tiles are found at a time, that what is drafted is little beside the plan's lists.
+constexpr std::size_t kTilesAtOnce = 256;
+
 void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& workers, ScatterPlan& plan) {
     list_tiles(plan);
     AskMarks marks(kernels.asks());
-    std::vector<TileDraft> drafts(plan.tiles.size());
-    constexpr int kBatch = 8;  // tiles that share their scratch
-    parallel_for((int(drafts.size()) + kBatch - 1) / kBatch, workers, [&](int batch) {
-        TileFinder finder(plan, kernels, marks);
-        for (std::size_t i = std::size_t(batch) * kBatch;
-             i < std::min(drafts.size(), std::size_t(batch + 1) * kBatch) && !progress.cancelled(); ++i)
-            drafts[i] = finder.find(plan.tiles[i].pixels);
-    });
-    const std::vector<std::uint32_t> places = marks.places(kernels, plan.kernels);
-    std::vector<TilePlace> at(1);
-    for (std::size_t i = 0; i < drafts.size(); ++i) {
-        const TileDraft& d = drafts[i];
-        plan.tiles[i].first_layer = at.back().layer, plan.tiles[i].sectors = d.sectors;
-        at.push_back({at.back().layer + std::uint32_t(d.layers.size()),
-                      at.back().run + std::uint32_t(d.runs.size()),
-                      at.back().arrival + std::uint32_t(d.arrivals.size())});
+    std::size_t sources = 0;
+    for (const SourceArray& level : plan.levels) sources += level.sources.size();
+    plan.arrivals.reserve(4 * sources);  // room that is not used takes no memory
+    const std::size_t tiles = plan.tiles.size();
+    std::vector<TileDraft> drafts(std::min(tiles, kTilesAtOnce));
+    for (std::size_t first = 0; first < tiles; first += kTilesAtOnce) {
+        const auto found = std::span(drafts).first(std::min(kTilesAtOnce, tiles - first));
+        constexpr std::size_t kBatch = 8;  // tiles that share their scratch
+        parallel_for(int((found.size() + kBatch - 1) / kBatch), workers, [&](int batch) {
+            TileFinder finder(plan, kernels, marks);
+            const std::size_t begin = std::size_t(batch) * kBatch;
+            for (std::size_t i = begin; i < std::min(found.size(), begin + kBatch); ++i)
+                if (progress.cancelled())
+                    found[i].restart();
+                else
+                    finder.find(plan.tiles[first + i].pixels, found[i]);
+        });
+        append(found, first, workers, plan);
     }
-    const TilePlace end = at.back();
-    plan.tiles.push_back({{}, end.layer, 1});
-    plan.layers.resize(end.layer + 1), plan.layers.back() = {end.run, end.run, 0};
-    plan.runs.resize(end.run + 1), plan.runs.back() = {end.arrival, 0};
-    plan.arrivals.resize(end.arrival);
-    if (kernels.has_zones()) plan.shares.resize(end.arrival);
-    parallel_for(int(drafts.size()), workers, [&](int i) {
-        write_tile(drafts[std::size_t(i)], at[std::size_t(i)], places, plan);
-        drafts[std::size_t(i)] = {};
-    });
+    const auto layers_end = std::uint32_t(plan.layers.size()), runs_end = std::uint32_t(plan.runs.size());
+    plan.tiles.push_back({{}, layers_end, 1});
+    plan.layers.push_back({runs_end, runs_end, 0});
+    plan.runs.push_back({std::uint32_t(plan.arrivals.size()), 0});
+    name_kernels(marks.places(kernels, plan.kernels), workers, plan);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ double share_at_silhouettes(const Input& input) {
 // What a flat picture takes that is done at once, as whole commands did at their peak (docs/measurements.md,
 // Fewer bytes). Of strips, and of what is more than flat, less is known and more is reckoned with.
 std::size_t bytes_at_once(const Input& input) {
-    constexpr double kPerPixel = 54, kPerSilhouettePixel = 345, kFixed = 52 << 20, kAberrated = 28 << 20;
+    constexpr double kPerPixel = 50, kPerSilhouettePixel = 345, kFixed = 52 << 20, kAberrated = 28 << 20;
     const bool flat =
         input.deep.empty() && input.plate.empty() && input.layers.empty() && input.holdout.empty();
     if (!flat) return std::numeric_limits<std::size_t>::max();
@@ -170,8 +170,9 @@ public:
         Strip strip = complete(input, rows, first);
         const CocSamples seen = input.layers.empty() ? CocSamples{} : strip.completed->all();
         planned(strip, [&](const PlannedStrip& p) {
-            if (!out.canvas)
-                out.canvas = frame_.device->canvas(memory_for_result(rows == frame_.colour.rect()));
+            const bool one_strip = rows == frame_.colour.rect();
+            if (input.layers.empty()) let_go(strip, one_strip);
+            if (!out.canvas) out.canvas = frame_.device->canvas(memory_for_result(one_strip));
             draw(p, share, *out.canvas);
             for (std::size_t i = 0; i < input.layers.size(); ++i)
                 draw_layer(strip, p, seen, input.layers[i], share, out.layers[i]);
@@ -271,6 +272,13 @@ private:
         if (!strip.progress->cancelled()) lap("spread", device.composite(p.scatter, *atlas, out, control));
         lap("highlights", draw_lights(p, out));
         strip.progress->advance(0.1 * share);
+    }
+
+    // What nobody asks for once the only plan of a strip is made.
+    void let_go(Strip& strip, bool is_all) const {
+        strip.connected = {};
+        Plane* const radii = frame_.spent_coc_px;
+        if (is_all && radii && radii->rect() == frame_.colour.rect()) *radii = {};
     }
 
     // The same plan with a layer's light in place of the beauty's.

@@ -126,6 +126,8 @@ struct Input : LensOnPicture {
     // Of this size, where nobody asks for `colour` once the samples are made: the result may be put in its
     // memory. Null: none.
     Picture* spent = nullptr;
+    // The memory of coc_px, where nobody asks for it once an engine has seen all that it wants. Null: kept.
+    Plane* spent_coc_px = nullptr;
     // Where `colour` is a layer of a picture: that picture. Empty otherwise.
     View<const Rgba> picture;
     // Both with the light that was taken out of them to be drawn by itself: what goes on behind an edge is as
