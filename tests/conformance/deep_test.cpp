@@ -155,6 +155,25 @@ TEST(Deep, HiddenSamplesAreSeenPastADefocusedEdgeAsTheReferenceSeesThem) {
     EXPECT_GE(psnr_inside(rendered(shot.job("reference")), rendered(shot.job("scatter")), 16), 43);
 }
 
+// Three sets of blades that lean, each four or five intervals of radius behind the one before, and a bright
+// wall behind focus: which part of the lens each takes decides what is seen between them.
+TEST(Deep, BladesBehindEachOtherHideWhatTheReferenceSaysTheyDo) {
+    const DeepShot shot = DeepShot::make(64, 52, [&](int x, int y) {
+        Samples samples;
+        const auto blade = [&](int lean, int apart, float coc_px) {
+            const int at = (4 * x + lean * y) % (4 * apart);
+            const float dark = at < 8 ? 0.03f : 0.12f;
+            if (at < 16) samples.push_back(surface({dark, 2 * dark, dark, 1}, coc_px));
+        };
+        blade(3, 13, -9), blade(2, 11, -5), blade(1, 7, 0);
+        samples.push_back(surface({0.8f, 0.9f, 1, 1}, 7));
+        return samples;
+    });
+    DefocusJob truth = shot.job("reference");
+    truth.pupil_points = 256;
+    EXPECT_GE(psnr_inside(rendered(truth), rendered(shot.job("scatter")), 10), 34);  // 31.9 with four sectors
+}
+
 TEST(Deep, VolumesMatchTheReference) {
     // Fog thicker to the right, a dark bar inside it, a texture behind.
     Picture texture(60, 44);

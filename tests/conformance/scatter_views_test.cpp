@@ -117,7 +117,8 @@ TEST(Hidden, SurfacesGivenBackAreThePicturesOwn) {
     ASSERT_TRUE(report);
     job.scatter.view = ScatterView::Result;
     job.behind = &report->hidden;
-    EXPECT_LT(largest_difference(rendered(job), expected), 0.02);
+    // What is given is composited through more sectors of the pupil than what was guessed.
+    EXPECT_LT(largest_difference(rendered(job), expected), 0.025);
 }
 
 TEST(Hidden, SurfacesOfRadiiThatWereChangedAreRefused) {

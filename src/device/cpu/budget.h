@@ -13,8 +13,8 @@ namespace petzval::engine {
 // What one sector of the pupil, or all of it, has given to each pixel of a tile so far.
 class Budget {
 public:
-    // Of a tile that was given nothing yet. Keeps its memory.
-    void start(int width, int height);
+    // Of a tile that was given nothing yet. Keeps its memory. another_surface: of LensLeft.
+    void start(int width, int height, int another_surface);
 
     // What a layer gives to row y: light in proportion to what it may take of the lens area it arrives with
     // (its a, and that of the emptiness at its depth; null: none).
@@ -42,7 +42,7 @@ public:
 private:
     static constexpr int kPadding = 16;
 
-    int width_ = 0, height_ = 0;
+    int width_ = 0, height_ = 0, another_surface_ = 0;
     Picture sum_, more_;                          // as LensLeft::Taken
     Plane before_, own_, beside_, area_of_more_;  // rows of whole registers
     Image<std::int32_t> layer_;

@@ -22,23 +22,24 @@ HWY_INLINE V Free(Floats d, V before, V own) { return hn::Mul(before, hn::Sub(hn
 struct Shares {
     V area, more;
 };
-HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, const Budget::Left<float>& left,
-                       std::int32_t* HWY_RESTRICT layers) {
+HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, int another_surface,
+                       const Budget::Left<float>& left, std::int32_t* HWY_RESTRICT layers) {
     const hn::Rebind<std::int32_t, Floats> signed_d;
     const hn::Rebind<std::uint32_t, Floats> unsigned_d;
-    constexpr float kGoesOn = kNextLayer, kAnother = 5 * kNextLayer;
+    constexpr float kGoesOn = kNextLayer;
+    const float another = float(another_surface);
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const auto arrived = hn::Gt(arrives, zero);
     const auto old_layer = hn::Load(signed_d, layers);
     const auto old_before = hn::Load(d, left.before), old_own = hn::Load(d, left.own),
                old_beside = hn::Load(d, left.beside), old_more = hn::Load(d, left.more);
 
-    // A gap of more than kAnother is as one of just that.
+    // A longer gap than to another surface is as one of just that.
     const auto apart = hn::BitCast(unsigned_d, hn::Sub(hn::Set(signed_d, at_layer), old_layer));
-    const auto gap =
-        hn::ConvertTo(d, hn::BitCast(signed_d, hn::Min(apart, hn::Set(unsigned_d, std::uint32_t(kAnother)))));
+    const auto gap = hn::ConvertTo(
+        d, hn::BitCast(signed_d, hn::Min(apart, hn::Set(unsigned_d, std::uint32_t(another_surface)))));
     const auto goes_on = hn::Min(
-        hn::Max(hn::Div(hn::Sub(hn::Set(d, kAnother), gap), hn::Set(d, kAnother - kGoesOn)), zero), one);
+        hn::Max(hn::Div(hn::Sub(hn::Set(d, another), gap), hn::Set(d, another - kGoesOn)), zero), one);
     const auto free = Free(d, old_before, old_own);
     const auto before = hn::Add(hn::Mul(goes_on, old_before), hn::Mul(hn::Sub(one, goes_on), free));
     const auto any_before = hn::Gt(before, zero);
@@ -81,7 +82,7 @@ HWY_INLINE V AlphasOf(Floats d, const Rgba* HWY_RESTRICT pixels, int n) {
 }
 
 void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness, int layer,
-             Rgba* HWY_RESTRICT sum, Rgba* HWY_RESTRICT more, Budget::Left<float> left,
+             int another_surface, Rgba* HWY_RESTRICT sum, Rgba* HWY_RESTRICT more, Budget::Left<float> left,
              std::int32_t* HWY_RESTRICT layers, int n) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
@@ -92,7 +93,8 @@ void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness,
         if (emptiness) all = hn::Add(all, AlphasOf(d, emptiness + x, here));
         if (hn::AllFalse(d, hn::Gt(all, hn::Zero(d)))) continue;
         const Shares taken =
-            Take(d, all, layer, {left.before + x, left.own + x, left.beside + x, left.more + x}, layers + x);
+            Take(d, all, layer, another_surface,
+                 {left.before + x, left.own + x, left.beside + x, left.more + x}, layers + x);
         hn::Store(taken.area, d, areas);
         hn::Store(taken.more, d, mores);
         for (int i = 0; i < here; ++i)
@@ -142,7 +144,8 @@ HWY_EXPORT(TakeRow);
 HWY_EXPORT(AllSpent);
 HWY_EXPORT(AddGiven);
 
-void Budget::start(int width, int height) {
+void Budget::start(int width, int height, int another_surface) {
+    another_surface_ = another_surface;
     const int padded = whole_registers(width);
     if (width != width_ || height != height_) {
         width_ = width, height_ = height;
@@ -163,8 +166,8 @@ void Budget::start(int width, int height) {
 
 void Budget::take(int y, const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more) {
     HWY_DYNAMIC_DISPATCH(TakeRow)
-    (light, emptiness, layer, sum, more, {before_.row(y), own_.row(y), beside_.row(y), area_of_more_.row(y)},
-     layer_.row(y), width_);
+    (light, emptiness, layer, another_surface_, sum, more,
+     {before_.row(y), own_.row(y), beside_.row(y), area_of_more_.row(y)}, layer_.row(y), width_);
 }
 
 bool Budget::is_spent(float least) const {

@@ -122,7 +122,7 @@ std::span<const VkDescriptorType> buffers(std::size_t count) { return std::span(
 ShaderWords words_of(Shader shader) {
     // In the order of Shader.
     static const std::array kWords{
-        ShaderWords{kComposite, buffers(7), 48},
+        ShaderWords{kComposite, buffers(7), 52},
         ShaderWords{kAddSectors, buffers(4), 4},
         ShaderWords{kCoverPupil, buffers(3), 8},
         ShaderWords{kOpenPupil, buffers(3), 4},

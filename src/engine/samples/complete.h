@@ -50,7 +50,7 @@ private:
 // of them. An opaque one takes what is left of the lens anyway, and rays that come past what is in front of
 // it see all of it; only translucent samples composited with it in one layer (engine/scatter/sources.h) dim
 // it, and it hides what else is in that layer. For what is left once highlights are taken: they look for what
-// is in front of them themselves.
-void share_lens_area(CocSamples& samples, Workers& workers);
+// is in front of them themselves. another_surface: of LensLeft.
+void share_lens_area(CocSamples& samples, int another_surface, Workers& workers);
 
 }  // namespace petzval::engine

@@ -16,6 +16,9 @@ int layer_of(float coc_px);
 constexpr int kEmptinessAfter = 1, kNextLayer = 2;
 inline bool is_emptiness(int layer) { return layer % kNextLayer != 0; }
 constexpr int kEmptyLayer = std::numeric_limits<int>::max();  // emptiness behind everything
+// How long after what came to a pixel last a layer is of another surface. Where what is hidden is guessed,
+// parts of one surface lie farther apart.
+constexpr int kAnotherSurface = 5 * kNextLayer, kAnotherKnownSurface = 3 * kNextLayer;
 
 // The layers of one pixel's samples, nearest first. What an opaque sample hides comes after it, also where
 // both fall into one interval; and if they nearly touch, as a cloth and what stands on it, so long after it

@@ -10,8 +10,8 @@ namespace petzval::engine {
 // What is left of a pixel's lens. Parts of one surface lie side by side in the lens: together they take what
 // they arrive with, of what others before them left. Of two surfaces nothing says that one lies just where
 // the other does not: the second takes its share of all that is left. What comes in the next interval of
-// radius goes on from what came before it, what comes five intervals later is another surface, and what lies
-// between is both in part.
+// radius goes on from what came before it, what comes `another_surface` layers later is another surface, and
+// what lies between is both in part.
 // Where that leaves free what all of them would fill side by side, nothing is known behind what the nearer
 // ones hide: they meet there. So it is noted what each would take more side by side, and of that they get the
 // same share, so much that they fill the lens as far.
@@ -21,6 +21,7 @@ struct LensLeft {
     float beside = 1;  // that would be left, had all come side by side
     float more = 0;    // that those would take more then who get less
     int layer = 0;     // where the last surface was met
+    int another_surface = kAnotherSurface;
 
     struct Taken {
         float area = 0, more = 0;
@@ -28,10 +29,11 @@ struct LensLeft {
     float free() const { return before * (1 - own); }
     // The next layer from the front begins.
     void meet(int at_layer) {
-        constexpr float kGoesOn = kNextLayer, kAnother = 5 * kNextLayer;
+        constexpr float kGoesOn = kNextLayer;
+        const float another = float(another_surface);
         // (Emptiness behind everything wraps where what is before it lies in front of focus.)
         const float gap = float(unsigned(at_layer) - unsigned(layer)), left = free();
-        const float goes_on = std::clamp((kAnother - gap) / (kAnother - kGoesOn), 0.0f, 1.0f);
+        const float goes_on = std::clamp((another - gap) / (another - kGoesOn), 0.0f, 1.0f);
         before = goes_on * before + (1 - goes_on) * left;
         own = before > 0 ? 1 - left / before : 1;
         layer = at_layer;

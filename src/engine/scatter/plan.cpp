@@ -54,15 +54,16 @@ private:
 // How many surfaces, one behind the other, reach a tile.
 class SurfaceCount {
 public:
+    explicit SurfaceCount(int another_surface) : apart_(another_surface - kNextLayer) {}
     void add(int layer) {
-        constexpr int kApart = 4 * kNextLayer;  // layers; surfaces nearer to each other are one that slopes
         // (Emptiness behind everything wraps where what is before it lies in front of focus.)
-        if (count_ == 0 || int(unsigned(layer) - unsigned(last_)) >= kApart) ++count_;
+        if (count_ == 0 || int(unsigned(layer) - unsigned(last_)) >= apart_) ++count_;
         last_ = layer;
     }
     int count() const { return count_; }
 
 private:
+    int apart_;  // layers; surfaces nearer to each other are one that slopes
     int count_ = 0, last_ = 0;
 };
 
@@ -75,7 +76,7 @@ public:
     void find(const Rect& tile, TileDraft& draft) {
         draft.restart();
         find_sources(tile);
-        SurfaceCount surfaces;
+        SurfaceCount surfaces(plan_.rule.another_surface);
         for (const std::uint64_t key : keys_) surfaces.add(layer_of_key(key));
         if (surfaces.count() >= plan_.rule.surfaces_for_sectors) draft.sectors = plan_.rule.sectors();
         draft.arrivals.reserve(keys_.size());
@@ -297,6 +298,10 @@ LevelRule level_rule(const Input& input) {
             break;
     }
     rule.hidden_known = !input.deep.empty();
+    if (rule.hidden_known && input.quality != Quality::Draft) {
+        rule.another_surface = kAnotherKnownSurface;
+        rule.inner_sectors = 3, rule.outer_sectors = 13;
+    }
     return rule;
 }
 

@@ -26,12 +26,13 @@ struct LevelRule {
     // One budget for the whole lens does not know which part of it each of three surfaces takes: where at
     // least this many reach a tile, sectors of the pupil are composited each on its own.
     int surfaces_for_sectors = 3;
-    bool hidden_known = false;  // what lies behind is given, not guessed (samples/layers.h)
-    int tile = 64;              // pixels of the result on a side that are drawn together
+    bool hidden_known = false;              // what lies behind is given, not guessed (samples/layers.h)
+    int another_surface = kAnotherSurface;  // layers, as LensLeft has it
+    int tile = 64;                          // pixels of the result on a side that are drawn together
     // Sectors of equal light that the pupil is taken in: in the middle, and around that.
     int inner_sectors = 0, outer_sectors = 4;
     int sectors() const { return inner_sectors + outer_sectors; }
-    static constexpr int kMostSectors = 6;
+    static constexpr int kMostSectors = 16;
     // The first levels follow each other this closely: what levels cost falls with the radius, so that wider
     // discs do with fewer cells. From kHalved levels on they do with half as many, and no fewer.
     static constexpr int kHalved = 5;

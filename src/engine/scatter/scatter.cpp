@@ -148,7 +148,8 @@ public:
           watch_(watch),
           rule_(level_rule(frame)),
           kernels_(frame.memory->get<ScatterKernels>(
-              "scatter", [&] { return std::make_shared<ScatterKernels>(frame, rule_); })),
+              ScatterKernels::name_for(rule_),
+              [&] { return std::make_shared<ScatterKernels>(frame, rule_); })),
           highlight_kernels_(frame.memory->get<HighlightKernels>(
               "highlights", [&] { return std::make_shared<HighlightKernels>(frame); })),
           split_(frame, bright_rule(frame)) {
@@ -227,7 +228,7 @@ private:
         std::vector<Highlight>& taken = found.highlights[std::size_t(y0 / SampleSource::kRows)];
         taken = take_highlights(rows, split_, strip.first_row + y0, kLargestSquare, *strip.input.workers);
         for (Highlight& h : taken) h.y += y0;
-        if (strip.input.deep_dims_itself) share_lens_area(rows, *strip.input.workers);
+        if (strip.input.deep_dims_itself) share_lens_area(rows, rule_.another_surface, *strip.input.workers);
         found.casters.add(y0, rows);
     }
     // The same, held at once for layers alone; else what was completed lasts until every row was asked for.

@@ -91,8 +91,12 @@ void scale(kernel::PointSpread& spread, Rgba by) {
 
 }  // namespace
 
+std::string ScatterKernels::name_for(const LevelRule& rule) {
+    return "scatter " + std::to_string(rule.inner_sectors) + "+" + std::to_string(rule.outer_sectors);
+}
+
 ScatterKernels::ScatterKernels(const LensOnPicture& lens, const LevelRule& rule)
-    : KernelSource("scatter", device::KernelUse::Stamped),
+    : KernelSource(name_for(rule), device::KernelUse::Stamped),
       lens_(lens.from(lens.frame.x0, lens.frame.y0)),
       levels_(int(lens.lens_levels.size())),
       steps_(int(std::ceil(place_of(rule.largest_radius(), false))) + 2),

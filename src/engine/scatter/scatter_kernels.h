@@ -16,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,8 @@ namespace petzval::engine {
 class ScatterKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
     ScatterKernels(const LensOnPicture& lens, const LevelRule& rule);
+    // Of one lens and quality.
+    static std::string name_for(const LevelRule& rule);
 
     // The zones whose kernels the source in cell (x, y) of a level takes, in a picture with this frame, so
     // that nothing steps where zones meet: one of the four whose middles are nearest, each as often as

@@ -15,7 +15,10 @@ std::vector<kernel::PointSpread> sectors_of(const kernel::PointSpread& all, int 
         double distance, turns;
     };
     const Rect e = all.extent;
-    const int points = e.width() < 8 ? 4 : e.width() < 14 ? 2 : 1;  // per side of a pixel
+    // Of many sectors each is but a few grains: their cuts must not jump from radius to radius, or a slope
+    // does not quite fill every sector and shows what is behind it.
+    const int finer = inner + outer > 6 ? 2 : 1;
+    const int points = finer * (e.width() < 8 ? 4 : e.width() < 14 ? 2 : 1);  // per side of a pixel
     std::vector<Grain> grains;
     for (int y = e.y0; y < e.y1; ++y)
         for (int x = e.x0; x < e.x1; ++x) {

@@ -17,6 +17,7 @@ layout(push_constant) uniform Push {
     uint first_layer, first_run, first_arrival;  // numbers of the first of each
     uint records;                                // where records of kernels begin in `kernels`
     uint held_rows, held_width, held_samples;    // row 0 of the holdout, its width; where samples begin
+    uint another_surface;                        // of LensLeft
 } at;
 
 const int kSide = 16, kChunk = 256, kBorder = 2, kBlocks = 8, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
@@ -233,7 +234,7 @@ float let_through(ivec2 pixel, float nearest_px, float farthest_px) {
     return (sum + open * (farthest - from)) / (farthest - nearest);
 }
 
-// LensLeft of device/cpu/stamp.h
+// engine/samples/lens_left.h
 struct LensLeft {
     float before, own, beside, more;
     int layer;
@@ -241,10 +242,10 @@ struct LensLeft {
 float free(LensLeft left) { return left.before * (1 - left.own); }
 // The lens area taken, and what side by side would be taken more.
 vec2 take(inout LensLeft left, float arrives, int layer) {
-    const float kGoesOn = 2, kAnother = 10;  // of layers; two are an interval
+    const float kGoesOn = 2, another = float(at.another_surface);  // layers; two are an interval
     const int kEmptyLayer = 0x7fffffff;
     const float gap = float(uint(layer) - uint(left.layer)), is_free = free(left);
-    const float goes_on = clamp((kAnother - gap) / (kAnother - kGoesOn), 0.0, 1.0);
+    const float goes_on = clamp((another - gap) / (another - kGoesOn), 0.0, 1.0);
     left.before = goes_on * left.before + (1 - goes_on) * is_free;
     left.own = left.before > 0 ? 1 - is_free / left.before : 1;
     left.layer = layer;
