@@ -7,6 +7,17 @@
 
 namespace petzval::engine {
 
+namespace {
+
+// Grains of a pixel. Of many sectors each is but a few grains: their cuts must not jump from radius to
+// radius, or a slope does not quite fill every sector and shows what is behind it.
+int points_per_side(int width, int sectors) {
+    const int finer = sectors > 6 ? 2 : 1;
+    return finer * (width < 8 ? 4 : width < 14 ? 2 : 1);
+}
+
+}  // namespace
+
 std::vector<kernel::PointSpread> sectors_of(const kernel::PointSpread& all, int inner, int outer,
                                             bool turned) {
     struct Grain {
@@ -15,10 +26,7 @@ std::vector<kernel::PointSpread> sectors_of(const kernel::PointSpread& all, int 
         double distance, turns;
     };
     const Rect e = all.extent;
-    // Of many sectors each is but a few grains: their cuts must not jump from radius to radius, or a slope
-    // does not quite fill every sector and shows what is behind it.
-    const int finer = inner + outer > 6 ? 2 : 1;
-    const int points = finer * (e.width() < 8 ? 4 : e.width() < 14 ? 2 : 1);  // per side of a pixel
+    const int points = points_per_side(e.width(), inner + outer);
     std::vector<Grain> grains;
     for (int y = e.y0; y < e.y1; ++y)
         for (int x = e.x0; x < e.x1; ++x) {
