@@ -233,10 +233,10 @@ void name_kernels(const std::vector<std::uint32_t>& places, Workers& workers, Sc
 
 void list_tiles(ScatterPlan& plan) {
     const Rect& rows = plan.rows;
-    const int size = plan.rule.tile;
-    for (int y = rows.y0; y < rows.y1; y += size)
-        for (int x = rows.x0; x < rows.x1; x += size)
-            plan.tiles.push_back({Rect{x, y, x + size, y + size}.intersected(rows), 0, 1});
+    constexpr int kTile = ScatterPlan::kTile;
+    for (int y = rows.y0; y < rows.y1; y += kTile)
+        for (int x = rows.x0; x < rows.x1; x += kTile)
+            plan.tiles.push_back({Rect{x, y, x + kTile, y + kTile}.intersected(rows), 0, 1});
 }
 
 // So many tiles are found at a time, that what is drafted is little beside the plan's lists.
@@ -288,7 +288,7 @@ LevelRule level_rule(const Input& input) {
     switch (input.quality) {
         case Quality::Draft:
             rule = {.largest_cells = 5, .surfaces_for_sectors = std::numeric_limits<int>::max()};
-            rule.gathers_squares = true, rule.tile = 128;
+            rule.gathers_squares = true;
             break;
         case Quality::Standard:
             rule = {.largest_cells = 8, .surfaces_for_sectors = 2};

@@ -28,7 +28,6 @@ struct LevelRule {
     int surfaces_for_sectors = 3;
     bool hidden_known = false;              // what lies behind is given, not guessed (samples/layers.h)
     int another_surface = kAnotherSurface;  // layers, as LensLeft has it
-    int tile = 64;                          // pixels of the result on a side that are drawn together
     // Sectors of equal light that the pupil is taken in: in the middle, and around that.
     int inner_sectors = 0, outer_sectors = 4;
     int sectors() const { return inner_sectors + outer_sectors; }
