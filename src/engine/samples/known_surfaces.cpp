@@ -8,6 +8,8 @@
 namespace petzval::engine {
 namespace {
 
+// Times white: what is darker is no light, a bright wall may go on as long as it likes.
+constexpr float kLight = 0.5f;
 constexpr float kWidestLightPx = 64;  // what is wider is a lit surface, as of lamps
 
 float light_of(Rgba c) { return std::max(0.0f, luminance(c)); }
@@ -34,15 +36,36 @@ KnownSurfaces::KnownSurfaces(const LitPicture& picture, View<const float> coc, c
       mixtures_(mixtures),
       radii_(known_radii(coc, mixtures, workers)),
       white_(white),
-      edges_(picture, radii_, mixtures, white, edges_to_px, workers) {}
+      edges_(picture, radii_, mixtures, white, edges_to_px, workers) {
+    if (white_ > 0) find_lights(workers);
+}
+
+void KnownSurfaces::find_lights(Workers& workers) {
+    const int width = (radii_.width() + kBlock - 1) / kBlock,
+              height = (radii_.height() + kBlock - 1) / kBlock;
+    Image<unsigned char> lit(width, height);
+    parallel_for(height, workers, [&](int row) {
+        for (int y = row * kBlock; y < std::min((row + 1) * kBlock, radii_.height()); ++y)
+            for (int x = 0; x < radii_.width(); ++x)
+                if (luminance(picture_.colour(x, y)) >= kLight * white_ &&
+                    luminance(picture_.dim(x, y)) >= kLight * white_)
+                    lit(x / kBlock, row) = 1;
+    });
+    constexpr int kBlocks = int(kWidestLightPx) / kBlock + 1;
+    lights_around_ = Image<unsigned char>(width, height);
+    parallel_for(height, workers, [&](int y) {
+        for (int v = std::max(0, y - kBlocks); v <= std::min(height - 1, y + kBlocks); ++v)
+            for (int x = 0; x < width; ++x)
+                for (int u = std::max(0, x - kBlocks); u <= std::min(width - 1, x + kBlocks); ++u)
+                    lights_around_(x, y) |= lit(u, v);
+    });
+}
 
 CutEdges::Point KnownSurfaces::behind(Place at, Direction outwards, float distance_px) {
     return {at.x - nearest_pixel(distance_px * outwards.x), at.y - nearest_pixel(distance_px * outwards.y)};
 }
 
 Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) const {
-    // Times white: what is darker is no light, a bright wall may go on as long as it likes.
-    constexpr float kLight = 0.5f;
     const Rgba own = wide_colour(from, outwards, distance_px);
     if (white_ <= 0) return own;
     const CutEdges::Point hidden = behind(from, outwards, distance_px);
@@ -67,7 +90,7 @@ Rgba KnownSurfaces::going_on(Place from, Direction outwards, float distance_px) 
 Rgba KnownSurfaces::among_lights(Rgba own, Place from, Direction outwards, float distance_px) const {
     constexpr float kLit = 0.2f, kContrast = 14;  // times white; times the own light
     const float usual = kContrast * light_of(own);
-    if (usual <= kLit * white_) return own;  // too dark to lie between letters
+    if (usual <= kLit * white_ || !lights_around(from)) return own;  // too dark to lie between letters
     const Rgba all = shown(from, outwards, distance_px, {1, usual}, own);
     const float lit = above(light_of(all), kLit * white_);
     return own * (1 - lit) + lit * all;

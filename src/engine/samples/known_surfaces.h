@@ -56,6 +56,8 @@ public:
 
 private:
     static CutEdges::Point behind(Place at, Direction outwards, float distance_px);
+    void find_lights(Workers& workers);
+    bool lights_around(Place at) const { return lights_around_(at.x / kBlock, at.y / kBlock) != 0; }
     Rgba wide_colour(Place at, Direction outwards, float distance_px) const;
     Rgba among_lights(Rgba own, Place from, Direction outwards, float distance_px) const;
     struct Mean {
@@ -66,6 +68,8 @@ private:
 
     const LitPicture& picture_;
     const Mixtures& mixtures_;
+    static constexpr int kBlock = 16;     // pixels on a side
+    Image<unsigned char> lights_around_;  // of blocks: whether lights show that may go on with what it shows
     Plane radii_;
     float white_;
     CutEdges edges_;
