@@ -217,7 +217,7 @@ typedef struct petzval_report petzval_report;
 PETZVAL_C_API petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot,
                                              const petzval_look* look, const petzval_control* control,
                                              const petzval_pixels* out, petzval_report** report);
-/* Pixels around a region that are looked at for it, 128 and four of the largest radius (or of how far the
+/* Pixels around a region that are looked at for it, 160 and four of the largest radius (or of how far the
  * lens throws light at it): a host that has no more than those gets the same region. */
 PETZVAL_C_API petzval_status petzval_region_margin_px(petzval_session* session, const petzval_shot* shot,
                                                       const petzval_look* look, int* margin_px);

@@ -95,9 +95,8 @@ public:
                               const Control& control = {});
 
     // How many pixels around a region are looked at for it: four of the largest radius, or of how far the
-    // lens throws light at that radius if it is farther, and 104: twice the 32 pixels that a light may be
-    // wide to be told from a surface, and 40 in which a pixel's surroundings are looked at. Errors: those of
-    // defocus().
+    // lens throws light at that radius if it is farther, and 160, in which it is told how outlines go on that
+    // something hides. Errors: those of defocus().
     Result<int> region_margin_px(const DefocusJob& job);
 
     // How far, in pixels, light of the largest radius lands from where it came. Errors: those of defocus().

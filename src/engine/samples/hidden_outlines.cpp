@@ -16,7 +16,8 @@ using Outline = HiddenOutlines::Outline;
 constexpr int kCell = 16;        // pixels on a side
 constexpr int kLongestPx = 54;   // one goes on alone
 constexpr int kFarthestPx = 90;  // two ends of one are apart
-static_assert(kFarthestPx + kTracedPx <= kOutlineReachPx);
+constexpr int kEndCell = 32;     // pixels on a side
+static_assert(kFarthestPx + kTracedPx + kEndCell <= kOutlineReachPx);
 constexpr float kMorePx = 1.5f;
 
 // A column or row of `cells` cells, each `px` wide.
@@ -46,10 +47,11 @@ public:
     EndJoiner(View<const float> coc, std::vector<OutlineEnd> ends) : coc_(coc), ends_(std::move(ends)) {
         columns_ = coc.width() / kEndCell + 1, rows_ = coc.height() / kEndCell + 1;
         near_.resize(std::size_t(columns_) * std::size_t(rows_));
-        for (std::size_t i = 0; i < ends_.size(); ++i) {
-            const PixelAt at = ends_[i].at;
-            near_[std::size_t(at.y / kEndCell * columns_ + at.x / kEndCell)].push_back(facing(int(i)));
-        }
+        for (std::size_t i = 0; i < ends_.size(); ++i) near_[cell(ends_[i].at)].push_back(facing(int(i)));
+        // Among so many, as depth of noise has them, ends meet by chance, and all would be asked of all.
+        constexpr std::size_t kMostInCell = 64;
+        for (auto& in_cell : near_)
+            if (in_cell.size() > kMostInCell) in_cell.clear();
     }
     std::vector<Outline> outlines(Workers& workers) const {
         std::vector<Joint> joints(ends_.size());
@@ -68,7 +70,6 @@ public:
     }
 
 private:
-    static constexpr int kEndCell = 32;
     struct Joint {
         int other = -1;
         Arc arc{};
@@ -98,6 +99,7 @@ private:
         }
     };
 
+    std::size_t cell(PixelAt at) const { return std::size_t(at.y / kEndCell * columns_ + at.x / kEndCell); }
     Facing facing(int i) const {
         const OutlineEnd& end = ends_[std::size_t(i)];
         return {i, end.at, into_of(end), end.coc_px, end.same_is_left, end.told_by > 0};
@@ -114,6 +116,7 @@ private:
     Joint best_joint(int i) const {
         const Facing own = facing(i);
         Joint best;
+        if (near_[cell(own.at)].empty()) return best;  // too many
         const Rect ahead = reached(own);
         for (int v = cell_of(ahead.y0, kEndCell, rows_); v <= cell_of(ahead.y1, kEndCell, rows_); ++v)
             for (int u = cell_of(ahead.x0, kEndCell, columns_); u <= cell_of(ahead.x1, kEndCell, columns_);

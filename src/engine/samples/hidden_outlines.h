@@ -11,7 +11,7 @@
 namespace petzval::engine {
 
 // What it tells of a place depends on nothing farther away.
-constexpr int kOutlineReachPx = 128;
+constexpr int kOutlineReachPx = 160;
 
 // Found from radii alone: where three surfaces meet in a picture, the nearest hides how the outline of the
 // middle one, before the farthest, goes on. Two ends of it that lie on one line or arc are one outline, all

@@ -14,7 +14,7 @@ constexpr float kLeastAlike = 0.7f, kAlike = 0.95f;
 
 }  // namespace
 
-// What a tile looks at lies within 4 of its reach and 96 px (docs/conventions.md).
+// What a tile looks at lies within 4 of its reach and 96 px: less than of outlines (docs/conventions.md).
 HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtures, float reach_px,
                                Workers& workers)
     : known_(known),

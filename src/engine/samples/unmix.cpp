@@ -27,16 +27,6 @@ bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
            (at(x, y - 1) & at(x, y + 1) & kHorizontal) != kHorizontal;
 }
 
-// Whether lamps light the pixel or one beside it: less light of theirs than makes a lamp may fall on it.
-bool lit_around(const LitPicture& picture, int x, int y) {
-    if (!picture.dim_of) return false;
-    const Rect window = Rect{x - 1, y - 1, x + 2, y + 2}.intersected(picture.colour.rect());
-    for (int v = window.y0; v < window.y1; ++v)
-        for (int u = window.x0; u < window.x1; ++u)
-            if (picture.dim(u, v) != picture.colour(u, v)) return true;
-    return false;
-}
-
 // The same for a whole row at once, where most pixels touch none.
 void find_touching(View<const unsigned char> connected, int y, View<unsigned char> touching) {
     const int width = connected.width();
@@ -53,6 +43,16 @@ void find_touching(View<const unsigned char> connected, int y, View<unsigned cha
         const unsigned over = above[x] & below[x] & (kLeft | kRight);
         out[x] = (own[x] & (beside | over)) != kAll;
     }
+}
+
+// Whether lamps light the pixel or one beside it: less light of theirs than makes a lamp may fall on it.
+bool lit_around(const LitPicture& picture, int x, int y) {
+    if (!picture.dim_of) return false;
+    const Rect window = Rect{x - 1, y - 1, x + 2, y + 2}.intersected(picture.colour.rect());
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u)
+            if (picture.dim(u, v) != picture.colour(u, v)) return true;
+    return false;
 }
 
 // What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
