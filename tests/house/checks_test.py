@@ -92,6 +92,48 @@ class Checks(unittest.TestCase):
         self.assert_found("check_headers.py", {"include/petzval/a.h": "int twice = 0;\n"}, "a.h")
         self.assert_clean("check_headers.py", {"include/petzval/a.h": "#pragma once\n#include <string>\n"})
 
+    def test_prose_that_hides_its_subject_is_found_in_pages(self):
+        for line, word in (("The picture goes on.", "continue"), ("It is made of what lies there.", "name the thing"),
+                           ("word " * 21, "105 columns"), ("It is\n" + "a word\n" * 17 + "long.", "37 words"),
+                           ("From 1 to 2, 3, 4 or 5 px.", "5 numbers"), ("## What lies behind", "title")):
+            self.assert_found("check_prose.py", {"docs/a.md": f"# A page\n\n{line}\n"}, "docs/a.md:", word)
+        fine = "| a table of 1 | 2 | 3 | 4 | 5 |\n```sh\n" + "goes on " * 30 + "\n```\n## What is a lens?\n`goes on`\n"
+        self.assert_clean("check_prose.py", {"docs/a.md": fine, "docs/reference/a.md": "word " * 30})
+
+    def test_prose_that_hides_its_subject_is_found_in_comments(self):
+        for text in ("// What lies behind.\n", "int a; // fine\n// Of the batch.\n", "// A line\n// that goes on.\n"):
+            self.assert_found("check_prose.py", {"src/image/a.cpp": text}, "src/image/a.cpp:")
+        self.assert_clean("check_prose.py", {"src/image/a.cpp": "// Radius in pixels.\nint what = 1;  // Of it\n"})
+
+    def test_a_count_of_findings_may_only_fall(self):
+        source = {"src/image/a.cpp": "// What lies behind.\n\n// Of the batch.\n"}
+        self.assert_clean("check_prose.py", source | {"tools/prose_allowed.txt": "2 src/image\n"})
+        self.assert_clean("check_prose.py", source | {"tools/prose_allowed.txt": "3 src/image\n"})
+        self.assert_found("check_prose.py", source | {"tools/prose_allowed.txt": "1 src/image\n"}, "2 findings, 1 are")
+
+    def test_subjects_of_new_commits_are_found_and_those_of_a_clone_are_not(self):
+        wrong = ("what is dark is averaged only where lights show", "docs: measured today", "a: lamps are moved",
+                 "scatter: fix a tile that is as wide on one device as it is on another one")
+        with tempfile.TemporaryDirectory() as folder:
+            def run(*command):
+                return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            def commit(subject):
+                run("git", "-C", "a", "-c", "user.name=n", "-c", "user.email=e", "commit", "--allow-empty", "-m", subject)
+            def status(name):
+                return run(sys.executable, TOOLS / "check_prose.py", pathlib.Path(folder) / name).returncode
+            run("git", "init", "-b", "main", "a")
+            commit("wrong before there were rules")
+            run("git", "-C", "a", "switch", "-c", "work")
+            for subject in wrong:
+                commit("scatter, samples: skip dark pixels")
+                self.assertEqual(status("a"), 0, subject)
+                commit(subject)
+                self.assertEqual(status("a"), 1, subject)
+                run("git", "-C", "a", "branch", "-f", "main")
+            run("git", "clone", "a", "full")
+            run("git", "clone", "--depth", "1", "file://" + folder + "/a", "shallow")
+            self.assertEqual([status("full"), status("shallow")], [0, 0])
+
 
 if __name__ == "__main__":
     unittest.main()
