@@ -96,9 +96,22 @@ def test(*words):
 
 
 def say_skipped(log):
-    """Parts of the Python tests that asserted nothing here: ctest counts their files as passed."""
-    for name, reason in re.findall(r"^(test_\w+) .*\.\.\. skipped ['\"](.*)['\"]$", log.read_text(errors="replace"), re.M):
-        print(f"asserted nothing: {name}: {reason}", flush=True)
+    """Ends the run with every test that was skipped and its reason, one line per reason."""
+    tests_of = {}
+    for test, reason in skipped_tests(log.read_text(errors="replace")):
+        tests_of.setdefault(reason, []).append(test)
+    for reason, tests in tests_of.items():
+        print(f"skipped: {reason}: {', '.join(tests)}", flush=True)
+
+
+def skipped_tests(log):
+    """(test, reason) of each skipped test in ctest's log. Of a Python file that passes, ctest itself counts no skips."""
+    for output in re.split(r"^\d+/\d+ Testing: ", log, flags=re.M)[1:]:
+        for name, reason in re.findall(r"^(test_\w+) .*\.\.\. skipped ['\"](.*)['\"]$", output, re.M):
+            yield name, reason
+        if "[  SKIPPED ]" in output:
+            reason = re.search(r"^.*: Skipped\n(.*)$", output, re.M)
+            yield output.split("\n", 1)[0], reason[1] if reason else "no reason given"
 
 
 def path(*_):

@@ -1,4 +1,5 @@
 """The door itself: what it says on a machine that lacks something, and what it leaves on stdout."""
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -72,6 +73,21 @@ class Door(unittest.TestCase):
         for verb in ("demo", "build", "test", "path", "run", "bench", "format", "lint", "check", "golden",
                      "validate-lenses", "gpu-laws"):
             self.assertIn(verb, words)
+
+    def test_skipped_tests_are_found_in_the_log_of_every_runner(self):
+        log = ("1/2 Testing: device.vulkan.Heap.Lends\n----\n[ RUN      ] Heap.Lends\nheap_test.cpp:16: Skipped\nno device of Vulkan\n\n"
+               "[  SKIPPED ] Heap.Lends (0 ms)\n"
+               "2/2 Testing: cli.frames_test\n----\ntest_video (frames_test.Frames) ... skipped 'ffmpeg is not installed'\n"
+               "test_frames (frames_test.Frames) ... ok\n")
+        self.assertEqual(list(dev_tool().skipped_tests(log)),
+                         [("device.vulkan.Heap.Lends", "no device of Vulkan"), ("test_video", "ffmpeg is not installed")])
+
+
+def dev_tool():
+    spec = importlib.util.spec_from_file_location("dev", DEV.parent / "tools/dev.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 if __name__ == "__main__":
