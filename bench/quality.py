@@ -3,7 +3,7 @@
 One table, in Markdown, on stdout: every engine on eight built-in scenes, and on the path-traced scenes that lie in
 ../shared/scenes where that folder is there. `pinhole` is the sharp picture itself, the line to beat. `all known`:
 what the picture does not show is given, hidden layers and a rim of overscan; where it is known, the reference is
-run with it only, for that is what it defines. PSNR and SSIM are those of docs/command-line.md on linear light
+run with it only, for that is what it defines. PSNR and SSIM are those of docs/reference/command-line.md on linear light
 times the scene's exposure, clipped to 0…1. CPU seconds are those of the whole command, files included.
 
 Usage: ./dev bench quality [--scenes A,B] [--engines A,B] [--width N] [--pupil-points N] [--quality Q]

@@ -193,7 +193,7 @@ def ceilings_table(given):
     print(f"\n### How far from that: {given.widths[0]} px wide, {DOUBLET}, largest radius 32 px, wall seconds\n")
     print_table(["picture", "threads", "stage", "seconds", "GB", "GB/s", "of ceiling", "10^9 multiply-adds / s",
                  "of ceiling"], body)
-    print("\nBytes and multiply-adds as the engine counts them (docs/command-line.md, the report). Bytes of stages that"
+    print("\nBytes and multiply-adds as the engine counts them (docs/reference/command-line.md, the report). Bytes of stages that"
           "\nstamp are held against stamping within the first cache, those of others against copying in memory.")
 
 

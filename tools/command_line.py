@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what the program says of its verbs into docs/command-line.md, below the mark; --check only compares.
+"""Writes what the program says of its verbs into docs/reference/command-line.md, below the mark; --check only compares.
 
 Usage: tools/command_line.py [--check] PROGRAM
 """
@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 import sys
 
-PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs/command-line.md"
+PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs/reference/command-line.md"
 MARK = "<!-- From here on: petzval help --format md;"
 
 

@@ -1,4 +1,4 @@
-"""Every test that draws on a GPU, suite by suite, under a validation layer; `./dev gpu-laws` runs it (docs/gpu.md)."""
+"""Every test that draws on a GPU, suite by suite, under a validation layer; `./dev gpu-laws` runs it (docs/reference/devices.md)."""
 import argparse
 import os
 import pathlib

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the pictures of docs/view.md: scripts under Xvfb write what is on the screen. They are made to be looked at.
+"""Makes the pictures of docs/guide/the-window.md: scripts under Xvfb write what is on the screen. They are made to be looked at.
 
 Usage: tools/view_pictures.py PROGRAM
 """

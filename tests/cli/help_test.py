@@ -1,4 +1,4 @@
-"""What the program says of its verbs, in every form: help, docs/command-line.md, a manual page, completions."""
+"""What the program says of its verbs, in every form: help, docs/reference/command-line.md, a manual page, completions."""
 import pathlib
 import re
 import shutil
@@ -9,7 +9,7 @@ import unittest
 from program import PETZVAL, CommandLineTest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs/command-line.md").read_text()
+PAGE = (ROOT / "docs/reference/command-line.md").read_text()
 NOT_YET = re.search(r"Not there yet, and refused:(.*?)\n", PAGE).group(1)
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 VERBS = ["defocus", "inspect", "scene list", "scene make", "scene points", "compare", "develop", "lens list", "lens show",

@@ -6,7 +6,7 @@ import unittest
 
 from program import CAMERA, CommandLineTest
 
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/lens-files.md"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/reference/lens-files.md"
 
 
 def documented():

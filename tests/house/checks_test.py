@@ -98,7 +98,7 @@ class Checks(unittest.TestCase):
                            ("From 1 to 2, 3, 4 or 5 px.", "5 numbers"), ("## What lies behind", "title")):
             self.assert_found("check_prose.py", {"docs/a.md": f"# A page\n\n{line}\n"}, "docs/a.md:", word)
         fine = "| a table of 1 | 2 | 3 | 4 | 5 |\n```sh\n" + "goes on " * 30 + "\n```\n## What is a lens?\n`goes on`\n"
-        self.assert_clean("check_prose.py", {"docs/a.md": fine, "docs/reference/a.md": "word " * 30})
+        self.assert_clean("check_prose.py", {"docs/a.md": fine, "docs/reference/command-line.md": "word " * 30})
 
     def test_prose_that_hides_its_subject_is_found_in_comments(self):
         for text in ("// What lies behind.\n", "int a; // fine\n// Of the batch.\n", "// A line\n// that goes on.\n"):
