@@ -133,6 +133,13 @@ Result<std::optional<Track>> read_track(const TrackFlags& flags) {
     return track;
 }
 
+// All frames from the first key to the last.
+Result<std::vector<int>> frames_of(const Track& track, const std::string& file) {
+    auto frames = parse_frames(std::to_string(track.first()) + "-" + std::to_string(track.last()));
+    if (!frames) return Error{ErrorCode::InvalidArgument, file + ": " + frames.error().message};
+    return frames;
+}
+
 }  // namespace
 
 DefocusFlags at_frame(DefocusFlags flags, int frame) {
@@ -219,8 +226,7 @@ Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
     FrameWork work;
     work.input = flags.input.path;
     if (*track)  // of one picture: the track says which frames
-        for (int frame = (*track)->first(); frame <= (*track)->last(); ++frame)
-            work.otherwise.push_back(frame);
+        work.otherwise = [&] { return frames_of(**track, flags.track.file); };
     work.keeps_what_is_there = flags.overwrite.no_clobber || flags.overwrite.update;
     work.files = [&](int frame) -> Result<FrameWork::Files> {
         const auto of = of_frame(frame);

@@ -116,7 +116,10 @@ private:
         if (!frames_.empty()) return Done{};
         const auto pattern = pattern_in(work_.input);
         if (!pattern) {
-            frames_ = work_.otherwise;
+            if (!work_.otherwise) return Done{};
+            auto frames = work_.otherwise();
+            if (!frames) return frames.error();
+            frames_ = std::move(*frames);
             return Done{};
         }
         auto there = pattern->frames_there();

@@ -49,9 +49,9 @@ struct FrameWork {
     struct Files {
         std::vector<std::string> inputs, outputs;  // of outputs the first is the picture
     };
-    std::string input;                 // its name says which frames are there
-    std::vector<int> otherwise;        // the frames, where it does not
-    bool keeps_what_is_there = false;  // outputs that are whole
+    std::string input;                                    // its name says which frames are there
+    std::function<Result<std::vector<int>>()> otherwise;  // lists the frames, where it does not
+    bool keeps_what_is_there = false;                     // outputs that are whole
     std::function<Result<Files>(int frame)> files;
     // Makes one frame and returns its report. `again`: what is there does not count.
     std::function<Result<Json>(int frame, bool again)> make;

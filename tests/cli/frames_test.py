@@ -127,6 +127,21 @@ class Shots(CommandLineTest):
                 file.write(text)
             self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--track", "t.csv", says=["t.csv"])
 
+    def test_a_track_with_keys_far_apart_lists_only_the_frames_that_are_asked_for(self):
+        def limits():
+            resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        far_apart = [[2147483647], [-2147483648, 2147483647], [1, 2000000000]]
+        for keys in far_apart:
+            with open(self.path("t.json"), "w") as file:
+                json.dump({"frames": [{"frame": frame, "focus": 2} for frame in keys]}, file)
+            self.succeed("defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--track", "t.json",
+                         "--frames", "1-3", limits=limits)
+        self.refuse(2, "defocus", "in.0001.exr", "-o", "far.####.exr", *CAMERA, "--track", "t.json",
+                    says=["t.json", "more than a million frames"], limits=limits)
+        self.succeed("defocus", "in.0001.exr", "-o", "far.####.exr", *CAMERA, "--track", "t.json",
+                     "--frames", "2000000000", limits=limits)
+
     def test_a_frame_that_cannot_be_written_fails_alone(self):
         write_exr(self.path("in.0003.exr"), picture(200, 150, lambda x, y: (x * 31 + y * 17) % 101 / 50, lambda x, y: 2.0))
         limits = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))  # noqa: E731
