@@ -63,7 +63,9 @@ void MakeFlags::add_to(Verb& verb) {
                scene.truth_samples)
         .value("--pinhole-samples", "N", "samples per pixel of the sharp picture (default 64)", parse_count,
                scene.samples)
-        .value("--seed", "N", "start of all random choices (default 1)", parse_seed, scene.seed)
+        .value("--seed", "N",
+               "start of all random choices (default 1); of the scene random, also which scene", parse_seed,
+               scene.seed)
         .value("--scene-camera", "NAME",
                "of a glTF file's cameras that of this name, or number from 1 (default: the first)",
                parse_text, scene.own_camera)

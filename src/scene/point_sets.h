@@ -6,6 +6,7 @@
 
 #include "petzval/scene.h"
 
+#include "scene/dice.h"
 #include "scene/sampling.h"
 #include "scene/vec3.h"
 
@@ -38,21 +39,6 @@ struct PointView {
         point.depth_m = p.z;
         return point;
     }
-};
-
-// Numbers 0…1 one after the other, the same everywhere.
-class Dice {
-public:
-    Dice(std::uint64_t seed, std::uint32_t set)
-        : state_(hash(hash(std::uint32_t(seed), std::uint32_t(seed >> 32)), set)) {}
-    float next() {
-        state_ = hash(state_, ++count_);
-        return float(state_ >> 8) * 0x1p-24f;
-    }
-    float between(float low, float high) { return mix(low, high, next()); }
-
-private:
-    std::uint32_t state_, count_ = 0;
 };
 
 struct PointSet {

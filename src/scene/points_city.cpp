@@ -48,18 +48,18 @@ private:
 
     float height_at(float x, float z) {
         const float centre = std::exp(-(x * x + (z - 2200) * (z - 2200)) / (900.0f * 900.0f));
-        const float tall = dice_.next();
-        return 9 + 16 * dice_.next() + centre * 95 * tall * tall * tall;
+        const float tall = dice_.share();
+        return 9 + 16 * dice_.share() + centre * 95 * tall * tall * tall;
     }
 
     // Away from the viewer: lamps on both sides, cars coming and going.
     void add_avenue(float x, float z) {
         for (const float side : {-6.5f, 6.5f})
             for (float along = 0; along < kBlock; along += kBlock / 3)
-                shine({x + side, 8 - kEyeHeight, z + along}, 5200, dice_.next() < 0.7f ? kSodium : kLed);
+                shine({x + side, 8 - kEyeHeight, z + along}, 5200, dice_.share() < 0.7f ? kSodium : kLed);
         for (int car = 0; car < 2; ++car) {
-            const bool coming = dice_.next() < 0.5f;
-            const Vec3 at{x + (coming ? -2.2f : 2.2f), 0.7f - kEyeHeight, z + kBlock * dice_.next()};
+            const bool coming = dice_.share() < 0.5f;
+            const Vec3 at{x + (coming ? -2.2f : 2.2f), 0.7f - kEyeHeight, z + kBlock * dice_.share()};
             for (const float lamp : {-0.7f, 0.7f})
                 shine(at + Vec3{lamp, 0, 0}, coming ? 6000 : 1500, coming ? kHead : kTail);
         }
@@ -70,12 +70,12 @@ private:
     }
 
     void add_windows(const House& house) {
-        const Vec3 usual = mix(kBulb, kTube, dice_.next() < 0.3f ? 0.9f : 0.1f);
+        const Vec3 usual = mix(kBulb, kTube, dice_.share() < 0.3f ? 0.9f : 0.1f);
         for (float up = 2; up < house.height - 1; up += 3.2f)
             for (float along = 1.5f; along < house.width; along += 3.4f) {
-                if (dice_.next() > 0.3f) continue;
-                const Vec3 colour = mix(usual, kBulb, dice_.next());
-                shine(house.corner + Vec3{along, up, 0}, 1700 * dice_.between(0.2f, 1) * dice_.next(),
+                if (dice_.share() > 0.3f) continue;
+                const Vec3 colour = mix(usual, kBulb, dice_.share());
+                shine(house.corner + Vec3{along, up, 0}, 1700 * dice_.between(0.2f, 1) * dice_.share(),
                       colour);
             }
         if (house.height > 60)
@@ -112,7 +112,7 @@ std::vector<LightPoint> make(const PointView& view, int count, std::uint64_t see
     Dice dice(seed, 3);
     for (std::size_t i = 0; i < std::size_t(count); ++i) {
         const double left = double(all.size() - i);
-        std::swap(all[i], all[std::min(all.size() - 1, i + std::size_t(double(dice.next()) * left))]);
+        std::swap(all[i], all[std::min(all.size() - 1, i + std::size_t(double(dice.share()) * left))]);
     }
     all.resize(std::size_t(count));
     return all;

@@ -17,11 +17,11 @@ std::vector<LightPoint> make(const PointView& view, int count, std::uint64_t see
         drop.x = float(view.width) * dice.between(-0.15f, 1.15f);
         drop.y = float(view.height) * dice.between(-0.15f, 1.15f);
         drop.depth_m = dice.between(0.06f, 0.11f);
-        const float size = dice.next(), diameter_m = mix(0.4e-3f, 2.6e-3f, size * size);
+        const float size = dice.share(), diameter_m = mix(0.4e-3f, 2.6e-3f, size * size);
         drop.diameter_px = diameter_m / drop.depth_m * view.focal_px;
-        const float glow = mix(4.0f, 40.0f, dice.next() * dice.next());
+        const float glow = mix(4.0f, 40.0f, dice.share() * dice.share());
         const Vec3 light =
-            glow * 0.25f * kPi * drop.diameter_px * drop.diameter_px * mix(kDay, kLamp, dice.next());
+            glow * 0.25f * kPi * drop.diameter_px * drop.diameter_px * mix(kDay, kLamp, dice.share());
         drop.r = light.x, drop.g = light.y, drop.b = light.z;
         points.push_back(drop);
     }

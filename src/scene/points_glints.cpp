@@ -59,10 +59,10 @@ public:
     }
     bool empty() const { return total_ <= 0; }
     void draw(Dice& dice, float& x, float& y) const {
-        const auto found = std::upper_bound(sums_.begin(), sums_.end(), double(dice.next()) * total_);
+        const auto found = std::upper_bound(sums_.begin(), sums_.end(), double(dice.share()) * total_);
         const int cell = std::min(int(found - sums_.begin()), kSide * kSide - 1);
         const int column = cell % kSide, row = cell / kSide;
-        x = (float(column) + dice.next()) * wide_, y = (float(row) + dice.next()) * high_;
+        x = (float(column) + dice.share()) * wide_, y = (float(row) + dice.share()) * high_;
     }
 
 private:
@@ -74,7 +74,7 @@ private:
 
 // Normally distributed, by Box and Muller.
 float normal(Dice& dice) {
-    const float u = dice.next(), v = dice.next();
+    const float u = dice.share(), v = dice.share();
     return std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * kPi * v);
 }
 

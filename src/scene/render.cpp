@@ -19,8 +19,9 @@ namespace {
 
 const std::vector<BuiltInScene>& built_in_scenes() {
     static const std::vector<BuiltInScene> scenes{
-        night(),  fence(), table(), slant(), bars(),    dynamic_range(), lanterns(), hair(), post(),
-        meadow(), tori(),  cubes(), rows(),  cutouts(), hexadrive(),     wgld(),     unity()};
+        night(),    fence(),   table(),     slant(),  bars(),  dynamic_range(),
+        lanterns(), hair(),    post(),      meadow(), tori(),  cubes(),
+        rows(),     cutouts(), hexadrive(), wgld(),   unity(), random_scene(1)};
     return scenes;
 }
 
@@ -64,10 +65,10 @@ Status check(const SceneSettings& s, int frames) {
     return Done{};
 }
 
-const BuiltInScene* find(const std::string& name) {
+std::optional<BuiltInScene> find(const std::string& name, std::uint64_t seed) {
     for (const BuiltInScene& scene : built_in_scenes())
-        if (scene.summary.name == name) return &scene;
-    return nullptr;
+        if (scene.summary.name == name) return name == "random" ? random_scene(seed) : scene;
+    return std::nullopt;
 }
 
 Error unknown(const std::string& name) {
@@ -169,10 +170,11 @@ struct StandingScene::Contents {
     Status fill(const std::string& name, const SceneSettings& settings);
     Result<scene::WorldsAround> around(const SceneSettings& settings) const;
     scene::World world;
-    const scene::BuiltInScene* built_in = nullptr;  // null: a file
+    std::optional<scene::BuiltInScene> built_in;  // empty: a file
     scene::Viewpoint own;
     Camera camera;
     int frame = 0, frames = 1;
+    std::uint64_t seed = 0;
     std::optional<ScenePoint> subject;
     std::vector<std::string> warnings, cameras;
 };
@@ -195,7 +197,7 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
         return Error{ErrorCode::InvalidArgument,
                      "scene.own_camera has no effect: " + name + " is no file with cameras",
                      "scene.own_camera"};
-    const scene::BuiltInScene* found = scene::find(name);
+    std::optional<scene::BuiltInScene> found = scene::find(name, settings.seed);
     if (!found) return scene::unknown(name);
     frames = found->summary.frames;
     if (const Status status = scene::check(settings, frames); !status) return status;
@@ -205,11 +207,11 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
         if (!world.is_baked) return scene::lit_as_seen(name);
         world.light_in_codes();
     }
-    built_in = found;
     camera = found->summary.camera;
-    frame = settings.frame;
-    if (!found->subject) return Done{};
-    const scene::Vec3 at = found->subject(time);
+    frame = settings.frame, seed = settings.seed;
+    built_in = std::move(found);
+    if (!built_in->subject) return Done{};
+    const scene::Vec3 at = built_in->subject(time);
     subject = ScenePoint{double(at.x), double(at.y), double(at.z)};
     return Done{};
 }
@@ -253,6 +255,10 @@ Result<RenderedScene> StandingScene::render(const SceneSettings& settings) {
     if (settings.frame != contents_->frame)
         return scene::invalid("frame (scene.frame)", settings.frame,
                               std::to_string(contents_->frame) + ", for which the scene was built");
+    if (contents_->built_in && contents_->built_in->summary.name == "random" &&
+        settings.seed != contents_->seed)
+        return scene::invalid("seed (scene.seed)", std::int64_t(settings.seed),
+                              std::to_string(contents_->seed) + ", for which the scene was made up");
     const auto view = scene::moved(contents_->own, settings);
     if (!view) return view.error();
     if (const Status status = contents_->world.look_from(*view); !status) return status.error();

@@ -6,6 +6,8 @@
 
 #include "scene/world.h"
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 
 namespace petzval::scene {
@@ -13,7 +15,7 @@ namespace petzval::scene {
 struct BuiltInScene {
     SceneSummary summary;
     // Fills an empty world as it stands at `time`, 0 at the first frame and 1 at the last.
-    void (*build)(World& world, float time) = nullptr;
+    std::function<void(World& world, float time)> build = nullptr;
     // Where what it is about stands then; null: it is about nothing in particular.
     Vec3 (*subject)(float time) = nullptr;
 };
@@ -36,6 +38,8 @@ BuiltInScene cutouts();
 BuiltInScene hexadrive();
 BuiltInScene wgld();
 BuiltInScene unity();
+// Another one for every seed: made_up.h.
+BuiltInScene random_scene(std::uint64_t seed);
 
 // The same things a frame before and after, not committed; null: no motion is wanted.
 struct WorldsAround {
