@@ -32,8 +32,9 @@ struct Session::Contents {
     }
 
     SessionSettings settings;
-    mutable std::mutex mutex;  // of all below
+    mutable std::mutex mutex;  // of `lenses`
     std::list<std::pair<std::string, std::shared_ptr<MountedLens>>> lenses;
+    std::mutex opening;                            // of `device`
     std::shared_ptr<const device::Device> device;  // null: not opened yet
     glare::KeptStars stars;                        // with a lock of its own
 
@@ -69,9 +70,10 @@ struct Session::Contents {
         }
     }
 
-    // Errors: those of open_device().
+    // Errors: those of open_device(). Drivers take long to start: whoever asks for the same device waits,
+    // usage() and trim() do not.
     Result<std::shared_ptr<const device::Device>> opened_device() {
-        const std::lock_guard lock(mutex);
+        const std::lock_guard starting(opening);
         if (device) return device;
         auto opened = open_device(settings.device);
         if (opened) device = *opened;
@@ -89,7 +91,7 @@ struct Session::Contents {
                 return i->second;
             }
         }
-        auto made = MountedLens::make(job);
+        auto made = MountedLens::make(job, most_kept_bytes());
         if (!made || key.empty()) return made;
         const std::lock_guard lock(mutex);
         lenses.emplace_front(key, *made);
@@ -103,8 +105,8 @@ struct Session::Contents {
         stars.trim(bytes);
         std::size_t held = stars.bytes();
         for (auto& [key, lens] : lenses) {
-            lens->kernels.trim(bytes - std::min(bytes, held));
-            held += lens->kernels.bytes();
+            lens->trim(bytes - std::min(bytes, held));
+            held += lens->bytes();
         }
         while (lenses.size() > (bytes > 0 ? kMostLenses : 0)) lenses.pop_back();
     }
@@ -112,7 +114,7 @@ struct Session::Contents {
     SessionUsage usage() const {
         const std::lock_guard lock(mutex);
         SessionUsage usage;
-        for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->kernels.bytes();
+        for (const auto& [key, lens] : lenses) usage.kept_bytes += lens->bytes();
         usage.kept_bytes += stars.bytes();
         usage.lenses = int(lenses.size());
         return usage;

@@ -1,6 +1,5 @@
 #include "session/mounted_lens.h"
 
-#include "kernel/keep/remembered_lens.h"
 #include "kernel/lenses/make_lens.h"
 #include "kernel/lenses/opened_lens.h"
 
@@ -42,18 +41,20 @@ std::string key_of_kernels(const DefocusJob& job) {
     return kernel::lens_key(before_distortion(job), mount_of(job));
 }
 
+// The largest radius in cells of the last level is 4, fewer than any engine needs.
+constexpr int kLevels = 13;
+
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
+// first_number: of its levels in `remembered`.
 Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store,
+                               const std::shared_ptr<kernel::RememberedKernels>& remembered, int first_number,
                                std::optional<LightSpectrum> light = {}) {
-    constexpr std::size_t kRememberedBytes = std::size_t(48) << 20;
-    constexpr int kLevels =
-        13;  // the largest radius in cells of the last one is 4, fewer than any engine needs
     auto levels = kernel::make_lens_levels(before_distortion(job, light), mount_of(job), kLevels);
     if (!levels) return levels;
     for (std::size_t i = 0; i < levels->size(); ++i) {
         auto& lens = (*levels)[i];
         if (store) lens = kernel::kept(std::move(lens), store, int(i));
-        lens = kernel::remembered(std::move(lens), kRememberedBytes);
+        lens = kernel::remembered(std::move(lens), remembered, first_number + int(i));
     }
     return levels;
 }
@@ -76,14 +77,17 @@ std::set<LightSpectrum> spectra_of_points(const DefocusJob& job) {
 
 }  // namespace
 
-Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job) {
+Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job, std::size_t most_bytes) {
+    constexpr std::size_t kMostRemembered = std::size_t(256) << 20;
     auto mounted = std::make_shared<MountedLens>();
     mounted->store = store_for(job);
-    auto levels = lens_levels(job, mounted->store);
+    mounted->remembered = std::make_shared<kernel::RememberedKernels>(std::min(most_bytes, kMostRemembered));
+    auto levels = lens_levels(job, mounted->store, mounted->remembered, 0);
     if (!levels) return levels.error();
     mounted->levels = std::move(*levels);
     for (const LightSpectrum light : spectra_of_points(job)) {
-        auto seen = lens_levels(job, nullptr, light);
+        const int first_number = kLevels * (1 + int(mounted->lamps.size()));
+        auto seen = lens_levels(job, nullptr, mounted->remembered, first_number, light);
         if (!seen) return seen.error();
         mounted->lamps.push_back({light, std::move(*seen)});
     }

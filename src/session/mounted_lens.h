@@ -7,8 +7,11 @@
 #include "device/memory.h"
 #include "engine/waist/engine.h"
 #include "kernel/keep/kernel_store.h"
+#include "kernel/keep/remembered_lens.h"
 #include "kernel/model/lens_model.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <string>
@@ -24,9 +27,9 @@ Status open_lens(DefocusJob& job);
 
 // Jobs here have their lens opened.
 struct MountedLens {
-    // On the picture's pixels and coarser ones, for engines that work at several resolutions. Errors: those
-    // of the lens.
-    static Result<std::shared_ptr<MountedLens>> make(const DefocusJob& job);
+    // On the picture's pixels and coarser ones, for engines that work at several resolutions. most_bytes: of
+    // the lens's own kernels that it remembers, during a frame too. Errors: those of the lens.
+    static Result<std::shared_ptr<MountedLens>> make(const DefocusJob& job, std::size_t most_bytes);
     // Everything that decides what an engine's kernels are; empty if it cannot be told.
     static std::string key_of(const DefocusJob& job);
 
@@ -35,7 +38,16 @@ struct MountedLens {
     // The same for the light of given points that says what it is made of; each once.
     std::vector<engine::LampLens> lamps;
     device::Memory kernels{
-        std::numeric_limits<std::size_t>::max()};  // of `levels`, and what engines know of them
+        std::numeric_limits<std::size_t>::max()};           // of `levels`, and what engines know of them
+    std::shared_ptr<kernel::RememberedKernels> remembered;  // of `levels` and `lamps`, before they are cut
+
+    // All that the lens keeps between frames.
+    std::size_t bytes() const { return kernels.bytes() + remembered->bytes(); }
+    // Those of `kernels` stay longest: drawing asks for them first.
+    void trim(std::size_t bytes) {
+        kernels.trim(bytes);
+        remembered->trim(bytes - std::min(bytes, kernels.bytes()));
+    }
 };
 
 }  // namespace petzval

@@ -82,6 +82,19 @@ TEST(Session, KeepsNoMoreThanItMayAndLosesNoBitByIt) {
     EXPECT_EQ(largest_difference(through(session, job), first), 0);
 }
 
+// The reference keeps no kernel itself: what is counted here is what the mounted lens remembers.
+TEST(Session, CountsTheKernelsThatALensRemembers) {
+    const TwoFrames frames;
+    DefocusJob job = with_lens(frames.second.job("reference"), "double-gauss");
+    job.camera.f_number = 2.8;
+    Session session;
+    const Picture first = through(session, job);
+    EXPECT_GT(session.usage().kept_bytes, 1000u);
+    session.trim(1000);
+    EXPECT_LE(session.usage().kept_bytes, 1000u);
+    EXPECT_EQ(largest_difference(through(session, job), first), 0);
+}
+
 TEST(Session, CountsWhatItKeepsAgainstItsMemory) {
     const TwoFrames frames;
     constexpr std::size_t kLimit = std::size_t(200) << 20;

@@ -47,6 +47,11 @@ public:
         const std::lock_guard lock(mutex_);
         return bytes_;
     }
+    // Drops the kernels not asked for longest until at most so many bytes are held.
+    void trim(std::size_t max_bytes) {
+        const std::lock_guard lock(mutex_);
+        drop_to(max_bytes, nullptr);
+    }
 
 private:
     struct Slot {
@@ -56,16 +61,20 @@ private:
         std::size_t bytes = 0;  // 0: being made
     };
 
-    // Counts a new kernel and drops the ones that were not asked for longest. A slot that is being made is
-    // not counted yet and stays.
+    // Counts a new kernel and drops the ones that were not asked for longest.
     void keep(const std::shared_ptr<Slot>& slot) {
         const std::lock_guard lock(mutex_);
         slot->bytes = slot->kernel->weights.bytes() + sizeof(Slot) + sizeof(PointSpread);
         bytes_ += slot->bytes;
-        for (auto last = recent_.end(); bytes_ > max_bytes_ && last != recent_.begin();) {
+        drop_to(max_bytes_, slot.get());
+    }
+
+    // A slot that is being made is not counted yet and stays, as does `newest`. Requires: the lock.
+    void drop_to(std::size_t max_bytes, const Slot* newest) {
+        for (auto last = recent_.end(); bytes_ > max_bytes && last != recent_.begin();) {
             --last;
             const auto old = slots_.find(*last);
-            if (old->second == slot || old->second->bytes == 0) continue;
+            if (old->second.get() == newest || old->second->bytes == 0) continue;
             bytes_ -= old->second->bytes;
             slots_.erase(old);
             last = recent_.erase(last);

@@ -34,7 +34,8 @@ private:
 
 std::unique_ptr<const LensModel> counting(Mirrors mirrors, std::atomic<int>& made,
                                           std::size_t bytes = 1 << 20) {
-    return remembered(std::make_unique<CountingLens>(mirrors, made), bytes);
+    return remembered(std::make_unique<CountingLens>(mirrors, made),
+                      std::make_shared<RememberedKernels>(bytes), 0);
 }
 
 TEST(RememberedLens, MakesAKernelOnce) {
@@ -65,7 +66,7 @@ TEST(RememberedLens, ATracedLensIsTheSameSeenThroughIt) {
     choice.name = "double-gauss";
     auto lens = make_lens(choice, mount), again = make_lens(choice, mount);
     ASSERT_TRUE(lens && again);
-    const auto known = remembered(std::move(*again), 1 << 20);
+    const auto known = remembered(std::move(*again), std::make_shared<RememberedKernels>(1 << 20), 0);
     for (const FieldPosition field : {FieldPosition{-0.4, -0.3}, {0.4, -0.3}, {0.4, 0.3}, {0, 0}})
         for (const double coc : {-6.0, 0.0, 6.0}) {
             const PointSpread a = (*lens)->point_spread(coc, field), b = known->point_spread(coc, field);
@@ -85,11 +86,31 @@ TEST(RememberedLens, WhatDoesNotFitIsMadeAgain) {
     EXPECT_EQ(again.extent.width(), 101);
 }
 
+TEST(RememberedLens, LensesThatShareAMemoryKeepApartAndShareItsBudget) {
+    std::atomic<int> made = 0, made_by_other = 0;
+    const auto kernels = std::make_shared<RememberedKernels>(1 << 20);
+    const auto lens = remembered(std::make_unique<CountingLens>(Mirrors{}, made), kernels, 0);
+    const auto other = remembered(std::make_unique<CountingLens>(Mirrors{}, made_by_other), kernels, 1);
+    lens->point_spread(3, {});
+    other->point_spread(3, {});
+    EXPECT_EQ(made, 1);
+    EXPECT_EQ(made_by_other, 1);
+    const std::size_t of_two = kernels->bytes();
+    kernels->trim(of_two - 1);
+    EXPECT_EQ(kernels->bytes(), of_two / 2);
+    other->point_spread(3, {});
+    EXPECT_EQ(made_by_other, 1) << "the kernel asked for last went first";
+    lens->point_spread(3, {});
+    EXPECT_EQ(made, 2);
+    kernels->trim(0);
+    EXPECT_EQ(kernels->bytes(), 0u);
+}
+
 TEST(RememberedLens, AQuickLensIsLeftAlone) {
     auto lens = make_lens({}, {{50, 36, 2, 2}, 960, 540});
     ASSERT_TRUE(lens);
     const LensModel* same = lens->get();
-    EXPECT_EQ(remembered(std::move(*lens), 1 << 20).get(), same);
+    EXPECT_EQ(remembered(std::move(*lens), std::make_shared<RememberedKernels>(1 << 20), 0).get(), same);
 }
 
 }  // namespace
