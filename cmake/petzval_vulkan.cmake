@@ -8,11 +8,13 @@ if(NOT PETZVAL_VULKAN_HEADERS OR NOT PETZVAL_GLSLC)
   return()
 endif()
 file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.comp)
-file(GLOB shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.glsl)
+file(GLOB shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.glsl
+     ${PROJECT_SOURCE_DIR}/src/laws/*.h ${PROJECT_SOURCE_DIR}/src/laws/*.inc)
 foreach(shader ${shaders})
   get_filename_component(name ${shader} NAME)
   set(words ${PROJECT_BINARY_DIR}/shaders/${name}.inc)
   add_custom_command(OUTPUT ${words} DEPENDS ${shader} ${shared} COMMENT "SPIR-V of ${name}" VERBATIM
-                     COMMAND ${PETZVAL_GLSLC} --target-env=vulkan1.2 -O -Werror -mfmt=c ${shader} -o ${words})
+                     COMMAND ${PETZVAL_GLSLC} --target-env=vulkan1.2 -O -Werror -mfmt=c
+                             -I ${PROJECT_SOURCE_DIR}/src ${shader} -o ${words})
   list(APPEND petzval_vulkan_words ${words})
 endforeach()

@@ -9,10 +9,11 @@ import sys
 PIXELS = {"base", "image"}
 MODEL = PIXELS | {"optics", "kernel/model"}
 LENS = MODEL | {"colour", "lens_files", "kernel/draw", "kernel/lenses", "kernel/keep"}
-WAIST = LENS | {"device", "engine/waist", "engine/samples"}
+WAIST = LENS | {"laws", "device", "engine/waist", "engine/samples"}
 ENGINES = {"engine/lights", "engine/scatter", "engine/gather", "engine/gaussian", "engine/sprites", "engine/reference"}
 # A room is a folder; the longest name that a path begins with is its room.
 ALLOWED = {
+    "laws": set(),
     "base": set(),
     "image": {"base"},
     "colour": PIXELS,
@@ -24,10 +25,10 @@ ALLOWED = {
     "kernel/lenses": MODEL | {"colour", "lens_files", "kernel/draw"},
     "kernel/keep": MODEL,
     "device": MODEL,
-    "device/cpu": MODEL | {"colour", "device", "engine/waist"},
-    "device/vulkan": MODEL | {"colour", "device", "engine/waist"},
-    "engine/waist": MODEL,
-    "engine/samples": MODEL | {"engine/waist"},
+    "device/cpu": MODEL | {"laws", "colour", "device", "engine/waist"},
+    "device/vulkan": MODEL | {"laws", "colour", "device", "engine/waist"},
+    "engine/waist": MODEL | {"laws"},
+    "engine/samples": MODEL | {"laws", "engine/waist"},
     "engine/lights": WAIST,
     "engine/scatter": WAIST | {"engine/lights"},
     "engine/gather": WAIST | {"engine/lights"},
@@ -42,7 +43,7 @@ ALLOWED = {
     "lens_sheet": LENS | {"lens_facts", "files"},
     "files": PIXELS | {"colour", "optics", "depth", "names"},
     "ocio": PIXELS,
-    "shot": PIXELS | {"optics", "depth", "names", "look", "session", "files"},
+    "shot": PIXELS | {"laws", "optics", "depth", "names", "look", "session", "files"},
     "sequence": PIXELS | {"optics", "names", "look", "session", "shot"},
     "lens_facts": LENS,
     "c": PIXELS | {"kernel/lenses", "device/vulkan", "lens_facts", "look", "session"},

@@ -186,7 +186,7 @@ Landing carried(const std::vector<OtherPicture>& steps, int x, int y, const Rect
         if (window.contains(u, v)) {
             const float there = frame.depth_plane()(u - window.x0, v - window.y0);
             const PixelMove own = frame.motion.at(u - window.x0, v - window.y0, back);
-            const bool is_it = std::max(there, seen_depth) <= kOneSurface * std::min(there, seen_depth);
+            const bool is_it = laws::same_surface_by_depth(kOneSurface, there, seen_depth);
             if (i == 0 || (is_it && std::isfinite(own.x))) move = own, seen_depth = there;
         }
         const int next = i + 1 < steps.size() ? steps[i + 1].frames_later : 0;

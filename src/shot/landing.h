@@ -7,6 +7,7 @@
 #include "petzval/workers.h"
 
 #include "base/parallel.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <cstdint>

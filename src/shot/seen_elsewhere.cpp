@@ -20,7 +20,6 @@ namespace {
 
 using namespace shot;
 
-constexpr float kOpaque = 0.99f;
 constexpr double kShareThatAgrees = 0.9;   // of a surface that stands still, or moves as it says
 constexpr double kShareThatIsAlike = 0.5;  // of what lies at one depth
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
@@ -53,7 +52,7 @@ private:
     // Opaque, and not beside what is nearer, whose light it would hold a part of.
     bool is_usable(const Shot& shot, int x, int y) const {
         const float own = depth_(x, y);
-        if (!(own > 0) || shot.colour(x, y).a < kOpaque) return false;
+        if (!(own > 0) || shot.colour(x, y).a < laws::kOpaqueElsewhere) return false;
         for (int v = std::max(0, y - 1); v <= std::min(depth_.height() - 1, y + 1); ++v)
             for (int u = std::max(0, x - 1); u <= std::min(depth_.width() - 1, x + 1); ++u)
                 if (own > kSilhouette * depth_(u, v)) return false;
@@ -61,7 +60,7 @@ private:
     }
     bool touch(int x, int y, int u, int v) const {
         const float a = depth_(x, y), b = depth_(u, v);
-        return usable(x, y) && usable(u, v) && (a == b || std::max(a, b) <= kOneSurface * std::min(a, b));
+        return usable(x, y) && usable(u, v) && laws::same_surface_by_depth(kOneSurface, a, b);
     }
     std::uint32_t index(int x, int y) const {
         return std::uint32_t(y) * std::uint32_t(depth_.width()) + std::uint32_t(x);

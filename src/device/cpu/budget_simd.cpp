@@ -1,4 +1,7 @@
-// Compiled once per instruction set by Highway (foreach_target.h includes this file again for each).
+// Compiled once per instruction set by Highway (foreach_target.h includes this file again for each). The law
+// is written with operators, which registers of unknown length do not have: those machines take the next
+// best.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #include "device/cpu/budget.h"
 
 #include <algorithm>
@@ -16,7 +19,15 @@ using Floats = hn::CappedTag<float, 16>;
 using OnePixel = hn::CappedTag<float, 4>;  // or as much of it as one register holds
 using V = hn::Vec<Floats>;
 
-HWY_INLINE V Free(Floats d, V before, V own) { return hn::Mul(before, hn::Sub(hn::Set(d, 1.0f), own)); }
+using laws::kNextLayer;
+#define LAW_NUMBER V
+#define LAW_FUNCTION HWY_INLINE
+#define LAW_CHANGES V&
+#define LAW_OF(x) hn::Set(Floats(), x)
+#define LAW_WHERE(x, a, b) hn::IfThenElse(hn::Gt(x, hn::Zero(Floats())), a, b)
+#define LAW_LEAST(a, b) hn::Min(a, b)
+#define LAW_MOST(a, b) hn::Max(a, b)
+#include "laws/lens_left.inc"
 
 // LensLeft::take, of those that something arrives at. Returns what they take of it, and might take more.
 struct Shares {
@@ -26,10 +37,7 @@ HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, int another_surface,
                        const Budget::Left<float>& left, std::int32_t* HWY_RESTRICT layers) {
     const hn::Rebind<std::int32_t, Floats> signed_d;
     const hn::Rebind<std::uint32_t, Floats> unsigned_d;
-    constexpr float kGoesOn = kNextLayer;
-    const float another = float(another_surface);
-    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const auto arrived = hn::Gt(arrives, zero);
+    const auto arrived = hn::Gt(arrives, hn::Zero(d));
     const auto old_layer = hn::Load(signed_d, layers);
     const auto old_before = hn::Load(d, left.before), old_own = hn::Load(d, left.own),
                old_beside = hn::Load(d, left.beside), old_more = hn::Load(d, left.more);
@@ -38,21 +46,15 @@ HWY_INLINE Shares Take(Floats d, V arrives, int at_layer, int another_surface,
     const auto apart = hn::BitCast(unsigned_d, hn::Sub(hn::Set(signed_d, at_layer), old_layer));
     const auto gap = hn::ConvertTo(
         d, hn::BitCast(signed_d, hn::Min(apart, hn::Set(unsigned_d, std::uint32_t(another_surface)))));
-    const auto goes_on = hn::Min(
-        hn::Max(hn::Div(hn::Sub(hn::Set(d, another), gap), hn::Set(d, another - kGoesOn)), zero), one);
-    const auto free = Free(d, old_before, old_own);
-    const auto before = hn::Add(hn::Mul(goes_on, old_before), hn::Mul(hn::Sub(one, goes_on), free));
-    const auto any_before = hn::Gt(before, zero);
-    const auto own = hn::IfThenElse(any_before, hn::Sub(one, hn::Div(free, before)), one);
-
-    auto of_own = arrives;
-    if (at_layer == kEmptyLayer) of_own = hn::IfThenElse(any_before, hn::Div(arrives, before), arrives);
-    const auto share = hn::Min(of_own, hn::Sub(one, own)), side_by_side = hn::Min(arrives, old_beside);
-    const auto area = hn::Mul(share, before), more = hn::Max(zero, hn::Sub(side_by_side, area));
+    V before = old_before, own = old_own, beside = old_beside;
+    law_meet(before, own, gap, float(another_surface));
+    const V of_own = at_layer == kEmptyLayer ? law_of_what_is_left(before, arrives) : arrives;
+    V area, more;
+    law_take(before, own, beside, arrives, of_own, area, more);
 
     hn::Store(hn::IfThenElse(arrived, before, old_before), d, left.before);
-    hn::Store(hn::IfThenElse(arrived, hn::Add(own, share), old_own), d, left.own);
-    hn::Store(hn::IfThenElse(arrived, hn::Sub(old_beside, side_by_side), old_beside), d, left.beside);
+    hn::Store(hn::IfThenElse(arrived, own, old_own), d, left.own);
+    hn::Store(hn::IfThenElse(arrived, beside, old_beside), d, left.beside);
     hn::Store(hn::IfThenElse(arrived, hn::Add(old_more, more), old_more), d, left.more);
     hn::Store(hn::IfThenElse(hn::RebindMask(signed_d, arrived), hn::Set(signed_d, at_layer), old_layer),
               signed_d, layers);
@@ -108,7 +110,7 @@ void TakeRow(const Rgba* HWY_RESTRICT light, const Rgba* HWY_RESTRICT emptiness,
 bool AllSpent(Budget::Left<const float> left, float least, int n) {
     const Floats d;
     for (int x = 0; x < n; x += int(hn::Lanes(d))) {
-        const auto free = Free(d, hn::Load(d, left.before + x), hn::Load(d, left.own + x));
+        const auto free = law_free(hn::Load(d, left.before + x), hn::Load(d, left.own + x));
         const auto in_row = hn::FirstN(d, std::size_t(std::min(int(hn::Lanes(d)), n - x)));
         if (!hn::AllFalse(d, hn::And(in_row, hn::Not(hn::Lt(free, hn::Set(d, least)))))) return false;
     }
@@ -120,13 +122,11 @@ void AddGiven(const Rgba* HWY_RESTRICT sum, const Rgba* HWY_RESTRICT more, Budge
               Rgba* HWY_RESTRICT light, float* HWY_RESTRICT taken, int n) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
-    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     for (int x = 0; x < n; x += lanes) {
-        const auto free = Free(d, hn::Load(d, left.before + x), hn::Load(d, left.own + x));
+        const auto free = law_free(hn::Load(d, left.before + x), hn::Load(d, left.own + x));
         const auto noted = hn::Load(d, left.more + x);
-        const auto meet = hn::Div(hn::Sub(free, hn::Load(d, left.beside + x)), noted);
-        const auto share = hn::IfThenElseZero(hn::Gt(noted, zero), hn::Min(hn::Max(meet, zero), one));
-        const auto area = hn::Add(hn::Sub(one, free), hn::Mul(share, noted));
+        const auto share = law_share_of_more(free, hn::Load(d, left.beside + x), noted);
+        const auto area = law_taken(free, share, noted);
         hn::StoreU(hn::Add(hn::LoadU(d, taken + x), area), d, taken + x);
         HWY_ALIGN float shares[16];
         hn::Store(share, d, shares);

@@ -5,6 +5,7 @@
 #include "device/cpu/budget.h"
 #include "device/cpu/stamp.h"
 #include "engine/waist/holdout.h"
+#include "laws/compositing.h"
 
 #include <algorithm>
 #include <array>
@@ -97,9 +98,8 @@ private:
     }
     // Whether no pixel has any lens area left for what is yet to come.
     bool is_spent() const {
-        constexpr float kSpent = 0.002f;  // what an opaque surface's discrete sources leave
         return std::all_of(w_.budgets.begin(), w_.budgets.begin() + sectors_,
-                           [](const Budget& b) { return b.is_spent(kSpent); });
+                           [](const Budget& b) { return b.is_spent(laws::kSpent); });
     }
     // Signed radii in pixels.
     Interval radii_of(const RunRange& runs) const {

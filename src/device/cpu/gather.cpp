@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/workspaces.h"
 #include "device/cpu/gather_taps.h"
+#include "laws/compositing.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ using engine::kGatherRows;
 using engine::OpenEdges;
 
 constexpr int kPlanes = 6;
-constexpr float kLeastArea = 1e-6f;  // what covers less covers nothing
+using laws::kLeastGathered;
 enum PlaneName { kRed, kGreen, kBlue, kCovered, kAlpha, kBeyond };
 
 // Planes side by side in one block of memory that is kept from tile to tile.
@@ -59,7 +60,7 @@ struct Arrival {
 // its sums are multiplied by for that. Light that covers nothing is seen through whatever part is still free.
 void take_area(int n, const float* area, const float* covered, float* free, float* scale) {
     for (int x = 0; x < n; ++x) {
-        const bool covers = covered[x] > kLeastArea;
+        const bool covers = covered[x] > kLeastGathered;
         const float least = std::min(area[x], free[x]), taken = covers ? least : 0.0f;
         const float share = taken / (covers ? covered[x] : 1.0f);
         scale[x] = covers ? share : free[x];
@@ -366,7 +367,7 @@ private:
                         *a = p.row(Combined::kSumAlpha, y), *free = p.row(Combined::kFree, y);
             for (int x = 0; x < tile_.width(); ++x) {
                 const float taken = 1 - free[x];
-                const float scale = taken > kLeastArea ? 1 / taken : 0;
+                const float scale = taken > kLeastGathered ? 1 / taken : 0;
                 out(tile_.x0 + x, plan_.first_row + tile_.y0 + y) = Rgba{r[x], g[x], b[x], a[x]} * scale;
             }
         }

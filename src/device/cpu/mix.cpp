@@ -4,6 +4,7 @@
 #include "base/workspaces.h"
 #include "device/cpu/blur.h"
 #include "engine/waist/cells.h"
+#include "laws/compositing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ using namespace engine;
 
 namespace {
 
-constexpr float kLeastArea = 1e-5f;
+using laws::kLeastBlurred;
 
 // What a band of rows puts into the cells of a layer above and below its own.
 struct Rim {
@@ -206,7 +207,7 @@ private:
         Rgba sum;
         float free = 1;
         const auto take = [&](Rgba light, float covered) {
-            if (covered <= kLeastArea) return;
+            if (covered <= kLeastBlurred) return;
             const float taken = std::min(covered, free);
             sum += (taken / covered) * light;
             free -= taken;
@@ -221,7 +222,7 @@ private:
             take(sharp * s.light, sharp * s.covered);
         });
         take_layers(w.far);
-        return free < 1 - kLeastArea ? sum * (1 / (1 - free)) : plan_.colour(x, y);
+        return free < 1 - kLeastBlurred ? sum * (1 / (1 - free)) : plan_.colour(x, y);
     }
 
     // Between the pictures by the pixel's weights; or one of them.

@@ -4,6 +4,7 @@
 #include "base/workspaces.h"
 #include "device/cpu/dimmer.h"
 #include "engine/waist/cells.h"
+#include "laws/tiles.h"
 
 #include <atomic>
 #include <cmath>
@@ -16,7 +17,7 @@ using namespace engine;
 
 namespace {
 
-constexpr int kBorder = 1;  // cells around a tile that enlarging reads
+constexpr int kBorder = laws::kStampedBorder;
 
 // Between the cells of coarser levels bilinear, which keeps their light.
 void add_cells(const Accumulator& cells, int level, const LightsPlan& plan, const Rect& tile,

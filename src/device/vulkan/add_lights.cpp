@@ -5,6 +5,7 @@
 #include "device/vulkan/holdout.h"
 #include "device/vulkan/words.h"
 #include "engine/lights/shadow_plan.h"
+#include "laws/tiles.h"
 
 #include <algorithm>
 #include <array>
@@ -20,10 +21,10 @@ using engine::PlannedLight;
 using engine::SeenCaster;
 using engine::ShadowGrid;
 
-constexpr int kTile = 64;
+constexpr int kTile = laws::kLightsTile;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
-constexpr std::uint32_t kGroupsPerTile = 16;
-constexpr int kBlock = 16;  // cells of a pupil that a group covers
+constexpr std::uint32_t kGroupsPerTile = kTilePixels / laws::kGroup;
+constexpr int kBlock = laws::kGroupSide;  // cells of a pupil that a group covers
 
 // Lights begin…end - 1 of a plan, with the viewpoints that they have.
 struct Batch {

@@ -3,6 +3,7 @@
 #include "device/vulkan/canvas.h"
 #include "device/vulkan/holdout.h"
 #include "device/vulkan/words.h"
+#include "laws/tiles.h"
 
 #include <algorithm>
 #include <limits>
@@ -21,9 +22,9 @@ using engine::TileLayer;
 
 constexpr std::size_t kTilePixels = std::size_t(ScatterPlan::kTile) * ScatterPlan::kTile;
 constexpr std::size_t kPartialBytes = kTilePixels * (sizeof(Rgba) + sizeof(float));  // of a tile's sector
-constexpr std::uint32_t kGroupsPerTile = 16;
+constexpr std::uint32_t kGroupsPerTile = kTilePixels / laws::kGroup;
 
-static_assert(ScatterPlan::kBorder == 2 && Source::kSkirtBits == 2, "as composite.comp has it");
+static_assert(Source::kSkirtBits == 2, "as composite.comp has it");
 
 // Where the parts of a batch lie in the words of the plan (composite.comp's Push).
 struct Push {

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "device/vulkan/canvas.h"
 #include "device/vulkan/words.h"
+#include "laws/tiles.h"
 
 #include <algorithm>
 #include <array>
@@ -20,10 +21,8 @@ using engine::GatherPlan;
 
 constexpr int kTile = GatherPlan::kTile;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
-constexpr std::uint32_t kGroupsPerTile = 64;
+constexpr std::uint32_t kGroupsPerTile = kTilePixels / laws::kGroup;
 constexpr std::size_t kMostTiles = 16;  // of one submission
-
-static_assert(kTile == 128 && GatherPlan::kTentBorder == 1, "as gather.comp has it");
 
 struct Push {
     std::uint32_t tiles = 0, levels = 0, turns = 0, places = 0;

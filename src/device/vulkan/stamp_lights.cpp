@@ -4,6 +4,7 @@
 #include "device/vulkan/canvas.h"
 #include "device/vulkan/words.h"
 #include "engine/waist/cells.h"
+#include "laws/tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +18,13 @@ using engine::LightsPlan;
 using engine::PlannedLight;
 using engine::PupilMask;
 
-constexpr int kTile = 256;
+constexpr int kTile = laws::kStampedTile;
 constexpr std::size_t kTilePixels = std::size_t(kTile) * kTile;
-constexpr int kBlock = 64;  // cells of a level, along a side
+constexpr int kBlock = laws::kStampedBlock;  // cells of a level, along a side
 constexpr std::size_t kBlockCells = std::size_t(kBlock) * kBlock;
-constexpr std::uint32_t kGroupsPerBlock = 16, kGroupsPerTile = 256;
-constexpr int kBorder = 1;  // cells around a tile that enlarging reads
+constexpr std::uint32_t kGroupsPerBlock = kBlockCells / laws::kGroup,
+                        kGroupsPerTile = kTilePixels / laws::kGroup;
+constexpr int kBorder = laws::kStampedBorder;
 
 // Of a tile, lights begin…end - 1 of the plan's order.
 struct TilePart {

@@ -9,6 +9,7 @@
 #include "engine/samples/guessed.h"
 #include "engine/samples/seen_first.h"
 #include "engine/waist/engine.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -33,10 +34,10 @@ struct CellLight {
 // emptiness.
 template <typename Emit>
 void for_each_deep_sample(const Input& input, int x, int y, Emit& emit) {
-    constexpr float kNoRoomPx = 1, kOpaque = 1 - 1e-3f;
     float open = 1, last_px = input.coc_px(x, y), front_px = -1e30f;
     for (const CocSample& s : input.deep.at(x, y)) {
-        const float a = s.colour.a, share = a < kOpaque || s.coc_px - front_px < kNoRoomPx ? open : 1.0f;
+        const float a = s.colour.a,
+                    share = a < laws::kOpaque || s.coc_px - front_px < laws::kNoRoomPx ? open : 1.0f;
         if (share > 0) emit(share * s.colour, s.coc_px, s.colour == Rgba{} ? share : share * a);
         open *= 1 - a;
         last_px = front_px = s.coc_px;

@@ -6,6 +6,7 @@
 #include "engine/gather/gather_rings.h"
 #include "engine/waist/cells.h"
 #include "engine/waist/engine.h"
+#include "laws/tiles.h"
 
 #include <cmath>
 #include <cstdint>
@@ -20,8 +21,8 @@ namespace petzval::engine {
 // was seen, in proportion. Rings of one level that follow each other are combined on that level's grid and
 // enlarged together (bilinear, the tent).
 struct GatherPlan {
-    static constexpr int kTile = 128;
-    static constexpr int kTentBorder = 1;  // cells around a tile that enlarging reads
+    static constexpr int kTile = laws::kGatherTile;
+    static constexpr int kTentBorder = laws::kGatherBorder;  // cells around a tile that enlarging reads
     // The cells of a level that a tile needs.
     static Rect cells_of(const Rect& tile, int level) { return engine::cells_of(tile, level, kTentBorder); }
 

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "engine/samples/white.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,13 +76,13 @@ HighlightSplit::HighlightSplit(const Input& input, const HighlightRule& rule)
 // surfaces, which is a distance transform (two-sweep chamfer, G. Borgefors 1986) of the blocks' nearest
 // radii.
 void HighlightSplit::find_contested(View<const float> coc_px, Workers& workers) {
-    constexpr float kMarginPx = 3;  // what is nearer by less hides next to nothing
     contested_ =
         Plane((coc_px.width() + kBlock - 1) / kBlock, (coc_px.height() + kBlock - 1) / kBlock, 1e30f);
     parallel_for(contested_.height(), workers, [&](int by) {
         for (int y = by * kBlock; y < std::min((by + 1) * kBlock, coc_px.height()); ++y)
             for (int x = 0; x < coc_px.width(); ++x)
-                contested_(x / kBlock, by) = std::min(contested_(x / kBlock, by), coc_px(x, y) + kMarginPx);
+                contested_(x / kBlock, by) =
+                    std::min(contested_(x / kBlock, by), coc_px(x, y) + laws::kHidesLittlePx);
     });
     const auto relax = [&](int x, int y, int dx, int dy) {
         if (!contested_.rect().contains(x + dx, y + dy)) return;
@@ -120,10 +121,9 @@ Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
 }
 
 float HighlightSplit::radius_of_light(int x, int y, float coc_px) const {
-    constexpr float kOneSurfacePx = 0.9f;  // silhouettes of less are not taken apart (samples/connectivity.h)
     if (colour_.empty() || dim(x, y, colour_(x, y)) == colour_(x, y)) return coc_px;
     const float coc = radius_of_brightest(colour_, coc_px_, x, y);
-    return std::abs(coc - coc_px) <= kOneSurfacePx ? coc : coc_px;
+    return laws::same_surface(laws::kConnected, coc, coc_px) ? coc : coc_px;
 }
 
 Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {

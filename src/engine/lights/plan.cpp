@@ -1,5 +1,7 @@
 #include "engine/lights/plan.h"
 
+#include "laws/surfaces.h"
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -8,16 +10,13 @@
 namespace petzval::engine {
 namespace {
 
-// What is nearer by less than this is the highlight's own surface. (The next pixels of a surface that slopes
-// by less than a pixel of radius per pixel lie outside the pupil as the highlight sees them.)
-constexpr float kOwnSurfacePx = 0.02f;
 constexpr float kBrightDisc = 0.002f;     // share of white
 constexpr float kSlowBrightDisc = 0.03f;  // of lenses whose kernels take long to make
 constexpr std::size_t kBatchBytes = std::size_t(64) << 20;
 
 Viewpoint own_viewpoint(const Highlight& h) {
     const float middle = 0.5f * float(h.size - 1);
-    return {float(h.x) + middle, float(h.y) + middle, h.coc_px, h.size, kOwnSurfacePx};
+    return {float(h.x) + middle, float(h.y) + middle, h.coc_px, h.size, laws::kOwnTapPx};
 }
 
 // Highlights of one lamp see nearly the same: single pixels in a square so much smaller than their disc

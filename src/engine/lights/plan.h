@@ -7,6 +7,7 @@
 #include "engine/lights/highlights.h"
 #include "engine/lights/shadow_casters.h"
 #include "engine/waist/engine.h"
+#include "laws/tiles.h"
 
 #include <cmath>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct Viewpoint {
 // What is seen (1) and hidden (0) on a grid over the pupil's square, -1…1 on both axes, row by row. A bit
 // for each point: there may be ten million lights.
 struct PupilMask {
-    static constexpr int kSide = 8;
+    static constexpr int kSide = laws::kMaskSide;
     std::uint64_t seen = ~std::uint64_t(0);
     bool is_open() const { return seen == ~std::uint64_t(0); }
     bool is_closed() const { return seen == 0; }

@@ -1,6 +1,7 @@
 #include "engine/lights/pupil_masks.h"
 
 #include "base/parallel.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,8 +10,6 @@
 namespace petzval::engine {
 namespace {
 
-constexpr float kOwnSurfacePx = 1;  // what is nearer by less is the light's own surface
-constexpr float kJumpPx = 1;        // from pixel to pixel: another surface
 constexpr float kWidestPupil = 1.0f - 1.0f / PupilMask::kSide;  // where the outermost points of the grid lie
 // A square whose radii differ by less than this share of the way to it hides as if they were one.
 constexpr float kNarrow = 0.06f;
@@ -54,7 +53,7 @@ PupilMasks::Node PupilMasks::pixel(int x, int y) const {
     const auto meet = [&](int u, int v) {
         if (u < 0 || v < 0 || u >= coc.width() || v >= coc.height()) return;
         const float there = coc(u, v), middle = 0.5f * (own + there);
-        if (std::abs(there - own) >= kJumpPx)
+        if (std::abs(there - own) >= laws::kJumpPx)
             node.is_whole = false;
         else
             node.nearest = std::min(node.nearest, middle), node.farthest = std::max(node.farthest, middle);
@@ -104,7 +103,7 @@ PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int 
     const float per_row = 1 / float(in_.pixel_aspect);
     const Square square{float(pixels.x0) - light.x, (float(pixels.y0) - light.y) * per_row,
                         float(pixels.x1) - light.x, (float(pixels.y1) - light.y) * per_row};
-    const float limit = light.coc_px - kOwnSurfacePx;
+    const float limit = light.coc_px - laws::kOwnPupilPx;
     Behind found;
     if (node.farthest < limit) {
         const float close = 1 / (light.coc_px - node.farthest), far = 1 / (light.coc_px - node.nearest);
@@ -134,7 +133,7 @@ PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int 
 
 void PupilMasks::hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const {
     const Node here = node(level, x, y);
-    if (here.nearest >= light.coc_px - kOwnSurfacePx) return;
+    if (!laws::is_in_front(here.nearest, light.coc_px, laws::kOwnPupilPx)) return;
     const Behind found = behind(light, level, x, y, here);
     seen &= ~found.surely;
     if (level == 0 || !(found.all & seen)) return;
@@ -155,7 +154,7 @@ void PupilMasks::hide_four(const Light& light, int level, const Rect& squares, s
 
 PupilMask PupilMasks::mask(float x, float y, float coc_px) const {
     PupilMask mask;
-    if (in_.nearest_coc_px >= coc_px - kOwnSurfacePx) return mask;
+    if (!laws::is_in_front(in_.nearest_coc_px, coc_px, laws::kOwnPupilPx)) return mask;
     const float reach =
         (coc_px - in_.nearest_coc_px) * kWidestPupil * std::max(1.0f, float(in_.pixel_aspect));
     // Squares so large that two by two hold all that is in reach.

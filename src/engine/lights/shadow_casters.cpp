@@ -1,6 +1,7 @@
 #include "engine/lights/shadow_casters.h"
 
 #include "base/parallel.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 
 namespace petzval::engine {
 namespace {
-
-constexpr float kOpaque = 0.98f;
 
 // The samples of one rank (0: nearest of its pixel) in a block, merged.
 class BlockCasters {
@@ -45,14 +44,14 @@ private:
             for (int x = r.x0; x < r.x1; ++x) {
                 const CocSample* s = at(x, y);
                 any = any || s;
-                whole = whole && s && s->colour.a >= kOpaque;
+                whole = whole && s && s->colour.a >= laws::kOpaqueCaster;
                 if (s) low = std::min(low, s->coc_px), high = std::max(high, s->coc_px);
             }
         if (!any) return;
         if (size == 1) {
             const CocSample& s = *at(x0, y0);
             if (s.colour.a > 0) out_.push_back({float(x0), float(y0), 1, s.coc_px, s.colour.a});
-        } else if (whole && high - low <= ShadowCasters::kSameRadiusPx) {
+        } else if (whole && laws::same_surface(laws::kOneSquare, low, high)) {
             const float middle = 0.5f * float(size - 1);
             out_.push_back({float(x0) + middle, float(y0) + middle, float(size), 0.5f * (low + high), 1});
         } else {

@@ -4,6 +4,7 @@
 #include "petzval/workers.h"
 
 #include "engine/waist/engine.h"
+#include "laws/surfaces.h"
 
 #include <array>
 #include <atomic>
@@ -29,7 +30,7 @@ public:
     static constexpr int kViews = 3;  // view n: squares of 2^n pixels and more
     // How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a
     // tap. To what is behind one by less it is no shadow: it may be its own surface.
-    static constexpr float kSameRadiusPx = 0.2f;
+    static constexpr float kSameRadiusPx = laws::kOneSquare.step_px;
     // Of a picture of that size, whose rows are then added.
     ShadowCasters(int width, int height);
     ShadowCasters(const CocSamples& samples, Workers& workers);

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/waist/engine.h"
+#include "laws/compositing.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace petzval::engine {
 
@@ -13,9 +13,10 @@ namespace petzval::engine {
 // be seen to. Each is followed by a layer for the emptiness at its depth, which takes up lens area and sends
 // no light.
 int layer_of(float coc_px);
-constexpr int kEmptinessAfter = 1, kNextLayer = 2;
+using laws::kEmptinessAfter;
+using laws::kNextLayer;
 inline bool is_emptiness(int layer) { return layer % kNextLayer != 0; }
-constexpr int kEmptyLayer = std::numeric_limits<int>::max();  // emptiness behind everything
+using laws::kEmptyLayer;  // emptiness behind everything
 // How long after what came to a pixel last a layer is of another surface. Where what is hidden is guessed,
 // parts of one surface lie farther apart.
 constexpr int kAnotherSurface = 5 * kNextLayer, kAnotherKnownSurface = 3 * kNextLayer;

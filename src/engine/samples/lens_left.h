@@ -5,6 +5,17 @@
 
 #include <algorithm>
 
+namespace petzval::laws {
+#define LAW_NUMBER float
+#define LAW_FUNCTION inline
+#define LAW_CHANGES float&
+#define LAW_OF(x) (x)
+#define LAW_WHERE(x, a, b) ((x) > 0 ? (a) : (b))
+#define LAW_LEAST(a, b) std::min(a, b)
+#define LAW_MOST(a, b) std::max(a, b)
+#include "laws/lens_left.inc"
+}  // namespace petzval::laws
+
 namespace petzval::engine {
 
 // What is left of a pixel's lens. Parts of one surface lie side by side in the lens: together they take what
@@ -26,32 +37,27 @@ struct LensLeft {
     struct Taken {
         float area = 0, more = 0;
     };
-    float free() const { return before * (1 - own); }
+    float free() const { return laws::law_free(before, own); }
     // The next layer from the front begins.
     void meet(int at_layer) {
-        constexpr float kGoesOn = kNextLayer;
-        const float another = float(another_surface);
         // (Emptiness behind everything wraps where what is before it lies in front of focus.)
-        const float gap = float(unsigned(at_layer) - unsigned(layer)), left = free();
-        const float goes_on = std::clamp((another - gap) / (another - kGoesOn), 0.0f, 1.0f);
-        before = goes_on * before + (1 - goes_on) * left;
-        own = before > 0 ? 1 - left / before : 1;
+        const float gap = float(unsigned(at_layer) - unsigned(layer));
+        laws::law_meet(before, own, gap, float(another_surface));
         layer = at_layer;
     }
     // It arrives with so much lens area; emptiness behind everything with a share of what nobody else takes.
     Taken take(float arrives, int at_layer) {
         meet(at_layer);
-        const float of_own = at_layer == kEmptyLayer && before > 0 ? arrives / before : arrives;
-        const float share = std::min(of_own, 1 - own), side_by_side = std::min(arrives, beside);
-        own += share, beside -= side_by_side;
-        const Taken taken{share * before, std::max(0.0f, side_by_side - share * before)};
+        const float of_own = at_layer == kEmptyLayer ? laws::law_of_what_is_left(before, arrives) : arrives;
+        Taken taken;
+        laws::law_take(before, own, beside, arrives, of_own, taken.area, taken.more);
         more += taken.more;
         return taken;
     }
     // Of all that was noted as more.
-    float share_of_more() const { return more > 0 ? std::clamp((free() - beside) / more, 0.0f, 1.0f) : 0; }
+    float share_of_more() const { return laws::law_share_of_more(free(), beside, more); }
     // Lens area taken in all, with that.
-    float taken() const { return 1 - free() + share_of_more() * more; }
+    float taken() const { return laws::law_taken(free(), share_of_more(), more); }
 };
 
 }  // namespace petzval::engine

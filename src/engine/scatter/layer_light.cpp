@@ -1,6 +1,7 @@
 #include "engine/scatter/layer_light.h"
 
 #include "base/parallel.h"
+#include "laws/surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,7 @@ public:
         const std::span<const CocSample> samples = CocSamplesView(complete_).at(x, y);
         const Rgba own = ratio(layer_.colour(x, y), guide_at(x, y));
         if (input_.deep_dims_itself) return std::fill_n(out, samples.size(), own), void();
-        const bool alone = !samples.empty() && cover(samples[0]) > 0.999f;
+        const bool alone = !samples.empty() && cover(samples[0]) > laws::kOpaqueAlone;
         Rgba shown, of_layer;  // the light of what the pixel shows, and the layer's by the shares so far
         float open = 1;
         for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -11,6 +11,7 @@
 #include "engine/waist/cells.h"
 #include "engine/waist/engine.h"
 #include "image/big_vector.h"
+#include "laws/tiles.h"
 
 #include <cmath>
 #include <cstdint>
@@ -115,8 +116,8 @@ struct Tile {
 };
 
 struct ScatterPlan {
-    static constexpr int kTile = 64;   // pixels on a side
-    static constexpr int kBorder = 2;  // cells around a tile that enlarging reads
+    static constexpr int kTile = laws::kScatterTile;      // pixels on a side
+    static constexpr int kBorder = laws::kScatterBorder;  // cells around a tile that enlarging reads
     // The cells of a level that a tile needs.
     static Rect cells_of(const Rect& tile, int level) { return engine::cells_of(tile, level, kBorder); }
 

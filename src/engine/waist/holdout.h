@@ -2,18 +2,16 @@
 #pragma once
 
 #include "engine/waist/engine.h"
+#include "laws/compositing.h"
 
 #include <span>
 
 namespace petzval::engine {
 
-// A sample of the holdout this close in radius to the light is at the same depth and does not hold it.
-constexpr float kSameDepthPx = 0.02f;
-
 // The share of light from signed radii nearest…farthest, evenly spread, that the holdout's samples of one
 // pixel (nearest first) let through. Each sample in front of the light takes its coverage away.
 inline float let_through(std::span<const CocSample> holdout, float nearest_px, float farthest_px) {
-    const float nearest = nearest_px - kSameDepthPx, farthest = farthest_px - kSameDepthPx;
+    const float nearest = nearest_px - laws::kSameDepthPx, farthest = farthest_px - laws::kSameDepthPx;
     float open = 1, at = nearest, sum = 0;
     for (const CocSample& s : holdout) {
         if (s.coc_px >= farthest) break;

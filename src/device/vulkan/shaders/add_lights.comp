@@ -2,6 +2,7 @@
 // kernel, dimmed tap by tap by what its viewpoint sees, or by its mask of the pupil.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "laws/tiles.h"
 layout(local_size_x = 256) in;
 layout(constant_id = 0) const uint kDims = 0;  // 1: a holdout dims what lands in a pixel; 2: lights have masks
 
@@ -10,7 +11,7 @@ layout(std430, binding = 1) readonly buffer KernelWords { uint kernels[]; };
 layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
 layout(std430, binding = 3) readonly buffer Visible { float visible[]; };
 layout(std430, binding = 4) readonly buffer Holdout { uint holdout[]; };
-layout(std430, binding = 5) writeonly buffer Result { vec4 result[]; };  // by tile, 64 x 64 pixels each
+layout(std430, binding = 5) writeonly buffer Result { vec4 result[]; };  // by tile, kLightsTile squared pixels each
 layout(push_constant) uniform Push {
     uint tiles, order, lights, views;  // where these begin in `words`
     uint records;                      // where records of kernels begin in `kernels`
@@ -22,7 +23,8 @@ layout(push_constant) uniform Push {
 // A light: x, y, its light, radius, kernel, 1 + viewpoint (0: nothing is in the way), first tap; in place of these
 // two: a mask, 8 x 8 points of the pupil's square, row by row from the lowest bit.
 const uint kTileWords = 5, kLightWords = 10, kViewWords = 7;
-const int kChunk = 256;
+const int kChunk = kGroup;
+const uint kTile = kLightsTile, kAcross = kTile / kGroupSide, kGroupsOfTile = kAcross * kAcross;
 
 shared vec4 hit_light[kChunk];
 shared int hit_x[kChunk], hit_y[kChunk], hit_tap[kChunk];
@@ -69,8 +71,8 @@ float let_through(ivec2 pixel, float coc_px) {
 }
 
 void main() {
-    const uint own = gl_LocalInvocationIndex, part = gl_WorkGroupID.x % 16u;
-    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / 16u);
+    const uint own = gl_LocalInvocationIndex, part = gl_WorkGroupID.x % kGroupsOfTile;
+    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / kGroupsOfTile);
     const ivec2 corner = ivec2(int(words[tile]), int(words[tile + 1u])),
                 end = ivec2(int(words[tile + 2u]), int(words[tile + 3u]));
     const ivec2 low = corner + 16 * ivec2(part % 4u, part / 4u), high = min(low + 16, end);
@@ -117,6 +119,7 @@ void main() {
         }
         barrier();
     }
-    if (all(lessThan(pixel, high)))
-        result[gl_WorkGroupID.x / 16u * 4096u + uint(pixel.y - corner.y) * 64u + uint(pixel.x - corner.x)] = sum;
+    if (any(greaterThanEqual(pixel, high))) return;
+    const uvec2 place = uvec2(pixel - corner);
+    result[(gl_WorkGroupID.x / kGroupsOfTile * kTile + place.y) * kTile + place.x] = sum;
 }

@@ -1,20 +1,22 @@
 // What sectors of the pupil gave to each pixel of a tile, as one. Discrete sources leave a little of the lens
 // free; it goes to those that did arrive.
 #version 450
+#extension GL_GOOGLE_include_directive : require
+#include "laws/tiles.h"
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer PlanWords { uint plan[]; };
 layout(std430, binding = 1) readonly buffer Light { vec4 light_of[]; };
 layout(std430, binding = 2) readonly buffer Taken { float taken_of[]; };
-layout(std430, binding = 3) writeonly buffer Result { vec4 result[]; };  // by tile, 64 x 64 pixels each
+layout(std430, binding = 3) writeonly buffer Result { vec4 result[]; };  // by tile, kScatterTile squared pixels each
 layout(push_constant) uniform Push { uint tiles; } at;
 
-const uint kTileWords = 8, kTilePixels = 64 * 64;
+const uint kTileWords = 8, kSide = kScatterTile, kTilePixels = kSide * kSide;
 
 void main() {
     const uint tile = at.tiles + kTileWords * (gl_GlobalInvocationID.x / kTilePixels);
     const uint pixel = gl_GlobalInvocationID.x % kTilePixels;
-    if (pixel % 64u >= plan[tile + 2u] - plan[tile] || pixel / 64u >= plan[tile + 3u] - plan[tile + 1u])
+    if (pixel % kSide >= plan[tile + 2u] - plan[tile] || pixel / kSide >= plan[tile + 3u] - plan[tile + 1u])
         return;
     vec4 light = vec4(0);
     float taken = 0;

@@ -2,6 +2,8 @@
 // The words of the plan are those that composite.cpp writes; formulas are device/cpu's.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "laws/compositing.h"
+#include "laws/tiles.h"
 layout(local_size_x = 256) in;
 layout(constant_id = 0) const uint kHeld = 0;  // 1: a holdout dims what lands in a pixel
 
@@ -20,9 +22,9 @@ layout(push_constant) uniform Push {
     uint another_surface;                        // of LensLeft
 } at;
 
-const int kSide = 16, kChunk = 256, kBorder = 2, kBlocks = 8, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
-const int kTilePixels = 64 * 64;
-const float kSpent = 0.002;
+const int kSide = kGroupSide, kChunk = kGroup, kBlocks = 8, kTileWords = 8, kLayerWords = 5, kRunWords = 3;
+const int kTilePixels = kScatterTile * kScatterTile;
+const uint kGroupsAcross = kScatterTile / kSide, kGroupsOfTile = kGroupsAcross * kGroupsAcross;
 
 // Arrivals of a chunk that touch the group's pixels.
 shared vec4 hit_light[kChunk];  // and, when they are done, sums of cells
@@ -193,7 +195,7 @@ vec4 arrived(uint run, uint sector, Box box, ivec2 pixel, bool inside) {
     bool wanted = inside;
     uint count = 1u, slices = 1u;
     if (level > 0) {
-        cells = Box((box.low >> level) - kBorder, ((box.high - 1) >> level) + 1 + kBorder);
+        cells = Box((box.low >> level) - kScatterBorder, ((box.high - 1) >> level) + 1 + kScatterBorder);
         const ivec2 size = cells.high - cells.low;
         count = uint(size.x * size.y), slices = uint(kChunk) / count;
         cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
@@ -217,7 +219,6 @@ vec4 arrived(uint run, uint sector, Box box, ivec2 pixel, bool inside) {
 
 // engine/waist/holdout.h
 float let_through(ivec2 pixel, float nearest_px, float farthest_px) {
-    const float kSameDepthPx = 0.02;
     const float nearest = nearest_px - kSameDepthPx, farthest = farthest_px - kSameDepthPx;
     const uint i = uint(pixel.y - int(at.held_rows)) * at.held_width + uint(pixel.x);
     float open = 1, from = nearest, sum = 0;
@@ -234,39 +235,41 @@ float let_through(ivec2 pixel, float nearest_px, float farthest_px) {
     return (sum + open * (farthest - from)) / (farthest - nearest);
 }
 
+#define LAW_NUMBER float
+#define LAW_FUNCTION
+#define LAW_CHANGES inout float
+#define LAW_OF(x) (x)
+#define LAW_WHERE(x, a, b) ((x) > 0 ? (a) : (b))
+#define LAW_LEAST(a, b) min(a, b)
+#define LAW_MOST(a, b) max(a, b)
+#include "laws/lens_left.inc"
+
 // engine/samples/lens_left.h
 struct LensLeft {
     float before, own, beside, more;
     int layer;
 };
-float free(LensLeft left) { return left.before * (1 - left.own); }
+float free(LensLeft left) { return law_free(left.before, left.own); }
 // The lens area taken, and what side by side would be taken more.
 vec2 take(inout LensLeft left, float arrives, int layer) {
-    const float kGoesOn = 2, another = float(at.another_surface);  // layers; two are an interval
-    const int kEmptyLayer = 0x7fffffff;
-    const float gap = float(uint(layer) - uint(left.layer)), is_free = free(left);
-    const float goes_on = clamp((another - gap) / (another - kGoesOn), 0.0, 1.0);
-    left.before = goes_on * left.before + (1 - goes_on) * is_free;
-    left.own = left.before > 0 ? 1 - is_free / left.before : 1;
+    law_meet(left.before, left.own, float(uint(layer) - uint(left.layer)), float(at.another_surface));
     left.layer = layer;
-    const float own_more = left.before > 0 && layer == kEmptyLayer ? arrives / left.before : arrives;
-    const float share = min(own_more, 1 - left.own), side_by_side = min(arrives, left.beside);
-    left.own += share;
-    left.beside -= side_by_side;
-    const vec2 taken = vec2(share * left.before, max(0.0, side_by_side - share * left.before));
-    left.more += taken.y;
-    return taken;
+    const float of_own = layer == kEmptyLayer ? law_of_what_is_left(left.before, arrives) : arrives;
+    float area = 0, more = 0;
+    law_take(left.before, left.own, left.beside, arrives, of_own, area, more);
+    left.more += more;
+    return vec2(area, more);
 }
 
 void main() {
-    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / 16u), own = gl_LocalInvocationIndex;
+    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / kGroupsOfTile), own = gl_LocalInvocationIndex;
     const uint sector = gl_WorkGroupID.y;
     if (sector >= plan[tile + 5u]) return;
     const ivec2 corner = ivec2(int(plan[tile]), int(plan[tile + 1u])),
                 end = ivec2(int(plan[tile + 2u]), int(plan[tile + 3u]));
-    const uint part = gl_WorkGroupID.x % 16u;
+    const uint part = gl_WorkGroupID.x % kGroupsOfTile;
     Box box;
-    box.low = corner + kSide * ivec2(part % 4u, part / 4u);
+    box.low = corner + kSide * ivec2(part % kGroupsAcross, part / kGroupsAcross);
     box.high = min(box.low + kSide, end);
     if (any(greaterThanEqual(box.low, end))) return;
     const ivec2 pixel = box.low + corner_of_block(own / 32u) + ivec2(own % 8u, own / 8u % 4u);
@@ -301,9 +304,9 @@ void main() {
         }
     }
     if (!inside) return;
-    const uint pixel_of_tile = uint(pixel.y - corner.y) * 64u + uint(pixel.x - corner.x);
+    const uint pixel_of_tile = uint(pixel.y - corner.y) * kScatterTile + uint(pixel.x - corner.x);
     const uint place = plan[tile + 6u] + sector * kTilePixels + pixel_of_tile;
-    const float share = left.more > 0 ? clamp((free(left) - left.beside) / left.more, 0.0, 1.0) : 0.0;
+    const float share = law_share_of_more(free(left), left.beside, left.more);
     light_of[place] = sum + sum_of_more * share;
-    taken_of[place] = 1 - free(left) + left.more * share;
+    taken_of[place] = law_taken(free(left), share, left.more);
 }

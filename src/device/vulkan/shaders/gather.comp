@@ -2,12 +2,14 @@
 // belongs to it. Formulas are device/cpu/gather.cpp's; the words are those that gather.cpp beside this writes.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "laws/compositing.h"
+#include "laws/tiles.h"
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
 layout(std430, binding = 1) readonly buffer KernelWords { uint kernels[]; };
 layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
-layout(std430, binding = 3) writeonly buffer Result { vec4 result[]; };  // by tile, 128 x 128 pixels each
+layout(std430, binding = 3) writeonly buffer Result { vec4 result[]; };  // by tile, kGatherTile squared pixels each
 layout(push_constant) uniform Push {
     uint tiles, levels, turns, places;  // where these begin in `words`
     uint turn_count, ring_count, records;
@@ -19,8 +21,8 @@ layout(push_constant) uniform Push {
 // row, where the first lights of its cells, the lights, and zones of columns and of rows that are here begin. A light: colour,
 // covered, beyond, turn. A turn: its number, ring and level, and how far its kernels reach. Places: kernels by zone and ring.
 const uint kTileWords = 4, kLevelWords = 9, kLightWords = 7, kTurnWords = 4, kNowhere = 0xffffffffu;
-const int kChunk = 256, kBorder = 1;
-const float kLeastArea = 1e-6;
+const int kChunk = kGroup;
+const uint kTile = kGatherTile, kAcross = kTile / kGroupSide, kGroupsOfTile = kAcross * kAcross;
 
 shared vec4 hit_colour[kChunk];  // and, when they are done, what cells hold
 shared vec2 hit_area[kChunk];    // covered, beyond
@@ -121,7 +123,7 @@ Sums gathered(uint turn, uint level, Box box, ivec2 cell, bool wanted, uint slic
 
 // Of the lens, the area that a turn arrives with, or what is left.
 void take(Sums ring, inout vec4 sum, inout float free) {
-    const bool covers = ring.area.x > kLeastArea;
+    const bool covers = ring.area.x > kLeastGathered;
     const float taken = covers ? min(ring.area.x + ring.area.y, free) : 0.0;
     const float share = covers ? taken / ring.area.x : free;
     sum += share * vec4(ring.colour.rgb, at.is_opaque != 0u ? ring.area.x : ring.colour.a);
@@ -129,12 +131,12 @@ void take(Sums ring, inout vec4 sum, inout float free) {
 }
 
 void main() {
-    const uint own = gl_LocalInvocationIndex, part = gl_WorkGroupID.x % 64u;
-    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / 64u);
+    const uint own = gl_LocalInvocationIndex, part = gl_WorkGroupID.x % kGroupsOfTile;
+    const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / kGroupsOfTile);
     const ivec2 corner = ivec2(int(words[tile]), int(words[tile + 1u])),
                 end = ivec2(int(words[tile + 2u]), int(words[tile + 3u]));
     Box box;
-    box.low = corner + 16 * ivec2(part % 8u, part / 8u);
+    box.low = corner + 16 * ivec2(part % kAcross, part / kAcross);
     box.high = min(box.low + 16, end);
     if (any(greaterThanEqual(box.low, end))) return;
     const ivec2 pixel = box.low + ivec2(own % 16u, own / 16u);
@@ -151,8 +153,8 @@ void main() {
             continue;
         }
         // Rings of one level are combined on its grid and enlarged together.
-        const Box cells = Box((box.low >> int(number_of_level)) - kBorder,
-                              ((box.high - 1) >> int(number_of_level)) + 1 + kBorder);
+        const Box cells = Box((box.low >> int(number_of_level)) - kGatherBorder,
+                              ((box.high - 1) >> int(number_of_level)) + 1 + kGatherBorder);
         const ivec2 size = cells.high - cells.low;
         const uint count = uint(size.x * size.y), slices = uint(kChunk) / count;
         const ivec2 cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
@@ -182,7 +184,7 @@ void main() {
                                     mix(hit_colour[i + 1], hit_colour[i + size.x + 1], t.y), t.x);
             const float area = 1 - mix(mix(hit_area[i].x, hit_area[i + size.x].x, t.y),
                                        mix(hit_area[i + 1].x, hit_area[i + size.x + 1].x, t.y), t.x);
-            const bool covers = area > kLeastArea;
+            const bool covers = area > kLeastGathered;
             const float taken = covers ? min(area, free) : 0.0;
             sum += (covers ? taken / area : free) * colour;
             free -= taken;
@@ -190,7 +192,8 @@ void main() {
         barrier();
     }
     const float taken = 1 - free;
-    if (inside)
-        result[gl_WorkGroupID.x / 64u * 16384u + uint(pixel.y - corner.y) * 128u + uint(pixel.x - corner.x)] =
-            sum * (taken > kLeastArea ? 1 / taken : 0.0);
+    if (!inside) return;
+    const uvec2 place = uvec2(pixel - corner);
+    result[(gl_WorkGroupID.x / kGroupsOfTile * kTile + place.y) * kTile + place.x] =
+        sum * (taken > kLeastGathered ? 1 / taken : 0.0);
 }

@@ -1,6 +1,7 @@
 // A pixel from the sharp picture and the blurs, by the plan's law. Formulas are device/cpu/mix.cpp's.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "laws/compositing.h"
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
@@ -14,7 +15,6 @@ layout(std430, binding = 7) writeonly buffer Result { vec4 result[]; };
 #include "mix.glsl"
 #include "mix_extras.glsl"
 
-const float kLeastArea = 1e-5;
 const uint kViewSmall = 1u, kViewLarge = 2u, kViewIndex = 3u;
 
 // A blur at a pixel, of the cells around it.
@@ -40,7 +40,7 @@ void read(uint blur, uvec2 pixel, out vec4 light, out float covered) {
 
 // Each layer takes of the pixel's lens what it arrives with, or what is left.
 void take(vec4 light, float covered, inout vec4 sum, inout float free) {
-    if (covered <= kLeastArea) return;
+    if (covered <= kLeastBlurred) return;
     const float taken = min(covered, free);
     sum += taken / covered * light;
     free -= taken;
@@ -68,7 +68,7 @@ vec4 layered(uvec2 pixel, uint k, vec4 colour, float coc_px) {
     take(sharp * colour, sharp, sum, free);
     if ((more & kHidden) != 0u) take_sharp(hidden_of(more), sum, free);
     for (uint blur = near_count(); blur < layer_count(); ++blur) take_blur(blur, pixel, sum, free);
-    return free < 1 - kLeastArea ? sum / (1 - free) : colour;
+    return free < 1 - kLeastBlurred ? sum / (1 - free) : colour;
 }
 
 vec4 blurred(uint blur, uvec2 pixel) {

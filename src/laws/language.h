@@ -1,0 +1,13 @@
+// What lets one file of laws be read by C++ and by GLSL.
+#ifndef PETZVAL_LAWS_LANGUAGE
+#define PETZVAL_LAWS_LANGUAGE
+#ifdef __cplusplus
+#define PETZVAL_LAW constexpr
+#define PETZVAL_LAWS_BEGIN namespace petzval::laws {
+#define PETZVAL_LAWS_END }
+#else
+#define PETZVAL_LAW const
+#define PETZVAL_LAWS_BEGIN
+#define PETZVAL_LAWS_END
+#endif
+#endif
