@@ -35,7 +35,7 @@ Palette palette_of(Dice& dice) {
     return p;
 }
 
-// Radius of the blur of what lies at z, as a share of the width of the picture.
+// Radius of the blur at depth z, as a share of the width of the picture.
 float blur(const Camera& c, float z) {
     const double f_m = c.focal_length_mm / 1000;
     const double diameter_mm = c.focal_length_mm / c.f_number * f_m / (c.focus_distance_m - f_m) *

@@ -1,7 +1,7 @@
-// The parts of the scene `random`: what a seed decides before anything is built, and who builds what of it.
+// The scene `random`: a seed decides place, camera and palette first; then one function builds each part.
 //
-// Sizes go with the frame at the subject's distance, so a seed may be a still life or a street: what matters
-// to a lens is how many pixels things are wide and how their distances compare.
+// Sizes go with the frame at the subject's distance, so a seed may be a still life or a street: only widths
+// in pixels and ratios of distances matter to a lens.
 #pragma once
 
 #include "petzval/camera.h"
@@ -31,7 +31,7 @@ struct MadeUp {
     float subject_m = 0;                        // its distance
     float frame_m = 0;                          // the height of the frame there
     float near_m = 0;                           // of the nearest thing
-    float back_m = 0;                           // of what closes the view
+    float back_m = 0;                           // of the background
     Vec3 ground{0, 0, 0};                       // a point below the camera, at the height of the floor
     float slope_x = 0, slope_z = 0;             // of the floor
     Vec3 move{0, 0, 0}, subject_move{0, 0, 0};  // of the camera and of one thing, first to last frame, m
@@ -44,7 +44,7 @@ struct MadeUp {
     Vec3 on_floor(float x, float z) const {
         return {x, ground.y + slope_x * (x - ground.x) + slope_z * (z - ground.z), z};
     }
-    // Where the floor carries what is seen at u, about z away.
+    // The place on the floor below u, about z away.
     Vec3 foot(float u, float z) const {
         const Vec3 p = at(u, 0, z);
         return on_floor(p.x, p.z);
@@ -57,7 +57,7 @@ enum MadeUpPart : std::uint32_t { kShotPart = 1, kPlacePart, kThingsPart, kNearP
 
 MadeUp made_up(std::uint64_t seed);
 
-// How texture coordinates lie on a surface: a uv of 1 is so many times its size. Without uv the pattern is
+// Texture coordinates of a surface: a uv of 1 is so many times its size. Without uv the pattern is
 // cut from a block of it.
 struct Surface {
     Vec3 origin;
@@ -71,7 +71,7 @@ Paint plain_paint(Vec3 albedo);
 // Letters of a script nobody reads, on a board with uv 0…1, `columns` of them to a line.
 Paint print_paint(Dice& dice, Vec3 back, Vec3 ink, float columns, float lines, float glow);
 
-void add_place(World& world, const MadeUp& shot);  // light, sky, floor, what closes the view
+void add_place(World& world, const MadeUp& shot);  // light, sky, floor, background
 void add_subject(World& world, const MadeUp& shot,
                  float time);                     // in the middle distance, with what stands about
 void add_near(World& world, const MadeUp& shot);  // before it, cut by the frame or across it

@@ -1,4 +1,4 @@
-// What stands before the subject, far out of focus as a rule: posts, branches, wires, hair, cloth, shoulders.
+// Things before the subject, usually far out of focus: posts, branches, wires, hair, cloth, shoulders.
 // Sizes are shares of the frame where it stands, and most of it leaves the frame somewhere.
 #include "scene/made_up.h"
 #include "scene/plants.h"
@@ -19,7 +19,7 @@ struct Near {
     }
 };
 
-// Where a thing that does not cover the subject's middle may stand, mostly; sometimes it does.
+// Screen position of a thing that does not cover the subject's middle may stand, mostly; sometimes it does.
 float aside(Dice& dice) {
     const float u = dice.chance(0.3f) ? dice.between(0, 0.3f) : dice.between(0.3f, 0.85f);
     return dice.chance(0.5f) ? u : -u;

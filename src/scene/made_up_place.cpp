@@ -1,4 +1,4 @@
-// Light, sky, the floor and what closes the view.
+// Light, sky, the floor and the background.
 #include "scene/made_up.h"
 #include "scene/plants.h"
 #include "scene/textures.h"

@@ -34,7 +34,7 @@ TEST(MadeUpScenes, TheSameSeedIsTheSameBitsForAnyThreadCount) {
     }
 }
 
-// What hashing decides is the same on every machine; a change here makes every stored result incomparable.
+// A change here makes stored results incomparable.
 TEST(MadeUpScenes, ASeedStaysTheSceneItWas) {
     const scene::MadeUp seven = scene::made_up(7);
     EXPECT_EQ(seven.camera.focal_length_mm, 50);

@@ -1,4 +1,4 @@
-// What stands about: boxes, balls, vases, books, signs, plants, frames, people.
+// Things that stand about: boxes, balls, vases, books, signs, plants, frames, people.
 #include "scene/made_up.h"
 #include "scene/plants.h"
 #include "scene/textures.h"
