@@ -1,5 +1,4 @@
 // petzval lens psf and lens table: what a lens makes of a point of light, as pictures.
-#include "petzval/lens_facts.h"
 #include "petzval/lens_kernel.h"
 
 #include "camera.h"
@@ -66,21 +65,14 @@ Result<LensMount> mount_of(const PictureFlags& flags, const Lens& lens) {
     LensMount mount;
     mount.width_px = flags.width_px;
     mount.height_px = flags.height_px.value_or(std::max(1, flags.width_px * 9 / 16));
-    double focal_length_mm = 50, f_number = 2, sensor_width_mm = 36;
-    if (lens.kind() != LensModelKind::Ideal) {
-        const auto facts = lens_facts(lens);
-        if (!facts) return facts.error();
-        if (facts->efl_mm > 0) focal_length_mm = facts->efl_mm;
-        if (facts->sensor_width_mm > 0) sensor_width_mm = facts->sensor_width_mm;
-        // Rounded up, so that the lens has it.
-        if (facts->f_number > 0) f_number = facts->f_number * (1 + 1e-9);
-    }
+    const auto own = own_camera(lens);
+    if (!own) return own.error();
     Camera& camera = mount.camera;
-    camera.focal_length_mm = flags.camera.focal_length_mm.value_or(focal_length_mm);
-    camera.f_number = flags.camera.f_number.value_or(f_number);
+    camera.focal_length_mm = flags.camera.focal_length_mm.value_or(own->focal_length_mm);
+    camera.f_number = flags.camera.f_number.value_or(own->f_number);
     if (flags.camera.aperture_diameter_mm)
         camera.f_number = camera.focal_length_mm / *flags.camera.aperture_diameter_mm;
-    camera.sensor_width_mm = flags.camera.sensor_width_mm.value_or(sensor_width_mm);
+    camera.sensor_width_mm = flags.camera.sensor_width_mm.value_or(own->sensor_width_mm);
     camera.focus_distance_m = flags.camera.focus_distance_m.value_or(0);
     camera.image_scale = flags.camera.image_scale.value_or(ImageScale::Rendered);
     return mount;

@@ -1,5 +1,6 @@
 // petzval lens: the lenses there are, and the numbers of each.
 #include "petzval/lens_facts.h"
+#include "petzval/lens_json.h"
 
 #include "console.h"
 #include "report.h"
@@ -43,38 +44,11 @@ std::string wrapped(const std::string& text, const std::string& indent, std::siz
     return line.empty() ? out : out + indent + line + "\n";
 }
 
-const char* model_name(LensModelKind model) {
-    switch (model) {
-        case LensModelKind::Ideal:
-            return "ideal";
-        case LensModelKind::Curves:
-            return "curves";
-        case LensModelKind::Prescription:
-            return "prescription";
-    }
-    return "";
-}
-
-Json summary_json(const LensSummary& lens) {
-    const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
-    const auto known = [](double value) { return value > 0 ? number(value) : Json(nullptr); };
-    return {{"name", lens.name},
-            {"title", lens.title},
-            {"class", text(lens.kind)},
-            {"model", model_name(lens.model)},
-            {"year", text(lens.year)},
-            {"source", text(lens.source)},
-            {"history", text(lens.history)},
-            {"efl_mm", known(lens.focal_length_mm)},
-            {"f_number", known(lens.f_number)}};
-}
-
 Status list_lenses(const RunFlags& run) {
     if (Status fine = check_outputs({run.json}, {}); !fine) return fine;
     std::string text;
-    Json lenses = Json::array();
-    for (const LensSummary& lens : lens_list()) {
-        lenses.push_back(summary_json(lens));
+    const std::vector<LensSummary> lenses = lens_list();
+    for (const LensSummary& lens : lenses) {
         const std::string size = lens.focal_length_mm > 0
                                      ? plain(lens.focal_length_mm, 4) + " mm f/" + plain(lens.f_number, 3)
                                      : "any";
@@ -83,76 +57,14 @@ Status list_lenses(const RunFlags& run) {
         text += wrapped(printable(lens.title), "    ");
     }
     Json report = new_report("lens list");
-    report["lenses"] = lenses;
+    report["lenses"] = json_of(lens_list_json(lenses));
     return tell(text, std::move(report), run.json);
-}
-
-Json seidel_json(const SeidelFacts& s) {
-    return {{"S_I", number(s.s1)}, {"S_II", number(s.s2)}, {"S_III", number(s.s3)}, {"S_IV", number(s.s4)},
-            {"S_V", number(s.s5)}, {"C_I", number(s.c1)},  {"C_II", number(s.c2)}};
-}
-
-// Wavelengths are keys in micrometres with four decimals, as in the lens data.
-Json longitudinal_json(const LongitudinalAberrationFacts& lsa) {
-    Json by_wavelength = Json::object();
-    for (std::size_t w = 0; w < lsa.wavelengths_um.size(); ++w) {
-        std::array<char, 32> key{};
-        std::snprintf(key.data(), key.size(), "%.4f", lsa.wavelengths_um[w]);
-        Json shifts = Json::array();
-        for (const double shift : lsa.shift_mm[w]) shifts.push_back(number(shift));
-        by_wavelength[key.data()] = shifts;
-    }
-    return {{"pupil_zone", lsa.zones}, {"axis_crossing_minus_primary_paraxial_focus", by_wavelength}};
-}
-
-Json field_json(const std::vector<FieldFacts>& field) {
-    Json points = Json::array();
-    for (const FieldFacts& p : field)
-        points.push_back({{"field_deg", number(p.field_deg)},
-                          {"image_height_mm", number(p.image_height_mm)},
-                          {"tangential_focus_mm", number(p.tangential_focus_mm)},
-                          {"sagittal_focus_mm", number(p.sagittal_focus_mm)},
-                          {"distortion_percent", number(p.distortion_percent)},
-                          {"lateral_colour_mm", number(p.lateral_colour_mm)},
-                          {"unvignetted_share", number(p.unvignetted_share)}});
-    return points;
-}
-
-void add_prescription(Json& report, const LensFacts& f) {
-    report["bfl_mm"] = number(f.bfl_mm);
-    report["front_focal_position_mm"] = number(f.front_focal_position_mm);
-    report["entrance_pupil_position_mm"] = number(f.entrance_pupil_position_mm);
-    report["entrance_pupil_diameter_mm"] = number(f.entrance_pupil_diameter_mm);
-    report["exit_pupil_position_mm"] = number(f.exit_pupil_position_mm);
-    report["exit_pupil_diameter_mm"] = number(f.exit_pupil_diameter_mm);
-    report["vertex_length_mm"] = number(f.vertex_length_mm);
-    report["petzval_radius_mm"] = number(f.petzval_radius_mm);
-    report["lagrange_invariant_mm"] = number(f.lagrange_invariant_mm);
-    report["object_distance_mm"] = number(f.object_distance_mm);
-    report["image_distance_mm"] = number(f.image_distance_mm);
-    report["magnification"] = number(f.magnification);
-    report["field_deg"] = number(f.field_deg);
-    report["sensor_width_mm"] = number(f.sensor_width_mm);
-    report["wavelengths_um"] = {{"short", f.short_um}, {"primary", f.primary_um}, {"long", f.long_um}};
-    report["seidel_field_deg"] = number(f.seidel_field_deg);
-    report["seidel"] = seidel_json(f.seidel);
-    report["seidel_per_surface"] = Json::array();
-    for (const SeidelFacts& surface : f.seidel_per_surface)
-        report["seidel_per_surface"].push_back(seidel_json(surface));
-    report["field"] = field_json(f.field);
 }
 
 Json facts_json(const LensFacts& facts, const std::string& input) {
     Json report = new_report("lens show");
     report["input"] = input;
-    report["lens"] = summary_json(facts.summary);
-    report["format"] = facts.format.empty() ? Json(nullptr) : Json(facts.format);
-    report["warnings"] = facts.warnings;
-    report["notes"] = facts.notes;
-    report["efl_mm"] = facts.efl_mm > 0 || facts.has_prescription ? number(facts.efl_mm) : Json(nullptr);
-    report["f_number"] = facts.f_number > 0 ? number(facts.f_number) : Json(nullptr);
-    if (facts.has_prescription) add_prescription(report, facts);
-    report["longitudinal_aberration_mm"] = longitudinal_json(facts.longitudinal_aberration);
+    report.update(json_of(lens_facts_json(facts)));
     return report;
 }
 

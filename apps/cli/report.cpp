@@ -48,6 +48,22 @@ Json number(double value) {
     return value;
 }
 
+Json json_of(const std::string& text) {
+    std::string marked;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) in_string = !in_string;
+        const bool minus = text.compare(i, 6, "-1e999") == 0;
+        if (!in_string && (minus || text.compare(i, 5, "1e999") == 0)) {
+            marked += Json(minus ? kMinusInfinityMark : kInfinityMark).dump();
+            i += minus ? 5 : 4;
+        } else {
+            marked += text[i];
+        }
+    }
+    return Json::parse(marked);
+}
+
 Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
     Json json = Json::object(), origins = Json::object();
     const auto add = [&](const char* key, const std::optional<FoundNumber>& found) {

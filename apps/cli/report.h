@@ -33,6 +33,8 @@ Json new_report(const std::string& verb);
 
 // JSON has no infinity; see write_report.
 Json number(double value);
+// What the library wrote, where infinity is 1e999. Requires: it is JSON.
+Json json_of(const std::string& text);
 Json camera_json(const FoundCamera& camera, ImageScale image_scale);
 // As --save-look writes it.
 Json look_json(const Look& look);

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace petzval {
 
@@ -23,6 +24,9 @@ public:
     // Errors: InvalidArgument naming an unknown lens or an option out of range; InvalidFile for a lens file
     // that is missing, damaged or no regular file. What needs a camera is checked where the lens is mounted.
     static Result<Lens> open(const LensChoice& choice);
+    // The content of a lens file, in any of the formats of docs/lens-files.md; `name` stands for it in
+    // messages and reports. Errors: InvalidFile for bytes that describe no lens.
+    static Result<Lens> read(std::string_view bytes, const std::string& name);
     // The same lens used in another way: `choice` decides all but the name. Nothing is read. Errors: as
     // above.
     Result<Lens> with(const LensChoice& choice) const;

@@ -21,10 +21,15 @@ struct LensMount {
     double pixel_aspect = 1;
 };
 
+// The camera that a lens was built for, focused at infinity: its focal length, its largest aperture and the
+// width of its format. 50 mm f/2 on 36 mm for lenses of any size. Errors: those of lens_facts().
+PETZVAL_API Result<Camera> own_camera(const Lens& lens);
+
 struct LensDisc {
     Picture weights;   // scene-linear; r, g, b and a each sum to 1; the source stands in the middle pixel
     std::string lens;  // what was used, in words
     double lost_share = 0;  // of the light (green), outside of a picture smaller than the disc
+    int needed_px = 1;      // sides of the smallest picture that holds all of the disc
 };
 
 // The kernel of a source of signed CoC radius `coc_radius_px` at a place of the picture: field_x, field_y in
@@ -39,6 +44,9 @@ PETZVAL_API Result<LensDisc> lens_point_spread(const LensChoice& lens, const Len
                                                double coc_radius_px, double field_x = 0, double field_y = 0,
                                                int size_px = 0, bool raw = false);
 inline constexpr int kLargestDiscPx = 8192;
+// Sides of a picture that holds any disc of at most that radius, wherever in the frame; no kernel is made for
+// it. Errors: those of lens_point_spread().
+PETZVAL_API Result<int> largest_disc_px(const Lens& lens, const LensMount& mount, double coc_radius_px);
 // Several discs of one place, the lens mounted once. Errors: as above.
 PETZVAL_API Result<std::vector<LensDisc>> lens_point_spreads(const Lens& lens, const LensMount& mount,
                                                              std::span<const double> coc_radii_px,
@@ -67,6 +75,9 @@ struct BokehTexture {
 // Errors: as above.
 PETZVAL_API Result<BokehTexture> bokeh_texture(const Lens& lens, const LensMount& mount,
                                                const BokehTextureSettings& settings = {});
+// Rows that hold any such texture; no kernel is made for it. Errors: as above.
+PETZVAL_API Result<int> most_texture_rows(const Lens& lens, const LensMount& mount,
+                                          const BokehTextureSettings& settings = {});
 PETZVAL_API Result<BokehTexture> bokeh_texture(const LensChoice& lens, const LensMount& mount,
                                                const BokehTextureSettings& settings = {});
 

@@ -15,6 +15,7 @@
 #include "petzval/lens.h"
 #include "petzval/lens_choice.h"
 #include "petzval/lens_facts.h"
+#include "petzval/lens_json.h"
 #include "petzval/lens_kernel.h"
 #include "petzval/lens_section.h"
 #include "petzval/light_spectrum.h"

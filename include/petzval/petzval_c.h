@@ -229,5 +229,7 @@ PETZVAL_C_API void petzval_report_close(petzval_report* report);
 }
 #endif
 
+#include <petzval/petzval_lens_c.h> /* lenses */
+
 /* NOLINTEND(modernize-use-using,modernize-deprecated-headers,readability-identifier-naming) */
 #endif

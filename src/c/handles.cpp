@@ -1,5 +1,8 @@
 #include "c/handles.h"
 
+#include "petzval/version.h"
+
+#include <iterator>
 #include <utility>
 
 namespace petzval::c {
@@ -51,6 +54,20 @@ Status check_pictures(const Look& look) {
     return Done{};
 }
 
+Result<Lens> lens_of(const petzval_look& look) {
+    return look.lens ? look.lens->with(look.look.lens) : Lens::open(look.look.lens);
+}
+
 }  // namespace petzval::c
 
 const char* petzval_error_text(void) { return petzval::c::error_text().c_str(); }
+
+const char* petzval_status_name(petzval_status status) {
+    static const char* const names[] = {"ok",          "invalid_argument", "invalid_file",
+                                        "unsupported", "output_failed",    "out_of_memory",
+                                        "cancelled",   "internal"};
+    const auto index = unsigned(status);
+    return index < std::size(names) ? names[index] : "unknown";
+}
+
+const char* petzval_version(void) { return PETZVAL_VERSION; }

@@ -1,17 +1,24 @@
 // What the C door's files share: handles, and how a call ends.
 #pragma once
 
+#include "petzval/lens.h"
 #include "petzval/look.h"
 #include "petzval/petzval_c.h"
 #include "petzval/result.h"
 
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 
 struct petzval_look {
     petzval::Look look;
+    std::optional<petzval::Lens> lens;  // opened; of the name that look has. None: by name, when it is used
     mutable std::string json;
+};
+
+struct petzval_text {
+    std::string json;
 };
 
 namespace petzval::c {
@@ -22,6 +29,8 @@ petzval_status fail(const Error& error);
 petzval_status missing(const char* argument);
 // A look names its pictures by file, and files are not the core's to read.
 Status check_pictures(const Look& look);
+// The lens of a look: the one it was given, used as its fields say; else opened by name.
+Result<Lens> lens_of(const petzval_look& look);
 
 // Runs what may throw on behalf of somebody who cannot catch: the one place that catches.
 template <typename Body>

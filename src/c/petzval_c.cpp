@@ -2,10 +2,7 @@
 #include "petzval/petzval_c.h"
 
 #include "petzval/devices.h"
-#include "petzval/lens_facts.h"
-#include "petzval/look_json.h"
 #include "petzval/session.h"
-#include "petzval/version.h"
 
 #include "c/handles.h"
 #include "c/lent.h"
@@ -13,7 +10,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -59,6 +55,15 @@ Control control_of(const petzval_control* given) {
     return control;
 }
 
+// The lens that the look was given, so that nothing opens it again. Errors: those of Lens::with().
+Status lend_lens(const petzval_look* look, DefocusJob& job) {
+    if (!look || !look->lens) return Done{};
+    auto lens = c::lens_of(*look);
+    if (!lens) return lens.error();
+    job.opened_lens = std::move(*lens);
+    return Done{};
+}
+
 petzval_status take_frame(petzval_session* session, const petzval_shot* given, const petzval_look* look,
                           const petzval_control* control, const petzval_pixels* out,
                           petzval_report** report) {
@@ -74,6 +79,7 @@ petzval_status take_frame(petzval_session* session, const petzval_shot* given, c
                                                   : "out and the shot's colour must be of one size");
     const Look chosen = look ? look->look : Look{};
     if (const Status ok = check_pictures(chosen); !ok) return fail(ok.error());
+    if (const Status ok = lend_lens(look, shot.job); !ok) return fail(ok.error());
     const auto frame = session->session.take(shot.job, chosen, how);
     if (!frame) return fail(frame.error());
     if (report) {
@@ -85,30 +91,11 @@ petzval_status take_frame(petzval_session* session, const petzval_shot* given, c
     return PETZVAL_OK;
 }
 
-const std::vector<std::string>& lens_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const LensSummary& lens : lens_list()) all.push_back(lens.name);
-        return all;
-    }();
-    return names;
-}
-
 const char* name_at(const std::vector<std::string>& names, int index) {
     return index >= 0 && std::size_t(index) < names.size() ? names[std::size_t(index)].c_str() : nullptr;
 }
 
 }  // namespace
-
-const char* petzval_status_name(petzval_status status) {
-    static const char* const names[] = {"ok",          "invalid_argument", "invalid_file",
-                                        "unsupported", "output_failed",    "out_of_memory",
-                                        "cancelled",   "internal"};
-    const auto index = unsigned(status);
-    return index < std::size(names) ? names[index] : "unknown";
-}
-
-const char* petzval_version(void) { return PETZVAL_VERSION; }
 
 petzval_status petzval_session_open(const petzval_session_settings* settings, petzval_session** session) {
     if (!session) return missing("session");
@@ -148,8 +135,6 @@ const char* petzval_engine_name(int index) {
     return name_at(names, index);
 }
 
-const char* petzval_lens_name(int index) { return name_at(lens_names(), index); }
-
 const char* petzval_device_name(int index) {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> found;
@@ -158,52 +143,6 @@ const char* petzval_device_name(int index) {
     }();
     return name_at(names, index);
 }
-
-petzval_status petzval_look_new(petzval_look** look) {
-    if (!look) return missing("look");
-    *look = nullptr;
-    return guarded([&] {
-        *look = new petzval_look;
-        return PETZVAL_OK;
-    });
-}
-
-petzval_status petzval_look_from_json(const char* json, petzval_look** look) {
-    if (!look) return missing("look");
-    *look = nullptr;
-    if (!json) return missing("json");
-    return guarded([&] {
-        auto read = look_from_json(json);
-        if (!read) return fail(read.error());
-        *look = new petzval_look{std::move(*read), {}};
-        return PETZVAL_OK;
-    });
-}
-
-petzval_status petzval_look_set(petzval_look* look, const char* field, const char* value) {
-    if (!look) return missing("look");
-    if (!field) return missing("field");
-    if (!value) return missing("value");
-    return guarded([&] {
-        auto changed = look_with(look->look, field, value);
-        if (!changed) return fail(changed.error());
-        look->look = std::move(*changed);
-        return PETZVAL_OK;
-    });
-}
-
-petzval_status petzval_look_json(const petzval_look* look, const char** json) {
-    if (!json) return missing("json");
-    *json = nullptr;
-    if (!look) return missing("look");
-    return guarded([&] {
-        look->json = look_to_json(look->look);
-        *json = look->json.c_str();
-        return PETZVAL_OK;
-    });
-}
-
-void petzval_look_close(petzval_look* look) { delete look; }
 
 petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot, const petzval_look* look,
                                const petzval_control* control, const petzval_pixels* out,
@@ -220,6 +159,7 @@ petzval_status petzval_region_margin_px(petzval_session* session, const petzval_
     return guarded([&] {
         c::TakenShot shot;
         if (const Status taken = c::TakenShot::take(given, shot); !taken) return fail(taken.error());
+        if (const Status ok = lend_lens(look, shot.job); !ok) return fail(ok.error());
         const auto margin =
             session->session.region_margin_px(with_look(shot.job, look ? look->look : Look{}));
         if (!margin) return fail(margin.error());

@@ -140,7 +140,7 @@ petzval_status petzval_pass_set_lens(petzval_pass* pass, const petzval_look* loo
     if (!camera) return missing("camera");
     return guarded([&] {
         if (const Status ok = c::check_pictures(look->look); !ok) return fail(ok.error());
-        const auto lens = Lens::open(look->look.lens);
+        const auto lens = c::lens_of(*look);
         if (!lens) return fail(lens.error());
         return set_lens(*pass, *lens, c::camera_of(c::taken(camera)));
     });

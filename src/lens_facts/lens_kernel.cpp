@@ -1,5 +1,7 @@
 #include "petzval/lens_kernel.h"
 
+#include "petzval/lens_facts.h"
+
 #include "base/parallel.h"
 #include "kernel/lenses/make_lens.h"
 
@@ -19,6 +21,8 @@ Result<Model> mounted(const Lens& lens, const LensMount& mount) {
         return refuse("the picture's width, height and pixel aspect must be above 0");
     return kernel::make_lens(lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});
 }
+
+constexpr int kBorderPx = 2;  // pixels that a disc touches beyond its farthest ray
 
 Status check_radius(const kernel::LensModel& lens, double coc_radius_px) {
     if (!std::isfinite(coc_radius_px)) return refuse("disc.coc_radius_px must be a finite number of pixels");
@@ -85,7 +89,7 @@ Result<LensDisc> disc_of(const kernel::LensModel& lens, double coc_radius_px, Fi
         raw ? lens.raw_point_spread(coc_radius_px, field) : lens.point_spread(coc_radius_px, field);
     const Rect e = spread.extent;
     const int needed = 2 * std::max({-e.x0, -e.y0, e.x1 - 1, e.y1 - 1, 0}) + 1;
-    LensDisc disc{centred(spread, size_px == 0 ? needed : size_px | 1), lens.description(), 1};
+    LensDisc disc{centred(spread, size_px == 0 ? needed : size_px | 1), lens.description(), 1, needed};
     for (std::size_t i = 0; i < disc.weights.size(); ++i)
         disc.lost_share -= double(disc.weights.pixels()[i].g);
     if (std::abs(disc.lost_share) < 1e-5) disc.lost_share = 0;
@@ -115,8 +119,37 @@ Result<std::vector<LensDisc>> lens_point_spreads(const Lens& opened, const LensM
     return discs;
 }
 
-Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
-                                   const BokehTextureSettings& settings) {
+Result<Camera> own_camera(const Lens& lens) {
+    Camera camera{.focal_length_mm = 50, .sensor_width_mm = 36, .f_number = 2, .focus_distance_m = 0};
+    if (lens.kind() == LensModelKind::Ideal) return camera;
+    const auto facts = lens_facts(lens);
+    if (!facts) return facts.error();
+    if (facts->efl_mm > 0) camera.focal_length_mm = facts->efl_mm;
+    if (facts->sensor_width_mm > 0) camera.sensor_width_mm = facts->sensor_width_mm;
+    // Rounded up, so that the lens has it.
+    if (facts->f_number > 0) camera.f_number = facts->f_number * (1 + 1e-9);
+    return camera;
+}
+
+Result<int> largest_disc_px(const Lens& opened, const LensMount& mount, double coc_radius_px) {
+    const auto lens = mounted(opened, mount);
+    if (!lens) return lens.error();
+    if (const Status status = check_radius(**lens, coc_radius_px); !status) return status.error();
+    return 2 * (int(std::ceil((*lens)->reach_px(coc_radius_px))) + kBorderPx) + 1;
+}
+
+namespace {
+
+// A lens that looks alike from everywhere, on a sensor of pixels so much finer.
+struct TextureLens {
+    Model lens;
+    double finer = 1;
+    static Result<TextureLens> make(const Lens& opened, const LensMount& mount,
+                                    const BokehTextureSettings& settings);
+};
+
+Result<TextureLens> TextureLens::make(const Lens& opened, const LensMount& mount,
+                                      const BokehTextureSettings& settings) {
     if (settings.columns < 2 || settings.columns > 16384) return refuse("disc.columns must be 2 to 16384");
     if (settings.rows_per_px < 1 || settings.rows_per_px > 16)
         return refuse("rows per pixel must be 1 to 16");
@@ -124,20 +157,34 @@ Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
     round.aperture = {};
     round.cats_eye = 0, round.barrel = {}, round.barn_doors = {}, round.texture = {},
     round.kernel_images = {};
-    // A sensor of finer pixels.
     LensMount fine = mount;
     fine.width_px *= settings.rows_per_px, fine.height_px *= settings.rows_per_px;
     const auto round_lens = opened.with(round);
     if (!round_lens) return round_lens.error();
-    const auto lens = mounted(*round_lens, fine);
+    auto lens = mounted(*round_lens, fine);
     if (!lens) return lens.error();
     if (!(settings.largest_coc_px > 0)) return refuse("disc.coc_radius_px must be above 0");
     const double finer = settings.rows_per_px;
     if (const Status status = check_radius(**lens, finer * settings.largest_coc_px); !status)
         return status.error();
+    return TextureLens{std::move(*lens), finer};
+}
 
+}  // namespace
+
+Result<int> most_texture_rows(const Lens& opened, const LensMount& mount,
+                              const BokehTextureSettings& settings) {
+    const auto made = TextureLens::make(opened, mount, settings);
+    if (!made) return made.error();
+    return int(std::ceil(made->lens->reach_px(made->finer * settings.largest_coc_px))) + kBorderPx + 1;
+}
+
+Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
+                                   const BokehTextureSettings& settings) {
+    const auto made = TextureLens::make(opened, mount, settings);
+    if (!made) return made.error();
     BokehTexture texture;
-    texture.lens = (*lens)->description();
+    texture.lens = made->lens->description();
     for (int i = 0; i < settings.columns; ++i) {
         const double t = 2.0 * i / (settings.columns - 1) - 1;
         texture.coc_radius_px.push_back(settings.largest_coc_px *
@@ -145,12 +192,12 @@ Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
     }
     std::vector<std::vector<Rgba>> profiles(texture.coc_radius_px.size());
     parallel_for(settings.columns, *workers_of(settings.threads, settings.workers), [&](int i) {
-        const double coc = finer * texture.coc_radius_px[std::size_t(i)];
+        const double coc = made->finer * texture.coc_radius_px[std::size_t(i)];
         const kernel::PointSpread spread =
-            settings.raw ? (*lens)->raw_point_spread(coc, {}) : (*lens)->point_spread(coc, {});
+            settings.raw ? made->lens->raw_point_spread(coc, {}) : made->lens->point_spread(coc, {});
         // A pixel is finer^2 of the fine ones.
         for (int v = 0; v < spread.extent.x1; ++v)
-            profiles[std::size_t(i)].push_back(float(finer * finer) *
+            profiles[std::size_t(i)].push_back(float(made->finer * made->finer) *
                                                spread.weights(v - spread.extent.x0, -spread.extent.y0));
     });
     fill(texture, profiles);

@@ -45,6 +45,27 @@ TEST(LensPointSpread, ASmallPictureSaysWhatItLeavesOut) {
     EXPECT_NEAR(disc->lost_share, 1 - 21.0 * 21 / (3.14159265 * 400), 1e-3);
 }
 
+TEST(LargestDisc, HoldsTheDiscAtEveryPlaceAndRadius) {
+    for (const char* name : {"ideal", "doublet", "uncorrected", "triplet-cooke", "petzval-laikin"}) {
+        const auto lens = Lens::open(named(name));
+        ASSERT_TRUE(lens) << name;
+        LensMount m;
+        m.camera = own_camera(*lens).value();
+        for (const double radius : {-12.0, 0.0, 0.4, 12.0}) {
+            const int most = largest_disc_px(*lens, m, radius).value();
+            EXPECT_EQ(most % 2, 1);
+            for (const double field : {0.0, 0.5, 1.0})
+                EXPECT_LE(lens_point_spread(*lens, m, radius, field).value().needed_px, most)
+                    << name << " " << radius << " " << field;
+        }
+        BokehTextureSettings settings;
+        settings.columns = 8, settings.largest_coc_px = 12;
+        EXPECT_LE(bokeh_texture(*lens, m, settings).value().energy.height(),
+                  most_texture_rows(*lens, m, settings).value())
+            << name;
+    }
+}
+
 TEST(LensPointSpread, RawKeepsTheNegativesOfSaturatedFringes) {
     const auto least = [](bool raw) {
         float low = 0;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -182,7 +183,9 @@ Result<LensSection> lens_section(const Lens& opened, const LensMount& mount, dou
     choice.wave = false;
     const auto lens = opened.with(choice);
     if (!lens) return lens.error();
-    const auto coc = CircleOfConfusion::make(mount.camera, mount.width_px);
+    Camera camera = mount.camera;
+    if (camera.focus_distance_m == 0) camera.focus_distance_m = std::numeric_limits<double>::infinity();
+    const auto coc = CircleOfConfusion::make(camera, mount.width_px);
     if (!coc) return coc.error();
     const auto model =
         kernel::make_lens(*lens, {mount.camera, mount.width_px, mount.height_px, mount.pixel_aspect});

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 HEADERS = pathlib.Path(__file__).resolve().parents[2] / "include/petzval"
-HEADER = HEADERS / "petzval_c.h"
+WANTED = [HEADERS / "petzval_c.h", HEADERS / "petzval_lens_c.h"]
 
 
 def declared(header):
@@ -22,7 +22,7 @@ def exported(library):
 
 
 def main(library):
-    wanted, optional, found = declared(HEADER), declared(HEADERS / "vulkan.h"), exported(library)
+    wanted, optional, found = set().union(*map(declared, WANTED)), declared(HEADERS / "vulkan.h"), exported(library)
     if optional & found:
         wanted |= optional
     for name in sorted(wanted - found):
@@ -30,7 +30,7 @@ def main(library):
     for name in sorted(found - wanted):
         print(f"{name} is exported and not declared")
     if len(wanted) < 10:
-        print(f"only {len(wanted)} functions found in {HEADER.name}: is it still read right?")
+        print(f"only {len(wanted)} functions found in {WANTED[0].name}: is it still read right?")
     return wanted != found or len(wanted) < 10
 
 

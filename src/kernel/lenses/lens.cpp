@@ -167,17 +167,35 @@ std::string key_of(const LensChoice& c, const lens_files::LensFile& file) {
 
 bool has_images(const LensChoice& choice) { return choice.kernel_images.far || choice.kernel_images.near; }
 
+Lens::Contents contents_of(File file, const LensChoice& choice) {
+    Lens::Contents contents;
+    contents.choice = choice;
+    contents.kind = file->curves ? LensModelKind::Curves : LensModelKind::Prescription;
+    contents.file = std::move(file);
+    return contents;
+}
+
 }  // namespace
 
 Result<Lens> Lens::open(const LensChoice& choice) {
     auto file = file_of(choice.name);
     if (!file) return file.error();
-    Contents contents;
-    contents.choice = choice;
-    contents.file = std::move(*file);
-    contents.kind = contents.file->curves ? LensModelKind::Curves : LensModelKind::Prescription;
+    Contents contents = contents_of(std::move(*file), choice);
     if (choice.name == "ideal") contents.kind = LensModelKind::Ideal;
     return Lens(std::make_shared<const Contents>(std::move(contents))).with(choice);
+}
+
+Result<Lens> Lens::read(std::string_view bytes, const std::string& name) {
+    if (bytes.size() > lens_files::kLargestLensFile)
+        return Error{ErrorCode::InvalidFile, name + ": " + std::to_string(bytes.size()) +
+                                                 " bytes; lens files have at most " +
+                                                 std::to_string(lens_files::kLargestLensFile)};
+    auto file = lens_files::read_lens(bytes, name);
+    if (!file) return file.error();
+    LensChoice choice;
+    choice.name = name;
+    auto shared = std::make_shared<const lens_files::LensFile>(std::move(*file));
+    return Lens(std::make_shared<const Contents>(contents_of(std::move(shared), choice))).with(choice);
 }
 
 Result<Lens> Lens::with(const LensChoice& choice) const {

@@ -1,0 +1,73 @@
+// Looks behind the C door. Needs neither sessions nor devices nor files.
+#include "petzval/look_json.h"
+#include "petzval/petzval_c.h"
+
+#include "c/handles.h"
+#include "c/lens_handle.h"
+
+#include <string>
+#include <utility>
+
+using petzval::look_from_json;
+using petzval::look_to_json;
+using petzval::look_with;
+using petzval::c::fail;
+using petzval::c::guarded;
+using petzval::c::missing;
+
+petzval_status petzval_look_new(petzval_look** look) {
+    if (!look) return missing("look");
+    *look = nullptr;
+    return guarded([&] {
+        *look = new petzval_look;
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_from_json(const char* json, petzval_look** look) {
+    if (!look) return missing("look");
+    *look = nullptr;
+    if (!json) return missing("json");
+    return guarded([&] {
+        auto read = look_from_json(json);
+        if (!read) return fail(read.error());
+        *look = new petzval_look{std::move(*read), {}, {}};
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_set(petzval_look* look, const char* field, const char* value) {
+    if (!look) return missing("look");
+    if (!field) return missing("field");
+    if (!value) return missing("value");
+    return guarded([&] {
+        auto changed = look_with(look->look, field, value);
+        if (!changed) return fail(changed.error());
+        if (look->lens && changed->lens.name != look->lens->name()) look->lens.reset();
+        look->look = std::move(*changed);
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_json(const petzval_look* look, const char** json) {
+    if (!json) return missing("json");
+    *json = nullptr;
+    if (!look) return missing("look");
+    return guarded([&] {
+        look->json = look_to_json(look->look);
+        *json = look->json.c_str();
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_look_set_lens(petzval_look* look, const petzval_lens* lens) {
+    if (!look) return missing("look");
+    if (!lens) return missing("lens");
+    return guarded([&] {
+        look->lens = lens->lens;
+        look->look.lens.name = lens->lens.name();
+        return PETZVAL_OK;
+    });
+}
+
+void petzval_look_close(petzval_look* look) { delete look; }
