@@ -26,7 +26,7 @@ SPARED = {
 }
 HEADLESS = re.compile(r"(Of|What(ever)?|Whether|Who(ever|se)?|Which(ever)?|Where(ver)?|That|How|By|Than|But|Nor|As|From"
                       r"|Between|Beyond|Along|Among|So|Into|At)\b(?! most| least| once)")
-QUESTION = re.compile(r"^(What|Whether|Who|Where|How|Which|That|Of|By)\b")
+QUESTION = re.compile(r"^(What|Whether|Who|Where|That|Of|By)\b")
 FENCE = re.compile(r"^(```.*?^```|<!--.*?-->)", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.#/×-])[-−+±]?\d[\d,.]*(?:\s?[×x]\s?\d+)?")
 COMMENT = re.compile(r"^\s*//+!?<? ?(.*)$")

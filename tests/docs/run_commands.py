@@ -1,8 +1,8 @@
 """Runs what the documents tell people to type: every block marked ```sh in README.md and docs/, one page at a time.
 
 Usage: run_commands.py PROGRAM [PAGE…]. Each page gets an empty folder, a `petzval` on its PATH, a `./dev run` that
-is the same program, and `shot.exr`, a small rendered picture with depth that stands for the reader's own. What asks for
-a GPU is left out, and said so, where there is none. Blocks marked ```text are not run; `./dev demo` and `./dev test` have their own tests.
+is the same program, `shot.exr`, a small rendered picture with depth, and `beauty.exr`, the same without camera numbers, as
+most files of readers are. Blocks that need a GPU are skipped, with a message, if there is none. Blocks marked ```text are not run; `./dev demo` and `./dev test` have their own tests.
 """
 import json
 import os
@@ -13,6 +13,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/cli"))
+from pictures import read_exr, write_exr  # noqa: E402
+
 BLOCK = re.compile(r"^```sh\n(.*?)^```", re.DOTALL | re.MULTILINE)
 DEV = '#!/bin/sh\n[ "$1" = run ] || exit 0\nshift\nexec petzval "$@"\n'
 
@@ -25,6 +28,8 @@ def place(folder, program):
     (folder / "dev").chmod(0o755)
     subprocess.run([program, "scene", "make", "table", "-o", folder / "shot.exr", "--width", "160", "--height", "90",
                     "-q"], check=True)
+    channels, _ = read_exr(folder / "shot.exr")
+    write_exr(folder / "beauty.exr", channels)
     return {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}"}
 
 
