@@ -19,7 +19,11 @@ Slope tilt_of(Slope slope, float coc_px) {
     return {slope.x / coc_px, slope.y / coc_px};
 }
 
-// What a cell gathers from its pixels for one source.
+// Coverage, of a pixel, below which a sample sends nothing: no sum shows it, and sources are means by
+// coverage, which far below this are no longer finite. (Thick smoke dims what is behind it to any number.)
+constexpr float kLeastCoverage = 1e-20f;
+
+// What a cell gathers from its pixels for one source. Requires: coverage from kLeastCoverage on.
 struct Gathered {
     int layer = 0, skirt_of = 0;
     Rgba light;                             // summed over pixels
@@ -147,14 +151,16 @@ private:
             const float at = rule_.position(s.coc_px);
             const int level = int(std::ceil(at));
             const float share = level == 0 ? 1.0f : std::min(1.0f, (at - float(level - 1)) / rule_.fade);
-            const auto put_both = [&](int in_layer, Rgba light) {
-                put(level, Gathered(in_layer, share * light, s.coc_px, tilt, side));
-                if (share < 1) put(level - 1, Gathered(in_layer, (1 - share) * light, s.coc_px, tilt, side));
+            const auto put_one = [&](int on_level, int in_layer, Rgba light) {
+                if (light.a >= kLeastCoverage) put(on_level, Gathered(in_layer, light, s.coc_px, tilt, side));
             };
-            if (s.colour.a > 0 && shows > 0) put_both(layer, shows * s.colour);
-            if (s.colour.a > 0 && shows < 1) put_both(layer + kNextLayer, (1 - shows) * s.colour);
-            if (s.empty > 0)
-                put_both(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
+            const auto put_both = [&](int in_layer, Rgba light) {
+                put_one(level, in_layer, share * light);
+                put_one(level - 1, in_layer, (1 - share) * light);
+            };
+            put_both(layer, shows * s.colour);
+            put_both(layer + kNextLayer, (1 - shows) * s.colour);
+            put_both(is_behind_everything(s) ? kEmptyLayer : layer + kEmptinessAfter, {0, 0, 0, s.empty});
         }
     }
     // The logarithm of its pixels on a side, by its first pixel.
