@@ -66,7 +66,7 @@ typedef struct petzval_workers {
 
 typedef struct petzval_session_settings {
     size_t size;
-    int threads;                    /* 0: all that this process may use */
+    int threads;                    /* 0: all that this process may use; at most 1024 */
     uint64_t max_memory_bytes;      /* for everything, what is kept between frames included; 0: no limit */
     const char* kernel_folder;      /* kernels that take long are kept here between runs; null: nowhere */
     const petzval_workers* workers; /* in place of `threads`; copied; null: our own */

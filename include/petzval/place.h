@@ -65,7 +65,7 @@ Image<T> through_window(const Image<T>& pixels, const Rect& data, const Rect& wi
 // outward for amounts above 0; below, inward, so far beyond the frame lies what is seen at its edge.
 PETZVAL_API int distortion_reach_px(const Place& place, double amount);
 
-// Errors: InvalidArgument for an empty display or data window, or a pixel aspect that is not finite and > 0.
+// Errors: InvalidArgument for an empty display or data window, or a pixel aspect beyond 1e-6 to 1e6.
 PETZVAL_API Status check(const Place& place);
 
 }  // namespace petzval

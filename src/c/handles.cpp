@@ -34,7 +34,16 @@ petzval_status status_of(ErrorCode code) {
 
 }  // namespace
 
+// A message names what a host gave, which may be of any length.
 petzval_status fail(petzval_status status, std::string text) {
+    constexpr std::size_t kLongest = 1000;
+    if (text.size() > kLongest) {
+        std::size_t end = kLongest;
+        const auto is_inside_letter = [&] { return (unsigned(text[end]) & 0xC0u) == 0x80u; };
+        while (end > 0 && is_inside_letter()) --end;
+        text.resize(end);
+        text += "…";
+    }
     error_text() = std::move(text);
     return status;
 }

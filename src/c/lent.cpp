@@ -17,49 +17,67 @@ Status check_size(int width, int height, const char* name) {
                    " pixels; 1 to " + std::to_string(kLargestSide) + " a side");
 }
 
-Status check_sample(petzval_sample sample, const char* name) {
-    if (sample == PETZVAL_FLOAT || sample == PETZVAL_HALF) return Done{};
-    return refused(std::string(name) + ": sample is neither PETZVAL_FLOAT nor PETZVAL_HALF");
-}
-
 SampleType type_of(petzval_sample sample) {
     return sample == PETZVAL_HALF ? SampleType::Half : SampleType::Float;
 }
 
+// How pixels lie in a host's memory.
+Status check_layout(int width, int height, petzval_sample sample, std::ptrdiff_t pixel_stride,
+                    std::ptrdiff_t row_stride, const char* name) {
+    if (sample != PETZVAL_FLOAT && sample != PETZVAL_HALF)
+        return refused(std::string(name) + ": sample is neither PETZVAL_FLOAT nor PETZVAL_HALF");
+    constexpr std::ptrdiff_t kFarthest = std::ptrdiff_t(1) << 40;  // times a side it is still an address
+    const std::ptrdiff_t least = sample == PETZVAL_HALF ? 2 : 4;
+    struct Stride {
+        const char* called;
+        std::ptrdiff_t bytes;
+        int count;
+    };
+    for (const auto& [called, bytes, count] :
+         {Stride{"pixel_stride", pixel_stride, width}, Stride{"row_stride", row_stride, height}})
+        if (count > 1 && (bytes > kFarthest || bytes < -kFarthest || (bytes < least && bytes > -least)))
+            return refused(std::string(name) + ": " + called + " is " + std::to_string(bytes) +
+                           " bytes; samples of " + std::to_string(least) +
+                           " bytes lie at least so far apart");
+    return Done{};
+}
+
 Rect rect_of(const petzval_rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
-Status take_plane(const petzval_plane* given, const TakenShot& shot, const char* name, Plane& into) {
-    const int width = shot.colour.width(), height = shot.colour.height();
-    if (Status ok = check_plane(given, width, height, name); !ok) return ok;
-    const petzval_plane plane = taken(given);
-    into = Plane::uninitialised(width, height);
-    read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
-                          plane.row_stride},
-                into);
-    return Done{};
-}
-
-// Depth or radii, whichever was given.
-Status take_depth(const petzval_shot& shot, TakenShot& into) {
-    if ((shot.depth_m != nullptr) == (shot.radii_px != nullptr))
-        return refused("shot: one of depth_m and radii_px, and not both");
-    const bool radii = shot.radii_px != nullptr;
-    const petzval_plane* const given = radii ? shot.radii_px : shot.depth_m;
-    if (Status ok = take_plane(given, into, radii ? "radii_px" : "depth_m", into.depth); !ok) return ok;
-    (radii ? into.job.coc_px : into.job.depth_m) = into.depth;
-    return Done{};
-}
-
-// Samples are read once, so that a host that changes them meanwhile breaks nothing.
-Status take_deep(const petzval_deep* given, const TakenShot& shot, const char* name, DeepPicture& into) {
+Status check_deep(const petzval_deep* given, const ColourView& colour, const char* name) {
     if (!given) return Done{};
     const petzval_deep deep = taken(given);
-    const int width = shot.colour.width(), height = shot.colour.height();
-    if (deep.width != width || deep.height != height)
+    if (deep.width != colour.width || deep.height != colour.height)
         return refused(std::string(name) + " is not of the size of colour");
     if (!deep.first || (!deep.samples && deep.sample_count > 0))
         return refused(std::string(name) + ": first or samples is null");
-    const std::size_t pixels = std::size_t(width) * std::size_t(height);
+    constexpr std::uint64_t kMost = std::uint64_t(1) << 36;  // more than memory holds
+    if (deep.sample_count <= kMost) return Done{};
+    return refused(std::string(name) + ": sample_count is " + std::to_string(deep.sample_count) +
+                   "; at most " + std::to_string(kMost));
+}
+
+Status check_lights(const petzval_shot& shot) {
+    constexpr std::uint64_t kMost = std::uint64_t(1) << 28;
+    if (shot.light_count > kMost)
+        return refused("light_count is " + std::to_string(shot.light_count) + "; at most " +
+                       std::to_string(kMost));
+    return shot.light_count > 0 && !shot.lights ? Status(refused("lights is null")) : Done{};
+}
+
+Plane read_plane(const petzval_plane* given) {
+    const petzval_plane plane = taken(given);
+    Plane read = Plane::uninitialised(plane.width, plane.height);
+    read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
+                          plane.row_stride},
+                read);
+    return read;
+}
+
+// Samples are read once, so that a host that changes them meanwhile breaks nothing.
+Status take_deep(const petzval_deep* given, const char* name, DeepPicture& into) {
+    const petzval_deep deep = taken(given);
+    const std::size_t pixels = std::size_t(deep.width) * std::size_t(deep.height);
     std::vector<std::size_t> first(deep.first, deep.first + pixels + 1);
     if (first.front() != 0 || first.back() != deep.sample_count ||
         !std::is_sorted(first.begin(), first.end()))
@@ -70,19 +88,29 @@ Status take_deep(const petzval_deep* given, const TakenShot& shot, const char* n
         const petzval_deep_sample& s = deep.samples[i];
         samples.push_back({{s.r, s.g, s.b, s.a}, s.depth, s.depth_back});
     }
-    into = DeepPicture(width, height, std::move(first), std::move(samples));
+    into = DeepPicture(deep.width, deep.height, std::move(first), std::move(samples));
     return Done{};
 }
 
-Status take_lights(const petzval_shot& shot, TakenShot& into) {
-    if (shot.light_count == 0) return Done{};
-    if (!shot.lights) return refused("lights is null");
+void take_lights(const petzval_shot& shot, TakenShot& into) {
+    if (shot.light_count == 0) return;
     for (std::uint64_t i = 0; i < shot.light_count; ++i) {
         const petzval_light& l = shot.lights[i];
         into.lights.push_back({l.x, l.y, l.r, l.g, l.b, l.depth_m, l.radius_px, l.diameter_px});
     }
     into.job.points = &into.lights;
-    return Done{};
+}
+
+// Where the picture lies. Errors: InvalidArgument naming the field.
+Result<Place> place_of(const petzval_shot& shot, const ColourView& colour) {
+    const Rect display = rect_of(shot.display_window), data = rect_of(shot.data_window);
+    Place place;
+    place.data_window = data.empty() ? Rect{0, 0, colour.width, colour.height} : data;
+    place.display_window = display.empty() ? place.data_window : display;
+    if (!place.fits(colour.width, colour.height)) return refused("data_window is not of the picture's size");
+    if (shot.pixel_aspect != 0) place.pixel_aspect = shot.pixel_aspect;
+    if (Status ok = check(place); !ok) return ok.error();
+    return place;
 }
 
 // A host's functions behind our interface.
@@ -123,8 +151,9 @@ Result<ColourView> colour_view(const petzval_pixels* given, const char* name) {
     if (!given) return refused(std::string(name) + " is null");
     const petzval_pixels p = taken(given);
     if (Status ok = check_size(p.width, p.height, name); !ok) return ok.error();
-    if (Status ok = check_sample(p.sample, name); !ok) return ok.error();
     if (!p.r || !p.g || !p.b) return refused(std::string(name) + ": r, g or b is null");
+    if (Status ok = check_layout(p.width, p.height, p.sample, p.pixel_stride, p.row_stride, name); !ok)
+        return ok.error();
     ColourView view{p.width, p.height, {}};
     void* const bases[4] = {p.r, p.g, p.b, p.a};
     for (std::size_t c = 0; c < 4; ++c)
@@ -135,33 +164,43 @@ Result<ColourView> colour_view(const petzval_pixels* given, const char* name) {
 
 Status check_plane(const petzval_plane* given, int width, int height, const char* name) {
     const petzval_plane p = taken(given);
-    if (Status ok = check_sample(p.sample, name); !ok) return ok;
     if (!p.data) return refused(std::string(name) + ": data is null");
-    if (p.width == width && p.height == height) return Done{};
+    if (p.width == width && p.height == height)
+        return check_layout(width, height, p.sample, p.pixel_stride, p.row_stride, name);
     return refused(std::string(name) + " is " + std::to_string(p.width) + "x" + std::to_string(p.height) +
                    " and colour " + std::to_string(width) + "x" + std::to_string(height) +
                    "; they must be of one size");
 }
 
-Status TakenShot::take(const petzval_shot* given, TakenShot& into) {
+Result<ComparedShot> ComparedShot::compare(const petzval_shot* given) {
     if (!given) return refused("shot is null");
     const petzval_shot shot = taken(given);
     const auto colour = colour_view(shot.colour, "colour");
     if (!colour) return colour.error();
-    into.colour = Picture::uninitialised(colour->width, colour->height);
-    read_pixels(*colour, into.colour);
+    if ((shot.depth_m != nullptr) == (shot.radii_px != nullptr))
+        return refused("shot: one of depth_m and radii_px, and not both");
+    for (const auto& [plane, name] :
+         {std::pair{shot.depth_m, "depth_m"}, {shot.radii_px, "radii_px"}, {shot.mask, "mask"}})
+        if (plane)
+            if (Status ok = check_plane(plane, colour->width, colour->height, name); !ok) return ok.error();
+    for (const auto& [deep, name] :
+         {std::pair{shot.deep, "deep"}, {shot.behind, "behind"}, {shot.holdout, "holdout"}})
+        if (Status ok = check_deep(deep, *colour, name); !ok) return ok.error();
+    if (Status ok = check_lights(shot); !ok) return ok.error();
+    const auto place = place_of(shot, *colour);
+    if (!place) return place.error();
+    return ComparedShot{shot, *colour, *place};
+}
+
+Status TakenShot::take(const ComparedShot& compared, TakenShot& into) {
+    const petzval_shot& shot = compared.given;
+    into.colour = Picture::uninitialised(compared.colour.width, compared.colour.height);
+    read_pixels(compared.colour, into.colour);
     into.job.colour = into.colour;
-    if (Status ok = take_depth(shot, into); !ok) return ok;
-    if (shot.mask) {
-        if (Status ok = take_plane(shot.mask, into, "mask", into.mask); !ok) return ok;
-        into.job.mask = into.mask;
-    }
-    const Rect display = rect_of(shot.display_window), data = rect_of(shot.data_window);
-    into.job.place.data_window = data.empty() ? into.colour.rect() : data;
-    into.job.place.display_window = display.empty() ? into.job.place.data_window : display;
-    if (!into.job.place.fits(into.colour.width(), into.colour.height()))
-        return refused("data_window is not of the picture's size");
-    if (shot.pixel_aspect != 0) into.job.place.pixel_aspect = shot.pixel_aspect;
+    into.depth = read_plane(shot.radii_px ? shot.radii_px : shot.depth_m);
+    (shot.radii_px ? into.job.coc_px : into.job.depth_m) = into.depth;
+    if (shot.mask) into.job.mask = into.mask = read_plane(shot.mask);
+    into.job.place = compared.place;
     if (shot.camera) into.job.camera = camera_of(taken(shot.camera));
     struct Deep {
         const petzval_deep* given;
@@ -172,10 +211,12 @@ Status TakenShot::take(const petzval_shot* given, TakenShot& into) {
     for (const Deep& d : {Deep{shot.deep, "deep", into.deep, into.job.deep},
                           Deep{shot.behind, "behind", into.behind, into.job.behind},
                           Deep{shot.holdout, "holdout", into.holdout, into.job.holdout}}) {
-        if (Status ok = take_deep(d.given, into, d.name, d.own); !ok) return ok;
-        if (d.given) d.of_job = &d.own;
+        if (!d.given) continue;
+        if (Status ok = take_deep(d.given, d.name, d.own); !ok) return ok;
+        d.of_job = &d.own;
     }
-    return take_lights(shot, into);
+    take_lights(shot, into);
+    return Done{};
 }
 
 }  // namespace petzval::c

@@ -34,6 +34,15 @@ Status check_plane(const petzval_plane* given, int width, int height, const char
 
 Camera camera_of(const petzval_camera& c);
 
+// A shot whose pictures were compared with each other. Nothing of them was read.
+struct ComparedShot {
+    petzval_shot given;
+    ColourView colour;
+    Place place;
+    // Errors: InvalidArgument naming the field.
+    static Result<ComparedShot> compare(const petzval_shot* shot);
+};
+
 // The pictures of a shot, read into ours.
 struct TakenShot {
     Picture colour;
@@ -41,8 +50,8 @@ struct TakenShot {
     DeepPicture deep, behind, holdout;
     std::vector<LightPoint> lights;
     DefocusJob job;  // of all these
-    // Errors: InvalidArgument naming the field.
-    static Status take(const petzval_shot* given, TakenShot& into);
+    // Errors: InvalidArgument for deep samples that are not counted right.
+    static Status take(const ComparedShot& shot, TakenShot& into);
 };
 
 // Errors: InvalidArgument naming the function that is missing.

@@ -31,9 +31,13 @@ using petzval::c::fail;
 using petzval::c::guarded;
 using petzval::c::missing;
 
-// Errors: those of lent workers.
+// Errors: InvalidArgument for a number of threads; those of lent workers.
 Result<SessionSettings> settings_of(const petzval_session_settings* given) {
+    constexpr int kMostThreads = 1024;
     const petzval_session_settings s = c::taken(given);
+    if (s.threads < 0 || s.threads > kMostThreads)
+        return Error{ErrorCode::InvalidArgument, "session.threads is " + std::to_string(s.threads) +
+                                                     "; 0 (all) to " + std::to_string(kMostThreads)};
     SessionSettings settings;
     settings.threads = s.threads;
     settings.max_memory_bytes = std::size_t(s.max_memory_bytes);
@@ -69,16 +73,18 @@ petzval_status take_frame(petzval_session* session, const petzval_shot* given, c
                           petzval_report** report) {
     const auto into = c::colour_view(out, "out");
     if (!into) return fail(into.error());
-    c::TakenShot shot;
-    if (const Status taken = c::TakenShot::take(given, shot); !taken) return fail(taken.error());
+    const auto compared = c::ComparedShot::compare(given);
+    if (!compared) return fail(compared.error());
     const Control how = control_of(control);
-    const Rect data = shot.job.place.data_window, asked = how.region ? how.region->intersected(data) : data;
+    const Rect data = compared->place.data_window, asked = how.region ? how.region->intersected(data) : data;
     if (!asked.empty() && (into->width != asked.width() || into->height != asked.height()))
         return fail(PETZVAL_INVALID_ARGUMENT, how.region
                                                   ? "out must be of the size of what lies in control.region"
                                                   : "out and the shot's colour must be of one size");
     const Look chosen = look ? look->look : Look{};
     if (const Status ok = check_pictures(chosen); !ok) return fail(ok.error());
+    c::TakenShot shot;
+    if (const Status taken = c::TakenShot::take(*compared, shot); !taken) return fail(taken.error());
     if (const Status ok = lend_lens(look, shot.job); !ok) return fail(ok.error());
     const auto frame = session->session.take(shot.job, chosen, how);
     if (!frame) return fail(frame.error());
@@ -157,8 +163,10 @@ petzval_status petzval_region_margin_px(petzval_session* session, const petzval_
     if (!session) return missing("session");
     if (!margin_px) return missing("margin_px");
     return guarded([&] {
+        const auto compared = c::ComparedShot::compare(given);
+        if (!compared) return fail(compared.error());
         c::TakenShot shot;
-        if (const Status taken = c::TakenShot::take(given, shot); !taken) return fail(taken.error());
+        if (const Status taken = c::TakenShot::take(*compared, shot); !taken) return fail(taken.error());
         if (const Status ok = lend_lens(look, shot.job); !ok) return fail(ok.error());
         const auto margin =
             session->session.region_margin_px(with_look(shot.job, look ? look->look : Look{}));

@@ -91,9 +91,10 @@ petzval_status record(HostPass& host, const petzval_pass_frame& f) {
     const double aspect = f.pixel_aspect == 0 ? 1 : f.pixel_aspect;
     const double most_px =
         f.largest_radius_px == 0 ? double(host.settings().width) / 20 : f.largest_radius_px;
-    if (!(aspect > 0) || !(most_px > 0))
-        return fail(PETZVAL_INVALID_ARGUMENT,
-                    "frame.pixel_aspect and largest_radius_px must not be negative");
+    if (const Status ok = check(Place::whole({0, 0, 1, 1}, aspect)); !ok) return fail(ok.error());
+    constexpr double kMostPx = 16384;
+    if (!(most_px > 0 && most_px <= kMostPx))
+        return fail(PETZVAL_INVALID_ARGUMENT, "frame.largest_radius_px must be 0 to 16384");
     const auto optics =
         device::vulkan::optics_of(c::camera_of(c::taken(f.camera)), int(host.settings().width),
                                   {f.depth_scale, f.depth_bias}, most_px, aspect);

@@ -15,8 +15,10 @@ Status check(const Place& place) {
     const auto refuse = [](const std::string& why) { return Error{ErrorCode::InvalidArgument, why}; };
     if (place.display_window.empty()) return refuse("the display window is empty");
     if (place.data_window.empty()) return refuse("the data window is empty");
-    if (!(place.pixel_aspect > 0) || !std::isfinite(place.pixel_aspect))
-        return refuse("the pixel aspect ratio must be > 0, got " + std::to_string(place.pixel_aspect));
+    constexpr float kLeastAspect = 1e-6f, kMostAspect = 1e6f;  // as in EXR files
+    if (!(place.pixel_aspect >= double(kLeastAspect) && place.pixel_aspect <= double(kMostAspect)))
+        return refuse("the pixel aspect ratio must be from 0.000001 to 1000000, got " +
+                      std::to_string(place.pixel_aspect));
     return Done{};
 }
 

@@ -42,9 +42,11 @@ TEST(Place, SaysWhatIsWrong) {
     EXPECT_TRUE(check(kWide));
     EXPECT_FALSE(check(Place{{}, {0, 0, 1, 1}, 1}));
     EXPECT_FALSE(check(Place{{0, 0, 1, 1}, {}, 1}));
-    for (const double aspect :
-         {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (const double aspect : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::infinity(), 1e-7, 2e6, 1e300})
         EXPECT_FALSE(check(Place::whole({0, 0, 1, 1}, aspect))) << aspect;
+    for (const float aspect : {1e-6f, 0.5f, 2.0f, 1e6f})
+        EXPECT_TRUE(check(Place::whole({0, 0, 1, 1}, double(aspect)))) << aspect;
 }
 
 TEST(Place, KnowsWhetherTheFrameShowsAnyOfIt) {

@@ -2,6 +2,7 @@
  */
 #include <math.h>
 #include <petzval/petzval_c.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -344,6 +345,96 @@ static void test_a_mask_limits_the_effect(petzval_session* session) {
            "a mask of another size is refused");
 }
 
+/* Wrong numbers of a host whose pictures are not there: who reads before comparing reads beyond them. */
+static void test_all_is_compared_before_anything_is_read(petzval_session* session) {
+    static picture in, out;
+    static char long_name[1 << 21];
+    static uint64_t first[WIDTH * HEIGHT + 1];
+    static petzval_deep_sample sample;
+    const float one[4] = {0};
+    const petzval_pixels right = pixels_of(&in, 0), into = pixels_of(&out, 0);
+    const petzval_plane plane = radii_plane();
+    petzval_pixels colour = right, bad_out = into;
+    petzval_plane bad = plane;
+    petzval_deep deep = {0};
+    petzval_light light = {0};
+    petzval_shot shot = {0};
+    petzval_look* look = NULL;
+    int i;
+    const double aspects[] = {1e7, 1e9, 1e300, -1, NAN, INFINITY};
+    const ptrdiff_t strides[] = {0, 3, -3, PTRDIFF_MAX, PTRDIFF_MIN};
+    paint(&in, 0);
+    shot.size = sizeof shot;
+    shot.colour = &colour;
+    shot.radii_px = &plane;
+#define REFUSED(what, name)                                                                           \
+    expect(petzval_defocus(session, &shot, NULL, NULL, &bad_out, NULL) == PETZVAL_INVALID_ARGUMENT && \
+               strstr(petzval_error_text(), name) != NULL,                                            \
+           what)
+    for (i = 0; i < 6; ++i) {
+        shot.pixel_aspect = aspects[i];
+        REFUSED("an aspect without end", "aspect");
+    }
+    shot.pixel_aspect = 0;
+    for (i = 0; i < 5; ++i) {
+        colour.pixel_stride = strides[i];
+        REFUSED("a pixel stride", "pixel_stride");
+        colour = right;
+        bad.row_stride = strides[i];
+        shot.radii_px = &bad;
+        REFUSED("a row stride", "row_stride");
+        bad = plane;
+        bad_out.row_stride = strides[i];
+        REFUSED("a row stride of out", "out: row_stride");
+        bad_out = into;
+    }
+    colour.width = 1 << 20;
+    colour.height = 1 << 20;
+    colour.r = colour.g = colour.b = colour.a = (void*)(size_t)one; /* of one pixel */
+    REFUSED("a plane that is not of the colour's size", "radii_px is 48x32");
+    bad.width = colour.width;
+    bad.height = colour.height;
+    shot.mask = &plane;
+    REFUSED("a mask that is not", "mask is 48x32");
+    shot.mask = NULL;
+    REFUSED("out that is not", "out");
+    colour = right;
+    shot.radii_px = &plane;
+    deep.size = sizeof deep;
+    deep.width = WIDTH;
+    deep.height = HEIGHT;
+    deep.first = first;
+    deep.samples = &sample;
+    deep.sample_count = UINT64_MAX;
+    first[WIDTH * HEIGHT] = UINT64_MAX;
+    shot.deep = &deep;
+    REFUSED("samples without end", "deep: sample_count");
+    shot.deep = NULL;
+    shot.lights = &light;
+    shot.light_count = UINT64_MAX;
+    REFUSED("lights without end", "light_count");
+    memset(long_name, 'x', sizeof long_name - 1);
+    expect(petzval_look_new(&look) == PETZVAL_OK &&
+               petzval_look_set(look, long_name, "1") == PETZVAL_INVALID_ARGUMENT,
+           "an unknown field");
+    expect(strlen(petzval_error_text()) < 1100, "a message that can be read");
+    petzval_look_close(look);
+}
+
+static void test_numbers_of_threads(void) {
+    const int counts[] = {-1, -2147483647, 2147483647, 1025};
+    petzval_session_settings settings = {0};
+    petzval_session* session = NULL;
+    int i;
+    settings.size = sizeof settings;
+    for (i = 0; i < 4; ++i) {
+        settings.threads = counts[i];
+        expect(petzval_session_open(&settings, &session) == PETZVAL_INVALID_ARGUMENT && session == NULL &&
+                   strstr(petzval_error_text(), "threads") != NULL,
+               "a number of threads");
+    }
+}
+
 /* A host that was built when settings held a size and nothing else. */
 static void test_structs_of_older_hosts(void) {
     struct {
@@ -407,8 +498,10 @@ int main(void) {
     test_a_region_is_a_crop_of_the_whole(session);
     test_what_lies_behind_and_lights(session);
     test_a_mask_limits_the_effect(session);
+    test_all_is_compared_before_anything_is_read(session);
     petzval_session_close(session);
     test_structs_of_older_hosts();
+    test_numbers_of_threads();
     test_devices();
     test_names();
     printf("petzval %s: %d failures\n", petzval_version(), failures);

@@ -222,8 +222,8 @@ void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, const Pr
                       context_.name() + " takes pictures of up to " + std::to_string(most) +
                           " pixels a row in real time; this one has " + std::to_string(width)}};
     // What reaches a row: discs of lamps; surroundings and means, which a tile takes from the next two.
-    const int halo =
-        whole_tiles(float(engine::LampKernels::kHalf) * plan.most_px * plan.pixel_aspect + 2) + 2 * kTile;
+    const float reach = float(engine::LampKernels::kHalf) * plan.most_px * plan.pixel_aspect + 2;
+    const int halo = whole_tiles(std::min(reach, float(height))) + 2 * kTile;
     for (int y = 0; y < height;) {
         const int rows = rows_at_once(width, height, halo), end = std::min(height, y + rows);
         const int first = std::max(0, y - halo), last = std::min(height, end + halo);
