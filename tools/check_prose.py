@@ -28,7 +28,7 @@ HEADLESS = re.compile(r"(Of|What(ever)?|Whether|Who(ever|se)?|Which(ever)?|Where
                       r"|Between|Beyond|Along|Among|So|Into|At)\b(?! most| least| once)")
 QUESTION = re.compile(r"^(What|Whether|Who|Where|That|Of|By)\b")
 FENCE = re.compile(r"^(```.*?^```|<!--.*?-->)", re.DOTALL | re.MULTILINE)
-NUMBER = re.compile(r"(?<![\w.#/×-])[-−+±]?\d[\d,.]*(?:\s?[×x]\s?\d+)?")
+NUMBER = re.compile(r"(?<![\w.#/×-])[-−+±]?\d[\d,.]*(?: \d{3}\b)*(?:\s?[×x]\s?\d+)?")
 COMMENT = re.compile(r"^\s*//+!?<? ?(.*)$")
 NO_IMPERATIVE = set("what who whose whether where when which that a an the of in on at by for from to with no not all each "
                     "every some any among between as if it its there this these those one two three four more less only "
