@@ -1,4 +1,4 @@
-// Squares of the pupil that nearer things cover, added up on a grid.
+// Rectangles of the pupil that nearer things cover, added up on a grid.
 #pragma once
 
 #include "engine/lights/shadow_plan.h"
@@ -17,7 +17,7 @@ struct CoveredCells {
     float per_radius = 0;       // cells; negative where the grid is the pupil turned by 180 degrees
 };
 
-// Adds to each cell the share of it that each square covers, times its coverage.
+// Adds to each cell the share of it that each rectangle covers, times its coverage.
 void cover(const CoveredCells& cells, std::span<const engine::SeenCaster> casters);
 
 }  // namespace petzval::device

@@ -78,12 +78,13 @@ HWY_INLINE void CoverBox(const CoveredCells& cells, const Profile& across, const
     }
 }
 
-// Most squares are no wider than a cell, and reach into one more at most.
-HWY_INLINE void CoverFew(const CoveredCells& cells, float x, float y, float side, float coverage) {
-    const float left = x - 0.5f * side, top = y - 0.5f * side;
+// Most rectangles are no wider than a cell, and reach into one more at most.
+HWY_INLINE void CoverFew(const CoveredCells& cells, float x, float y, float width, float height,
+                         float coverage) {
+    const float left = x - 0.5f * width, top = y - 0.5f * height;
     const float column = std::floor(left), row = std::floor(top);
-    const float in_first = std::min(side, column + 1 - left), in_top = std::min(side, row + 1 - top);
-    const float wide[] = {in_first, side - in_first}, tall[] = {in_top, side - in_top};
+    const float in_first = std::min(width, column + 1 - left), in_top = std::min(height, row + 1 - top);
+    const float wide[] = {in_first, width - in_first}, tall[] = {in_top, height - in_top};
     const auto inside = [&](int at) { return unsigned(at) < unsigned(cells.side); };
     for (int j = 0; j < 2; ++j)
         for (int i = 0; i < 2; ++i)
@@ -95,13 +96,14 @@ void Cover(const CoveredCells& cells, std::span<const engine::SeenCaster> caster
     const float middle = 0.5f * float(cells.side), cells_per_radius = std::abs(cells.per_radius);
     for (const engine::SeenCaster& c : casters) {
         const float x = middle + c.u * cells.per_radius, y = middle + c.v * cells.per_radius;
-        const float side = c.side * cells_per_radius, blur = c.blur * cells_per_radius;
+        const float wide = c.wide * cells_per_radius, tall = c.tall * cells_per_radius,
+                    blur = c.blur * cells_per_radius;
         if (c.blur > 0)
-            CoverBox<true>(cells, {x, side, blur}, {y, side, blur}, c.coverage);
-        else if (side > 1)
-            CoverBox<false>(cells, {x, side, blur}, {y, side, blur}, c.coverage);
+            CoverBox<true>(cells, {x, wide, blur}, {y, tall, blur}, c.coverage);
+        else if (std::max(wide, tall) > 1)
+            CoverBox<false>(cells, {x, wide, blur}, {y, tall, blur}, c.coverage);
         else
-            CoverFew(cells, x, y, side, c.coverage);
+            CoverFew(cells, x, y, wide, tall, c.coverage);
     }
 }
 

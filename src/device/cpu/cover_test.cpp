@@ -28,7 +28,7 @@ TEST(Cover, ASquareCoversEachCellByWhatLiesInIt) {
         for (const float side : {0.02f, 0.05f, 0.3f, 1.7f})
             for (const float u : {-1.2f, -0.31f, 0.0f, 0.64f, 1.01f}) {
                 const float v = 0.4f * u + 0.1f, middle = 0.5f * kSide, cells = side * 0.5f * kSide;
-                const engine::SeenCaster caster{u, v, side, 0, 0.5f};
+                const engine::SeenCaster caster{u, v, side, side, 0, 0.5f};
                 const std::vector<float> found = covered({&caster, 1}, per_radius);
                 for (int y = 0; y < kSide; ++y)
                     for (int x = 0; x < kSide; ++x)
@@ -42,7 +42,7 @@ TEST(Cover, ASquareCoversEachCellByWhatLiesInIt) {
 
 TEST(Cover, BlurSpreadsASquareAndKeepsItsArea) {
     for (const float blur : {0.1f, 0.5f, 0.9f}) {
-        const engine::SeenCaster caster{0.03f, -0.02f, 0.5f, blur, 1};
+        const engine::SeenCaster caster{0.03f, -0.02f, 0.5f, 0.5f, blur, 1};
         const std::vector<float> found = covered({&caster, 1}, 0.5f * kSide);
         double sum = 0;
         float touched = 0;
@@ -54,8 +54,9 @@ TEST(Cover, BlurSpreadsASquareAndKeepsItsArea) {
     }
 }
 
-TEST(Cover, SquaresAddUp) {
-    const engine::SeenCaster both[] = {{-0.2f, 0.1f, 0.4f, 0, 1}, {0.1f, 0.2f, 0.6f, 0.2f, 0.25f}};
+TEST(Cover, RectanglesAddUp) {
+    const engine::SeenCaster both[] = {{-0.2f, 0.1f, 0.4f, 0.9f, 0, 1},
+                                       {0.1f, 0.2f, 0.6f, 0.1f, 0.2f, 0.25f}};
     const std::vector<float> first = covered({both, 1}, 10), second = covered({both + 1, 1}, 10),
                              sum = covered(both, 10);
     for (std::size_t i = 0; i < sum.size(); ++i) EXPECT_FLOAT_EQ(sum[i], first[i] + second[i]);

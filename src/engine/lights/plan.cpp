@@ -84,6 +84,7 @@ device::KernelAsk LightsPlanner::ask(const Highlight& h) const {
 bool LightsPlanner::next(LightsPlan& plan) {
     plan = {};
     plan.rows = rows_, plan.first_row = first_row_, plan.casters = &casters_, plan.holdout = input_.holdout;
+    plan.picture = input_.coc_px.rect(), plan.open_edges = input_.open_edges;
     plan.stretch = float(std::max(1.0, input_.pixel_aspect));
     std::vector<std::uint32_t> placed(viewpoints_.size(), 0);  // place in the plan, from 1 on
     std::vector<device::KernelAsk> asks;

@@ -63,6 +63,8 @@ struct LightsPlan {
     std::vector<PlannedLight> lights;  // without tiles: added in this order
     std::vector<Viewpoint> viewpoints;
     const ShadowCasters* casters = nullptr;
+    Rect picture;                      // that of the casters…
+    OpenEdges open_edges;              // …which continue beyond these edges of it
     std::vector<PupilMask> masks;      // in place of viewpoints and casters
     std::vector<LightsTile> tiles;     // with masks; one more closes the list
     std::vector<std::uint32_t> order;  // of the lights of each tile: those of one kernel follow each other

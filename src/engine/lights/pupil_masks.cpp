@@ -101,8 +101,15 @@ PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int 
     const Rect pixels =
         Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(in_.coc_px.rect());
     const float per_row = 1 / float(in_.pixel_aspect);
-    const Square square{float(pixels.x0) - light.x, (float(pixels.y0) - light.y) * per_row,
-                        float(pixels.x1) - light.x, (float(pixels.y1) - light.y) * per_row};
+    Square square{float(pixels.x0) - light.x, (float(pixels.y0) - light.y) * per_row,
+                  float(pixels.x1) - light.x, (float(pixels.y1) - light.y) * per_row};
+    // What touches an open edge of the picture continues beyond it.
+    constexpr float kBeyondPx = 1e6f;
+    const OpenEdges& open = in_.open_edges;
+    if (open.left && pixels.x0 == 0) square.left = -kBeyondPx;
+    if (open.top && pixels.y0 == 0) square.top = -kBeyondPx;
+    if (open.right && pixels.x1 == in_.width()) square.right = kBeyondPx;
+    if (open.bottom && pixels.y1 == in_.height()) square.bottom = kBeyondPx;
     const float limit = light.coc_px - laws::kOwnPupilPx;
     Behind found;
     if (node.farthest < limit) {

@@ -17,6 +17,7 @@ public:
             for (int x = pixels.x0; x < pixels.x1; ++x) coc_px_(x, y) = coc_px;
         input_.nearest_coc_px = std::min(input_.nearest_coc_px, coc_px);
     }
+    void close_edges() { input_.open_edges = {false, false, false, false}; }
     PupilMask mask(float x, float y, float coc_px) {
         input_.colour = colour_, input_.coc_px = coc_px_;
         return PupilMasks(input_).mask(x, y, coc_px);
@@ -55,6 +56,15 @@ TEST(PupilMasks, AnEdgeInFocusHidesThePupilOnItsSide) {
                 EXPECT_EQ(seen, u < float(edge - 64) / 20) << edge << ", " << column;
             }
     }
+}
+
+TEST(PupilMasks, AWallContinuesBeyondAnOpenEdgeOfThePicture) {
+    Scene scene;
+    scene.put({0, 0, kSide, kSide}, 0);
+    EXPECT_TRUE(scene.mask(1, 64, 20).is_closed());
+    EXPECT_TRUE(scene.mask(kSide - 1, kSide - 1, 20).is_closed());
+    scene.close_edges();
+    EXPECT_FALSE(scene.mask(1, 64, 20).is_closed()) << "beyond the end of the scene there is emptiness";
 }
 
 TEST(PupilMasks, WhatLiesBeyondTheDiscHidesNothing) {

@@ -67,14 +67,32 @@ private:
         const float apart = view_.coc_px - caster.coc_px;
         if (caster.size > 1 && apart < ShadowCasters::kSameRadiusPx) return;
         const float per_px = 1 / apart;
-        const float u = (caster.x - view_.x) * per_px, v = (caster.y - view_.y) * per_px;
         // A tap sees each pixel of the highlight through another place of the caster's plane, wider apart the
         // further that plane is from focus.
         const float blur =
             float(view_.size - 1) * std::abs(caster.coc_px) / std::max(1.0f, std::abs(view_.coc_px));
-        const float side = caster.size + kOverlapPx;
-        if (std::max(std::abs(u), std::abs(v)) - 0.5f * (side + blur) * per_px >= pupil_end_) return;
-        seen_.push_back({u, v, side * per_px, blur * per_px, caster.coverage});
+        const Side across = seen(caster.x, caster.size, view_.x, per_px, plan_.picture.x0, plan_.picture.x1,
+                                 plan_.open_edges.left, plan_.open_edges.right);
+        const Side down = seen(caster.y, caster.size, view_.y, per_px, plan_.picture.y0, plan_.picture.y1,
+                               plan_.open_edges.top, plan_.open_edges.bottom);
+        const float end = pupil_end_ + 0.5f * blur * per_px;
+        if (across.begin >= end || across.end <= -end || down.begin >= end || down.end <= -end) return;
+        seen_.push_back({across.middle(), down.middle(), across.end - across.begin, down.end - down.begin,
+                         blur * per_px, caster.coverage});
+    }
+
+    // Of a square along one axis of the pupil. What touches an open edge of the picture continues beyond it.
+    struct Side {
+        float begin, end;
+        float middle() const { return 0.5f * (begin + end); }
+    };
+    Side seen(float at, float size, float from, float per_px, int first, int last, bool opens_before,
+              bool opens_after) const {
+        const float half = 0.5f * (size + kOverlapPx), beyond = 2 * pupil_end_;
+        Side side{(at - half - from) * per_px, (at + half - from) * per_px};
+        if (opens_before && at - 0.5f * size < float(first)) side.begin = std::min(side.begin, -beyond);
+        if (opens_after && at + 0.5f * size > float(last) - 1) side.end = std::max(side.end, beyond);
+        return side;
     }
 
     const LightsPlan& plan_;

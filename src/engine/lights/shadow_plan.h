@@ -7,9 +7,9 @@
 
 namespace petzval::engine {
 
-// A square around (u, v) of the pupil, in pupil radii, whose edges are blurred by a box that wide.
+// A rectangle around (u, v) of the pupil, in pupil radii, whose edges are blurred by a box of that side.
 struct SeenCaster {
-    float u = 0, v = 0, side = 0, blur = 0, coverage = 0;
+    float u = 0, v = 0, wide = 0, tall = 0, blur = 0, coverage = 0;
 };
 
 // The grid on which a viewpoint's shadow is found: its cells are the taps of the disc, or equal parts of them

@@ -4,7 +4,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
-layout(std430, binding = 1) readonly buffer Casters { float casters[]; };  // u, v, side, blur, coverage
+layout(std430, binding = 1) readonly buffer Casters { float casters[]; };  // u, v, width, height, blur, coverage
 layout(std430, binding = 2) writeonly buffer Covered { float covered[]; };
 layout(push_constant) uniform Push { uint views, blocks; } at;  // where these begin in `words`
 
@@ -12,7 +12,8 @@ layout(push_constant) uniform Push { uint views, blocks; } at;  // where these b
 const uint kViewWords = 7;
 const int kChunk = 256;
 
-shared float hit_x[kChunk], hit_y[kChunk], hit_side[kChunk], hit_blur[kChunk], hit_coverage[kChunk];
+shared float hit_x[kChunk], hit_y[kChunk], hit_wide[kChunk], hit_tall[kChunk], hit_blur[kChunk],
+    hit_coverage[kChunk];
 shared uint hit_words[kChunk / 32];
 
 float integral(float x, float middle, float outer, float inner, float peak, float per_ramp) {
@@ -42,15 +43,15 @@ void main() {
     for (uint done = 0u; done < count; done += kChunk) {
         if (own < kChunk / 32) hit_words[own] = 0u;
         barrier();
-        float x = 0, y = 0, side = 0, blur = 0;
-        const uint i = 5u * (first + done + own);
+        float x = 0, y = 0, wide_by = 0, tall_by = 0, blur = 0;
+        const uint i = 6u * (first + done + own);
         bool hits = done + own < count;
         if (hits) {
             x = middle + casters[i] * per_radius, y = middle + casters[i + 1u] * per_radius;
-            side = casters[i + 2u] * cells, blur = casters[i + 3u] * cells;
-            const float outer = 0.5 * (side + blur);
-            hits = x + outer > float(low.x) && x - outer < float(low.x + 16) && y + outer > float(low.y) &&
-                   y - outer < float(low.y + 16);
+            wide_by = casters[i + 2u] * cells, tall_by = casters[i + 3u] * cells, blur = casters[i + 4u] * cells;
+            const float half_x = 0.5 * (wide_by + blur), half_y = 0.5 * (tall_by + blur);
+            hits = x + half_x > float(low.x) && x - half_x < float(low.x + 16) && y + half_y > float(low.y) &&
+                   y - half_y < float(low.y + 16);
             if (hits) atomicOr(hit_words[own / 32u], 1u << (own % 32u));
         }
         barrier();
@@ -62,13 +63,13 @@ void main() {
             all_hits += bitCount(word);
         }
         if (hits) {
-            hit_x[rank] = x, hit_y[rank] = y, hit_side[rank] = side, hit_blur[rank] = blur;
-            hit_coverage[rank] = casters[i + 4u];
+            hit_x[rank] = x, hit_y[rank] = y, hit_wide[rank] = wide_by, hit_tall[rank] = tall_by;
+            hit_blur[rank] = blur, hit_coverage[rank] = casters[i + 5u];
         }
         barrier();
         for (uint k = 0u; k < all_hits; ++k)
-            sum += hit_coverage[k] * share(cell.y, hit_y[k], hit_side[k], hit_blur[k]) *
-                   share(cell.x, hit_x[k], hit_side[k], hit_blur[k]);
+            sum += hit_coverage[k] * share(cell.y, hit_y[k], hit_tall[k], hit_blur[k]) *
+                   share(cell.x, hit_x[k], hit_wide[k], hit_blur[k]);
         barrier();
     }
     if (cell.x < wide && cell.y < wide) covered[words[view + 5u] + uint(cell.y * wide + cell.x)] = sum;
