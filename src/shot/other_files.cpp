@@ -109,12 +109,17 @@ Status read_behind(Reading& r) {
                          " is deep and holds what it hides itself; shot.merge adds another deep picture"};
     auto hidden = read_other(r, "behind", path);
     if (!hidden) return hidden.error();
+    if (Status same = same_frame(r, hidden->frame, "shot.behind " + path); !same) return same;
     const Rect &theirs = hidden->frame.place.data_window, &ours = r.shot.place.data_window;
-    if (theirs != ours)
+    if (theirs.intersected(ours).empty())
         return Error{ErrorCode::InvalidFile, "shot.behind " + path + " covers " + window_text(theirs) +
                                                  ", but " + r.source.path + " covers " + window_text(ours) +
-                                                 "; they must be the same"};
+                                                 "; they must overlap"};
     r.shot.behind = shot::samples_of(hidden->frame);
+    if (theirs == ours) return Done{};
+    r.shot.behind = merge_deep({{&r.shot.behind, theirs}}, ours);
+    r.shot.detected.push_back("behind: covers " + window_text(theirs) +
+                              "; only the part inside the picture's " + window_text(ours) + " is used");
     return Done{};
 }
 

@@ -169,6 +169,25 @@ class Defocus(CommandLineTest):
         self.assertTrue(any(l.startswith("behind: ") for l in report["detected"]))
         self.assertTrue(read_exr(self.path("with.exr"))[0]["R"] != read_exr(self.path("without.exr"))[0]["R"])
 
+    def test_a_clean_plate_may_cover_more_than_the_picture_or_less(self):
+        display = (0, 0, 31, 19)
+
+        def post(x, y):
+            return 12 <= x < 18
+        near = picture(32, 20, lambda x, y: 0 if post(x, y) else 1, lambda x, y: 1 if post(x, y) else 4, alpha=1)
+        write_exr(self.path("near.exr"), near)
+        write_exr(self.path("plate.exr"), picture(32, 20, 1, 4, alpha=1))
+        self.succeed("defocus", "near.exr", "-o", "same.exr", *CAMERA, "--behind", "plate.exr")
+        write_exr(self.path("wide.exr"), picture(48, 36, 1, 4, alpha=1), display=display, origin=(-8, -8))
+        said = self.report("defocus", "near.exr", "-o", "wider.exr", *CAMERA, "--behind", "wide.exr")["detected"]
+        self.assertTrue(any("48 x 36 pixels at -8,-8" in line for line in said), said)
+        self.assertEqual(read_exr(self.path("wider.exr"))[0], read_exr(self.path("same.exr"))[0])
+        write_exr(self.path("part.exr"), picture(20, 20, 1, 4, alpha=1), display=display, origin=(8, 0))
+        self.succeed("defocus", "near.exr", "-o", "narrower.exr", *CAMERA, "--behind", "part.exr")
+        write_exr(self.path("beside.exr"), picture(8, 8, 1, 4, alpha=1), display=display, origin=(40, 0))
+        self.refuse(3, "defocus", "near.exr", "-o", "o.exr", *CAMERA, "--behind", "beside.exr",
+                    says=["beside.exr", "overlap"])
+
     def test_report_always_holds_its_keys(self):
         for view in ("beauty", "coc", "depth"):
             report = self.report("defocus", "in.exr", "-o", "out.exr", "--view", view)
