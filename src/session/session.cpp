@@ -12,6 +12,7 @@
 #include "session/frame_part.h"
 #include "session/lamp_layers.h"
 #include "session/limit.h"
+#include "session/matte_range.h"
 #include "session/on_grid.h"
 #include "views/plan_view.h"
 
@@ -245,6 +246,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     if (view) take_view(report, *output, *view, radii);
     report.layers = std::move(output->layers);
     finish(report, job, asked, seen);
+    keep_matte_range(report, job, *job.workers);
     if (const Status done = bring_home(report, canvas, drawing, last); !done) return done.error();
     report.engine = chosen.name;
     report.device = drawing.drawn_by();

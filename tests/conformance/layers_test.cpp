@@ -118,6 +118,28 @@ TEST(ColourLayers, AMatteOfAllIsTheAlpha) {
     EXPECT_LT(largest, 2e-5);
 }
 
+// Mattes of object ids are not filtered as the colour is.
+TEST(ColourLayers, MattesStayWithinTheirRangeAndSumToOneWithTheirComplements) {
+    const Shot shot = noise_at_several_depths();
+    Picture matte(shot.colour.width(), shot.colour.height()), rest(matte.width(), matte.height());
+    for (std::size_t i = 0; i < matte.size(); ++i) {
+        const float in = shot.coc_px.pixels()[i] < 0 ? 1.0f : 0.0f, out = 1 - in;
+        matte.pixels()[i] = {in, in, in, 1}, rest.pixels()[i] = {out, out, out, 1};
+    }
+    for (const char* engine : {"scatter", "gather", "gaussian"}) {
+        DefocusJob job = shot.job(engine);
+        job.layers = {{matte, false}, {rest, false}};
+        const auto made = defocus(job);
+        ASSERT_TRUE(made) << made.error().message;
+        for (std::size_t i = 0; i < matte.size(); ++i) {
+            const float of_matte = made->layers[0].pixels()[i].g, of_rest = made->layers[1].pixels()[i].g;
+            ASSERT_GE(of_matte, 0) << engine;
+            ASSERT_LE(of_matte, 1) << engine;
+            if (job.engine == "scatter") ASSERT_NEAR(of_matte + of_rest, 1, 2e-3) << i;
+        }
+    }
+}
+
 TEST(ColourLayers, InFocusAreAsTheyWere) {
     Shot shot = noise_at_several_depths();
     for (std::size_t i = 0; i < shot.coc_px.size(); ++i) shot.coc_px.pixels()[i] = 0;

@@ -103,7 +103,7 @@ PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int 
     const float per_row = 1 / float(in_.pixel_aspect);
     Square square{float(pixels.x0) - light.x, (float(pixels.y0) - light.y) * per_row,
                   float(pixels.x1) - light.x, (float(pixels.y1) - light.y) * per_row};
-    // What touches an open edge of the picture continues beyond it.
+    // Surfaces that touch an open edge of the picture continue beyond it.
     constexpr float kBeyondPx = 1e6f;
     const OpenEdges& open = in_.open_edges;
     if (open.left && pixels.x0 == 0) square.left = -kBeyondPx;

@@ -81,7 +81,7 @@ private:
                          blur * per_px, caster.coverage});
     }
 
-    // Of a square along one axis of the pupil. What touches an open edge of the picture continues beyond it.
+    // A square along one axis of the pupil. One that touches an open edge of the picture continues beyond it.
     struct Side {
         float begin, end;
         float middle() const { return 0.5f * (begin + end); }

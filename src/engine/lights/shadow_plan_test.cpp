@@ -1,4 +1,4 @@
-// What a viewpoint near the picture's edge sees in its way.
+// Casters that cross the picture's edge, as viewpoints near it see them.
 #include "engine/lights/shadow_plan.h"
 
 #include "base/parallel.h"

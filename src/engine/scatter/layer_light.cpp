@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace petzval::engine {
 namespace {
@@ -21,34 +22,63 @@ Rgba guide(Rgba colour, bool is_light) {
     return is_light ? colour : Rgba{colour.a, colour.a, colour.a, colour.a};
 }
 
+// The pixels that are looked at along a direction, nearest first.
+constexpr int kDirections = 16, kFarthest = 64;
+using Steps = std::array<std::array<std::array<int, 2>, kFarthest>, kDirections>;
+
+const Steps& steps() {
+    static const Steps all = [] {
+        Steps s{};
+        for (std::size_t i = 0; i < kDirections; ++i)
+            for (std::size_t t = 0; t < kFarthest; ++t) {
+                const float angle = float(2 * M_PI) * float(i) / kDirections, far = float(t + 1);
+                s[i][t] = {int(std::lround(std::cos(angle) * far)), int(std::lround(std::sin(angle) * far))};
+            }
+        return s;
+    }();
+    return all;
+}
+
+// The shares of a surface at some radius: each layer's light over the guide's, in the pixels around that show
+// it.
+struct OfSurface {
+    float coc_px = 0;
+    std::vector<Rgba> layer, guide;  // sums
+    Rgba share(std::size_t i, Rgba otherwise) const {
+        const Rgba found = ratio(layer[i], guide[i]), &all = guide[i];
+        return {all.r != 0 ? found.r : otherwise.r, all.g != 0 ? found.g : otherwise.g,
+                all.b != 0 ? found.b : otherwise.b, 0};
+    }
+};
+
+// Finds the shares of rows of pixels, all layers at once. Pixels of a square share what was found for one of
+// them: of 2 x 2, or of more where the surface is blurred wider.
 class Shares {
 public:
-    Shares(const Input& input, const CocSamples& complete, const Input::Layer& layer)
-        : input_(input), complete_(complete), layer_(layer) {}
+    static constexpr int kRows = 8;  // of pixels that are done together, the largest square
+    Shares(const Input& input, const CocSamples& complete, std::span<const Input::Layer> layers)
+        : input_(input), complete_(complete), all_layers_(layers), layers_(layers.size()) {
+        for (std::size_t side = 2, i = 0; i < kSizes; side *= 2, ++i)
+            found_[i].resize((std::size_t(input.width()) + side - 1) / side);
+    }
 
-    // Of the samples of pixel (x, y), into `out`.
-    void of_pixel(int x, int y, Rgba* out) const {
-        const std::span<const CocSample> samples = CocSamplesView(complete_).at(x, y);
-        const Rgba own = ratio(layer_.colour(x, y), guide_at(x, y));
-        if (input_.deep_dims_itself) return std::fill_n(out, samples.size(), own), void();
-        const bool alone = !samples.empty() && cover(samples[0]) > laws::kOpaqueAlone;
-        Rgba shown, of_layer;  // the light of what the pixel shows, and the layer's by the shares so far
-        float open = 1;
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            const CocSample& s = samples[i];
-            const bool is_own = alone && i == 0;
-            out[i] = is_own ? own : of_surface(x, y, s.coc_px, own);
-            const Rgba light = seen(s, open) * guide(s.colour, layer_.is_light);
-            shown += light, of_layer += light * out[i];
+    // Rows y0…y0 + kRows - 1; `out` as LayerShares has it.
+    void of_rows(int y0, Rgba* out) {
+        for (int y = y0; y < std::min(y0 + kRows, input_.height()); ++y) {
+            for (std::size_t i = 0; i < kSizes; ++i)
+                if (y % (2 << i) == 0)
+                    for (auto& square : found_[i]) square.clear();
+            for (int x = 0; x < input_.width(); ++x)
+                of_pixel(
+                    x, y,
+                    out + layers_ *
+                              complete_.first[std::size_t(y) * std::size_t(input_.width()) + std::size_t(x)]);
         }
-        // What is seen of the pixel is the layer's own.
-        const Rgba off = own - ratio(of_layer, shown);
-        open = 1;
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            if (seen(samples[i], open) > 0) out[i] += off;
     }
 
 private:
+    static constexpr std::size_t kSizes = 3;
+
     static float cover(const CocSample& s) { return s.colour.a + s.empty; }
     // The share of a sample that shows; `open` is what those in front leave of the pixel.
     static float seen(const CocSample& s, float& open) {
@@ -58,49 +88,105 @@ private:
         open = std::max(0.0f, open - share * covers);
         return share;
     }
-    Rgba guide_at(int x, int y) const { return guide(input_.colour(x, y), layer_.is_light); }
 
-    // The share in the pixels around that show a surface at that radius, along sixteen directions.
-    Rgba of_surface(int x, int y, float coc_px, Rgba otherwise) const {
-        constexpr int kDirections = 16, kFarthest = 64, kPixels = 3;
-        static const std::array<std::array<float, 2>, kDirections> directions = [] {
-            std::array<std::array<float, 2>, kDirections> d{};
-            for (int i = 0; i < kDirections; ++i)
-                d[std::size_t(i)] = {std::cos(float(2 * M_PI) * float(i) / kDirections),
-                                     std::sin(float(2 * M_PI) * float(i) / kDirections)};
-            return d;
-        }();
-        const float same = std::max(0.25f, 0.03f * std::abs(coc_px));
-        Rgba layer, all;
-        for (const auto& [dx, dy] : directions)
-            for (int t = 1, found = 0; t <= kFarthest && found < kPixels; ++t) {
-                const int u = x + int(std::lround(dx * float(t))), v = y + int(std::lround(dy * float(t)));
-                if (!input_.colour.rect().contains(u, v)) break;
-                if (std::abs(input_.coc_px(u, v) - coc_px) > same) continue;
-                const float weight = 1 / float(t * t);
-                layer += weight * layer_.colour(u, v), all += weight * guide_at(u, v), ++found;
+    void of_pixel(int x, int y, Rgba* out) {
+        const std::span<const CocSample> samples = CocSamplesView(complete_).at(x, y);
+        const bool alone = !samples.empty() && cover(samples[0]) > laws::kOpaqueAlone;
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            const OfSurface* const surface =
+                input_.deep_dims_itself || (alone && k == 0) ? nullptr : &of_surface(x, y, samples[k].coc_px);
+            for (std::size_t i = 0; i < layers_; ++i) {
+                const Rgba own = own_share(x, y, i);
+                out[k * layers_ + i] = surface ? surface->share(i, own) : own;
             }
-        const Rgba share = ratio(layer, all);
-        return {all.r != 0 ? share.r : otherwise.r, all.g != 0 ? share.g : otherwise.g,
-                all.b != 0 ? share.b : otherwise.b, 0};
+        }
+        if (!input_.deep_dims_itself)
+            for (std::size_t i = 0; i < layers_; ++i) meet(samples, own_share(x, y, i), i, out);
+    }
+    Rgba own_share(int x, int y, std::size_t i) const {
+        const Input::Layer& layer = all_layers_[i];
+        return ratio(layer.colour(x, y), guide(input_.colour(x, y), layer.is_light));
+    }
+
+    // The mean of what the pixel shows becomes the layer's own share.
+    void meet(std::span<const CocSample> samples, Rgba own, std::size_t i, Rgba* shares) const {
+        const bool is_light = all_layers_[i].is_light;
+        Rgba shown, of_layer;  // the light of what the pixel shows, and the layer's by the shares so far
+        float open = 1;
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            const Rgba light = seen(samples[k], open) * guide(samples[k].colour, is_light);
+            shown += light, of_layer += light * shares[k * layers_ + i];
+        }
+        const Rgba is = ratio(of_layer, shown);
+        open = 1;
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            Rgba& share = shares[k * layers_ + i];
+            if (seen(samples[k], open) <= 0) continue;
+            if (is_light)
+                share += own - is;
+            else
+                share = {towards(share.r, is.r, own.r), towards(share.g, is.g, own.g),
+                         towards(share.b, is.b, own.b), 0};
+        }
+    }
+    // One of several values, moved so that their mean, now `is`, becomes `own`: none leaves 0…1.
+    static float towards(float value, float is, float own) {
+        if (own == is) return value;
+        const float end = own > is ? std::max(1.0f, own) : std::min(0.0f, own);
+        return value + (own - is) / (end - is) * (end - value);
+    }
+
+    // In the pixels around that show a surface at that radius.
+    const OfSurface& of_surface(int x, int y, float coc_px) {
+        const float same = std::max(0.25f, 0.03f * std::abs(coc_px));
+        auto& square = square_at(x, std::abs(coc_px));
+        for (const OfSurface& known : square)
+            if (std::abs(known.coc_px - coc_px) <= 0.25f * same) return known;
+        OfSurface& found = square.emplace_back();
+        found.coc_px = coc_px, found.layer.resize(layers_), found.guide.resize(layers_);
+        constexpr int kPixels = 3;
+        for (const auto& direction : steps())
+            for (int t = 0, pixels = 0; t < kFarthest && pixels < kPixels; ++t) {
+                const int u = x + direction[std::size_t(t)][0], v = y + direction[std::size_t(t)][1];
+                if (!input_.coc_px.rect().contains(u, v)) break;
+                if (std::abs(input_.coc_px(u, v) - coc_px) > same) continue;
+                add(u, v, 1 / float((t + 1) * (t + 1)), found), ++pixels;
+            }
+        return found;
+    }
+    void add(int x, int y, float weight, OfSurface& to) const {
+        for (std::size_t i = 0; i < layers_; ++i) {
+            const Input::Layer& layer = all_layers_[i];
+            to.layer[i] += weight * layer.colour(x, y);
+            to.guide[i] += weight * guide(input_.colour(x, y), layer.is_light);
+        }
+    }
+    // Squares grow with the blur, as where hidden parts are filled in (samples/hidden.h).
+    std::vector<OfSurface>& square_at(int x, float blur_px) {
+        const std::size_t i = blur_px < 12 ? 0 : blur_px < 36 ? 1 : 2;
+        return found_[i][std::size_t(x) / (std::size_t(2) << i)];
     }
 
     const Input& input_;
     const CocSamples& complete_;
-    const Input::Layer& layer_;
+    std::span<const Input::Layer> all_layers_;
+    std::size_t layers_;                                             // of them
+    std::array<std::vector<std::vector<OfSurface>>, kSizes> found_;  // by square of the rows under way
 };
 
 }  // namespace
 
-std::vector<Rgba> shares_of(const Input& input, const CocSamples& complete, const Input::Layer& layer) {
-    std::vector<Rgba> shares(complete.samples.size());
-    const Shares made(input, complete, layer);
-    parallel_for(input.height(), *input.workers, [&](int y) {
-        for (int x = 0; x < input.width(); ++x)
-            made.of_pixel(
-                x, y,
-                shares.data() + complete.first[std::size_t(y) * std::size_t(input.width()) + std::size_t(x)]);
+LayerShares::LayerShares(const Input& input, const CocSamples& complete, std::span<const Input::Layer> layers)
+    : layers_(layers.size()), all_(layers_ * complete.samples.size()) {
+    const int bands = (input.height() + Shares::kRows - 1) / Shares::kRows;
+    parallel_for(bands, *input.workers, [&](int band) {
+        Shares(input, complete, layers).of_rows(band * Shares::kRows, all_.data());
     });
+}
+
+std::vector<Rgba> LayerShares::of(std::size_t layer) const {
+    std::vector<Rgba> shares(layers_ > 0 ? all_.size() / layers_ : 0);
+    for (std::size_t k = 0; k < shares.size(); ++k) shares[k] = all_[k * layers_ + layer];
     return shares;
 }
 

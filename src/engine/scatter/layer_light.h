@@ -2,22 +2,35 @@
 // layer's.
 //
 // Everything that decides (which surface, how much of it, what hides behind it, which light is a highlight)
-// was decided of the beauty. A layer has a share of each sample's light, by channel; shares are linear in the
-// layer, so that layers which sum to the beauty sum to it still when all are blurred.
+// was decided of the beauty. A layer has a share of each sample's light, by channel. Shares of light are
+// linear in the layer, so that layers which sum to the beauty still sum to it when all are blurred. Shares of
+// coverage (mattes) stay within the range of the layer, and those of a matte and its complement sum to 1.
 #pragma once
 
 #include "engine/lights/highlights.h"
 #include "engine/waist/engine.h"
 
+#include <span>
 #include <vector>
 
 namespace petzval::engine {
 
-// The share that `layer` has of every sample: 1 where it is all of the light (or of the coverage, for what is
-// no light). `complete` are the samples of input.colour before highlights were taken. A sample that is all
-// that its pixel shows has the pixel's share; what was found behind it, that of the pixels around which show
-// the same surface; shares of what a pixel shows together meet its own.
-std::vector<Rgba> shares_of(const Input& input, const CocSamples& complete, const Input::Layer& layer);
+// The share that each of some layers has of every sample: 1 where it is all of the light (or of the coverage,
+// for what is no light). `complete` are the samples of input.colour before highlights were taken. A sample
+// that is all that its pixel shows has the pixel's share; what was found behind it, that of the pixels around
+// which show the same surface; shares of what a pixel shows together meet its own.
+class LayerShares {
+public:
+    // Layers are done several at once, which costs memory.
+    static constexpr std::size_t kAtOnce = 4;
+    LayerShares(const Input& input, const CocSamples& complete, std::span<const Input::Layer> layers);
+    // The shares of the layer with this number among them, by sample.
+    std::vector<Rgba> of(std::size_t layer) const;
+
+private:
+    std::size_t layers_;
+    std::vector<Rgba> all_;  // of each sample those of all layers
+};
 
 // The layer's light in the place of the beauty's; coverage stays.
 CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const Input::Layer& layer);

@@ -1,5 +1,6 @@
 #include "engine/scatter/plan.h"
 
+#include "base/check.h"
 #include "base/parallel.h"
 #include "engine/scatter/scatter_kernels.h"
 #include "engine/scatter/sources.h"
@@ -314,6 +315,18 @@ ScatterPlan make_plan(const Input& strip, SampleSource samples, View<const unsig
                                *strip.workers);
     fill_tiles(kernels, *strip.progress, *strip.workers, plan);
     return plan;
+}
+
+void relight(ScatterPlan& plan, const Input& strip, SampleSource samples, View<const unsigned char> connected,
+             const ScatterKernels& kernels) {
+    std::vector<std::size_t> sources;
+    for (const SourceArray& level : plan.levels) sources.push_back(level.sources.size());
+    plan.levels = {};
+    plan.levels = make_sources(std::move(samples), strip.coc_px, connected, strip.open_edges, plan.rule,
+                               kernels, *strip.workers);
+    PETZVAL_CHECK(plan.levels.size() == sources.size());
+    for (std::size_t l = 0; l < sources.size(); ++l)
+        PETZVAL_CHECK(plan.levels[l].sources.size() == sources[l]);
 }
 
 }  // namespace petzval::engine

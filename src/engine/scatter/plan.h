@@ -143,4 +143,9 @@ class ScatterKernels;
 ScatterPlan make_plan(const Input& strip, SampleSource samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels);
 
+// The same plan with other light in its sources: `samples` differ from those that it was made from in colour,
+// not in coverage.
+void relight(ScatterPlan& plan, const Input& strip, SampleSource samples, View<const unsigned char> connected,
+             const ScatterKernels& kernels);
+
 }  // namespace petzval::engine

@@ -170,19 +170,18 @@ public:
         share /= double(1 + input.layers.size());
         Strip strip = complete(input, rows, first);
         const CocSamples seen = input.layers.empty() ? CocSamples{} : strip.completed->all();
-        planned(strip, [&](const PlannedStrip& p) {
+        planned(strip, [&](const PlannedStrip& p, ScatterPlan& plan) {
             const bool one_strip = rows == frame_.colour.rect();
             if (input.layers.empty()) let_go(strip, one_strip);
             if (!out.canvas) out.canvas = frame_.device->canvas(memory_for_result(one_strip));
             draw(p, share, *out.canvas);
-            for (std::size_t i = 0; i < input.layers.size(); ++i)
-                draw_layer(strip, p, seen, input.layers[i], share, out.layers[i]);
+            draw_layers(strip, p, plan, seen, share, out.layers);
         });
     }
     void show(PlanReader& reader) {
         Strip strip = complete(frame_, frame_.colour.rect(), 0);
         if (!reader.read(frame_, *strip.completed)) return;
-        planned(strip, [&](const PlannedStrip& p) { reader.read(p); });
+        planned(strip, [&](const PlannedStrip& p, ScatterPlan&) { reader.read(p); });
     }
 
 private:
@@ -245,15 +244,16 @@ private:
                 }};
     }
 
-    // use(the strip, planned).
+    // use(the strip, planned; its plan, which may be lit anew).
     template <typename Use>
     void planned(Strip& strip, const Use& use) {
         Found found(strip.input);
-        const ScatterPlan plan = plan_of(strip, base_of(strip, found));
+        ScatterPlan plan = plan_of(strip, base_of(strip, found));
         std::vector<Highlight> highlights;
         for (const auto& rows : found.highlights)
             highlights.insert(highlights.end(), rows.begin(), rows.end());
-        use({strip.input, plan, *kernels_, highlights, found.casters, *highlight_kernels_, split_.white()});
+        use({strip.input, plan, *kernels_, highlights, found.casters, *highlight_kernels_, split_.white()},
+            plan);
     }
 
     ScatterPlan plan_of(const Strip& strip, SampleSource base) {
@@ -283,14 +283,26 @@ private:
     }
 
     // The same plan with a layer's light in place of the beauty's.
-    void draw_layer(const Strip& strip, const PlannedStrip& beauty, const CocSamples& seen,
-                    const Input::Layer& layer, double share, View<Rgba> out) {
-        if (frame_.progress->cancelled()) return;
-        const std::vector<Rgba> shares = shares_of(strip.input, seen, layer);
+    void draw_layers(const Strip& strip, const PlannedStrip& beauty, ScatterPlan& plan,
+                     const CocSamples& seen, double share, std::vector<Picture>& out) {
+        const std::span<const Input::Layer> layers = strip.input.layers;
+        for (std::size_t first = 0; first < layers.size(); first += LayerShares::kAtOnce) {
+            const auto together =
+                layers.subspan(first, std::min(LayerShares::kAtOnce, layers.size() - first));
+            if (frame_.progress->cancelled()) return;
+            const LayerShares shares(strip.input, seen, together);
+            watch_.lap("layers", {bytes_of(seen) * (1 + together.size())});
+            for (std::size_t i = 0; i < together.size() && !frame_.progress->cancelled(); ++i)
+                draw_layer(strip, beauty, plan, shares.of(i), together[i], share, out[first + i]);
+        }
+    }
+    void draw_layer(const Strip& strip, const PlannedStrip& beauty, ScatterPlan& plan,
+                    const std::vector<Rgba>& shares, const Input::Layer& layer, double share,
+                    View<Rgba> out) {
         const CocSamples base = lit_by(strip.base, shares, layer);
         const std::vector<Highlight> highlights = lit_by(beauty.highlights, strip.base, shares, layer);
-        watch_.lap("layers", {bytes_of(seen) + 2 * bytes_of(base)});
-        const ScatterPlan plan = plan_of(strip, base);
+        relight(plan, strip.input, base, strip.connected, *kernels_);
+        watch_.lap("layers", {3 * bytes_of(base)});
         draw({strip.input, plan, *kernels_, highlights, beauty.casters, *highlight_kernels_, split_.white(),
               &beauty.highlights},
              share, out);
