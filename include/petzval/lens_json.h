@@ -13,12 +13,12 @@
 
 namespace petzval {
 
-// As `petzval lens show --json` has them, without what is said of the run: the lens, its format, notes,
+// The facts as in `petzval lens show --json`, without the keys about the run: the lens, its format, notes,
 // warnings, first-order numbers, Seidel sums, focus of each zone and wavelength, numbers over the field.
 PETZVAL_API std::string lens_facts_json(const LensFacts& facts);
 // An array, as `petzval lens list --json` has it.
 PETZVAL_API std::string lens_list_json(const std::vector<LensSummary>& lenses);
-// What is plotted of them: {"longitudinal_aberration_mm": …, "field": […]}, as in lens_facts_json().
+// The curves among the facts: {"longitudinal_aberration_mm": …, "field": […]}, as in lens_facts_json().
 PETZVAL_API std::string lens_curves_json(const LensFacts& facts);
 // Glass as closed outlines, rays as paths: points are [z_mm, y_mm].
 PETZVAL_API std::string lens_section_json(const LensSection& section);

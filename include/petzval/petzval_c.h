@@ -1,10 +1,10 @@
-/* petzval for C, and for every language that speaks C: sessions, lenses, looks; a sharp picture with depth
+/* petzval for C, and for every language that calls C: sessions, lenses, looks; a sharp picture with depth
  * in, the picture that a lens would have taken out. docs/library.md shows it in use.
  *
  * - C99. Nothing else is exported by libpetzval.so.
  * - Handles are opaque. What is opened is closed by its own function; null is closed without harm.
  * - Structs begin with their size: set it to sizeof(struct) and everything else to zero first. A program
- * built against an older header keeps working: what its struct lacks takes its default.
+ * built against an older header keeps working: missing members take their defaults.
  * - Choices are made by name ("gather", "final"), as on the command line; no enum of a look has a number.
  * - Functions that can fail return a petzval_status; petzval_error_text() then has one sentence.
  * - Strings are UTF-8, given and lent; a lent string lives as long as the handle it came from, or as said.
@@ -69,13 +69,13 @@ typedef struct petzval_session_settings {
     int threads;                    /* 0: all that this process may use; at most 1024 */
     uint64_t max_memory_bytes;      /* for everything, what is kept between frames included; 0: no limit */
     const char* kernel_folder;      /* kernels that take long are kept here between runs; null: nowhere */
-    const petzval_workers* workers; /* in place of `threads`; copied; null: our own */
+    const petzval_workers* workers; /* instead of `threads`; copied; null: our own */
     /* What draws: "cpu", "gpu", "gpu:1", "auto" (SessionSettings::device); null: the CPU. One that is not
      * there, or cannot be used, is refused when the session is opened. */
     const char* device;
 } petzval_session_settings;
 
-/* settings may be null: all threads, no limits. */
+/* settings may be null: all threads, no limits. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_session_open(const petzval_session_settings* settings,
                                                   petzval_session** session);
 PETZVAL_C_API void petzval_session_close(petzval_session* session); /* no call may be under way */
@@ -88,7 +88,7 @@ typedef struct petzval_usage {
 
 /* usage->size says how much of it is written. */
 PETZVAL_C_API petzval_status petzval_session_usage(const petzval_session* session, petzval_usage* usage);
-/* Lets go of what was not used longest until at most so many bytes are kept. */
+/* Frees kernels, least recently used first, until at most so many bytes are kept. */
 PETZVAL_C_API petzval_status petzval_session_trim(petzval_session* session, uint64_t bytes);
 
 /* --- Names
@@ -106,7 +106,7 @@ PETZVAL_C_API const char* petzval_device_name(int index);
 typedef struct petzval_look petzval_look;
 
 PETZVAL_C_API petzval_status petzval_look_new(petzval_look** look); /* the defaults */
-/* A look as `petzval defocus --save-look` writes it. */
+/* A look as `petzval defocus --save-look` writes it. Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_look_from_json(const char* json, petzval_look** look);
 /* Sets one field, as in the JSON: petzval_look_set(look, "engine", "gather"), (look, "lens.blades",
  * "5"). The value is JSON, or a plain word where a name is wanted. The look is unchanged if it is refused. */
@@ -165,9 +165,9 @@ typedef struct petzval_deep {
     uint64_t sample_count;
 } petzval_deep;
 
-/* A light for the engine "sprites": its place in pixels of the picture (centres at +0.5, may lie outside),
- * what it adds to the one pixel it lights when in focus, its depth (metres) or where that is NaN its signed
- * radius, and its own width in pixels. */
+/* A light for the engine "sprites". Its place is (x, y) in pixels of the picture, centres at +0.5; it may lie
+ * outside. Its colour is added to one pixel when in focus. Its depth is in metres; where that is NaN,
+ * radius_px is its signed radius. Its own width is diameter_px. */
 typedef struct petzval_light {
     float x, y, r, g, b, depth_m, radius_px, diameter_px;
 } petzval_light;
@@ -211,14 +211,15 @@ typedef struct petzval_control {
 
 typedef struct petzval_report petzval_report;
 
-/* look null: the defaults; control and report may be null. `out` is of the size of the picture, or of what of
- * it lies in the region, and may be the memory of the input. Nothing is written to `out` unless PETZVAL_OK is
- * returned. */
+/* look null: the defaults; control and report may be null. `out` has the size of the picture, or of the part
+ * of the region inside it, and may be the memory of the input. Nothing is written to `out` unless PETZVAL_OK
+ * is returned. Errors: invalid_file, unsupported, cancelled. */
 PETZVAL_C_API petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot,
                                              const petzval_look* look, const petzval_control* control,
                                              const petzval_pixels* out, petzval_report** report);
-/* Pixels around a region that are looked at for it, 160 and four of the largest radius (or of how far the
- * lens throws light at it): a host that has no more than those gets the same region. */
+/* How many pixels around a region its result depends on: 160, plus four times the largest radius or the
+ * farthest reach of the lens's light. A host that has these pixels gets the same region.
+ * Errors: invalid_file, unsupported. */
 PETZVAL_C_API petzval_status petzval_region_margin_px(petzval_session* session, const petzval_shot* shot,
                                                       const petzval_look* look, int* margin_px);
 /* Engine, lens, device, radii, seconds by stage, warnings. Lives as long as the report. */

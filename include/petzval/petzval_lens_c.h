@@ -1,5 +1,5 @@
-/* petzval for C, lenses: opened once, used by any number of frames; and what there is to know of them without
- * a picture. Part of petzval_c.h, which says what holds for all of it. Needs no session. */
+/* Lenses: opened once, used by any number of frames; their facts, sections and discs without a picture.
+ * Part of petzval_c.h, whose rules hold here. Needs no session. */
 #ifndef PETZVAL_LENS_C_H
 #define PETZVAL_LENS_C_H
 
@@ -17,14 +17,15 @@ PETZVAL_C_API void petzval_text_close(petzval_text* text);
 
 typedef struct petzval_lens petzval_lens;
 
-/* A lens that ships, by its name, or a lens file, by its path. The file is read here and never again. */
+/* A lens that ships, by its name, or a lens file, by its path. The file is read here and never again.
+ * Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_lens_open(const char* name_or_file, petzval_lens** lens);
 /* The content of a lens file in any format that petzval reads, as JSON text. `name` stands for it in messages
- * and reports; null: "lens". */
+ * and reports; null: "lens". Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_lens_from_memory(const void* bytes, size_t byte_count, const char* name,
                                                       petzval_lens** lens);
 /* The same lens used as a look says: all fields of the look's "lens" but the name (blades, cat's eye, added
- * aberrations, light, …). Nothing is read. */
+ * aberrations, light, …). Nothing is read. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_lens_with(const petzval_lens* lens, const petzval_look* look,
                                                petzval_lens** changed);
 PETZVAL_C_API void petzval_lens_close(petzval_lens* lens);
@@ -49,11 +50,12 @@ PETZVAL_C_API petzval_status petzval_lens_list(petzval_text** lenses);
 /* First-order numbers, Seidel sums, aberrations on the axis and over the field: as `petzval lens show --json`
  * has them. */
 PETZVAL_C_API petzval_status petzval_lens_facts(const petzval_lens* lens, petzval_text** facts);
-/* Of the facts what is plotted: "longitudinal_aberration_mm" and "field". */
+/* The curves among the facts: "longitudinal_aberration_mm" and "field". */
 PETZVAL_C_API petzval_status petzval_lens_curves(const petzval_lens* lens, petzval_text** curves);
-/* The lens cut open, with rays of one point of light at depth_m (metres, +infinity allowed) and field_x,
- * field_y in -1…1 of the half diagonal, x right, y up: "glass" as outlines, "rays" as paths, each with where
- * it lands in the disc. rays_across: of the grid over the pupil, 3…101. mount may be null. */
+/* The lens cut open, with rays of one point of light. The point lies at depth_m (metres, +infinity allowed)
+ * and at field_x, field_y in -1…1 of the half diagonal, x right, y up. Member "glass" holds outlines; member
+ * "rays" holds paths, each with the place where it lands in the disc. The grid over the pupil is rays_across
+ * wide, 3…101. The mount may be null. */
 PETZVAL_C_API petzval_status petzval_lens_section(const petzval_lens* lens, const petzval_lens_mount* mount,
                                                   double depth_m, double field_x, double field_y,
                                                   int rays_across, petzval_text** section);
