@@ -23,6 +23,15 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner) {
             image_scale);
 }
 
+void CameraFlags::add_to(MadeWith& made) const {
+    made.add("camera.focal_length_mm", focal_length_mm);
+    made.add("camera.sensor_width_mm", sensor_width_mm);
+    made.add("camera.f_number", f_number);
+    made.add("camera.focus_distance_m", focus_distance_m);
+    made.add("camera.aperture_diameter_mm", aperture_diameter_mm);
+    if (image_scale) made.add("camera.image_scale", name_of(*image_scale));
+}
+
 std::vector<std::string> CameraFlags::given() const {
     std::vector<std::string> names;
     if (focal_length_mm) names.emplace_back("--focal-length");

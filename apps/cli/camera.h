@@ -3,6 +3,7 @@
 
 #include "petzval/camera.h"
 #include "petzval/files.h"
+#include "petzval/made_with.h"
 #include "petzval/shot.h"
 
 #include "flags.h"
@@ -21,6 +22,7 @@ struct CameraFlags {
 
     // `owner` is what holds the numbers that are not given: "file" or "scene".
     void add_to(Verb& verb, const std::string& owner);
+    void add_to(MadeWith& made) const;
     // True if any was given.
     bool any() const;
     // Names of those given, for messages.

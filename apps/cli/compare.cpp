@@ -118,8 +118,6 @@ Result<Compared> compare_files(const CompareFlags& flags) {
     const Stopwatch watch;
     InputFlags test_input = flags.reference;
     test_input.path = flags.test;
-    if (Status fine = check_outputs({flags.run.json}, {flags.reference.path, flags.test, flags.mask}); !fine)
-        return fine.error();
     auto first = load_shot(flags.reference.source());
     if (!first) return first.error();
     auto second = load_shot(test_input.source());
@@ -231,8 +229,7 @@ void add_compare(Verb& program, Action& chosen) {
                flags->reference.read.view_name)
         .value("--exposure", "FACTOR", "multiply both by this before they are clipped to 1", parse_positive,
                flags->exposure)
-        .value("--mask", "FILE", "count only pixels where this picture is above one half", parse_text,
-               flags->mask);
+        .reads("--mask", "FILE", "count only pixels where this picture is above one half", flags->mask);
     flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);

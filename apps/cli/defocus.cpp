@@ -34,6 +34,7 @@ public:
     const Json& report() const { return report_; }
 
 private:
+    Status leave(const std::string& why);
     Status read();
     Status read_other_views();
     Status look_around();
@@ -75,6 +76,7 @@ private:
     struct OtherView;                // of a stereo file
     std::vector<std::unique_ptr<OtherView>> others_;
     std::size_t held_bytes_ = 0;  // by frames around
+    std::string made_with_;       // what the output will say
 };
 
 // Another view in a run of its own, but for its writing.
@@ -88,14 +90,17 @@ struct Run::OtherView {
 };
 
 Status Run::operator()() {
-    const auto inputs = flags_.input_files();
-    if (const auto reason = flags_.overwrite.reason_to_skip({flags_.output}, inputs)) {
-        note(*reason);
-        report_["skipped"] = *reason;
-        return finish();
+    // A look is compared by what it says, whatever the age of its file.
+    std::vector<std::string> inputs = flags_.pictures();
+    for (const std::string& file : flags_.look.lens_files()) inputs.push_back(file);
+    const MadeWith made_with = flags_.made_with();
+    const OutputState there = flags_.overwrite.state_of({flags_.output}, inputs, &made_with);
+    if (there.is_kept) return leave(there.why);
+    if (!there.why.empty()) {
+        note(flags_.output + ": made again: " + there.why);
+        report_["made_again"] = there.why;
     }
-    if (Status fine = check_outputs({flags_.output, flags_.run.json, flags_.look.save_to()}, inputs); !fine)
-        return fine;
+    made_with_ = made_with.text();
     if (flags_.ocio.is_on())
         if (Status fine = flags_.ocio.try_out(); !fine) return fine;
     for (const auto step : {&Run::read, &Run::choose_camera, &Run::read_other_views, &Run::look_around,
@@ -104,6 +109,16 @@ Status Run::operator()() {
         if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     }
     return Done{};
+}
+
+// What is there already stays.
+Status Run::leave(const std::string& why) {
+    note(why);
+    report_["skipped"] = why;
+    const CameraChoice choice = flags_.camera.choice();
+    if (choice.focus_distance_m) report_["camera"]["focus_distance_m"] = number(*choice.focus_distance_m);
+    if (choice.f_number) report_["camera"]["f_number"] = number(*choice.f_number);
+    return finish();
 }
 
 Status Run::read() {
@@ -173,6 +188,7 @@ Status Run::choose_camera() {
         if (Status done = focus_on_pixel(shot_, *flags_.focus.focus_at); !done) return done;
     if (flags_.focus.focus_point)
         if (Status done = focus_on_point(shot_, *flags_.focus.focus_point); !done) return done;
+    if (flags_.tracked) name_track(*flags_.tracked, shot_.camera);
     if (Status done = focus_within_range(shot_, look().coc); !done) return done;
     tell_new_warnings();
     const auto camera = complete_camera(shot_.camera, shot_.image_scale);
@@ -389,6 +405,7 @@ Status Run::write() {
                           .permissible_radius_px = permissible_radius_px(),
                           .depth = shot_.depth_report,
                           .attributes = {},
+                          .png_texts = {},
                           .other_views = {},
                           .warnings = &warnings};
     if (*kind_of_output(flags_.output) == FileKind::Png)
@@ -406,6 +423,8 @@ Status Run::write() {
     }
     for (const Frame& other : others) settings.other_views.push_back(&other);
     settings.attributes.emplace_back("petzval:history", done_to_it);
+    settings.attributes.emplace_back(kMadeWith, made_with_);
+    settings.png_texts.emplace_back(kMadeWith, made_with_);
     if (expands_plate())
         settings.attributes.emplace_back("petzval:expandHighlights", in_words(look().expansion));
     Frame frame = to_frame(std::move(shot_));

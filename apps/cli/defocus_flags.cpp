@@ -58,18 +58,18 @@ void DefocusFlags::add_engines_to(Verb& verb) {
                max_memory_bytes);
     look.add_to(verb, {"Engine gather", "Engine gaussian", "Engine sprites"});
     FlagGroup(verb, "Engine sprites")
-        .value("--points", "FILE.csv",
+        .reads("--points", "FILE.csv",
                "lights to draw: columns x, y, depth or coc, r, g, b, perhaps size and spectrum, named in its "
                "first line",
-               parse_text, points);
+               points);
 }
 
 void DefocusFlags::add_output_to(Verb& verb) {
     FlagGroup(verb, "Output")
-        .value("-o,--output", "OUT",
-               "the result: .exr holds scene-linear light and all else the input held, .png "
-               "a display picture",
-               parse_text, output)
+        .writes("-o,--output", "OUT",
+                "the result: .exr holds scene-linear light and all else the input held, .png "
+                "a display picture",
+                output)
         .choice(
             "--view",
             "the picture (beauty, default); coc, signed blur radius; focus, what is sharp, near and far; "
@@ -233,10 +233,41 @@ void DefocusFlags::check_display() const {
                              " is for display pictures: --view beauty or focus with -o FILE.png");
 }
 
+MadeWith DefocusFlags::made_with() const {
+    MadeWith made;
+    made.add(look.look());
+    made.add_files(pictures());  // files of the look are among its fields
+    camera.add_to(made);
+    input.add_to(made);
+    if (view != ViewKind::Beauty) made.add("job.view", name_of(view));
+    if (focus.focus_at)
+        made.add("focus.at", std::to_string(focus.focus_at->x) + "," + std::to_string(focus.focus_at->y));
+    if (const auto& point = focus.focus_point)
+        made.add("focus.point", plain(point->x, 9) + "," + plain(point->y, 9) + "," + plain(point->z, 9));
+    if (view == ViewKind::Focus) made.add("focus.permissible_radius_px", focus.permissible_radius_px);
+    if (overscan_px) made.add("shot.overscan_px", double(*overscan_px));
+    if (track.temporal > 0) {
+        made.add("shot.temporal", double(track.temporal));
+        if (!track.motion.empty()) made.add("read.motion.layer", track.motion);
+        if (track.motion_scale)
+            made.add("read.motion.scale",
+                     plain(track.motion_scale->x, 9) + "," + plain(track.motion_scale->y, 9));
+    }
+    if (const auto kind = kind_of_output(output); kind && *kind == FileKind::Png) develop.add_to(made);
+    ocio.add_to(made);
+    return made;
+}
+
 std::vector<std::string> DefocusFlags::input_files() const {
+    std::vector<std::string> files = pictures();
+    for (std::string& file : look.input_files()) files.push_back(std::move(file));
+    return files;
+}
+
+std::vector<std::string> DefocusFlags::pictures() const {
     std::vector<std::string> files = input.files();
     if (!points.empty()) files.push_back(points);
-    for (std::string& file : look.input_files()) files.push_back(std::move(file));
+    files.insert(files.end(), neighbours.begin(), neighbours.end());
     return files;
 }
 

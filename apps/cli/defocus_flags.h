@@ -3,6 +3,7 @@
 
 #include "petzval/camera.h"
 #include "petzval/defocus.h"
+#include "petzval/made_with.h"
 #include "petzval/seen_elsewhere.h"
 #include "petzval/session.h"
 
@@ -50,6 +51,9 @@ struct DefocusFlags {
     RunFlags run;
     FrameFlags frames;
     TrackFlags track;
+    // Of a frame of a shot: what a track changed, and the files of the frames around it.
+    std::optional<TrackedFrame> tracked;
+    std::vector<std::string> neighbours;
     // Of a frame of a shot with --temporal: what the frames around it and its other eyes see behind its
     // surfaces.
     std::function<Result<SeenElsewhere>(const Shot&, std::span<const Shot* const> eyes)> around;
@@ -60,6 +64,9 @@ struct DefocusFlags {
     void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
     void check_shown();            // the same for those of add_shown_to()
     std::vector<std::string> input_files() const;
+    std::vector<std::string> pictures() const;  // those that are neither a look's nor a lens's
+    // What -u compares with the settings that the output holds.
+    MadeWith made_with() const;
     static std::string default_kernel_cache();
     SessionSettings session() const;
     // The job with what the flags choose.

@@ -5,7 +5,9 @@
 
 #include "console.h"
 #include "defocus_flags.h"
+#include "interrupt.h"
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -29,6 +31,7 @@ Result<DefocusFlags> flags_of(const DefocusFlags& all, int frame, const Track* t
     flags.run.progress = ProgressMode::Off;  // that of the shot is shown
     if (!track) return flags;
     const TrackedFrame tracked = track->at(frame);
+    flags.tracked = tracked;
     const auto take = [](const std::optional<double>& from, std::optional<double>& to) {
         if (from) to = from;
     };
@@ -93,6 +96,14 @@ public:
         return around;
     }
 
+    // Pictures that a frame is made of beside its own: where they are newer than it, it is made again.
+    std::vector<std::string> files_near(int frame) const {
+        std::vector<std::string> files;
+        for (const int near : frames_around(frames_, frame, each_side_))
+            if (const auto of = of_frame_(near)) files.push_back(of->input.path);
+        return files;
+    }
+
     Result<SeenElsewhere> behind(const Shot& shot, int frame, Workers& workers,
                                  std::span<const Shot* const> eyes) {
         std::unique_ptr<Neighbours>& own = of_view_[shot.view];
@@ -123,13 +134,32 @@ private:
     std::map<std::string, std::unique_ptr<Neighbours>> of_view_;
 };
 
+// "1024:3.2m" has a unit, as --focus has.
+Result<std::vector<std::string>> in_metres(std::vector<std::string> keys) {
+    for (std::string& key : keys) {
+        const std::size_t colon = key.find(':');
+        if (colon == std::string::npos || key.find(',') != std::string::npos) continue;
+        const auto metres = parse_length_m(key.substr(colon + 1));
+        if (!metres) return Error{metres.error().code, "--rack " + key + ": " + metres.error().message};
+        key = key.substr(0, colon + 1) + (std::isinf(*metres) ? "inf" : plain(*metres, 17));
+    }
+    return keys;
+}
+
 Result<std::optional<Track>> read_track(const TrackFlags& flags) {
     std::optional<Track> track;
-    if (flags.file.empty()) return track;
-    auto read = Track::read(flags.file);
-    if (!read) return read.error();
-    track = std::move(*read);
-    if (flags.focus_speed) track->limit_focus_speed(*flags.focus_speed);
+    if (!flags.file.empty()) {
+        auto read = Track::read(flags.file);
+        if (!read) return read.error();
+        track = std::move(*read);
+    }
+    if (flags.rack.empty()) return track;
+    const auto keys = in_metres(flags.rack);
+    if (!keys) return keys.error();
+    auto rack = Track::rack(*keys);
+    if (!rack) return rack.error();
+    if (!track) return std::optional(std::move(*rack));
+    if (Status added = track->add(std::move(*rack)); !added) return added.error();
     return track;
 }
 
@@ -140,6 +170,56 @@ Result<std::vector<int>> frames_of(const Track& track, const std::string& file) 
     return frames;
 }
 
+// Focus that moves in one frame by more than was sharp before it, and not because keys have it move so.
+class FocusJumps {
+public:
+    void look_at(int frame, const DefocusFlags& of, Json& record) {
+        const bool between = of.tracked && of.tracked->is_between_keys;
+        const Json focus = record.value("camera", Json::object()).value("focus_distance_m", Json(nullptr));
+        const Json limits = record.value("focus_limits", Json(nullptr));
+        const bool follows = last_ && frame == last_->frame + 1 && !between && !last_->between;
+        if (!focus.is_number() || !limits.is_object()) return last_.reset();
+        const auto metres = [](const Json& value) { return value.is_number() ? double(value) : HUGE_VAL; };
+        if (follows && (double(focus) < last_->near_m || double(focus) > last_->far_m))
+            record["warnings"].push_back("frame " + std::to_string(frame) + ": the focus jumps from " +
+                                         plain(last_->focus_m, 3) + " to " + plain(focus, 3) +
+                                         " m, beyond the depth of field of the frame before (" +
+                                         plain(last_->near_m, 3) + " to " + plain(last_->far_m, 3) + " m)");
+        last_ = {frame, between, double(focus), metres(limits["near_m"]), metres(limits["far_m"])};
+    }
+
+private:
+    struct Before {
+        int frame;
+        bool between;
+        double focus_m, near_m, far_m;
+    };
+    std::optional<Before> last_;
+};
+
+// Some way to know how things move from frame to frame: a camera and its matrix, or vectors.
+Status check_motion(const DefocusFlags& of) {
+    ShotSource source = of.input.source(of.camera);
+    if (source.read.view_name == kAllViews) source.read.view_name.clear();
+    source.read.motion = of.track.motion_reading();
+    const auto header = read_frame_header(source.path, source.read);
+    if (!header) return Done{};  // said when it is read
+    const FoundCamera camera = merged_camera(header->camera, source.camera);
+    if (camera.camera_from_world && camera.focal_length_mm && camera.sensor_width_mm) return Done{};
+    source.read.need_depth = false, source.read.layers.clear();
+    const auto frame = read_frame(source.path, source.read);
+    if (!frame || !frame->motion.empty()) return Done{};
+    return Error{ErrorCode::InvalidArgument,
+                 source.path +
+                     ": --temporal has to know how the camera or what it sees moves, and the file "
+                     "has neither " +
+                     (camera.camera_from_world ? "focal length and sensor width" : "a worldToCamera matrix") +
+                     " nor motion vectors: " +
+                     (camera.camera_from_world ? "give --focal-length and --sensor-width"
+                                               : "render it with one of them") +
+                     ", name the layer of the vectors with --motion, or leave out --temporal"};
+}
+
 }  // namespace
 
 DefocusFlags at_frame(DefocusFlags flags, int frame) {
@@ -147,12 +227,26 @@ DefocusFlags at_frame(DefocusFlags flags, int frame) {
     return flags;
 }
 
+void name_track(const TrackedFrame& tracked, FoundCamera& camera) {
+    const bool focuses = tracked.camera.focus_distance_m || tracked.focus_pixel || tracked.focus_point;
+    for (const auto& [by_track, number] :
+         {std::pair(focuses, &camera.focus_distance_m),
+          {tracked.camera.f_number.has_value(), &camera.f_number},
+          {tracked.camera.focal_length_mm.has_value(), &camera.focal_length_mm}})
+        if (by_track && *number) (*number)->origin = "shot.track";
+}
+
 void TrackFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Frames")
-        .value("--track", "FILE",
+        .reads("--track", "FILE",
                "what changes over the frames, CSV or JSON: columns frame, focus (m) or focus_x, focus_y "
-               "(pixels), fstop, focal_length (mm), and fields of a look, as lens.blades",
-               parse_text, file)
+               "(pixels; follow, on or off), fstop, focal_length (mm), and fields of a look, as lens.blades",
+               file)
+        .values(
+            "--rack", "FRAME:X,Y",
+            "a focus pull: at each key a pixel that is sharp, as 1001:80,45, or a distance, as 1024:3.2m; "
+            "between keys the focus moves evenly in dioptres",
+            rack)
         .value("--focus-speed", "DIOPTRES", "the focus of a track moves no faster from frame to frame",
                parse_positive, focus_speed)
         .value(
@@ -174,6 +268,7 @@ void TrackFlags::add_to(Verb& verb) {
 std::vector<std::string> TrackFlags::given() const {
     std::vector<std::string> names;
     if (!file.empty()) names.emplace_back("--track");
+    if (!rack.empty()) names.emplace_back("--rack");
     if (focus_speed) names.emplace_back("--focus-speed");
     if (temporal > 0) names.emplace_back("--temporal");
     if (!motion.empty()) names.emplace_back("--motion");
@@ -197,10 +292,15 @@ bool is_sequence(const DefocusFlags& flags) {
         throw UsageError(listed(tracked) +
                          " cannot be used here: neither the input nor -o holds #### or %04d");
     }
-    if (!from_many && flags.frames.frames.empty() && flags.track.file.empty())
-        throw UsageError("no frames: the input has no #### or %04d; give it, --frames or --track");
-    if (flags.track.focus_speed && flags.track.file.empty())
-        throw UsageError("--focus-speed has no effect without --track");
+    const bool is_tracked = !flags.track.file.empty() || !flags.track.rack.empty();
+    if (!from_many && flags.frames.frames.empty() && !is_tracked)
+        throw UsageError("no frames: the input has no #### or %04d; give it, --frames, --track or --rack");
+    const bool racks = !flags.track.rack.empty();
+    refuse_both(racks, "--rack", flags.camera.focus_distance_m.has_value(), "--focus");
+    refuse_both(racks, "--rack", flags.focus.focus_at.has_value(), "--focus-at");
+    refuse_both(racks, "--rack", flags.focus.focus_point.has_value(), "--focus-point");
+    if (flags.track.focus_speed && !is_tracked)
+        throw UsageError("--focus-speed has no effect without --track or --rack");
     if (flags.track.temporal > 0) check_temporal(flags, from_many);
     for (const auto& [given, name] : {std::pair{!flags.track.motion.empty(), "--motion"},
                                       {flags.track.motion_scale.has_value(), "--motion-scale"}})
@@ -214,7 +314,7 @@ bool is_sequence(const DefocusFlags& flags) {
 }
 
 Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
-    const auto track = read_track(flags.track);
+    auto track = read_track(flags.track);
     if (!track) return track.error();
     const auto of_frame = [&](int frame) { return flags_of(flags, frame, *track ? &**track : nullptr); };
     std::shared_ptr<Around> around;
@@ -236,15 +336,30 @@ Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make) {
         if (!of->run.json.empty()) files.outputs.push_back(of->run.json);
         return files;
     };
+    work.begin = [&](const std::vector<int>& frames) -> Status {
+        if (*track) {
+            const Status measured = measure_focus(**track, frames, flags.input.source(flags.camera),
+                                                  {.cancelled = [] { return interrupted_by() != 0; }});
+            if (!measured) return measured;
+            if (flags.track.focus_speed) (*track)->limit_focus_speed(*flags.track.focus_speed);
+        }
+        if (flags.track.temporal == 0 || frames.empty()) return Done{};
+        const auto first = of_frame(frames.front());
+        return first ? check_motion(*first) : Status(first.error());
+    };
+    FocusJumps jumps;
     work.make = [&](int frame, bool again) -> Result<Json> {
         auto of = of_frame(frame);
         if (!of) return of.error();
         if (again) of->overwrite = {};
+        if (around) of->neighbours = around->files_near(frame);
         if (around)
             of->around = [&around, frame, threads = of->run.threads](const Shot& shot, auto eyes) {
                 return around->behind(shot, frame, *own_workers(threads), eyes);
             };
-        return make(*of);
+        auto record = make(*of);
+        if (record) jumps.look_at(frame, *of, *record);
+        return record;
     };
     work.black = [&](int frame, int like) -> Status {
         const auto dark = of_frame(frame), lit = of_frame(like);

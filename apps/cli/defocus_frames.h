@@ -17,6 +17,7 @@ struct DefocusFlags;
 
 struct TrackFlags {
     std::string file;
+    std::vector<std::string> rack;      // keys, as 1001:80,45 or 1024:3.2m
     std::optional<double> focus_speed;  // dioptres per frame
     int temporal = 0;                   // frames on each side
     std::string motion;                 // a layer, or "off"
@@ -29,6 +30,9 @@ struct TrackFlags {
 
 // Their files for that frame: no name has a place for a number any more.
 DefocusFlags at_frame(DefocusFlags flags, int frame);
+
+// Numbers that a track changes are the track's, whatever was typed.
+void name_track(const TrackedFrame& tracked, FoundCamera& camera);
 
 // Whether the flags are about more than one frame. Throws UsageError where they do not fit each other.
 bool is_sequence(const DefocusFlags& flags);

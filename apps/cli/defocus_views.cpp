@@ -55,7 +55,7 @@ Status write_display_picture(Picture picture, Frame& frame, const ViewSettings& 
         as_it_is.tone = ToneCurve::None;
         as_it_is.exposure_stops = 0;
         return write_developed(settings.output, picture.view(), as_it_is, settings.overwrite,
-                               frame.place.pixel_aspect);
+                               frame.place.pixel_aspect, settings.png_texts);
     }
     Frame drawn;
     drawn.place = frame.place;
@@ -67,7 +67,8 @@ Status write_beauty(Frame& frame, const ViewSource& source, const ViewSettings& 
     if (!is_exr(settings) && !source.codes.empty()) {
         const Rect& window = window_of(frame, settings);
         return write_codes(settings.output, window.width(), window.height(), source.codes,
-                           settings.develop.bits, settings.overwrite, frame.place.pixel_aspect);
+                           settings.develop.bits, settings.overwrite, frame.place.pixel_aspect,
+                           settings.png_texts);
     }
     if (!is_exr(settings)) {
         Picture light = in_output_window(frame.colour, frame, settings, Rgba{});
@@ -79,7 +80,7 @@ Status write_beauty(Frame& frame, const ViewSource& source, const ViewSettings& 
             note(used);
         }
         return write_developed(settings.output, light.view(), develop, settings.overwrite,
-                               frame.place.pixel_aspect);
+                               frame.place.pixel_aspect, settings.png_texts);
     }
     WriteReport changed;
     WriteOptions options = exr_options(settings);
@@ -154,7 +155,7 @@ Status write_depth(Frame& frame, const ViewSettings& settings) {
     for (std::size_t i = 0; i < inverse.size(); ++i) inverse.pixels()[i] = nearest / inverse.pixels()[i];
     note("code 65535 is " + plain(nearest) + " m, 0 is infinity; read it with --depth " + settings.output +
          " --depth-kind inverse --unit-scale " + plain(nearest));
-    return write_grey_png(settings.output, inverse.view(), settings.overwrite);
+    return write_grey_png(settings.output, inverse.view(), settings.overwrite, settings.png_texts);
 }
 
 // One number per pixel that an engine put into every channel.
@@ -163,7 +164,7 @@ Status write_index(Frame& frame, const ViewSettings& settings) {
     if (is_exr(settings))
         return write_plane("focus_index", index.view(), frame, settings, exr_options(settings));
     return write_grey_png(settings.output, in_output_window(index, frame, settings, 0.0f).view(),
-                          settings.overwrite);
+                          settings.overwrite, settings.png_texts);
 }
 
 Status write_alpha(Frame& frame, const ViewSettings& settings) {
@@ -171,7 +172,7 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
     for (std::size_t i = 0; i < alpha.size(); ++i) alpha.pixels()[i] = frame.colour.pixels()[i].a;
     if (is_exr(settings)) return write_plane("A", alpha.view(), frame, settings, exr_options(settings));
     return write_grey_png(settings.output, in_output_window(alpha, frame, settings, 0.0f).view(),
-                          settings.overwrite);
+                          settings.overwrite, settings.png_texts);
 }
 
 // What --behind reads.

@@ -62,8 +62,9 @@ struct ViewSettings {
     double permissible_radius_px = 1;
     DepthReport depth;
     std::vector<std::pair<std::string, std::string>> attributes;  // of an EXR
-    std::vector<const Frame*> other_views;                        // of the same file, written beside it
-    std::vector<std::string>* warnings = nullptr;                 // what writing had to change
+    std::vector<std::pair<std::string, std::string>> png_texts;
+    std::vector<const Frame*> other_views;         // of the same file, written beside it
+    std::vector<std::string>* warnings = nullptr;  // what writing had to change
 };
 
 // The number that an engine put into every channel.

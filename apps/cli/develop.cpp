@@ -64,15 +64,28 @@ Json report_of(const Shot& shot, const DevelopVerbFlags& flags, const DevelopSet
     return report;
 }
 
+MadeWith made_with_of(const DevelopVerbFlags& flags) {
+    MadeWith made;
+    made.add(flags.look.look());
+    made.add_files(flags.input.files());
+    flags.camera.add_to(made);
+    flags.input.add_to(made);
+    flags.develop.add_to(made);
+    flags.ocio.add_to(made);
+    if (flags.no_dither) made.add("develop.dither", "off");
+    return made;
+}
+
 // Returns the report, which is written too where a file was asked for.
 Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
     const Stopwatch total;
-    if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {flags.input.path})) {
-        note(*reason);
-        return Json{{"input", flags.input.path}, {"output", flags.output}, {"skipped", *reason}};
+    const MadeWith made_with = made_with_of(flags);
+    const OutputState there = flags.overwrite.state_of({flags.output}, flags.input.files(), &made_with);
+    if (there.is_kept) {
+        note(there.why);
+        return Json{{"input", flags.input.path}, {"output", flags.output}, {"skipped", there.why}};
     }
-    if (Status fine = check_outputs({flags.output, flags.run.json}, flags.input.files()); !fine)
-        return fine.error();
+    if (!there.why.empty()) note(flags.output + ": made again: " + there.why);
     auto shot = load_shot(flags.input.source(flags.camera));
     if (!shot) return shot.error();
     for (const auto& line : detected_in_picture(*shot)) note(line);
@@ -94,10 +107,11 @@ Result<Json> develop_file(const DevelopVerbFlags& flags, const Lens& lens) {
         note(used);
     }
     Status done = write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber,
-                                  place.pixel_aspect);
+                                  place.pixel_aspect, {{kMadeWith, made_with.text()}});
     if (!done) return done.error();
     note("wrote " + flags.output);
     Json report = report_of(*shot, flags, settings);
+    if (!there.why.empty()) report["made_again"] = there.why;
     report["seconds"]["read"] = read_s;
     report["seconds"]["glare"] = glare_s;
     report["seconds"]["write"] = total.seconds() - read_s - glare_s;
@@ -175,8 +189,7 @@ void add_develop(Verb& program, Action& chosen) {
     auto flags = std::make_shared<DevelopVerbFlags>();
     flags->input.add_to(verb);
     flags->input.add_transfer_to(verb);
-    FlagGroup(verb, "Output")
-        .value("-o,--output", "OUT.png", "the display picture", parse_text, flags->output);
+    FlagGroup(verb, "Output").writes("-o,--output", "OUT.png", "the display picture", flags->output);
     flags->camera.add_to(verb, "file");
     flags->look.add_to(verb, {"Lens", "Glare"});
     flags->frames.add_to(verb);

@@ -11,7 +11,6 @@ namespace petzval::cli {
 namespace {
 
 Status list_devices(const RunFlags& run) {
-    if (Status fine = check_outputs({run.json}, {}); !fine) return fine;
     std::string text;
     Json list = Json::array();
     for (const DeviceFacts& device : devices()) {

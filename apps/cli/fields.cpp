@@ -12,34 +12,12 @@ namespace {
 
 using Rows = std::map<std::string, std::string, std::less<>>;
 
-// The flags that choose no look.
-const Rows& other_flags() {
+// The flags that choose no look: where things are and what they mean.
+const Rows& source_flags() {
     static const Rows rows{
-        {"camera.aperture_diameter_mm", "--aperture-diameter"},
-        {"camera.f_number", "--fstop"},
-        {"camera.focal_length_mm", "--focal-length"},
-        {"camera.focus_distance_m", "--focus"},
-        {"camera.image_scale", "--image-scale"},
-        {"camera.sensor_width_mm", "--sensor-width"},
-        {"compare.exposure", "--exposure"},
         {"depth.kind", "--depth-kind"},
         {"depth.range", "--depth-range"},
         {"depth.unit_scale_m", "--unit-scale"},
-        {"develop.contrast", "--contrast"},
-        {"disc.coc_radius_px", "--defocus"},
-        {"disc.columns", "--columns"},
-        {"disc.field", "--field"},
-        {"disc.size_px", "--size"},
-        {"focus.at", "--focus-at"},
-        {"focus.point", "--focus-point"},
-        {"job.engine", "--engine"},
-        {"job.fill", "--fill"},
-        {"job.max_memory_bytes", "--max-memory"},
-        {"job.pupil_points", "--pupil-points"},
-        {"job.view", "--view"},
-        {"lens.kernel_images", "--kernel-image"},
-        {"ocio.view", "--ocio"},
-        {"ocio.working_space", "--ocio-space"},
         {"read.depth_channel", "--depth-channel"},
         {"read.depth_file", "--depth"},
         {"read.layer", "--layer"},
@@ -47,7 +25,10 @@ const Rows& other_flags() {
         {"read.motion.layer", "--motion"},
         {"read.motion.scale", "--motion-scale"},
         {"read.max_memory_bytes", "--max-memory"},
+        {"read.transfer", "--transfer"},
         {"read.view_name", "--view-name"},
+        {"run.keep", "--no-clobber"},
+        {"run.update", "-u"},
         {"scene.camera_at", "--camera-at"},
         {"scene.depth_bits", "--depth-bits"},
         {"scene.depth_blur_px", "--depth-blur"},
@@ -57,17 +38,54 @@ const Rows& other_flags() {
         {"scene.look_at", "--look-at"},
         {"scene.overscan_px", "--overscan"},
         {"scene.own_camera", "--scene-camera"},
+        {"scene.seed", "--seed"},
         {"scene.truth_samples", "--samples"},
         {"scene.want_motion", "--motion"},
         {"scene.width", "--width"},
-        {"session.device", "--device"},
         {"shot.behind", "--behind"},
         {"shot.holdout", "--holdout"},
         {"shot.layers", "--layers"},
         {"shot.lights", "--points"},
         {"shot.mask", "--mask"},
         {"shot.merge", "--merge"},
+        {"shot.focus_speed", "--focus-speed"},
         {"shot.overscan_px", "--overscan"},
+        {"shot.rack", "--rack"},
+        {"shot.temporal", "--temporal"},
+        {"shot.track", "--track"},
+    };
+    return rows;
+}
+
+// All others that choose no look.
+const Rows& other_flags() {
+    static const Rows rows{
+        {"camera.aperture_diameter_mm", "--aperture-diameter"},
+        {"camera.f_number", "--fstop"},
+        {"camera.focal_length_mm", "--focal-length"},
+        {"camera.focus_distance_m", "--focus"},
+        {"camera.image_scale", "--image-scale"},
+        {"camera.sensor_width_mm", "--sensor-width"},
+        {"compare.exposure", "--exposure"},
+        {"develop.contrast", "--contrast"},
+        {"develop.exposure_stops", "--exposure"},
+        {"develop.tone", "--tone"},
+        {"disc.coc_radius_px", "--defocus"},
+        {"disc.columns", "--columns"},
+        {"disc.field", "--field"},
+        {"disc.size_px", "--size"},
+        {"focus.at", "--focus-at"},
+        {"focus.permissible_radius_px", "--permissible-radius"},
+        {"focus.point", "--focus-point"},
+        {"job.engine", "--engine"},
+        {"job.fill", "--fill"},
+        {"job.max_memory_bytes", "--max-memory"},
+        {"job.pupil_points", "--pupil-points"},
+        {"job.view", "--view"},
+        {"lens.kernel_images", "--kernel-image"},
+        {"ocio.view", "--ocio"},
+        {"ocio.working_space", "--ocio-space"},
+        {"session.device", "--device"},
     };
     return rows;
 }
@@ -75,6 +93,7 @@ const Rows& other_flags() {
 const Rows& flags_by_field() {
     static const Rows all = [] {
         Rows rows = other_flags();
+        rows.insert(source_flags().begin(), source_flags().end());
         for (const LookRow& row : look_rows()) rows.emplace(row.field, row.flag);
         return rows;
     }();

@@ -1,5 +1,6 @@
 #include "flags.h"
 
+#include "guard.h"
 #include "help_forms.h"
 
 #include <algorithm>
@@ -120,6 +121,26 @@ void FlagGroup::add(const std::string& name, const std::string& placeholder, con
     flag->option_text(placeholder)->group(heading_);
 }
 
+FlagGroup& FlagGroup::reads(const std::string& name, const std::string& placeholder, const std::string& help,
+                            std::string& target) {
+    const auto parse = [](const std::string& text) {
+        auto path = parse_text(text);
+        if (path) run_files().reads(*path);
+        return path;
+    };
+    return value(name, placeholder, help, parse, target);
+}
+
+FlagGroup& FlagGroup::writes(const std::string& name, const std::string& placeholder, const std::string& help,
+                             std::string& target) {
+    const auto parse = [](const std::string& text) {
+        auto path = parse_text(text);
+        if (path) run_files().writes(*path);
+        return path;
+    };
+    return value(name, placeholder, help, parse, target);
+}
+
 FlagGroup& FlagGroup::values(const std::string& name, const std::string& placeholder, const std::string& help,
                              std::vector<std::string>& target) {
     const auto take = [spoken = long_name(name), &target](const CLI::results_t& texts) {
@@ -152,13 +173,31 @@ void FlagGroup::add_switch(const std::string& name, const std::string& help, std
 }
 
 FlagGroup& FlagGroup::argument(const std::string& name, const std::string& help, std::string& target) {
-    verb_.add_option(name, target, help)->option_text(" ")->group(heading_);
+    verb_
+        .add_option_function<std::string>(
+            name,
+            [&target](const std::string& text) {
+                run_files().reads(text);
+                target = text;
+            },
+            help)
+        ->option_text(" ")
+        ->group(heading_);
     return *this;
 }
 
 FlagGroup& FlagGroup::arguments(const std::string& name, const std::string& help,
                                 std::vector<std::string>& target) {
-    verb_.add_option(name, target, help)->option_text(" ")->group(heading_);
+    verb_
+        .add_option_function<std::vector<std::string>>(
+            name,
+            [&target](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) run_files().reads(text);
+                target = texts;
+            },
+            help)
+        ->option_text(" ")
+        ->group(heading_);
     return *this;
 }
 

@@ -79,15 +79,20 @@ public:
     // "--name VALUE…": one or more texts.
     FlagGroup& values(const std::string& name, const std::string& placeholder, const std::string& help,
                       std::vector<std::string>& target);
+    // "--name FILE": a file that the run reads, or writes: the guard of its files is told (guard.h).
+    FlagGroup& reads(const std::string& name, const std::string& placeholder, const std::string& help,
+                     std::string& target);
+    FlagGroup& writes(const std::string& name, const std::string& placeholder, const std::string& help,
+                      std::string& target);
     // "--name", without a value.
     template <typename Target>
     FlagGroup& on(const std::string& name, const std::string& help, Target& target) {
         add_switch(name, help, [&target](bool on) { target = on; });
         return *this;
     }
-    // A plain argument, without a name.
+    // A plain argument, without a name. Where it is that of a file, the guard is told that it is read.
     FlagGroup& argument(const std::string& name, const std::string& help, std::string& target);
-    // All plain arguments.
+    // All plain arguments, the same.
     FlagGroup& arguments(const std::string& name, const std::string& help, std::vector<std::string>& target);
 
 private:

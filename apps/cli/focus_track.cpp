@@ -66,12 +66,10 @@ public:
     explicit Measuring(const FocusTrackFlags& flags) : all_(flags) {}
 
     Status operator()() {
-        const std::vector<std::string> written{all_.output, all_.plot};
         if (const auto reason = all_.overwrite.reason_to_skip(written_files(), {})) {
             note(*reason);
             return Done{};
         }
-        if (Status fine = check_outputs(written, {}); !fine) return fine;
         FrameWork work;
         work.input = has_pattern(all_.input.path) ? all_.input.path : all_.input.read.depth_file;
         work.files = [&](int frame) -> Result<FrameWork::Files> {
@@ -152,9 +150,8 @@ void add_focus_track(Verb& program, Action& chosen) {
                "smooth in dioptres by a Gaussian of this standard deviation (default 2; 0: as measured)",
                parse_not_negative, flags->smooth_frames);
     FlagGroup(verb, "Output")
-        .value("-o,--output", "TRACK.csv", "the track, for defocus --track", parse_text, flags->output)
-        .value("--plot", "FILE.svg", "a drawing of what was measured and of the track", parse_text,
-               flags->plot);
+        .writes("-o,--output", "TRACK.csv", "the track, for defocus --track", flags->output)
+        .writes("--plot", "FILE.svg", "a drawing of what was measured and of the track", flags->plot);
     flags->overwrite.add_to(verb, false);
     flags->frames.add_to(verb);
     flags->run.add_log_to(verb, true);

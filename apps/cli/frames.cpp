@@ -3,6 +3,7 @@
 #include "petzval/output.h"
 
 #include "console.h"
+#include "guard.h"
 #include "interrupt.h"
 #include "output.h"
 #include "progress.h"
@@ -38,12 +39,6 @@ std::vector<std::string> missing_files(const std::vector<std::string>& inputs) {
     return missing;
 }
 
-// A picture that another run left may be cut off, by another program or a disk that was full.
-bool is_whole(const std::string& path) {
-    if (*kind_of_output(path) == FileKind::Png) return bool(read_png(path));
-    return bool(read_frame(path));
-}
-
 std::string in_words(double seconds) {
     if (seconds < 90) return plain(std::ceil(seconds)) + " s";
     if (seconds < 5400) return plain(std::ceil(seconds / 60)) + " min";
@@ -58,6 +53,18 @@ std::string without_numbers(std::string line) {
     return line;
 }
 
+// "focus 3.95 m, f/2.8, "
+std::string focus_words(const Json& camera) {
+    const auto number = [&](const char* key, const char* before, const char* after) {
+        const bool is_known = camera.contains(key) && !camera[key].is_null();
+        // Infinity is a word until a report is written.
+        return !is_known ? ""
+                         : before + (camera[key].is_number() ? plain(camera[key], 4) : "infinity") + after;
+    };
+    const bool is_far = camera.contains("focus_distance_m") && camera["focus_distance_m"].is_string();
+    return number("focus_distance_m", "focus ", is_far ? ", " : " m, ") + number("f_number", "f/", ", ");
+}
+
 bool contains(const std::vector<int>& frames, int frame) {
     return std::find(frames.begin(), frames.end(), frame) != frames.end();
 }
@@ -65,10 +72,9 @@ bool contains(const std::vector<int>& frames, int frame) {
 // One JSON record a line, there as soon as its frame is.
 class Records {
 public:
-    Status open(const std::string& path, const std::vector<std::string>& files) {
+    Status open(const std::string& path) {
         path_ = path;
         if (path.empty() || path == "-") return Done{};
-        if (Status fine = check_outputs({path}, files); !fine) return fine;
         file_.open(path, std::ios::trunc);
         return written(bool(file_));
     }
@@ -93,7 +99,8 @@ public:
         : flags_(flags), run_(run), work_(work) {}
 
     Status operator()() {
-        for (const auto step : {&Sequence::find_frames, &Sequence::find_missing, &Sequence::open_records})
+        for (const auto step :
+             {&Sequence::find_frames, &Sequence::find_missing, &Sequence::begin, &Sequence::open_records})
             if (Status done = (this->*step)(); !done) return done;
         note(std::to_string(frames_.size()) + (frames_.size() == 1 ? " frame, " : " frames, ") +
              frames_text(frames_));
@@ -158,21 +165,23 @@ private:
         return Done{};
     }
 
-    // Records take the place of nothing that any frame reads or writes.
+    Status begin() {
+        if (!work_.begin) return Done{};
+        std::vector<int> made = frames_;
+        std::erase_if(made, [&](int frame) { return contains(black_, frame); });
+        return work_.begin(made);
+    }
+
+    // The guard of this run learns the frames' own names; nothing is written before it has agreed.
     Status open_records() {
-        std::vector<std::string> all;
         for (const int frame : frames_) {
             const auto files = work_.files(frame);
             if (!files) return files.error();
-            all.insert(all.end(), files->inputs.begin(), files->inputs.end());
-            for (const std::string& made : files->outputs) {
-                if (fs::path(made).lexically_normal() == fs::path(flags_.report).lexically_normal())
-                    return Error{ErrorCode::InvalidArgument,
-                                 "--report " + made + " would replace a frame; give another name"};
-                all.push_back(made);
-            }
+            for (const std::string& path : files->inputs) run_files().reads(path);
+            for (const std::string& path : files->outputs) run_files().writes(path);
         }
-        return records_.open(flags_.report, all);
+        if (Status fine = run_files().check(); !fine) return fine;
+        return records_.open(flags_.report);
     }
 
     Status make(int frame, std::size_t number) {
@@ -214,12 +223,17 @@ private:
         if (made && !skipped) made_s_ += seconds, ++made_count_;
         const std::size_t left = frames_.size() - number - 1;
         const std::string state = !made ? "failed" : skipped ? "left as it is" : plain(seconds, 3) + " s";
+        std::string focus;
+        if (made && made->contains("camera")) focus = focus_words((*made)["camera"]);
+        const std::string again = made && made->contains("made_again")
+                                      ? ", made again: " + (*made)["made_again"].get<std::string>()
+                                      : "";
         const std::string rest =
             left == 0 || made_count_ == 0
                 ? ""
                 : ", about " + in_words(made_s_ / double(made_count_) * double(left)) + " left";
         note("frame " + std::to_string(frame) + ": " +
-             (files.outputs.empty() ? "" : files.outputs.front() + ", ") + state + " (" +
+             (files.outputs.empty() ? "" : files.outputs.front() + ", ") + focus + state + again + " (" +
              std::to_string(number + 1) + " of " + std::to_string(frames_.size()) + rest + ")");
     }
 
@@ -232,13 +246,13 @@ private:
     // A frame says nothing itself; what it warns of is said once, whatever its numbers: those of all frames
     // are in the reports.
     Result<Json> quietly(int frame, const FrameWork::Files& files) {
-        const bool again = is_there(files) && !is_whole(files.outputs.front());
+        const bool again = is_there(files) && !is_whole_picture(files.outputs.front());
         if (again) warning(files.outputs.front() + ": damaged or cut off; made again");
         if (!run_.verbose) set_verbosity(Verbosity::Quiet);
         Result<Json> made = work_.make(frame, again);
         if (!run_.verbose) set_verbosity(run_.quiet ? Verbosity::Quiet : Verbosity::Normal);
         if (!made && made.error().code == ErrorCode::OutputFailed && is_there(files) &&
-            is_whole(files.outputs.front()))
+            is_whole_picture(files.outputs.front()))
             return Json{{"output", files.outputs.front()}, {"skipped", "another run made it meanwhile"}};
         if (made)
             for (const Json& line : made->value("warnings", Json::array()))
@@ -267,8 +281,7 @@ void FrameFlags::add_to(Verb& verb) {
                "that are there",
                parse_frames, frames)
         .choice("--missing", "frames that lack a file: fail (default), skip, black", kMissing, missing)
-        .value("--report", "FILE", "one JSON record a frame, a line each, written as they are made",
-               parse_text, report);
+        .writes("--report", "FILE", "one JSON record a frame, a line each, written as they are made", report);
 }
 
 std::vector<std::string> FrameFlags::given() const {

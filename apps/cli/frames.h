@@ -53,6 +53,8 @@ struct FrameWork {
     std::function<Result<std::vector<int>>()> otherwise;  // lists the frames, where it does not
     bool keeps_what_is_there = false;                     // outputs that are whole
     std::function<Result<Files>(int frame)> files;
+    // Once the frames are known, before one is made. Empty: nothing is left to be found out.
+    std::function<Status(const std::vector<int>& frames)> begin = {};
     // Makes one frame and returns its report. `again`: what is there does not count.
     std::function<Result<Json>(int frame, bool again)> make;
     // Makes a frame without light, of the size of another. Empty: the verb cannot.

@@ -32,10 +32,9 @@ void add_help(Verb& program, Action& chosen) {
     FlagGroup(verb, "Output")
         .choice("--format", "text (default), Markdown, a manual page, or completions for bash, zsh and fish",
                 kForms, flags->form)
-        .value("--save", "FILE", "where to; - is standard output (default)", parse_text, flags->save_to);
+        .writes("--save", "FILE", "where to; - is standard output (default)", flags->save_to);
     when_typed(verb, [flags, &program, &chosen] {
         chosen = [flags, &program]() -> Status {
-            if (Status fine = check_outputs({flags->save_to}, {}); !fine) return fine;
             return write_text(flags->save_to, flags->form.write(help_of(program)));
         };
     });

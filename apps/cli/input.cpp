@@ -2,6 +2,7 @@
 
 #include "console.h"
 #include "fields.h"
+#include "guard.h"
 #include "interrupt.h"
 
 #include <utility>
@@ -21,7 +22,7 @@ void InputFlags::add_to(Verb& verb) {
 
 void InputFlags::add_depth_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .value("--depth", "FILE", "read depth from another file, EXR, PNG or TIFF, of any size", parse_text,
+        .reads("--depth", "FILE", "read depth from another file, EXR, PNG or TIFF, of any size",
                read.depth_file)
         .value("--depth-channel", "NAME", "depth channel, as Z or ViewLayer.Depth.Z", parse_text,
                read.depth_channel)
@@ -50,12 +51,11 @@ void InputFlags::add_transfer_to(Verb& verb) {
 
 void InputFlags::add_others_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .value("--behind", "FILE", "what the picture hides: deep EXR, or RGBA and Z", parse_text, behind)
+        .reads("--behind", "FILE", "what the picture hides: deep EXR, or RGBA and Z", behind)
         .values("--merge", "FILE…", "more pictures of the shot, deep EXR or RGBA and Z, sorted in by depth",
                 merge)
-        .value("--holdout", "FILE",
-               "a matte, deep EXR or RGBA and Z, that hides what is behind it and stays sharp", parse_text,
-               holdout)
+        .reads("--holdout", "FILE",
+               "a matte, deep EXR or RGBA and Z, that hides what is behind it and stays sharp", holdout)
         .value("--mask", "FILE[:CHANNEL]",
                "where the effect is wanted: 1 as blurred, 0 as given, mixed between; without a channel "
                "alpha, or "
@@ -74,7 +74,20 @@ void InputFlags::add_layers_to(Verb& verb) {
                parse_words, read.layers);
 }
 
+void InputFlags::add_to(MadeWith& made) const {
+    for (const auto& [field, text] : {std::pair("read.layer", &read.layer),
+                                      {"read.view_name", &read.view_name},
+                                      {"read.depth_channel", &read.depth_channel}})
+        if (!text->empty()) made.add(field, *text);
+    if (!read.layers.empty()) made.add("read.layers", listed(read.layers));
+    if (transfer) made.add("read.transfer", name_of(*transfer));
+    if (depth_kind) made.add("depth.kind", name_of(*depth_kind));
+    if (depth_range) made.add("depth.range", plain(depth_range->low, 9) + "," + plain(depth_range->high, 9));
+    made.add("depth.unit_scale_m", unit_scale_m);
+}
+
 void InputFlags::check() const {
+    for (const std::string& file : files()) run_files().reads(file);
     if (const Status fine = petzval::check(source()); !fine) throw UsageError(in_flags(fine.error().message));
 }
 

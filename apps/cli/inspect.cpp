@@ -171,7 +171,6 @@ struct Inspected {
 
 Result<Inspected> look_into(const InspectFlags& flags) {
     const Stopwatch watch;
-    if (Status fine = check_outputs({flags.run.json}, flags.input.files()); !fine) return fine.error();
     ShotSource source = flags.input.source(flags.camera);
     source.read.motion.wanted = true;  // to say which there are
     auto shot = load_shot(source);

@@ -35,7 +35,7 @@ struct PictureFlags {
     }
     void add_output_to(Verb& verb) {
         FlagGroup(verb, "Output")
-            .value("-o,--output", "FILE", "EXR for the numbers, or PNG to look at", parse_text, output)
+            .writes("-o,--output", "FILE", "EXR for the numbers, or PNG to look at", output)
             .value("--width", "PX", "width of the picture that the camera takes (default 1920)",
                    parse_size_px, width_px)
             .value("--height", "PX", "its height (default 9/16 of the width)", parse_size_px, height_px)
@@ -164,8 +164,6 @@ Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
         note(*reason);
         return std::optional<Mounted>();
     }
-    const Status fine = check_outputs({flags.output, flags.run.json}, flags.look.input_files());
-    if (!fine) return fine.error();
     if (Status done = read_lens_images(flags.look.look()); !done) return done.error();
     const auto lens = Lens::open(flags.look.look().lens);
     if (!lens) return lens.error();

@@ -4,6 +4,7 @@
 #include "petzval/lens_facts.h"
 
 #include "console.h"
+#include "guard.h"
 #include "output.h"
 #include "progress.h"
 #include "report.h"
@@ -79,7 +80,8 @@ Status report_one(const LensReportFlags& flags) {
         note(*reason);
         return Done{};
     }
-    if (const Status fine = check_outputs({path, flags.run.json}, {lens}); !fine) return fine;
+    run_files().writes(path);
+    if (const Status fine = run_files().check(); !fine) return fine;
     const auto page = lens_report(lens);
     if (!page) return page.error();
     if (const Status written = write_text(path, *page); !written) return written;
@@ -108,10 +110,9 @@ Status report_many(const LensReportFlags& flags) {
     if (!pages) return pages.error();
     if (const Status made = make_folder(flags.output); !made) return made;
     const fs::path folder = flags.output;
-    std::vector<std::string> outputs{flags.run.json};
     for (const auto& names : {*pages, {"comparison.html", "contact-sheet.svg", "index.html"}})
-        for (const std::string& name : names) outputs.push_back((folder / name).string());
-    if (const Status fine = check_outputs(outputs, flags.lenses); !fine) return fine;
+        for (const std::string& name : names) run_files().writes((folder / name).string());
+    if (const Status fine = run_files().check(); !fine) return fine;
     ProgressLine progress(flags.run.progress, flags.run.quiet, "lens report");
     std::vector<LensCard> cards;
     std::vector<std::string> written;

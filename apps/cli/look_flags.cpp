@@ -6,6 +6,7 @@
 
 #include "console.h"
 #include "fields.h"
+#include "guard.h"
 #include "look_rows.h"
 #include "values.h"
 
@@ -55,10 +56,9 @@ void LookFlags::add_to(Verb& verb, const Headings& headings, const std::string& 
 
 void LookFlags::add_files_to(Verb& verb) {
     FlagGroup(verb, "Look")
-        .value("--look", "FILE.json", "all of the artist's choices from a file; flags beside it win",
-               parse_text, file_)
-        .value("--save-look", "FILE.json", "write the choices of this run, to be taken again with --look",
-               parse_text, save_to_);
+        .reads("--look", "FILE.json", "all of the artist's choices from a file; flags beside it win", file_)
+        .writes("--save-look", "FILE.json", "write the choices of this run, to be taken again with --look",
+                save_to_);
 }
 
 bool LookFlags::is_typed(const std::string& field) const {
@@ -94,6 +94,7 @@ void LookFlags::settle() {
     for (const Error& idle : checked.idle) {
         if (holds(typed, idle.field)) throw refused(idle);
     }
+    for (const std::string& file : input_files()) run_files().reads(file);
     if (!file_.empty()) idle_in_file_ = grouped(file_, checked.idle);
     if (!checked.possible) throw refused(checked.possible.error());
 }
@@ -106,11 +107,16 @@ std::vector<std::string> LookFlags::given(const Headings& headings) const {
 }
 
 std::vector<std::string> LookFlags::input_files() const {
+    std::vector<std::string> files = lens_files();
+    if (!file_.empty()) files.push_back(file_);
+    return files;
+}
+
+std::vector<std::string> LookFlags::lens_files() const {
     std::vector<std::string> files;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(look_.lens.name, ignored)) files.push_back(look_.lens.name);
-    for (const std::string& file :
-         {file_, look_.kernel_image_far, look_.kernel_image_near, look_.aperture_image})
+    for (const std::string& file : {look_.kernel_image_far, look_.kernel_image_near, look_.aperture_image})
         if (!file.empty()) files.push_back(file);
     return files;
 }

@@ -5,6 +5,7 @@
 #include "console.h"
 #include "fields.h"
 #include "frames.h"
+#include "guard.h"
 #include "interrupt.h"
 #include "last_words.h"
 #include "report.h"
@@ -124,6 +125,7 @@ Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
     if (!chosen)
         return Error{ErrorCode::InvalidArgument,
                      "what is to be done? petzval --help lists the verbs, as defocus and inspect"};
+    if (Status fine = run_files().check(); !fine) return fine;
     Status done = chosen();
     if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     return done;

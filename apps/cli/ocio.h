@@ -21,6 +21,7 @@ struct OcioFlags {
     void add_to(Verb& verb);
     // Throws UsageError, also for flags of what --ocio takes the place of.
     void check(const DevelopFlags& develop, std::optional<Transfer> transfer) const;
+    void add_to(MadeWith& made) const;
     bool is_on() const { return !view.empty(); }
     // Whether the config has what was asked for; errors as of show().
     Status try_out() const;

@@ -1,6 +1,8 @@
 #include "output.h"
 
 #include "console.h"
+#include "fields.h"
+#include "guard.h"
 #include "values.h"
 
 #include <algorithm>
@@ -37,21 +39,22 @@ void OverwriteFlags::add_to(Verb& verb, bool with_update) {
 void OverwriteFlags::check() const {
     refuse_both(overwrite, "--overwrite", no_clobber, "--no-clobber");
     refuse_both(update, "-u", no_clobber, "--no-clobber");
+    if (no_clobber) never_replace();
 }
 
 std::optional<std::string> OverwriteFlags::reason_to_skip(const std::vector<std::string>& outputs,
                                                           const std::vector<std::string>& inputs) const {
-    std::error_code missing;
-    const auto exists = [&](const std::string& path) { return fs::exists(path, missing); };
-    if ((!no_clobber && !update) || !std::all_of(outputs.begin(), outputs.end(), exists)) return std::nullopt;
-    if (no_clobber) return listed(outputs) + ": already there, left alone (--no-clobber)";
-    auto oldest = fs::file_time_type::max();
-    for (const auto& path : outputs) oldest = std::min(oldest, fs::last_write_time(path, missing));
-    for (const auto& path : inputs) {
-        const auto changed = fs::last_write_time(path, missing);
-        if (missing || changed >= oldest) return std::nullopt;  // a missing input is reported when it is read
-    }
-    return listed(outputs) + ": newer than " + listed(inputs) + ", nothing to do (-u)";
+    const OutputState there = state_of(outputs, inputs);
+    return there.is_kept ? std::optional(in_flags(there.why)) : std::nullopt;
+}
+
+OutputState OverwriteFlags::state_of(const std::vector<std::string>& outputs,
+                                     const std::vector<std::string>& inputs,
+                                     const MadeWith* made_with) const {
+    const ExistingOutputs existing = no_clobber ? ExistingOutputs::Keep
+                                     : update   ? ExistingOutputs::Update
+                                                : ExistingOutputs::Replace;
+    return petzval::state_of(outputs, inputs, existing, made_with);
 }
 
 void DevelopFlags::add_to(Verb& verb) {
@@ -67,6 +70,13 @@ void DevelopFlags::add_to(Verb& verb) {
             tone);
 }
 
+void DevelopFlags::add_to(MadeWith& made) const {
+    made.add("develop.exposure_stops", exposure_stops);
+    made.add("develop.contrast", contrast);
+    if (tone) made.add("develop.tone", name_of(*tone));
+    if (bits != 8) made.add("develop.bits", double(bits));
+}
+
 DevelopSettings DevelopFlags::settings(bool display_referred, std::optional<Transfer> transfer,
                                        int threads) const {
     return {.exposure_stops = exposure_stops.value_or(0),
@@ -78,30 +88,32 @@ DevelopSettings DevelopFlags::settings(bool display_referred, std::optional<Tran
 }
 
 Status write_codes(const std::string& path, int width, int height, std::vector<std::uint16_t> codes, int bits,
-                   bool overwrite, double pixel_aspect) {
+                   bool overwrite, double pixel_aspect, PngTexts texts) {
     return write_png(path,
                      {.width = width,
                       .height = height,
                       .channels = 3,
                       .bits = bits,
                       .samples = std::move(codes),
-                      .pixel_aspect = pixel_aspect},
+                      .pixel_aspect = pixel_aspect,
+                      .texts = std::move(texts)},
                      overwrite);
 }
 
 Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
-                       bool overwrite, double pixel_aspect) {
+                       bool overwrite, double pixel_aspect, PngTexts texts) {
     return write_codes(path, picture.width(), picture.height(), develop(picture, settings), settings.bits,
-                       overwrite, pixel_aspect);
+                       overwrite, pixel_aspect, std::move(texts));
 }
 
-Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite) {
+Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite, PngTexts texts) {
     PngPixels grey{.width = plane.width(),
                    .height = plane.height(),
                    .channels = 1,
                    .bits = 16,
                    .samples = {},
-                   .pixel_aspect = 1};
+                   .pixel_aspect = 1,
+                   .texts = std::move(texts)};
     grey.samples.reserve(std::size_t(plane.width()) * std::size_t(plane.height()));
     for (int y = 0; y < plane.height(); ++y)
         for (int x = 0; x < plane.width(); ++x) {
@@ -112,7 +124,7 @@ Status write_grey_png(const std::string& path, View<const float> plane, bool ove
 }
 
 Status write_text(const std::string& path, const std::string& text) {
-    if (path != "-") return petzval::write_text(path, text);
+    if (path != "-") return is_left_alone(path) ? Status(Done{}) : petzval::write_text(path, text);
     if (print(text)) return Done{};
     return Error{ErrorCode::OutputFailed,
                  std::string("cannot write standard output: ") + std::strerror(errno)};

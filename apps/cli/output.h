@@ -3,6 +3,7 @@
 
 #include "petzval/develop.h"
 #include "petzval/files.h"
+#include "petzval/made_with.h"
 #include "petzval/output.h"
 #include "petzval/result.h"
 
@@ -30,6 +31,9 @@ struct OverwriteFlags {
     // are newer than all inputs and -u.
     std::optional<std::string> reason_to_skip(const std::vector<std::string>& outputs,
                                               const std::vector<std::string>& inputs) const;
+    // The same, and where -u makes again what is there, why.
+    OutputState state_of(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                         const MadeWith* made_with = nullptr) const;
 };
 
 // From scene-linear light to a display picture; only for PNG.
@@ -41,17 +45,20 @@ struct DevelopFlags {
 
     void add_to(Verb& verb);
     // A picture that was display-referred keeps its look unless told otherwise.
+    void add_to(MadeWith& made) const;
     DevelopSettings settings(bool display_referred, std::optional<Transfer> transfer, int threads) const;
 };
 
+// What a PNG says beside its pixels.
+using PngTexts = std::vector<std::pair<std::string, std::string>>;
 // Codes of develop(). pixel_aspect: of the file's pixels, where they are not square. Errors: OutputFailed.
 Status write_codes(const std::string& path, int width, int height, std::vector<std::uint16_t> codes, int bits,
-                   bool overwrite, double pixel_aspect = 1);
+                   bool overwrite, double pixel_aspect = 1, PngTexts texts = {});
 // Developed, the same.
 Status write_developed(const std::string& path, View<const Rgba> picture, const DevelopSettings& settings,
-                       bool overwrite, double pixel_aspect = 1);
+                       bool overwrite, double pixel_aspect = 1, PngTexts texts = {});
 // A plane as 16-bit grey: 0…1 becomes 0…65535, anything else the nearer end, NaN 0.
-Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite);
+Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite, PngTexts texts = {});
 // petzval::write_text(); "-" is standard output.
 Status write_text(const std::string& path, const std::string& text);
 

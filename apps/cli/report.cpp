@@ -144,7 +144,8 @@ std::string report_text(Json report, int indent) {
     for (const char* lines : {"detected", "warnings"})
         if (report.contains(lines))
             for (Json& line : report[lines]) line = in_flags(line.get<std::string>());
-    if (report.contains("error")) report["error"] = in_flags(report["error"].get<std::string>());
+    for (const char* line : {"error", "skipped", "made_again"})
+        if (report.contains(line)) report[line] = in_flags(report[line].get<std::string>());
     // File names need not be UTF-8: what is not becomes U+FFFD.
     std::string text = report.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
     replace_all(text, "\"\\u0001infinity\"", "1e999");

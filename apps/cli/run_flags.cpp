@@ -18,7 +18,7 @@ const NameTable<ProgressMode> kProgressModes{{"auto", ProgressMode::Auto},
 
 void RunFlags::add_json_to(Verb& verb) {
     FlagGroup(verb, "Output")
-        .value("--json", "FILE", "write what was done as JSON; - is standard output", parse_text, json);
+        .writes("--json", "FILE", "write what was done as JSON; - is standard output", json);
 }
 
 void RunFlags::add_threads_to(Verb& verb) {

@@ -3,6 +3,7 @@
 
 #include "camera.h"
 #include "console.h"
+#include "guard.h"
 #include "interrupt.h"
 #include "output.h"
 #include "progress.h"
@@ -86,11 +87,10 @@ void MakeFlags::add_to(Verb& verb) {
         .value("--depth-bits", "N", "1/depth in 2^N even steps, 8 or 16", parse_bits, scene.depth_bits);
     camera.add_to(verb, "scene");
     FlagGroup(verb, "Output")
-        .value("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", parse_text,
-               output)
-        .value("--truth", "FILE.exr", "also what the lens of the same camera records", parse_text, truth)
-        .value("--layers", "FILE.exr", "also the hidden surfaces, as a deep EXR for defocus --behind",
-               parse_text, layers);
+        .writes("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", output)
+        .writes("--truth", "FILE.exr", "also what the lens of the same camera records", truth)
+        .writes("--layers", "FILE.exr", "also the hidden surfaces, as a deep EXR for defocus --behind",
+                layers);
     FlagGroup(verb, "Output")
         .on("--motion",
             "also motion vectors in the sharp picture, of a moving scene: forward.u, forward.v to the next "
@@ -103,9 +103,9 @@ void MakeFlags::add_to(Verb& verb) {
 }
 
 std::vector<std::string> MakeFlags::outputs() const {
-    std::vector<std::string> files{output};
-    if (!truth.empty()) files.push_back(truth);
-    if (!layers.empty()) files.push_back(layers);
+    std::vector<std::string> files;
+    for (const std::string& file : {output, truth, layers})
+        if (!file.empty()) files.push_back(file);
     return files;
 }
 
@@ -165,6 +165,15 @@ Frame frame_of(const Place& place, Picture colour) {
     return frame;
 }
 
+// The scene as --no-clobber leaves it to be made: what is there already is neither rendered nor written.
+MakeFlags without_what_is_there(MakeFlags flags) {
+    for (std::string* path : {&flags.output, &flags.truth, &flags.layers})
+        if (is_left_alone(*path)) path->clear();
+    flags.scene.want_truth = !flags.truth.empty();
+    flags.scene.want_layers = !flags.layers.empty();
+    return flags;
+}
+
 Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamera& camera) {
     WriteOptions options;
     options.overwrite = !flags.overwrite.no_clobber;
@@ -176,7 +185,8 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
     Frame sharp = frame_of(place, std::move(scene.colour));
     sharp.depth = std::move(scene.depth_m);
     sharp.motion = std::move(scene.motion);
-    if (Status done = write_exr(flags.output, sharp, options); !done) return done;
+    if (!flags.output.empty())
+        if (Status done = write_exr(flags.output, sharp, options); !done) return done;
     if (!flags.truth.empty())
         if (Status done =
                 write_exr(flags.truth, frame_of(Place::whole(display), std::move(scene.truth)), options);
@@ -186,7 +196,8 @@ Status write_scene(const MakeFlags& flags, RenderedScene scene, const FoundCamer
         Status done = write_deep_exr(flags.layers, place, scene.layers, options);
         if (!done) return done;
     }
-    for (const std::string& file : flags.outputs()) note("wrote " + file);
+    for (const std::string* file : {&flags.output, &flags.truth, &flags.layers})
+        if (!file->empty()) note("wrote " + *file);
     return Done{};
 }
 
@@ -219,16 +230,13 @@ Status finish(const MakeFlags& flags, const FoundCamera& camera, ImageScale imag
     return write_report(report, flags.run.json);
 }
 
-Status make_scene(const MakeFlags& flags) {
+Status make_scene(const MakeFlags& all) {
     const Stopwatch total;
-    const auto outputs = flags.outputs();
-    if (const auto reason = flags.overwrite.reason_to_skip(outputs, {})) {
+    if (const auto reason = all.overwrite.reason_to_skip(all.outputs(), {})) {
         note(*reason);
         return Done{};
     }
-    auto all = outputs;
-    all.push_back(flags.run.json);
-    if (Status fine = check_outputs(all, {}); !fine) return fine;
+    const MakeFlags flags = without_what_is_there(all);
     auto standing = StandingScene::build(flags.name, flags.scene);
     if (!standing) return standing.error();
     for (const std::string& line : standing->warnings()) warning(line);
@@ -252,7 +260,6 @@ Status make_scene(const MakeFlags& flags) {
 }
 
 Status list_scenes(const RunFlags& run) {
-    if (Status fine = check_outputs({run.json}, {}); !fine) return fine;
     std::string text;
     Json scenes = Json::array();
     for (const SceneSummary& scene : scene_list()) {

@@ -43,8 +43,7 @@ void PointsFlags::add_to(Verb& verb) {
                parse_number, horizon)
         .value("--count", "N", "so many points; default: as many as suit the kind", parse_count, count)
         .value("--seed", "N", "start of all random choices (default 1)", parse_seed, settings.seed);
-    FlagGroup(verb, "Output")
-        .value("-o,--output", "FILE.csv", "x, y, depth, r, g, b, size", parse_text, output);
+    FlagGroup(verb, "Output").writes("-o,--output", "FILE.csv", "x, y, depth, r, g, b, size", output);
     overwrite.add_to(verb, false);
     run.add_json_to(verb);
     run.add_log_to(verb, false);
@@ -75,7 +74,6 @@ Status make_file(const PointsFlags& flags) {
         note(*reason);
         return Done{};
     }
-    if (Status fine = check_outputs({flags.output, flags.run.json}, {}); !fine) return fine;
     const PointSettings& s = flags.settings;
     const auto points = make_points(flags.name, s);
     if (!points) return points.error();

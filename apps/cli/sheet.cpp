@@ -61,7 +61,6 @@ public:
             note(*reason);
             return Done{};
         }
-        if (Status fine = check_outputs({all_.output}, {}); !fine) return fine;
         FrameWork work;
         work.input = all_.input.path;
         work.files = [&](int frame) -> Result<FrameWork::Files> {
@@ -190,9 +189,8 @@ void add_sheet(Verb& program, Action& chosen) {
     flags->input.add_to(verb);
     flags->input.add_transfer_to(verb);
     FlagGroup(verb, "Output")
-        .value("-o,--output", "FILE",
-               "a contact sheet (.png), or a video by ffmpeg (.mp4, .mov, .mkv, .webm)", parse_text,
-               flags->output)
+        .writes("-o,--output", "FILE",
+                "a contact sheet (.png), or a video by ffmpeg (.mp4, .mov, .mkv, .webm)", flags->output)
         .value("--columns", "N", "frames beside each other (default: about as many as below each other)",
                parse_count, flags->columns)
         .value("--width", "PX", "width of a frame (default 320 on a sheet, its own in a video, 1920 at most)",

@@ -179,6 +179,9 @@ Status open_window(const ViewFlags& flags) {
     setup.scale = flags.scale.value_or(0);
     if (flags.size) setup.width = flags.size->first, setup.height = flags.size->second;
     setup.fields = field_rows();
+    for (const std::string& file : flags.input.files()) setup.files.reads(file);
+    for (const std::string& file : {flags.points, flags.against, flags.script}) setup.files.reads(file);
+    for (const std::string& file : flags.look.lens_files()) setup.files.reads(file);
     setup.session = std::make_shared<Session>(flags.session());
     if (flags.device != "cpu") {
         SessionSettings settings = flags.session();
@@ -238,8 +241,8 @@ void add_view(Verb& program, Action& chosen) {
     auto flags = std::make_shared<ViewFlags>();
     flags->add_shown_to(verb);
     FlagGroup(verb, "Window")
-        .value("--against", "FILE", "another picture to compare with, as the truth or a frame made before",
-               parse_text, flags->against)
+        .reads("--against", "FILE", "another picture to compare with, as the truth or a frame made before",
+               flags->against)
         .value(
             "--scene", "NAME",
             "a built-in scene, or a .gltf or .glb file, in place of IN, rendered at every move of its camera",
@@ -254,7 +257,7 @@ void add_view(Verb& program, Action& chosen) {
             "14158); with a channel Z in metres they are shown, without compared; in place of IN: waits for "
             "one",
             parse_port, flags->listen)
-        .value("--script", "FILE", "do what the lines of a file say (docs/view.md), then close", parse_text,
+        .reads("--script", "FILE", "do what the lines of a file say (docs/view.md), then close",
                flags->script)
         .value("--window", "WxH", "its size (default 1280x800)", parse_window, flags->size)
         .value("--ui-scale", "FACTOR", "size of letters and widgets; the display's by default",

@@ -294,9 +294,16 @@ bool App::is_busy() const {
            saving_.valid();
 }
 
+Status App::may_write(const std::string& name) const {
+    RunFiles files = setup_.files;
+    files.writes(of_this_frame(name));
+    return files.check();
+}
+
 void App::save(const std::string& name) {
     if (!shot_) return void(error = "nothing is open yet");
     const std::string path = of_this_frame(name);
+    if (const Status fine = may_write(path); !fine) return void(error = fine.error().message);
     if (is_live()) {
         const std::vector<Recorded> one{{scene_wish(), path}};
         return start_saving(
@@ -328,6 +335,8 @@ void App::record(const std::string& path) {
                         path + ": a name for many frames has a place for their number, as scene-####.exr");
     if (!path.ends_with(".exr") && !path.ends_with(".png"))
         return void(error = path + ": the name must end in .exr (sharp, with depth) or .png (as shown)");
+    for (const Recorded& one : frames)
+        if (const Status fine = may_write(one.path); !fine) return void(error = fine.error().message);
     const bool is_sharp = path.ends_with(".exr");
     start_saving(path, [=, choice = state.choice, following = state.following, session = setup_.session] {
         return is_sharp ? view::record(frames) : record_results(frames, choice, following, *session);

@@ -117,6 +117,9 @@ public:
     void turn_to(const Orbit& orbit);  // the scene's camera
     // .exr: sharp frames with depth; .png: what is shown.
     void record(const std::string& path);
+    // Whether a file of that name may be written: it replaces nothing that this run reads. A name with a
+    // place for a frame number is that of the frame that is shown.
+    Status may_write(const std::string& name) const;
     void save(const std::string& name);  // of a shot, #### is the frame that is shown
     // What is made of the left side, to a viewer that listens there.
     Status push(int port);

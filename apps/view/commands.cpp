@@ -236,6 +236,7 @@ Status load_look(App& app, const Words& words) {
     return Done{};
 }
 Status save_look(App& app, const Words& words) {
+    if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_look(app.state.choice.look, words[0]); !done) return done;
     app.notice = "wrote " + words[0];
     return Done{};
@@ -253,6 +254,7 @@ Status save_lens(App& app, const Words& words) {
     lens.lens = now.lens;
     lens.aperture_image = now.aperture_image;
     lens.kernel_image_far = now.kernel_image_far, lens.kernel_image_near = now.kernel_image_near;
+    if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_look(lens, words[0]); !done) return done;
     app.notice = "wrote " + words[0];
     return Done{};
@@ -285,6 +287,7 @@ Status home(App& app, const Words&) {
 Status save_path(App& app, const Words& words) {
     if (!app.is_live()) return no_scene();
     if (app.state.path.keys.empty()) return invalid("no camera path yet; set scene.recording on, and turn");
+    if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_text(words[0], app.state.path.text()); !done) return done;
     app.notice = "wrote " + words[0];
     return Done{};
@@ -348,6 +351,7 @@ Status remove_key(App& app, const Words&) {
 }
 Status save_track(App& app, const Words& words) {
     if (app.state.timeline.keys.empty()) return invalid("there are no keys yet");
+    if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_text(words[0], app.state.timeline.as_track()); !done) return done;
     app.notice = "wrote " + words[0] + "; defocus --track takes it";
     return Done{};
@@ -372,6 +376,7 @@ Status bend(App& app, const Words& words) {
 }
 Status save_curves(App& app, const Words& words) {
     if (!app.bent()) return invalid("no curve has been bent yet; L shows them");
+    if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_text(words[0], lens_file_text(*app.bent())); !done) return done;
     app.state.choice.look.lens.name = words[0];
     app.notice = "wrote " + words[0] + ", and uses it; --lens takes it";

@@ -300,6 +300,7 @@ void Script::seen(App& app, const Screen& screen) {
         const Result<double> by = words.size() > 2 ? number_of(words[2]) : 1.0;
         if (!by || !(*by >= 1 && *by <= std::min(screen.width, screen.height)))
             return fail("BY is 1 to the pixels of the window's shorter side");
+        if (const Status fine = app.may_write(words[1]); !fine) return fail(fine.error().message);
         Screen shown = means_of(screen, int(*by));
         const PngPixels png{.width = shown.width,
                             .height = shown.height,

@@ -5,6 +5,7 @@
 #include "petzval/develop.h"
 #include "petzval/look.h"
 #include "petzval/result.h"
+#include "petzval/run_files.h"
 #include "petzval/session.h"
 #include "petzval/shot.h"
 
@@ -59,6 +60,8 @@ struct Setup {
     // window's.
     std::function<std::string(const Choice&, const std::string& output)> command_line;
     std::function<Status(Session&, const Choice&, const std::string& output)> save;
+    // Pictures, lenses and the rest that the command line names: nothing that is saved may replace one.
+    RunFiles files;
     // Exposed scene-linear light to a display's codes by OpenColorIO; null: not asked for.
     std::function<Result<Picture>(View<const Rgba>)> ocio_codes;
 };

@@ -130,6 +130,10 @@ PETZVAL_API Result<Frame> read_frame(const std::string& path, const ReadOptions&
 // Header only: parts, channels, windows, camera; pixels stay unread.
 PETZVAL_API Result<Frame> read_frame_header(const std::string& path, const ReadOptions& options = {});
 
+// A text that an EXR has as an attribute, or a PNG under that keyword; empty where it has none. Errors:
+// InvalidFile.
+PETZVAL_API Result<std::string> read_text_attribute(const std::string& path, const std::string& name);
+
 enum class PixelType { Keep, Half, Float };
 
 // What writing had to change, for a log.
@@ -191,6 +195,8 @@ struct PngPixels {
     int width = 0, height = 0, channels = 3, bits = 8;
     std::vector<std::uint16_t> samples;  // 0…255 or 0…65535
     double pixel_aspect = 1;             // width / height of a pixel; written, not read
+    // Keywords, of 1 to 79 letters, and their texts, ASCII; written, and read by read_text_attribute().
+    std::vector<std::pair<std::string, std::string>> texts = {};
 };
 PETZVAL_API Status write_png(const std::string& path, const PngPixels& pixels, bool overwrite = true);
 // The same file as bytes, for pages and mails that carry their pictures inside.

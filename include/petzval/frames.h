@@ -39,4 +39,7 @@ private:
     int digits_ = 1;
 };
 
+// The path of a frame; one without a place for a number, or with two of them, as it is.
+PETZVAL_API std::string at_frame(const std::string& path, int frame);
+
 }  // namespace petzval

@@ -14,6 +14,9 @@
 
 namespace petzval {
 
+// Of frames, ascending, those around one: up to `each_side` before it and as many after, the nearest first.
+PETZVAL_API std::vector<int> frames_around(std::span<const int> frames, int frame, int each_side);
+
 // Each is read once and kept while frames near it may follow: at most 2 * `each_side` + 1 pictures, with
 // their depths 20 bytes a pixel, with motion vectors to both sides 36. Several threads may ask at once.
 class PETZVAL_API Neighbours {

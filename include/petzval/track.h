@@ -9,6 +9,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ namespace petzval {
 // What a track says of one frame; what it does not say is the file's or the user's.
 struct TrackedFrame {
     CameraChoice camera;
-    std::optional<PixelPosition> focus_pixel;  // whose depth is focused
+    std::optional<PixelPosition> focus_pixel;  // whose depth in this frame is focused
     std::optional<WorldPoint> focus_point;
     std::map<std::string, std::string> look;  // fields by path, values as look_with() takes them
+    bool is_between_keys = false;             // of the focus: it moves as its keys ask for
 };
 
 // Keys at some frames, and between them what lies between: distances evenly in dioptres, f-numbers in stops,
@@ -29,12 +31,28 @@ struct TrackedFrame {
 // A CSV file: the first line that is not empty names the columns, '#' begins a comment, an empty value is no
 // key. A JSON file: {"frames": [{"frame": 1001, "focus": 3.2}, …]} with the same names. They are frame; focus
 // (metres; inf), or focus_x and focus_y (a pixel of the display window), or point_x, point_y and point_z
-// (the world, in scene units); fstop; focal_length (mm); and any field of a look by its path, as lens.blades.
+// (the world, in scene units); follow; fstop; focal_length (mm); and any field of a look by its path, as
+// lens.blades.
+//
+// A pixel is what is sharp in its own key frame: its depth there is measured (measured_at, set_focus), and
+// between keys the focus moves evenly in dioptres. With follow on, until the next key that says off, the
+// pixel itself moves from key to key, and every frame is focused on what it shows there: for a thing that is
+// tracked, not for a rack, as anything may lie between two pixels.
 class PETZVAL_API Track {
 public:
     // Errors: InvalidFile with the path and the line or the key: missing, damaged, an unknown column, a frame
     // twice, a value that is no number where one is needed, no key at all.
     static Result<Track> read(const std::string& path);
+
+    // A rack: "1001:80,45" is a pixel in a frame, "1024:3.2" a distance in metres. Errors: InvalidArgument.
+    static Result<Track> rack(const std::vector<std::string>& keys);
+    // Takes over what the other one changes. Errors: InvalidArgument where both change the same.
+    Status add(Track other);
+
+    // The pixels whose depth has to be known to make these frames, by the frame in which it is measured.
+    std::map<int, PixelPosition> measured_at(std::span<const int> frames) const;
+    // Their depths, in metres. Until then such pixels are followed.
+    void set_focus(const std::map<int, double>& distances_m);
 
     TrackedFrame at(int frame) const;
     // Focus distances alone: from frame to frame the focus moves by no more than this from where it was, in
@@ -52,10 +70,22 @@ private:
     };
     static std::optional<double> number_at(const Column& column, int frame);
     const Column* find(const std::string& name) const;
+    std::optional<PixelPosition> pixel_at(int frame) const;
+    bool follows(int frame) const;
 
     std::vector<Column> columns_;
     int first_ = 0, last_ = 0;
+    bool is_measured_ = false;  // set_focus() was called
+    bool is_slowed_ = false;    // limit_focus_speed()
     friend class TrackReader;
 };
+
+// The source of one frame: no path has a place for a number any more.
+PETZVAL_API ShotSource at_frame(ShotSource source, int frame);
+
+// Measures what Track::measured_at() asks for, each pixel in its own frame of the shot; paths of the source
+// may hold a frame number. Errors: those of read_shot() and focus_on_pixel(), with the frame and the pixel.
+PETZVAL_API Status measure_focus(Track& track, std::span<const int> frames, const ShotSource& source,
+                                 const Control& control = {});
 
 }  // namespace petzval

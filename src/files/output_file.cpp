@@ -18,6 +18,8 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace petzval {
@@ -98,13 +100,33 @@ Result<Target> target_of(const std::string& path) {
 // "-" itself is for text alone: of a picture the ending says what it is.
 bool is_standard_output(const std::string& path) { return path == "-" || path.starts_with("-."); }
 
-bool is_one_file(const std::string& a, const std::string& b) {
+// The same text for all names of one file, links and hard links among them; of a file that is not there yet
+// the path it will have.
+std::string identity(const std::string& path) {
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) == 0)
+        return "#" + std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
     std::error_code missing;
-    if (std::filesystem::equivalent(a, b, missing)) return true;
-    const auto of = [&](const std::string& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(followed(path), missing), missing);
-    };
-    return of(a) == of(b);
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(followed(path), missing), missing)
+        .string();
+}
+
+bool is_file_name(const std::string& path) { return !path.empty() && !is_standard_output(path); }
+
+// What stands in the way of writing a file there.
+Status check_target(const std::string& path) {
+    const auto target = target_of(path);
+    if (!target) return target.error();
+    const std::string folder = target->folder();
+    struct stat status = {};
+    if (::stat(folder.c_str(), &status) != 0)
+        return output_failed(path, "cannot be written: there is no folder " + folder);
+    if (!S_ISDIR(status.st_mode))
+        return output_failed(path, "cannot be written: " + folder + " is not a folder");
+    // The file is replaced by renaming, so that the folder is what must be writable.
+    if (::access(folder.c_str(), W_OK) != 0)
+        return output_failed(path, "cannot be written: " + std::string(std::strerror(errno)));
+    return Done{};
 }
 
 }  // namespace
@@ -225,35 +247,25 @@ Status OutputFile::rename_to_target() {
 }
 
 Status check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
-    const auto is_file = [](const std::string& path) { return !path.empty() && !is_standard_output(path); };
     const bool is_picture = std::any_of(outputs.begin(), outputs.end(),
                                         [](const std::string& path) { return path.starts_with("-."); });
     if (is_picture && std::count_if(outputs.begin(), outputs.end(), is_standard_output) > 1)
         return Error{ErrorCode::InvalidArgument,
                      "two outputs cannot both go to standard output; give one of them a file"};
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        const std::string& path = outputs[i];
-        if (!is_file(path)) continue;
-        const auto target = target_of(path);
-        if (!target) return target.error();
-        const std::string folder = target->folder();
-        struct stat status = {};
-        if (::stat(folder.c_str(), &status) != 0)
-            return output_failed(path, "cannot be written: there is no folder " + folder);
-        if (!S_ISDIR(status.st_mode))
-            return output_failed(path, "cannot be written: " + folder + " is not a folder");
-        // The file is replaced by renaming, so that the folder is what must be writable.
-        if (::access(folder.c_str(), W_OK) != 0)
-            return output_failed(path, "cannot be written: " + std::string(std::strerror(errno)));
-        std::error_code missing;
-        for (const std::string& input : inputs)
-            if (is_file(input) && std::filesystem::equivalent(path, input, missing))
-                return Error{ErrorCode::InvalidArgument,
-                             "the output " + path + " would replace the input; give another name"};
-        for (std::size_t j = 0; j < i; ++j)
-            if (is_file(outputs[j]) && is_one_file(path, outputs[j]))
-                return Error{ErrorCode::InvalidArgument, "the output " + path + " would replace the output " +
-                                                             outputs[j] + "; give another name"};
+    std::unordered_set<std::string> read;
+    for (const std::string& input : inputs)
+        if (is_file_name(input) && ::access(input.c_str(), F_OK) == 0) read.insert(identity(input));
+    std::unordered_map<std::string, std::string> written;  // by identity, as it is called
+    for (const std::string& path : outputs) {
+        if (!is_file_name(path)) continue;
+        if (Status fine = check_target(path); !fine) return fine;
+        const std::string which = identity(path);
+        if (read.contains(which))
+            return Error{ErrorCode::InvalidArgument,
+                         "the output " + path + " would replace the input; give another name"};
+        if (const auto [other, is_new] = written.emplace(which, path); !is_new)
+            return Error{ErrorCode::InvalidArgument, "the output " + path + " would replace the output " +
+                                                         other->second + "; give another name"};
     }
     return Done{};
 }

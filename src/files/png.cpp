@@ -119,7 +119,7 @@ bool read_png_rows(PngReading& r) {
     return true;
 }
 
-bool write_png_rows(PngWriting& w, const PngPixels& p, png_bytepp rows) {
+bool write_png_rows(PngWriting& w, const PngPixels& p, png_bytepp rows, png_textp texts) {
     if (setjmp(png_jmpbuf(w.png))) return false;
     png_set_write_fn(w.png, &w, on_write, on_flush);
     const int type = p.channels == 1   ? PNG_COLOR_TYPE_GRAY
@@ -132,6 +132,7 @@ bool write_png_rows(PngWriting& w, const PngPixels& p, png_bytepp rows) {
         png_set_pHYs(w.png, w.info, png_uint_32(kPerUnit), png_uint_32(kPerUnit * p.pixel_aspect + 0.5),
                      PNG_RESOLUTION_UNKNOWN);
     }
+    if (!p.texts.empty()) png_set_text(w.png, w.info, texts, int(p.texts.size()));
     png_write_info(w.png, w.info);
     if (p.bits == 16) png_set_swap(w.png);
     png_write_image(w.png, rows);
@@ -206,7 +207,14 @@ bool write_pixels(PngWriting& w, const PngPixels& p) {
     }
     std::vector<png_byte> bytes = packed(p);
     std::vector<png_bytep> rows = row_pointers(bytes, p.height);
-    return write_png_rows(w, p, rows.data());
+    std::vector<png_text> texts(p.texts.size());  // libpng copies them
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        texts[i].compression = PNG_TEXT_COMPRESSION_NONE;
+        texts[i].key = const_cast<char*>(p.texts[i].first.c_str());    // libpng does not write to it
+        texts[i].text = const_cast<char*>(p.texts[i].second.c_str());  // nor to this
+        texts[i].text_length = p.texts[i].second.size();
+    }
+    return write_png_rows(w, p, rows.data(), texts.data());
 }
 
 }  // namespace
@@ -221,6 +229,20 @@ Result<Raster> read_png_raster(const InputFile& file, const ReadOptions& options
     raster.more_bytes_per_pixel = std::size_t(png->channels * png->bits / 8);  // its rows
     raster.codes = std::move(png->samples);
     return raster;
+}
+
+Result<std::string> text_of_png(const InputFile& file, const std::string& key) {
+    PngReading r;
+    r.file = &file;
+    r.max_pixels = ReadOptions{}.max_pixels;
+    r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r, on_error<PngReading>, ignore_warning);
+    r.info = r.png ? png_create_info_struct(r.png) : nullptr;
+    if (!r.info || !read_png_header(r)) return png_error_of(file, r);
+    png_textp texts = nullptr;
+    const int count = png_get_text(r.png, r.info, &texts, nullptr);
+    for (int i = 0; i < count; ++i)
+        if (key == texts[i].key) return std::string(texts[i].text, texts[i].text_length);
+    return std::string();
 }
 
 Result<PngPixels> read_png(const std::string& path, std::size_t max_pixels) {

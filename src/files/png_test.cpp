@@ -26,6 +26,17 @@ PngPixels ramp(int width, int height, int channels, int bits) {
     return p;
 }
 
+TEST(PngText, IsReadAgainByItsKeyword) {
+    const TemporaryFolder folder;
+    PngPixels p = ramp(4, 3, 3, 8);
+    p.texts = {{"petzval:madeWith", "{\"view\":\"beauty\"}"}, {"Comment", "a"}};
+    ASSERT_TRUE(write_png(folder / "a.png", p));
+    EXPECT_EQ(read_text_attribute(folder / "a.png", "petzval:madeWith").value(), p.texts[0].second);
+    EXPECT_EQ(read_text_attribute(folder / "a.png", "Author").value(), "");
+    EXPECT_EQ(read_png(folder / "a.png")->samples, p.samples);
+    EXPECT_FALSE(read_text_attribute(folder / "none.png", "Comment"));
+}
+
 struct RawPng {
     int width = 5, height = 3, depth = 8, type = PNG_COLOR_TYPE_GRAY, interlace = PNG_INTERLACE_NONE;
     std::vector<png_color> palette;

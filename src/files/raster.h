@@ -52,6 +52,8 @@ Result<Raster> read_raster(const InputFile& file, const RasterFormat& format, co
 Result<Frame> read_raster_frame(const std::shared_ptr<const InputFile>& file, const RasterFormat& format,
                                 const ReadOptions& options, bool pixels);
 
+// The text under that keyword before the pixels; empty where there is none.
+Result<std::string> text_of_png(const InputFile& file, const std::string& key);
 Result<Raster> read_png_raster(const InputFile& file, const ReadOptions& options, bool pixels);
 bool starts_like_jpeg(const InputFile& file);
 Result<Raster> read_jpeg(const InputFile& file, const ReadOptions& options, bool pixels);

@@ -194,4 +194,9 @@ Result<std::vector<int>> FramePattern::frames_there() const {
     return frames;
 }
 
+std::string at_frame(const std::string& path, int frame) {
+    const auto pattern = FramePattern::find(path);
+    return pattern && *pattern ? (*pattern)->path(frame) : path;
+}
+
 }  // namespace petzval

@@ -11,17 +11,6 @@ namespace {
 
 using SharedShot = std::shared_ptr<const Result<Shot>>;
 
-// The frames around one, the nearest first, of two as near the earlier.
-std::vector<int> around(const std::vector<int>& frames, int frame, int each_side) {
-    const auto next = std::upper_bound(frames.begin(), frames.end(), frame);
-    const auto own = std::lower_bound(frames.begin(), frames.end(), frame);
-    std::vector<int> found(own - std::min<std::ptrdiff_t>(each_side, own - frames.begin()), own);
-    found.insert(found.end(), next, next + std::min<std::ptrdiff_t>(each_side, frames.end() - next));
-    std::stable_sort(found.begin(), found.end(),
-                     [&](int a, int b) { return std::abs(a - frame) < std::abs(b - frame); });
-    return found;
-}
-
 std::size_t bytes_of(const Shot& shot) {
     std::size_t bytes = shot.colour.bytes() + shot.motion.to_next.bytes() + shot.motion.to_previous.bytes();
     const View<const float> depth = shot.depth_plane();
@@ -32,6 +21,17 @@ std::size_t bytes_of(const Shot& shot) {
 }
 
 }  // namespace
+
+// Of two that are as near the earlier comes first.
+std::vector<int> frames_around(std::span<const int> frames, int frame, int each_side) {
+    const auto next = std::upper_bound(frames.begin(), frames.end(), frame);
+    const auto own = std::lower_bound(frames.begin(), frames.end(), frame);
+    std::vector<int> found(own - std::min<std::ptrdiff_t>(each_side, own - frames.begin()), own);
+    found.insert(found.end(), next, next + std::min<std::ptrdiff_t>(each_side, frames.end() - next));
+    std::stable_sort(found.begin(), found.end(),
+                     [&](int a, int b) { return std::abs(a - frame) < std::abs(b - frame); });
+    return found;
+}
 
 struct Neighbours::Kept {
     std::mutex mutex;
@@ -104,7 +104,7 @@ Result<SeenElsewhere> Neighbours::behind(const Shot& shot, int frame, Workers& w
     std::vector<OtherPicture> others;
     for (const Shot* eye : eyes) others.push_back({eye});
     std::vector<std::string> left_out;
-    for (const int other : around(frames_, frame, each_side_)) {
+    for (const int other : frames_around(frames_, frame, each_side_)) {
         held.push_back(kept_->get(other, frame, std::size_t(2 * each_side_ + 1), read_));
         if (Status fits = check_memory(shot); !fits) return fits.error();
         const Result<Shot>& read = *held.back();

@@ -35,6 +35,16 @@ constexpr Known kCamera[] = {{"focus", Scale::Dioptres},    {"fstop", Scale::Sto
                              {"focus_y", Scale::Even},      {"point_x", Scale::Even},
                              {"point_y", Scale::Even},      {"point_z", Scale::Even}};
 
+constexpr const char* kFollow = "follow";
+
+std::optional<bool> on_or_off(const std::string& text) {
+    for (const char* on : {"on", "yes", "true", "1"})
+        if (text == on) return true;
+    for (const char* off : {"off", "no", "false", "0"})
+        if (text == off) return false;
+    return std::nullopt;
+}
+
 const Known* known_column(const std::string& name) {
     const auto* const found =
         std::find_if(std::begin(kCamera), std::end(kCamera), [&](const Known& k) { return k.name == name; });
@@ -97,6 +107,30 @@ std::string text_of(double value) {
 class TrackReader {
 public:
     explicit TrackReader(std::string path) : path_(std::move(path)) {}
+
+    // Keys of a rack, each as a row of a file.
+    Result<Track> rack(const std::vector<std::string>& keys) {
+        for (const std::string& text : keys) {
+            const std::size_t colon = text.find(':');
+            if (colon == std::string::npos)
+                return Error{
+                    ErrorCode::InvalidArgument,
+                    path_ + " " + text + ": not FRAME:X,Y or FRAME:METRES, as 1001:80,45 or 1024:3.2"};
+            const std::string at = text.substr(colon + 1);
+            const std::size_t comma = at.find(',');
+            std::map<std::string, std::string> key{{"frame", text.substr(0, colon)}};
+            if (comma == std::string::npos)
+                key["focus"] = at;
+            else
+                key["focus_x"] = at.substr(0, comma), key["focus_y"] = at.substr(comma + 1);
+            if (Status taken = take(key, text); !taken)
+                return Error{ErrorCode::InvalidArgument,
+                             path_ + " " + taken.error().message.substr(path_.size() + 1)};
+        }
+        auto track = finished();
+        return track ? std::move(track)
+                     : Result<Track>(Error{ErrorCode::InvalidArgument, track.error().message});
+    }
 
     Result<Track> read() {
         std::error_code missing;
@@ -178,6 +212,8 @@ private:
             return wrong("frame " + std::to_string(*frame) + " is there twice", where);
         for (const auto& [name, value] : key) {
             if (name == "frame") continue;
+            if (name == kFollow && !on_or_off(value))
+                return wrong("follow " + value + " is not on or off", where);
             if (const Known* known = known_column(name)) {
                 const auto read = number(value);
                 const bool fits = read && !std::isnan(*read) &&
@@ -186,6 +222,8 @@ private:
                 if (!fits)
                     return wrong(std::string(name).append(" ").append(value) + " is no such number", where);
                 column(name).numbers[*frame] = on_scale(known->scale, *read);
+            } else if (name == kFollow) {
+                column(name).keys[*frame] = value;
             } else if (const auto taken = look_with(Look{}, name, value); !taken) {
                 return wrong(taken.error().message, where);
             }
@@ -205,7 +243,7 @@ private:
     Result<Track> finished() {
         if (track_.columns_.empty()) return wrong("has no key: rows under frame and what changes");
         for (Track::Column& c : track_.columns_) {
-            if (known_column(c.name)) continue;
+            if (known_column(c.name) || c.name == kFollow) continue;
             // A column of numbers alone is mixed, but where the field takes whole numbers only.
             std::map<int, double> numbers;
             for (const auto& [frame, value] : c.keys)
@@ -220,12 +258,24 @@ private:
                                            {"point_z", "point_x"}})
             if (track_.find(some) && !track_.find(others))
                 return wrong("has " + std::string(some) + " without " + others);
-        const int kinds = (track_.find("focus") ? 1 : 0) + (track_.find("focus_x") ? 1 : 0) +
-                          (track_.find("point_x") ? 1 : 0);
-        if (kinds > 1)
-            return wrong("says the focus twice; give one of focus, focus_x with focus_y, point_x …");
+        if (const auto frame = says_focus_twice())
+            return wrong("says the focus twice in frame " + std::to_string(*frame) +
+                         "; give one of focus, focus_x with focus_y, point_x …");
+        if (track_.find(kFollow) && !track_.find("focus_x"))
+            return wrong("follow has no effect without focus_x and focus_y");
         track_.first_ = *frames_.begin(), track_.last_ = *frames_.rbegin();
         return std::move(track_);
+    }
+
+    // Distances and pixels may take turns, each at frames of their own; points of the world stand alone.
+    std::optional<int> says_focus_twice() const {
+        const Track::Column *metres = track_.find("focus"), *pixel = track_.find("focus_x"),
+                            *point = track_.find("point_x");
+        if (point && (metres || pixel)) return point->keys.begin()->first;
+        if (metres && pixel)
+            for (const auto& [frame, text] : metres->keys)
+                if (pixel->keys.contains(frame)) return frame;
+        return std::nullopt;
     }
 
     std::string path_;
@@ -234,6 +284,72 @@ private:
 };
 
 Result<Track> Track::read(const std::string& path) { return TrackReader(path).read(); }
+
+Result<Track> Track::rack(const std::vector<std::string>& keys) {
+    return TrackReader("shot.rack").rack(keys);
+}
+
+Status Track::add(Track other) {
+    const auto is_focus = [](const std::string& name) {
+        return name == "focus" || name == kFollow || name.starts_with("focus_") || name.starts_with("point_");
+    };
+    for (const Column& theirs : other.columns_)
+        for (const Column& own : columns_)
+            if (own.name == theirs.name || (is_focus(own.name) && is_focus(theirs.name)))
+                return Error{ErrorCode::InvalidArgument,
+                             "shot.rack: the track says the focus too, in its column " + own.name};
+    for (Column& theirs : other.columns_) columns_.push_back(std::move(theirs));
+    first_ = std::min(first_, other.first_), last_ = std::max(last_, other.last_);
+    return Done{};
+}
+
+bool Track::follows(int frame) const {
+    const Column* column = find(kFollow);
+    if (!column) return false;
+    auto key = column->keys.upper_bound(frame);
+    if (key != column->keys.begin()) --key;
+    return *on_or_off(key->second);
+}
+
+std::optional<PixelPosition> Track::pixel_at(int frame) const {
+    const Column *x = find("focus_x"), *y = find("focus_y");
+    const auto across = x ? number_at(*x, frame) : std::nullopt,
+               down = y ? number_at(*y, frame) : std::nullopt;
+    if (!across || !down) return std::nullopt;
+    return PixelPosition{int(std::lround(*across)), int(std::lround(*down))};
+}
+
+std::map<int, PixelPosition> Track::measured_at(std::span<const int> frames) const {
+    std::map<int, PixelPosition> pixels;
+    const Column *x = find("focus_x"), *metres = find("focus");
+    if (!x) return pixels;
+    std::map<int, bool> keys;  // of the focus; true: by a pixel
+    for (const auto& [frame, text] : x->keys) keys[frame] = true;
+    for (const auto& [frame, text] : find("focus_y")->keys) keys[frame] = true;
+    if (metres)
+        for (const auto& [frame, text] : metres->keys) keys[frame] = false;
+    const auto measure = [&](std::map<int, bool>::const_iterator key) {
+        if (key->second) pixels[key->first] = *pixel_at(key->first);
+    };
+    for (const int frame : frames) {
+        if (follows(frame)) continue;
+        const auto after = keys.lower_bound(frame);
+        if (after != keys.end()) measure(after);
+        if (after != keys.begin() && (after == keys.end() || after->first != frame))
+            measure(std::prev(after));
+    }
+    return pixels;
+}
+
+void Track::set_focus(const std::map<int, double>& distances_m) {
+    is_measured_ = true;
+    if (distances_m.empty()) return;
+    if (!find("focus")) columns_.push_back({"focus", {}, {}});
+    for (Column& column : columns_)
+        if (column.name == "focus")
+            for (const auto& [frame, metres] : distances_m)
+                column.numbers[frame] = on_scale(Scale::Dioptres, metres);
+}
 
 const Track::Column* Track::find(const std::string& name) const {
     const auto found =
@@ -260,15 +376,19 @@ TrackedFrame Track::at(int frame) const {
         const auto value = number_at(*column, frame);
         return value ? std::optional(from_scale(known_column(name)->scale, *value)) : std::nullopt;
     };
-    tracked.camera.focus_distance_m = camera("focus");
+    const bool by_pixel = find("focus_x") && (!is_measured_ || follows(frame));
+    if (by_pixel)
+        tracked.focus_pixel = pixel_at(frame);
+    else
+        tracked.camera.focus_distance_m = camera("focus");
+    if (const Column* focus = find("focus"); focus && !by_pixel)
+        tracked.is_between_keys = is_slowed_ || !focus->numbers.contains(frame);
     tracked.camera.f_number = camera("fstop");
     tracked.camera.focal_length_mm = camera("focal_length");
-    if (const auto x = camera("focus_x"), y = camera("focus_y"); x && y)
-        tracked.focus_pixel = PixelPosition{int(std::lround(*x)), int(std::lround(*y))};
     if (const auto x = camera("point_x"), y = camera("point_y"), z = camera("point_z"); x && y && z)
         tracked.focus_point = WorldPoint{*x, *y, *z};
     for (const Column& column : columns_) {
-        if (known_column(column.name)) continue;
+        if (known_column(column.name) || column.name == kFollow) continue;
         if (const auto value = number_at(column, frame)) {
             tracked.look[column.name] = text_of(*value);
             continue;
@@ -298,6 +418,7 @@ void Track::limit_focus_speed(double dioptres_per_frame) {
         if (frame == std::numeric_limits<int>::max()) break;
     }
     focus->numbers = std::move(slow);
+    is_slowed_ = true;
 }
 
 }  // namespace petzval

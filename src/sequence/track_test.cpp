@@ -60,6 +60,63 @@ TEST_F(TrackFile, JsonSaysTheSame) {
     EXPECT_EQ(pixel->y, 20);
 }
 
+// A rack from a near thing to a far one, between whose pixels lies something else.
+TEST_F(TrackFile, PixelsAreMeasuredAtTheirKeysAndFocusMovesEvenlyBetween) {
+    auto track = read("frame,focus_x,focus_y\n20,160,150\n24,60,60\n30,60,60\n");
+    ASSERT_TRUE(track) << track.error().message;
+    const auto pixels = track->measured_at(std::vector<int>{21, 22});
+    ASSERT_EQ(pixels.size(), 2u) << "the keys around the frames, and no other";
+    EXPECT_EQ(pixels.at(20).x, 160);
+    EXPECT_EQ(pixels.at(24).y, 60);
+    track->set_focus({{20, 2}, {24, 4}});
+    EXPECT_FALSE(track->at(22).focus_pixel);
+    EXPECT_DOUBLE_EQ(*track->at(20).camera.focus_distance_m, 2);
+    EXPECT_DOUBLE_EQ(*track->at(22).camera.focus_distance_m, 1 / 0.375);
+    EXPECT_TRUE(track->at(22).is_between_keys);
+    EXPECT_FALSE(track->at(24).is_between_keys);
+}
+
+TEST_F(TrackFile, APixelIsFollowedWhereThatIsAskedFor) {
+    auto track = read("frame,focus_x,focus_y,follow\n1,10,20,on\n3,30,20,off\n5,50,20,\n");
+    ASSERT_TRUE(track) << track.error().message;
+    const auto pixels = track->measured_at(std::vector<int>{1, 2, 3, 4, 5});
+    EXPECT_EQ(pixels.size(), 2u);
+    EXPECT_FALSE(pixels.contains(1)) << "its frames are measured as they are made";
+    track->set_focus({{3, 1}, {5, 2}});
+    ASSERT_TRUE(track->at(2).focus_pixel);
+    EXPECT_EQ(track->at(2).focus_pixel->x, 20);
+    EXPECT_FALSE(track->at(2).camera.focus_distance_m);
+    EXPECT_FALSE(track->at(4).focus_pixel);
+    EXPECT_DOUBLE_EQ(*track->at(4).camera.focus_distance_m, 1 / 0.75);
+}
+
+TEST(Rack, IsATrackOfPixelsAndDistances) {
+    auto rack = Track::rack({"1001:80,45", "1024:4", "1030:inf"});
+    ASSERT_TRUE(rack) << rack.error().message;
+    EXPECT_EQ(rack->first(), 1001);
+    EXPECT_EQ(rack->last(), 1030);
+    const auto pixels = rack->measured_at(std::vector<int>{1001, 1010});
+    ASSERT_EQ(pixels.size(), 1u);
+    EXPECT_EQ(pixels.at(1001).y, 45);
+    rack->set_focus({{1001, 2}});
+    EXPECT_DOUBLE_EQ(*rack->at(1024).camera.focus_distance_m, 4);
+    EXPECT_NEAR(1 / *rack->at(1012).camera.focus_distance_m, 0.5 - 0.25 * 11 / 23, 1e-12);
+    EXPECT_TRUE(std::isinf(*rack->at(1030).camera.focus_distance_m));
+    for (const char* wrong : {"1001", "1001:", "a:1", "1:1,2,3", "1:1,", "1:-2", "1:near"})
+        EXPECT_FALSE(Track::rack({wrong})) << wrong;
+    EXPECT_FALSE(Track::rack({"1:2", "1:3"})) << "two keys in one frame";
+}
+
+TEST_F(TrackFile, ARackIsAddedToATrackOfOtherThings) {
+    auto track = read("frame,fstop\n1,2\n9,2.8\n"), other = read("frame,focus\n1,2\n9,3\n");
+    const auto rack = Track::rack({"3:1", "12:2"});
+    ASSERT_TRUE(track->add(*rack));
+    EXPECT_DOUBLE_EQ(*track->at(3).camera.focus_distance_m, 1);
+    EXPECT_DOUBLE_EQ(*track->at(1).camera.f_number, 2);
+    EXPECT_EQ(track->last(), 12);
+    EXPECT_FALSE(other->add(*rack)) << "both say the focus";
+}
+
 TEST_F(TrackFile, FocusMayBeNoFasterThanItsLimit) {
     auto track = read("frame,focus\n1,inf\n3,1\n4,1\n");
     ASSERT_TRUE(track);
@@ -84,6 +141,8 @@ TEST_F(TrackFile, WhatIsWrongIsSaidWithItsLine) {
              {"frame,lens.blades\n1,many\n", "lens.blades"},
              {"frame,focus,focus_x,focus_y\n1,2,3,4\n", "twice"},
              {"frame,focus_x\n1,2\n", "focus_y"},
+             {"frame,focus,follow\n1,2,on\n", "follow"},
+             {"frame,focus_x,focus_y,follow\n1,2,3,maybe\n", "follow maybe"},
              {"frame,frame\n1,1\n", "twice"},
              {"{\"frames\": 3}", "frames"},
              {"{\"frames\": [{\"focus\": 3}]}", "frames[0]"},

@@ -1,12 +1,18 @@
 """Pictures through pipes: in by -, out by -.exr and -.png, and nothing else on standard output."""
 import os
+import re
 import signal
 import subprocess
 import time
 import unittest
 
-from pictures import camera_attributes, picture, read_exr, write_exr
+from pictures import camera_attributes, picture, read_exr, read_png, write_exr
 from program import PETZVAL, CommandLineTest
+
+
+def nameless(exr):
+    """An output without the digest of its inputs' names: standard input has another."""
+    return re.sub(rb'"files":"[0-9a-f]{32}"', b"", exr)
 
 
 class Pipes(CommandLineTest):
@@ -24,16 +30,19 @@ class Pipes(CommandLineTest):
         self.succeed("develop", "out.exr", "-o", "out.png")
         blurred = self.piped("defocus", "-", "-o", "-.exr", given=self.content("in.exr"))
         self.assertEqual(blurred.returncode, 0, blurred.stderr)
-        self.assertEqual(blurred.stdout, self.content("out.exr"))
+        self.assertEqual(nameless(blurred.stdout), nameless(self.content("out.exr")))
         shown = self.piped("develop", "-", "-o", "-.png", given=blurred.stdout)
-        self.assertEqual(shown.stdout, self.content("out.png"), shown.stderr)
+        with open(self.path("piped.png"), "wb") as file:
+            file.write(shown.stdout)
+        self.assertEqual(read_png(self.path("piped.png")), read_png(self.path("out.png")), shown.stderr)
+        os.remove(self.path("piped.png"))
         self.assertIn(b"display window", self.piped("inspect", "-", given=self.content("in.exr")).stdout)
         self.assertEqual(sorted(os.listdir(self.folder)), ["in.exr", "out.exr", "out.png"])
 
     def test_depth_may_come_through_a_pipe(self):
         self.succeed("defocus", "in.exr", "-o", "out.exr", "--depth", "in.exr")
         piped = self.piped("defocus", "in.exr", "--depth", "-", "-o", "-.exr", given=self.content("in.exr"))
-        self.assertEqual(piped.stdout, self.content("out.exr"), piped.stderr)
+        self.assertEqual(nameless(piped.stdout), nameless(self.content("out.exr")), piped.stderr)
 
     def test_what_cannot_be_piped_is_said(self):
         self.refuse(2, "defocus", "in.exr", "-o", "-", says=["-.exr or -.png"])

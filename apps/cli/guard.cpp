@@ -1,0 +1,28 @@
+#include "guard.h"
+
+#include "console.h"
+
+#include <filesystem>
+
+namespace petzval::cli {
+namespace {
+
+bool g_never_replaces = false;
+
+}  // namespace
+
+RunFiles& run_files() {
+    static RunFiles files;
+    return files;
+}
+
+void never_replace() { g_never_replaces = true; }
+
+bool is_left_alone(const std::string& path) {
+    std::error_code missing;
+    if (!g_never_replaces || path.empty() || !std::filesystem::exists(path, missing)) return false;
+    note(path + ": already there, left alone (--no-clobber)");
+    return true;
+}
+
+}  // namespace petzval::cli

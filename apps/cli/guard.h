@@ -1,0 +1,19 @@
+// The files of this run, in one place: flags and arguments that name a file say so as they are read
+// (flags.h), a verb adds those it finds by itself, and main asks before the work begins.
+#pragma once
+
+#include "petzval/run_files.h"
+
+#include <string>
+
+namespace petzval::cli {
+
+// Those of this process, which runs one verb.
+RunFiles& run_files();
+
+// From here on --no-clobber holds.
+void never_replace();
+// With --no-clobber and a file of that name: says that it is left alone.
+bool is_left_alone(const std::string& path);
+
+}  // namespace petzval::cli

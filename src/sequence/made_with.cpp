@@ -1,0 +1,148 @@
+#include "petzval/made_with.h"
+
+#include "petzval/files.h"
+#include "petzval/look_json.h"
+#include "petzval/version.h"
+
+#include "base/content_hash.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+namespace petzval {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kProgram = "petzval";
+
+std::string as_text(const Json& value) { return value.dump(-1, ' ', true, Json::error_handler_t::replace); }
+
+// "lens.blades" and its value for every number, word and list of a look.
+void flatten(const Json& json, const std::string& path, std::map<std::string, std::string>& fields) {
+    for (const auto& [key, value] : json.items()) {
+        const std::string field = path.empty() ? key : path + "." + key;
+        if (value.is_object())
+            flatten(value, field, fields);
+        else
+            fields[field] = as_text(value);
+    }
+}
+
+std::map<std::string, std::string> fields_of(const Look& look) {
+    std::map<std::string, std::string> fields;
+    flatten(Json::parse(look_to_json(look)), "", fields);
+    return fields;
+}
+
+std::string spoken(const std::map<std::string, std::string>& settings, const std::string& field) {
+    const auto found = settings.find(field);
+    if (found == settings.end()) return "not given";
+    const std::string& value = found->second;
+    if (const Json number = Json::parse(value, nullptr, false); number.is_number_float()) {
+        char text[32];
+        std::snprintf(text, sizeof(text), "%.6g", number.get<double>());
+        return text;
+    }
+    return value.size() > 1 && value.front() == '"' ? value.substr(1, value.size() - 2) : value;
+}
+
+bool is_there(const std::string& path) {
+    std::error_code missing;
+    return fs::exists(path, missing);
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+    return text;
+}
+
+}  // namespace
+
+void MadeWith::add(const std::string& field, const std::string& text) { settings_[field] = as_text(text); }
+
+void MadeWith::add(const std::string& field, double value) {
+    settings_[field] = std::isfinite(value) ? as_text(value) : value > 0 ? "\"inf\"" : "\"-inf\"";
+}
+
+void MadeWith::add(const std::string& field, const std::optional<double>& value) {
+    if (value) add(field, *value);
+}
+
+void MadeWith::add(const Look& look) {
+    const auto usual = fields_of(Look{});
+    for (const auto& [field, value] : fields_of(look)) {
+        const auto same = usual.find(field);
+        if (same == usual.end() || same->second != value) settings_[field] = value;
+    }
+}
+
+void MadeWith::add_files(const std::vector<std::string>& names) {
+    ContentHash hash;
+    for (const std::string& name : names) hash.add(name);
+    settings_["files"] = as_text(hash.text());
+}
+
+std::string MadeWith::text() const {
+    Json json = {{kProgram, PETZVAL_VERSION}};
+    for (const auto& [field, value] : settings_) json[field] = Json::parse(value, nullptr, false);
+    return as_text(json);
+}
+
+std::string MadeWith::difference(const std::string& text_of_picture) const {
+    if (text_of_picture.empty()) return "it does not say what it was made with";
+    const Json json = Json::parse(text_of_picture, nullptr, false);
+    if (!json.is_object()) return "what it was made with cannot be read";
+    std::map<std::string, std::string> before;
+    for (const auto& [field, value] : json.items()) before[field] = as_text(value);
+    std::map<std::string, std::string> now = settings_;
+    now[kProgram] = as_text(PETZVAL_VERSION);
+    std::vector<std::string> different;
+    for (const auto& [field, value] : now)
+        if (const auto was = before.find(field); was == before.end() || was->second != value)
+            different.push_back(field);
+    for (const auto& [field, value] : before)
+        if (!now.contains(field)) different.push_back(field);
+    if (different.empty()) return "";
+    const std::string& field = different.front();
+    const std::string more =
+        different.size() > 1 ? ", and " + std::to_string(different.size() - 1) + " more differ" : "";
+    if (field == "files") return "it was made from other files" + more;
+    return field + " was " + spoken(before, field) + " and is " + spoken(now, field) + more;
+}
+
+OutputState state_of(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                     ExistingOutputs existing, const MadeWith* made_with) {
+    if (existing == ExistingOutputs::Replace || outputs.empty()) return {};
+    for (const std::string& path : outputs)
+        if (!is_there(path)) return {};
+    if (existing == ExistingOutputs::Keep)
+        return {true, listed(outputs) + ": already there, left alone (run.keep)"};
+    std::error_code missing;
+    auto oldest = fs::file_time_type::max();
+    for (const std::string& path : outputs) oldest = std::min(oldest, fs::last_write_time(path, missing));
+    for (const std::string& path : inputs) {
+        const auto changed = fs::last_write_time(path, missing);
+        if (missing) return {};  // a missing input is reported when it is read
+        if (changed >= oldest) return {false, path + " is newer"};
+    }
+    if (made_with) {
+        const auto text = read_text_attribute(outputs.front(), kMadeWith);
+        const std::string why = text ? made_with->difference(*text) : "it cannot be read";
+        if (!why.empty()) return {false, why};
+    }
+    return {true, listed(outputs) + ": newer than " + listed(inputs) + ", nothing to do (run.update)"};
+}
+
+bool is_whole_picture(const std::string& path) {
+    std::string extension = fs::path(path).extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return extension == ".png" ? bool(read_png(path)) : bool(read_frame(path));
+}
+
+}  // namespace petzval
