@@ -107,6 +107,8 @@ PUBLIC = {
     "frames": "sequence",
     "track": "sequence",
     "run_files": "sequence",
+    "frame_loop": "sequence",
+    "shot_run": "sequence",
     "made_with": "sequence",
     "views": "views",
     "version": "base",

@@ -1,0 +1,154 @@
+// A run over the frames of a shot: frames and patterns, missing inputs, outputs that exist, tracks,
+// neighbouring frames, retries, records. The command line, the window and render farms call it. Component
+// petzval::files.
+//
+//     auto settings = petzval::shot_run_from_json(R"({"input": "beauty.####.exr", "output": "out.####.exr",
+//                                                     "frames": "1001-1100", "camera": {"f_number": 2}})");
+//     petzval::Session session;
+//     petzval::ShotRun run(session, std::move(*settings), {.frame_done = [](const auto& done) {
+//         std::puts(done.record.c_str());
+//         return true;                       // false stops the run
+//     }});
+//     petzval::Status done = run.run();
+#pragma once
+
+#include "petzval/develop.h"
+#include "petzval/export.h"
+#include "petzval/frame_loop.h"
+#include "petzval/look.h"
+#include "petzval/made_with.h"
+#include "petzval/motion.h"
+#include "petzval/neighbours.h"
+#include "petzval/result.h"
+#include "petzval/session.h"
+#include "petzval/shot.h"
+#include "petzval/track.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval {
+
+// The picture that is written.
+enum class ShotView {
+    Beauty,
+    Coc,
+    Focus,
+    Depth,
+    Alpha,
+    Sharp,
+    BlurSmall,
+    BlurLarge,
+    BlurRows,
+    FocusIndex,
+    Levels,
+    Layers,
+    Highlights,
+    Hidden
+};
+// Each with its name, in the order in which people should read them.
+PETZVAL_API const std::vector<std::pair<std::string, ShotView>>& shot_views();
+PETZVAL_API const char* name_of(ShotView view);
+// An engine makes it; its PNG is developed (exposure, tone).
+PETZVAL_API bool is_rendered(ShotView view);
+PETZVAL_API bool is_developed(ShotView view);
+
+// How far the data window grows: a number of pixels, or one of these.
+constexpr int kOverscanAutomatic = 0, kOverscanWithinFrame = -1, kOverscanOff = -2;
+
+// source.read.view_name of every view of a stereo file.
+inline constexpr const char* kAllViews = "all";
+
+// Of display pictures (PNG). What is not given depends on the input: a picture that was display-referred
+// keeps its look.
+struct DisplayChoice {
+    std::optional<double> exposure_stops = {}, contrast = {};
+    std::optional<ToneCurve> tone = {};
+    std::optional<Transfer> transfer = {};
+    int bits = 8;
+    std::string ocio_view = {}, ocio_space = {};  // done by ShotRunHost::to_display
+
+    PETZVAL_API DevelopSettings settings(bool display_referred, int threads) const;
+};
+
+// All that a run is asked for. Paths of the source and of the outputs may hold a frame number (frames.h);
+// without one, and without frames, the run makes a single picture.
+struct ShotRunSettings {
+    ShotSource source;  // with the camera of the user; source.read.threads and max_memory_bytes hold for all
+    std::optional<PixelPosition> focus_pixel = {};
+    std::optional<WorldPoint> focus_point = {};
+    double permissible_radius_px = 1;  // blur that still counts as sharp
+    Look look = {};
+    ShotView view = ShotView::Beauty;
+    std::optional<int> overscan_px = {};
+    DisplayChoice display = {};
+
+    std::string output;          // .exr or .png
+    std::string record_file;     // JSON of each frame in a file of its own; empty: none
+    std::string report_file;     // one line of JSON a frame; empty: none
+    std::string save_look_file;  // the look, once a picture is written; empty: not kept
+    ExistingOutputs existing = ExistingOutputs::Replace;
+
+    std::vector<int> frames = {};  // empty: those that are there
+    std::optional<MissingFiles> missing = {};
+    std::string track_file = {};
+    std::vector<std::string> rack = {};  // keys, as Track::rack() takes them
+    std::optional<double> focus_speed = {};
+    int temporal = 0;  // neighbouring frames on each side
+    MotionReading motion = {};
+    int retries = 0;  // of a frame that failed for another reason than its input
+
+    // Said beside the warnings of each frame, as what a look's file holds to no effect.
+    std::vector<std::string> warnings = {};
+};
+
+// Settings as JSON: {"input", "output", "frames": "1001-1100", "look": {…}, "camera": {"f_number", …},
+// "focus_at": [x, y], "depth": FILE, "depth_kind", "depth_channel", "layer", "layers": […], "behind",
+// "holdout", "mask", "merge": […], "lights", "track", "rack": […], "focus_speed", "temporal", "existing":
+// "replace" | "keep" | "update", "missing": "fail" | "skip" | "black", "retries", "report", "view",
+// "overscan", "exposure", "contrast", "tone", "threads", "max_memory_bytes"}. Errors: InvalidArgument naming
+// an unknown key or a wrong value.
+PETZVAL_API Result<ShotRunSettings> shot_run_from_json(const std::string& text);
+
+struct ShotRunHost : FrameLoopHost {
+    std::function<bool(double)> frame_progress = {};  // within a frame; false cancels
+    // By a colour manager, in place of the tone curve: light becomes what the display wants, `settings` what
+    // is left to do to it. `used`: a line on what was taken.
+    std::function<Status(Picture& light, DevelopSettings& settings, std::string& used,
+                         std::vector<std::string>& warnings)>
+        to_display = {};
+};
+
+class PETZVAL_API ShotRun {
+public:
+    // The session outlives the run and holds what one frame leaves to the next.
+    ShotRun(Session& session, ShotRunSettings settings, ShotRunHost host = {});
+    ~ShotRun();
+    ShotRun(const ShotRun&) = delete;
+    ShotRun& operator=(const ShotRun&) = delete;
+
+    // Frames, files that are missing, outputs that would replace an input, the track, what neighbours need:
+    // all that can be refused before the work. `files` knows more files of this process; may be null. run()
+    // calls it where it was not called. Errors: InvalidArgument, InvalidFile.
+    Status plan(RunFiles* files = nullptr);
+    // Those that are made; after plan().
+    const std::vector<int>& frames() const;
+    // One frame, outside of the loop: no retry, no callback.
+    Result<FrameRecord> make(int frame);
+    // All of them; frames that fail do not keep the others from being made. Errors: those of plan(),
+    // Cancelled, OutputFailed for the report.
+    Status run();
+    // Frames that failed.
+    const std::vector<int>& failed() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace petzval
