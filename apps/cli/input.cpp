@@ -36,7 +36,8 @@ void InputFlags::add_depth_to(Verb& verb) {
                            "in pixels",
                            depth_kind)
         .value("--depth-range", "NEAR,FAR",
-               "the ends of normalized, device, inverse or mist depth in units of the scene, as 0.1,100",
+               "the ends of normalized, device, inverse or mist depth in units of the scene, as 0.1,100; of "
+               "coc-px the radii of 0 and 1, as -20,35",
                parse_range, depth_range)
         .value("--unit-scale", "METRES", "metres per unit of depth, as 0.01 or 1cm for centimetres",
                parse_length_m, unit_scale_m);

@@ -1,10 +1,26 @@
 #include "shot/file_of_shot.h"
 
+#include "depth/quantised.h"
+
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace petzval::shot {
 namespace {
+
+// Radii of 0…1 between the ends of a range.
+Status between_ends(View<float> radii, const DepthSettings& settings) {
+    if (!settings.range_near || !settings.range_far) return Done{};
+    const double near = *settings.range_near, far = *settings.range_far;
+    if (!std::isfinite(near) || !std::isfinite(far) || near == far)
+        return Error{ErrorCode::InvalidArgument,
+                     "depth.range of depth.kind coc-px needs two different radii in pixels", "depth.range"};
+    for (int y = 0; y < radii.height(); ++y)
+        for (int x = 0; x < radii.width(); ++x)
+            radii(x, y) = float(near + double(radii(x, y)) * (far - near));
+    return Done{};
+}
 
 // Radii as they are; what is not a number is sharp.
 DepthReport check_radii(View<float> radii) {
@@ -18,10 +34,32 @@ DepthReport check_radii(View<float> radii) {
     return report;
 }
 
+// Steps of one code are no edges.
+void join_codes(Frame& frame, const DepthSettings& settings) {
+    if (frame.depth.empty() || !frame.deep.empty()) return;
+    const float quantum = quantum_of(frame.depth, frame.depth_is_share);
+    if (!(quantum > 0)) return;
+    // A depth of 0 is missing, unless it is the end of a range.
+    const bool any = settings.kind == DepthKind::CocPx || (settings.range_near && settings.range_far);
+    constexpr float kMissFrom = 1e10f;
+    frame.depth = without_steps(
+        frame.depth, quantum, any ? [](float v) { return std::isfinite(v); } : [](float v) {
+            return std::isfinite(v) && v != 0 && std::abs(v) < kMissFrom;
+        });
+    char text[96];
+    std::snprintf(text, sizeof text, "depth: stored in steps of %.4g; neighbouring steps are one surface",
+                  double(quantum));
+    frame.detected.emplace_back(text);
+}
+
 }  // namespace
 
 Result<DepthReport> make_depth(Frame& frame, const DepthSettings& settings) {
-    if (settings.kind == DepthKind::CocPx) return check_radii(frame.depth.view());
+    join_codes(frame, settings);
+    if (settings.kind == DepthKind::CocPx) {
+        if (const Status fine = between_ends(frame.depth.view(), settings); !fine) return fine.error();
+        return check_radii(frame.depth.view());
+    }
     if (frame.depth.empty()) return DepthReport{};
     auto report = depth_to_planar_metres(frame.depth.view(), frame.place, settings);
     if (!report || frame.deep.empty()) return report;

@@ -67,6 +67,14 @@ Status read_given_lights(Reading& r) {
 
 // Errors: InvalidArgument for whole numbers, which hold no metres, unless a user said what they mean.
 Status check_meaning(const ShotSource& source, const Frame& frame) {
+    const bool has_ends = source.depth.range_near && source.depth.range_far;
+    if (frame.depth_is_share && source.depth.kind == DepthKind::CocPx && !has_ends)
+        return Error{
+            ErrorCode::InvalidArgument,
+            source.read.depth_file +
+                ": radii in whole numbers have no unit; give those of black and white as depth.range, "
+                "in pixels, negative in front of focus",
+            "depth.range"};
     if (!frame.depth_is_share || source.depth_kind_given || source.depth.kind != DepthKind::Planar)
         return Done{};
     return Error{
@@ -155,9 +163,10 @@ Status check(const ShotSource& source) {
     const std::string name = name_of(kind);
     if (ranged && !has_range)
         return invalid("depth.kind " + name + " needs depth.range NEAR,FAR, as depth.range 0.1,100");
-    if (!ranged && has_range && kind != DepthKind::Inverse)
-        return invalid("depth.range is for depth.kind normalized, device, inverse or mist; depth here is " +
-                       name);
+    if (!ranged && has_range && kind != DepthKind::Inverse && kind != DepthKind::CocPx)
+        return invalid(
+            "depth.range is for depth.kind normalized, device, inverse, mist or coc-px; depth here is " +
+            name);
     if (!source.read.layers.empty() && !source.merge.empty())
         return Error{ErrorCode::InvalidArgument,
                      "read.layers cannot be used with shot.merge: the other pictures hold no such layers",

@@ -28,6 +28,30 @@ class DepthMeaning(CommandLineTest):
         rows = self.depth("--depth", "z.png", "--depth-kind", "planar", "--unit-scale", "65.535")
         self.assertAlmostEqual(rows[5][3], 65.535, places=3)
 
+    def test_radii_in_whole_numbers_need_those_of_black_and_white(self):
+        self.refuse(2, "defocus", "in.exr", "--depth", "z.png", "--depth-kind", "coc-px", "-o", "out.exr",
+                    says=["z.png", "--depth-range", "pixels"])
+        flags = ["--depth", "z.png", "--depth-kind", "coc-px", "--depth-range=-6,12"]
+        self.succeed("defocus", "in.exr", "-o", "coc.exr", "--view", "coc", *flags)
+        rows = read_exr(self.path("coc.exr"))[0]["coc_radius_px"]
+        self.assertEqual((rows[5][3], rows[5][20]), (12, -6))
+
+    def test_steps_of_one_code_are_no_edges(self):
+        """A slope in 8 bits is blurred as the slope itself."""
+        width, height = 160, 100
+
+        def disparity(x, y):
+            return 0.35 + 0.1 * x / width + 0.06 * y / height
+        shade = picture(width, height, lambda x, y: 0.2 + 0.1 * ((x // 9 + y // 7) % 2), None)
+        write_exr(self.path("cloth.exr"), shade, attributes=CAMERA)
+        write_png(self.path("z8.png"), plane(width, height, lambda x, y: round(255 * disparity(x, y))), channels=1)
+        write_exr(self.path("z.exr"), {"Z": plane(width, height, disparity)})
+        flags = ["--depth-kind", "inverse", "--depth-range", "1,8", "--focal-length", "300", "--fstop", "1"]
+        for name in ("z8.png", "z.exr"):
+            self.succeed("defocus", "cloth.exr", "--depth", name, *flags, "-o", name + ".out.exr")
+        found = self.report("compare", "z.exr.out.exr", "z8.png.out.exr")["psnr_lin"]
+        self.assertGreater(found, 60)
+
     def test_affine_disparity_has_a_near_and_a_far_end(self):
         rows = self.depth("--depth", "z.png", "--depth-kind", "inverse", "--depth-range", "1,8")
         self.assertEqual((rows[5][3], rows[5][20]), (1, 8))
