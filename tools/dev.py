@@ -206,9 +206,22 @@ def samples(*words):
     run(sys.executable, "tools/sample_set.py", program(), "docs/pictures/samples" if words else "build/samples", *words)
 
 
+def web(*words):
+    """[--serve]: builds the lens lab into build/web; --serve: then serves it on this machine"""
+    make("release", "petzval_cli")
+    run(sys.executable, "tools/web.py", program(), *words)
+
+
+def web_test(*words):
+    """[ARGS…]: builds the lens lab and tests it in a headless Chromium; ARGS go to Python's unittest"""
+    make("release", "petzval_cli")
+    run(sys.executable, "tools/web.py", program())
+    run("/usr/bin/python3", "tests/web/lab_test.py", program(), *words)  # Debian's: selenium is its package
+
+
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
-         "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples}
+         "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "web": web, "web-test": web_test}
 
 
 def help_text():

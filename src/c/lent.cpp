@@ -1,6 +1,7 @@
 #include "c/lent.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -26,7 +27,7 @@ Status check_layout(int width, int height, petzval_sample sample, std::ptrdiff_t
                     std::ptrdiff_t row_stride, const char* name) {
     if (sample != PETZVAL_FLOAT && sample != PETZVAL_HALF)
         return refused(std::string(name) + ": sample is neither PETZVAL_FLOAT nor PETZVAL_HALF");
-    constexpr std::ptrdiff_t kFarthest = std::ptrdiff_t(1) << 40;  // times a side it is still an address
+    constexpr std::int64_t kFarthest = std::int64_t(1) << 40;  // times a side it is still an address
     const std::ptrdiff_t least = sample == PETZVAL_HALF ? 2 : 4;
     struct Stride {
         const char* called;

@@ -1,0 +1,197 @@
+"""The lens lab in a headless Chromium: discs beside the program's, every control, links, sizes, and what the page does without.
+
+Usage: /usr/bin/python3 lab_test.py PETZVAL (Debian's Python: selenium is its package), after ./dev web.
+"""
+import base64
+import gzip
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests/cli"), str(ROOT / "tools")]
+from pictures import read_exr  # noqa: E402
+from web import SITE, server_of  # noqa: E402
+
+from selenium import webdriver  # noqa: E402
+from selenium.webdriver.chrome.service import Service  # noqa: E402
+from selenium.webdriver.common.by import By  # noqa: E402
+from selenium.webdriver.support.ui import WebDriverWait  # noqa: E402
+
+PETZVAL = sys.argv.pop(1)
+SECONDS = 120
+
+
+def browser():
+    options = webdriver.ChromeOptions()
+    options.binary_location = "/usr/bin/chromium"
+    for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    made = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+    made.set_script_timeout(SECONDS)
+    return made
+
+
+class Page(unittest.TestCase):
+    site = SITE
+
+    @classmethod
+    def setUpClass(cls):
+        cls.server = server_of(cls.site)
+        threading.Thread(target=cls.server.serve_forever, daemon=True).start()
+        cls.origin = f"http://127.0.0.1:{cls.server.server_port}"
+        cls.browser = browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+        cls.server.shutdown()
+
+    def open(self, fragment="", width=1280, height=900):
+        self.browser.set_window_size(width, height)
+        self.browser.get("about:blank")
+        self.browser.get(f"{self.origin}/index.html{fragment}")
+        WebDriverWait(self.browser, SECONDS).until(
+            lambda b: b.execute_script('return document.getElementById("lab").getAttribute("aria-busy") === "false"'))
+
+    def text(self, name):
+        return self.browser.execute_script("return document.getElementById(arguments[0]).textContent", name)
+
+    def ask(self, call, **args):
+        """A call of the page's kernel; pixels come as a list."""
+        done = self.browser.execute_async_script("""
+            const [call, args, finish] = arguments;
+            lab.kernel.ask(call, args).then(({ result }) => finish(result?.pixels ? { ...result, pixels: Array.from(result.pixels) } : result),
+                                            (error) => finish({ refused: error.message }));""", call, args)
+        self.assertFalse(isinstance(done, dict) and "refused" in done, done)
+        return done
+
+    def complaints(self):
+        return [entry["message"] for entry in self.browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+
+
+class Lab(Page):
+    def test_discs_are_those_of_the_program(self):
+        self.open()
+        camera = {"focal_mm": 50, "sensor_mm": 36, "f_number": 2.8, "focus_m": 2, "width_px": 1920, "height_px": 1080}
+        for name, look, flags, coc, x, y in (("doublet", {}, [], 20, 0, 0), ("ideal", {"blades": 5, "cats_eye": 0.5}, ["--blades", "5", "--cats-eye", "0.5"], -15, 0.5, 0.3),
+                                             ("double-gauss", {"coma": 1.5}, ["--coma", "1.5"], 12, 0.4, -0.2)):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                disc = self.ask("disc", lens={"name": name, "text": None, "look": look}, camera=camera, coc_px=coc, x=x, y=y)
+                path = folder + "/disc.exr"
+                subprocess.run([PETZVAL, "lens", "psf", name, "--defocus", str(coc), "--field", f"{x},{y}", "--size", str(disc["size"]), "-o", path,
+                                "--focal-length", "50", "--sensor-width", "36", "--fstop", "2.8", "--focus", "2", "--width", "1920", "--height", "1080", *flags],
+                               check=True, capture_output=True)
+                picture = read_exr(path)
+                channels = picture[0] if isinstance(picture, tuple) else picture
+                size, worst, peak = disc["size"], 0, 0
+                for c, channel in enumerate("RGB"):
+                    for row in range(size):
+                        for column in range(size):
+                            expected = channels[channel][row][column]
+                            peak = max(peak, expected)
+                            worst = max(worst, abs(expected - disc["pixels"][4 * (row * size + column) + c]))
+                self.assertLess(worst, 1e-5, f"{name}: of a peak of {peak}")
+                self.assertGreater(peak, 100 * 1e-5 / size)
+
+    def test_every_control_changes_the_disc_or_is_switched_off(self):
+        self.open()
+        self.browser.execute_script("lab.place(0.35, 0.2)")
+        fields = self.browser.execute_script("return [...document.querySelectorAll('[data-field]')].map((i) => i.dataset.field)")
+        self.assertGreater(len(fields), 15)
+        usual = self.disc_of_page()
+        for field in fields:
+            with self.subTest(field):
+                moved = self.browser.execute_script("""
+                    const input = document.querySelector(`[data-field="${arguments[0]}"]`);
+                    if (input.disabled) return false;
+                    if (input.type === "checkbox") input.checked = !input.checked; else input.value = Number(input.max) * 0.6;
+                    input.dispatchEvent(new Event("input"));
+                    return true;""", field)
+                if moved and field not in ("blade_rotation_deg", "blade_curvature"):  # these need blades
+                    self.assertNotEqual(self.disc_of_page(), usual)
+                self.browser.execute_script('document.getElementById("reset").click(); lab.place(0.35, 0.2)')
+        self.assertEqual(self.complaints(), [])
+
+    def disc_of_page(self):
+        args = self.browser.execute_script("return lab.discArgs(12)")
+        return self.ask("disc", **args)["pixels"]
+
+    def test_a_click_in_the_disc_lights_rays_up(self):
+        self.open()
+        WebDriverWait(self.browser, SECONDS).until(lambda b: b.find_elements(By.CSS_SELECTOR, "#section path.ray"))
+        self.browser.find_element(By.ID, "disc").click()
+        self.assertTrue(self.browser.find_elements(By.CSS_SELECTOR, "#section path.ray.lit"))
+        self.assertRegex(self.text("lit"), r"^\d+ of \d+ rays meet there")
+
+    def test_a_link_is_a_lens(self):
+        self.open()
+        self.browser.execute_script("""
+            lab.use({ name: "petzval-portrait", text: null, look: { blades: 6 } });""")
+        link = self.browser.execute_script("return location.hash")
+        self.open(link)
+        self.assertEqual(self.browser.execute_script("return [lab.state.lens.name, lab.state.lens.look.blades]"), ["petzval-portrait", 6])
+        self.assertEqual(self.text("problem"), "")
+
+    def test_a_broken_link_gives_the_default_and_a_sentence(self):
+        def of(value):
+            return "#lens=1." + base64.urlsafe_b64encode(json.dumps(value).encode()).decode().rstrip("=")
+
+        for broken in ("#lens=1.%%%", "#lens=9.e30", "#junk", of({"lens": {"name": 7}}), of({"lens": {"name": "no-such-lens"}}),
+                       of({"lens": {"name": "ideal", "look": {"blades": "five"}}}), of({"lens": {"name": "ideal"}, "camera": {"focal_mm": None}})):
+            with self.subTest(broken):
+                self.open(broken)
+                self.assertRegex(self.text("problem"), r"[Ll]ink .*doublet\.$")
+                self.assertEqual(self.browser.execute_script("return lab.state.lens.name"), "doublet")
+
+    def test_no_request_leaves_the_origin(self):
+        self.browser.get_log("performance")
+        self.open()
+        asked = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
+        urls = [event["params"]["request"]["url"] for event in asked if event["method"] == "Network.requestWillBeSent"]
+        self.assertTrue(any(url.endswith(".js") for url in urls), urls)
+        self.assertEqual([url for url in urls if not url.startswith((self.origin, "blob:", "data:", "about:"))], [])
+
+    def test_it_fits_a_phone(self):
+        for width in (360, 768):
+            # A window is never that narrow in headless mode; the device's metrics are.
+            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 700, "deviceScaleFactor": 2, "mobile": True})
+            self.open()
+            self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), width)
+        self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    def test_what_goes_over_the_wire_is_small(self):
+        packed = sum(len(gzip.compress(path.read_bytes(), 9)) for path in SITE.iterdir() if path.is_file())
+        self.assertLessEqual(packed, 400_000)
+
+    def test_a_damaged_lens_file_is_told_in_a_sentence(self):
+        self.open()
+        for text in ("no lens at all", "{", '{"surfaces": []}', "\0" * 100):
+            self.browser.execute_async_script("lab.useText(arguments[0], 'mine').then(arguments[1])", text)
+            self.assertGreater(len(self.text("problem")), 10)
+        self.assertEqual(self.browser.execute_script("return lab.state.lens.name"), "doublet")
+
+
+class WithoutWebAssembly(Page):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.site = pathlib.Path(shutil.copytree(SITE, folder.name, dirs_exist_ok=True))
+        (cls.site / "petzval-lab.wasm").write_bytes(b"no program")
+        super().setUpClass()
+
+    def test_the_page_says_so(self):
+        self.browser.get(f"{self.origin}/index.html")
+        WebDriverWait(self.browser, SECONDS).until(lambda b: self.text("problem"))
+        self.assertRegex(self.text("problem"), "cannot run the lab")
+
+
+if __name__ == "__main__":
+    unittest.main()

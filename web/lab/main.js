@@ -1,0 +1,239 @@
+// The page: what is chosen goes to the kernel, and what the kernel gives is drawn.
+import { Kernel, Replaced } from "./kernel.js";
+import { CONTROLS, LIGHT, freshState, fromFragment, toFragment } from "./state.js";
+import { drawDisc } from "./disc-view.js";
+import { drawSection } from "./section-view.js";
+import { drawCurves } from "./curves-view.js";
+import { buildControls, showControls } from "./controls.js";
+import { saveCanvas, saveText } from "./saving.js";
+
+const $ = (id) => document.getElementById(id);
+const STRIP_PX = [-60, -40, -20, -8, 8, 20, 40, 60];
+const kernel = new Kernel();
+
+let { state, problem } = fromFragment(location.hash.slice(1));
+let lenses = [], facts = null, factsAsked = null, section = null, disc = null, spot = null, exposure = 0;
+
+function complain(sentence) {
+  $("problem").textContent = sentence ?? "";
+  $("problem").hidden = !sentence;
+}
+
+const summaryOf = (name) => lenses.find((lens) => lens.name === name);
+
+/**
+ * The camera that the lens is seen on: 0 stands for the lens's own numbers. It is focused so that a light of this circle of
+ * confusion exists: in front of focus the camera looks to infinity, behind it the light is as far as the stars.
+ */
+function camera(coc_px, scale = 1) {
+  const own = facts ?? {}, { camera: c } = state;
+  const focal_mm = c.focal_mm || own.efl_mm || 50, f_number = c.f_number || own.f_number || 2;
+  const radius_mm = (Math.abs(coc_px) * c.sensor_mm) / c.width_px, far_m = (focal_mm + (focal_mm * focal_mm) / (2 * f_number * radius_mm || 1e-9)) / 1000;
+  return {
+    focal_mm, f_number, sensor_mm: c.sensor_mm, focus_m: coc_px > 0 ? far_m : 0, light_m: coc_px > 0 ? Infinity : far_m,
+    width_px: Math.round(c.width_px * scale), height_px: Math.round(c.height_px * scale),
+  };
+}
+
+/** Asks, draws, and tells what went wrong; a call that a newer one replaced is none of our business any more. */
+async function drawn(slot, call, args, draw) {
+  try {
+    const { result, ms } = await kernel.ask(call, args, slot);
+    draw(result, ms);
+    return true;
+  } catch (error) {
+    if (!(error instanceof Replaced)) complain(error.message);
+    return false;
+  }
+}
+
+const discArgs = (coc_px, scale = 1) => ({ lens: state.lens, camera: camera(coc_px, scale), coc_px: coc_px * scale, x: state.light.x, y: state.light.y });
+
+function showDisc(found, ms, scale) {
+  disc = { ...found, coc_px: state.light.coc_px * scale, scale, side: drawDisc($("disc"), found, state.light.coc_px * scale, exposure) };
+  const sums = [0, 1, 2].map((c) => found.pixels.reduce((sum, v, i) => (i % 4 === c ? sum + v : sum), 0));
+  $("told").textContent = scale < 1 ? "Coarse while it moves." : `${found.needed} px wide, light ${sums.map((v) => v.toFixed(4)).join(" ")}, ${ms.toFixed(0)} ms.`;
+  $("disc").setAttribute("aria-label", `The disc of one light, ${Math.abs(state.light.coc_px)} pixels ${state.light.coc_px < 0 ? "in front of" : "behind"} focus`);
+}
+
+/** A coarse disc at once, then the exact one; then the drawing of the lens and the strip. */
+async function update({ lensChanged = false } = {}) {
+  complain(null);
+  history.replaceState(null, "", "#" + toFragment(state));
+  showControls(state, facts);
+  showPlace();
+  if (lensChanged) factsAsked = askFacts();
+  await factsAsked;
+  const coarse = Math.abs(state.light.coc_px) > 16 ? 0.25 : 0;
+  if (coarse) drawn("disc", "disc", discArgs(state.light.coc_px, coarse), (found, ms) => showDisc(found, ms, coarse));
+  drawn("exact", "disc", discArgs(state.light.coc_px), (found, ms) => showDisc(found, ms, 1));
+  askSection();
+  STRIP_PX.forEach((px, i) => drawn(`strip${i}`, "disc", discArgs(px / 2, 0.5), (found) => drawDisc($("strip").children[i].firstChild, found, px / 4, exposure)));
+}
+
+async function askFacts() {
+  await drawn("facts", "facts", { lens: { ...state.lens, look: {} } }, (found) => (facts = found));
+  showControls(state, facts);
+  const told = facts?.lens ?? {};
+  $("about").textContent = [told.title, told.year, facts?.efl_mm ? `${facts.efl_mm.toPrecision(3)} mm` : null,
+    facts?.f_number ? `f/${facts.f_number.toPrecision(2)}` : null].filter(Boolean).join(", ") + (told.history ? `. ${told.history}` : ".");
+  drawCurves($("curves"), facts?.longitudinal_aberration_mm);
+  notes(facts?.warnings ?? []);
+}
+
+function askSection() {
+  const { x, y, coc_px } = state.light, seen = camera(coc_px);
+  drawn("section", "section", { lens: state.lens, camera: seen, depth_m: seen.light_m, x, y, rays: 21 }, (found) => {
+    section = found;
+    spot = null;
+    drawSection($("section"), section, null);
+  });
+}
+
+function lightUp(event) {
+  if (!section || !disc) return;
+  const box = $("disc").getBoundingClientRect(), scale = disc.side / box.width / disc.scale;
+  spot = { x: (event.clientX - box.left - box.width / 2) * scale, y: (event.clientY - box.top - box.height / 2) * scale, reach: Math.max(2, 0.08 * Math.abs(state.light.coc_px)) };
+  const lit = drawSection($("section"), section, spot);
+  $("lit").textContent = lit ? `${lit} of ${section.rays.length} rays meet there.` : "No ray of the drawing meets there; click inside of the disc.";
+}
+
+function showPlace() {
+  const { x, y, coc_px } = state.light, { width_px: w, height_px: h } = state.camera, diagonal = Math.hypot(w, h);
+  $("spot").style.left = `${50 + (50 * x * diagonal) / w}%`;
+  $("spot").style.top = `${50 - (50 * y * diagonal) / h}%`;
+  const place = x === 0 && y === 0 ? "in the middle" : `${Math.round(Math.hypot(x, y) * 100)} % towards the corner`;
+  $("frame").setAttribute("aria-valuetext", place);
+  $("frame").setAttribute("aria-valuenow", Math.round(Math.hypot(x, y) * 100));
+  $("coc").value = coc_px;
+  $("coc-value").textContent = coc_px === 0 ? "in focus" : `${Math.abs(coc_px)} px ${coc_px < 0 ? "in front of" : "behind"} focus`;
+}
+
+function place(x, y) {
+  const { width_px: w, height_px: h } = state.camera, diagonal = Math.hypot(w, h);
+  const within = (v, end) => Math.max(-end, Math.min(end, v));
+  state.light.x = within(x, w / diagonal);
+  state.light.y = within(y, h / diagonal);
+  update();
+}
+
+function dragged(event) {
+  if (event.type === "pointerdown") $("frame").setPointerCapture(event.pointerId);
+  else if (!$("frame").hasPointerCapture(event.pointerId)) return;
+  const box = $("frame").getBoundingClientRect(), { width_px: w, height_px: h } = state.camera, diagonal = Math.hypot(w, h);
+  place((((event.clientX - box.left) / box.width) * 2 - 1) * (w / diagonal), (1 - ((event.clientY - box.top) / box.height) * 2) * (h / diagonal));
+}
+
+function moved(event) {
+  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+  if (!step) return;
+  event.preventDefault();
+  place(state.light.x + step[0] * 0.05, state.light.y + step[1] * 0.05);
+}
+
+function listLenses() {
+  const wanted = $("search").value.trim().toLowerCase();
+  const found = lenses.filter((lens) => !wanted || `${lens.name} ${lens.title} ${lens.class} ${lens.year} ${lens.history}`.toLowerCase().includes(wanted));
+  $("lens").replaceChildren(...(state.lens.text ? [new Option(`${state.lens.name} (yours)`, "")] : []), ...found.map((lens) => new Option(`${lens.name}: ${lens.title}`, lens.name)));
+  $("lens").value = state.lens.text ? "" : state.lens.name;
+}
+
+function use(lens) {
+  state = { ...state, lens, camera: { ...state.camera, focal_mm: 0, f_number: 0 } };
+  facts = null;
+  listLenses();
+  update({ lensChanged: true });
+}
+
+function notes(sentences) {
+  $("paste-notes").replaceChildren(...sentences.map((sentence) => Object.assign(document.createElement("li"), { textContent: sentence })));
+}
+
+async function useText(text, name) {
+  const lens = { name, text, look: {} };
+  try {
+    const { result } = await kernel.ask("facts", { lens });
+    use(lens);
+    notes([...result.warnings, result.efl_mm ? `Focal length ${result.efl_mm.toFixed(2)} mm.` : ""].filter(Boolean));
+  } catch (error) {
+    notes([error.message]);
+    complain(error.message);
+  }
+}
+
+function wire() {
+  buildControls($("controls"), CONTROLS, (field, value) => {
+    const usual = CONTROLS.find((control) => control.field === field).value;
+    if (value === usual) delete state.lens.look[field];
+    else state.lens.look[field] = value;
+    update();
+  });
+  $("strip").replaceChildren(...STRIP_PX.map((px) => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.ariaLabel = `${Math.abs(px)} pixels ${px < 0 ? "in front of" : "behind"} focus`;
+    button.append(document.createElement("canvas"));
+    button.onclick = () => ((state.light.coc_px = px), update());
+    return button;
+  }));
+  $("coc").oninput = () => ((state.light.coc_px = Number($("coc").value)), update());
+  $("exposure").oninput = () => {
+    exposure = Number($("exposure").value);
+    $("exposure-value").textContent = `${exposure > 0 ? "+" : ""}${exposure.toFixed(1)} stops`;
+    if (disc) drawDisc($("disc"), disc, disc.coc_px, exposure);
+  };
+  $("search").oninput = listLenses;
+  $("lens").onchange = () => $("lens").value && use({ name: $("lens").value, text: null, look: {} });
+  $("disc").onclick = lightUp;
+  for (const type of ["pointerdown", "pointermove"]) $("frame").addEventListener(type, dragged);
+  $("frame").onkeydown = moved;
+  $("f_number").oninput = () => {
+    const widest = facts?.f_number || 1;
+    state.camera.f_number = Number((widest * 2 ** (5 * Number($("f_number").value))).toPrecision(3));
+    update();
+  };
+  for (const field of ["focal_mm", "sensor_mm"]) $(field).onchange = () => ((state.camera[field] = Number($(field).value)), update());
+  $("reset").onclick = () => ((state.lens.look = {}), (state.light = { ...LIGHT }), (state.camera = freshState().camera), update());
+  $("link").onclick = async () => {
+    await navigator.clipboard?.writeText(location.href);
+    $("link").textContent = "Copied";
+    setTimeout(() => ($("link").textContent = "Copy link"), 1500);
+  };
+  $("png").onclick = () => saveCanvas($("disc"), `${state.lens.name}-${state.light.coc_px}px.png`);
+  $("save").onclick = () => saveText(JSON.stringify({ petzval_look: 1, lens: { name: state.lens.name, ...state.lens.look } }, null, 2) + "\n", `${state.lens.name}-look.json`);
+  $("file").onchange = async () => {
+    const [file] = $("file").files;
+    if (file && file.size > 1 << 20) complain(`${file.name} holds ${file.size} bytes, too many for a lens.`);
+    else if (file) useText(await file.text(), file.name.replace(/\.[^.]*$/, ""));
+  };
+  $("use-paste").onclick = () => useText($("paste").value, "pasted");
+  addEventListener("hashchange", () => {
+    ({ state, problem } = fromFragment(location.hash.slice(1)));
+    listLenses();
+    update({ lensChanged: true }).then(() => problem && complain(problem));
+  });
+}
+
+async function start() {
+  try {
+    await kernel.ready;
+  } catch (error) {
+    complain(`This browser cannot run the lab (${error.message}). The pages of the lenses work without it.`);
+    return;
+  }
+  lenses = (await kernel.ask("list")).result;
+  $("version").textContent = (await kernel.ask("version")).result;
+  if (!state.lens.text && !summaryOf(state.lens.name)) {
+    problem = `The link names the lens '${state.lens.name}', which this page does not have, so it starts with the doublet.`;
+    state = freshState();
+  }
+  wire();
+  listLenses();
+  await update({ lensChanged: true });
+  if (problem) complain(problem);
+  $("lab").setAttribute("aria-busy", "false");
+}
+
+// For the browser's console, and for tests.
+globalThis.lab = { kernel, use, useText, place, discArgs, get state() { return state; } };
+start();

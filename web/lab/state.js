@@ -1,0 +1,96 @@
+// Everything that can be chosen in the lab, as one value; and that value as the fragment of a link.
+
+/** Controls of the lens: a field of petzval's look, its range and what it does, in the order of the page. */
+export const CONTROLS = [
+  { group: "Aperture", field: "blades", label: "Blades", min: 0, max: 16, step: 1, value: 0, help: "0: round. 3 to 16: straight blades." },
+  { group: "Aperture", field: "blade_rotation_deg", label: "Blade rotation", unit: "°", min: -180, max: 180, step: 1, value: 0,
+    help: "Angle of the first corner, counter-clockwise from the right, in a background disc." },
+  { group: "Aperture", field: "blade_curvature", label: "Blade curvature", min: 0, max: 1, step: 0.01, value: 0, help: "0: straight edges. 1: a circle." },
+  { group: "Aperture", field: "squeeze", label: "Anamorphic squeeze", unit: "×", min: 0.5, max: 2, step: 0.05, value: 1, help: "How many times taller than wide the disc is." },
+  { group: "Aperture", field: "cats_eye", label: "Cat's eye", min: 0, max: 1, step: 0.01, value: 0, help: "How far the barrel covers the pupil towards the corners." },
+  { group: "Aberrations", field: "spherical", label: "Spherical, own", unit: "×", min: -2, max: 2, step: 0.05, value: 1, curveOnly: true,
+    help: "Multiplies the spherical aberration of a lens drawn as curves." },
+  { group: "Aberrations", field: "axial_colour", label: "Axial colour, own", unit: "×", min: -2, max: 2, step: 0.05, value: 1, curveOnly: true,
+    help: "Multiplies the axial colour of a lens drawn as curves." },
+  { group: "Aberrations", field: "added_spherical_waves", label: "Spherical, added", unit: "waves", min: -10, max: 10, step: 0.1, value: 0,
+    help: "Adds spherical aberration to any lens, as the ring of a defocus-control lens does." },
+  { group: "Aberrations", field: "added_axial_colour_mm", label: "Axial colour, added", unit: "mm", min: -0.5, max: 0.5, step: 0.01, value: 0,
+    help: "Where blue light focuses, measured from red." },
+  { group: "Aberrations", field: "added_lateral_colour_percent", label: "Lateral colour, added", unit: "%", min: -1, max: 1, step: 0.02, value: 0,
+    help: "How much larger the blue picture is than the red one." },
+  { group: "Aberrations", field: "added_field_curvature_mm", label: "Field curvature, added", unit: "mm", min: -1, max: 1, step: 0.02, value: 0,
+    help: "Where the corners focus, measured from the middle." },
+  { group: "Aberrations", field: "coma", label: "Coma", min: -5, max: 5, step: 0.1, value: 0, help: "Tails that point outwards in the corners." },
+  { group: "Aberrations", field: "astigmatism", label: "Astigmatism", min: -5, max: 5, step: 0.1, value: 0, help: "Discs in the corners become ellipses; positive values swirl." },
+  { group: "Pupil", field: "dust", label: "Dust", min: 0, max: 1, step: 0.01, value: 0, help: "Specks on the glass, seen in large discs." },
+  { group: "Pupil", field: "scratches", label: "Scratches", min: 0, max: 1, step: 0.01, value: 0, help: "Fine lines across the disc." },
+  { group: "Pupil", field: "onion_rings", label: "Onion rings", min: 0, max: 1, step: 0.01, value: 0, help: "Turning marks of moulded aspheres." },
+  { group: "Light", field: "wavelengths", label: "Wavelengths", min: 0, max: 64, step: 1, value: 0, help: "Bands of the spectrum. 0: as many as the disc needs." },
+  { group: "Light", field: "wave", label: "Wave optics", type: "check", value: false, help: "Diffraction: rings and the spikes of blades. Slow." },
+];
+
+/** The camera: millimetres, metres and pixels; 0 stands for what the lens was built for. */
+export const CAMERA = { focal_mm: 0, sensor_mm: 36, f_number: 0, focus_m: 0, width_px: 1920, height_px: 1080 };
+
+/** Where the light stands: signed radius of its circle of confusion, and its place in half diagonals. */
+export const LIGHT = { coc_px: 40, x: 0, y: 0 };
+
+/** @typedef {{name: string, text: ?string, look: Object<string, number|boolean>}} LensChoice */
+
+export function freshState() {
+  return { lens: { name: "doublet", text: null, look: {} }, camera: { ...CAMERA }, light: { ...LIGHT } };
+}
+
+const VERSION = 1;
+
+const toBase64Url = (text) =>
+  btoa(String.fromCharCode(...new TextEncoder().encode(text))).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+
+const fromBase64Url = (text) =>
+  new TextDecoder("utf-8", { fatal: true }).decode(
+    Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), (c) => c.charCodeAt(0)),
+  );
+
+const differing = (value, usual) => Object.fromEntries(Object.entries(value).filter(([key, v]) => v !== usual[key]));
+
+/** The fragment of a link, without "#": "lens=1." and base64url of JSON that holds what differs from the default. */
+export function toFragment(state) {
+  const told = { lens: state.lens, camera: differing(state.camera, CAMERA), light: differing(state.light, LIGHT) };
+  return `lens=${VERSION}.${toBase64Url(JSON.stringify(told))}`;
+}
+
+/** @returns {{state: object, problem: ?string}} the default and a sentence where the fragment is damaged */
+export function fromFragment(fragment) {
+  const usual = { state: freshState(), problem: null };
+  if (!fragment) return usual;
+  const refused = (why) => ({ ...usual, problem: `This link holds no lens that can be read (${why}), so the page starts with the doublet.` });
+  const match = /^lens=(\d+)\.([\w-]+)$/.exec(fragment);
+  if (!match) return refused("it is cut off or from elsewhere");
+  if (Number(match[1]) > VERSION) return refused(`version ${match[1]} is newer than this page`);
+  try {
+    return { state: checked(JSON.parse(fromBase64Url(match[2]))), problem: null };
+  } catch (error) {
+    return refused(error instanceof BadState ? error.message : "it is damaged");
+  }
+}
+
+class BadState extends Error {}
+
+/** Numbers within the camera's and the light's fields; everything else is refused. */
+function checked(told) {
+  const numbers = (given, usual) => {
+    for (const [key, value] of Object.entries(given ?? {}))
+      if (!(key in usual) || !Number.isFinite(value)) throw new BadState(`'${key}' is not a number of this page`);
+    return { ...usual, ...given };
+  };
+  const lens = told.lens ?? {};
+  if (typeof lens.name !== "string" || !(lens.text == null || typeof lens.text === "string")) throw new BadState("it names no lens");
+  const known = new Map(CONTROLS.map((control) => [control.field, control]));
+  for (const [field, value] of Object.entries(lens.look ?? {}))
+    if (!known.has(field) || typeof value !== typeof known.get(field).value) throw new BadState(`'${field}' is no control of this page`);
+  return {
+    lens: { name: lens.name, text: lens.text ?? null, look: lens.look ?? {} },
+    camera: numbers(told.camera, CAMERA),
+    light: numbers(told.light, LIGHT),
+  };
+}
