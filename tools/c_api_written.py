@@ -103,7 +103,7 @@ BASE = {"int": "c_int", "double": "c_double", "float": "c_float", "size_t": "c_s
 
 
 def _ctype(kind, api):
-    kind = kind.replace("const ", "").replace("const", "").strip()
+    kind = re.sub(r"\b(const|volatile)\b", "", kind).strip()
     if kind == "void":
         return "None"
     if kind in ("char*",):

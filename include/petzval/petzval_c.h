@@ -207,6 +207,8 @@ typedef struct petzval_control {
     /* The part of the frame to be made, in pixels as the windows are; empty: all of the data window. It is
      * the crop of the whole, bit for bit. */
     petzval_rect region;
+    /* The frame is cancelled once this is not 0; any thread may set it. Read often. May be null. */
+    const volatile int* stop;
 } petzval_control;
 
 typedef struct petzval_report petzval_report;

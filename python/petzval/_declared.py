@@ -172,6 +172,7 @@ class petzval_control(Structure):
         ("progress", CFUNCTYPE(c_int, c_void_p, c_double)),
         ("cancelled", CFUNCTYPE(c_int, c_void_p)),
         ("region", petzval_rect),
+        ("stop", POINTER(c_int)),
     ]
 
 

@@ -53,7 +53,10 @@ Control control_of(const petzval_control* given) {
     const petzval_control c = c::taken(given);
     Control control;
     if (c.progress) control.progress = [c](double done) { return c.progress(c.host, done) != 0; };
-    if (c.cancelled) control.cancelled = [c] { return c.cancelled(c.host) != 0; };
+    if (c.cancelled || c.stop)
+        control.cancelled = [c] {
+            return (c.stop && *c.stop != 0) || (c.cancelled && c.cancelled(c.host) != 0);
+        };
     const Rect region{c.region.x0, c.region.y0, c.region.x1, c.region.y1};
     if (!region.empty()) control.region = region;
     return control;

@@ -150,6 +150,7 @@ static void test_what_is_wrong_is_said_and_nothing_is_written(petzval_session* s
     static picture in, out, before;
     petzval_look* look = NULL;
     petzval_control control = {0};
+    const int stopped = 1;
     int asked = 0;
     paint(&in, 0);
     memset(&out, 7, sizeof out);
@@ -164,6 +165,9 @@ static void test_what_is_wrong_is_said_and_nothing_is_written(petzval_session* s
     control.progress = ask_and_cancel;
     expect(defocus(session, NULL, &in, &out, 0, &control, NULL) == PETZVAL_CANCELLED && asked > 0,
            "cancelled");
+    control.progress = NULL;
+    control.stop = &stopped;
+    expect(defocus(session, NULL, &in, &out, 0, &control, NULL) == PETZVAL_CANCELLED, "cancelled by a flag");
     expect(petzval_defocus(session, NULL, NULL, NULL, NULL, NULL) == PETZVAL_INVALID_ARGUMENT, "no shot");
     expect(petzval_defocus(NULL, NULL, NULL, NULL, NULL, NULL) == PETZVAL_INVALID_ARGUMENT, "no session");
     expect(memcmp(&out, &before, sizeof out) == 0, "nothing was written");
