@@ -17,5 +17,9 @@ set_source_files_properties(${c_door} PROPERTIES COMPILE_OPTIONS -g)
 target_link_libraries(petzval_shared PRIVATE $<BUILD_INTERFACE:petzval_options> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
                       ${core_links})
 target_link_options(petzval_shared PRIVATE -Wl,--version-script=${map} -Wl,--no-undefined)
+if(PETZVAL_PORTABLE)
+  target_link_options(petzval_shared PRIVATE -static-libstdc++ -static-libgcc -s)
+  set_target_properties(petzval_shared PROPERTIES BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN")
+endif()
 target_include_directories(petzval_shared INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -75,7 +75,7 @@ def demo(*_):
 
 
 def build(preset="release", *targets):
-    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, plain, core, no-tbb)"""
+    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, plain, core, no-tbb, portable)"""
     make(preset, *targets)
 
 
@@ -219,9 +219,16 @@ def web_test(*words):
     run("/usr/bin/python3", "tests/web/lab_test.py", program(), *words)  # Debian's: selenium is its package
 
 
+def wheel(*_):
+    """the Python package for any Python 3: builds the preset portable, leaves build/wheel/petzval-…-linux_x86_64.whl"""
+    make("portable", "petzval_shared")
+    run(sys.executable, "tools/wheel.py", "build/wheel", "build/portable/lib/libpetzval.so")
+
+
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
-         "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "web": web, "web-test": web_test}
+         "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "web": web, "web-test": web_test,
+         "wheel": wheel}
 
 
 def help_text():

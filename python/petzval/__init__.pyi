@@ -1,0 +1,19 @@
+# Written by tools/python_stubs.py; not edited.
+"""petzval: the depth of field of a real lens, for rendered pictures.
+
+    frame = petzval.defocus(colour, depth_m=depth, camera=petzval.Camera(50, 36, 1.4, 2), look=petzval.Look(lens="doublet"))
+
+Pictures are scene-linear, premultiplied, rows top-down. Signs and units are those of docs/conventions.md.
+"""
+from ._library import library as _library
+from .arrays import Array
+from .camera import Camera
+from .errors import Cancelled, Error, Internal, InvalidArgument, InvalidFile, OutOfMemory, OutputFailed, Unsupported
+from .lens import Lens, lens_list, lens_names
+from .look import Look
+from .session import Frame, Session, defocus, device_names, engine_names
+from .shot import Deep, Light, Shot
+__all__ = ['Array', 'Camera', 'Cancelled', 'Deep', 'Error', 'Frame', 'Internal', 'InvalidArgument', 'InvalidFile', 'Lens', 'Light', 'Look', 'OutOfMemory', 'OutputFailed', 'Session', 'Shot', 'Unsupported', 'defocus', 'device_names', 'engine_names', 'lens_list', 'lens_names', 'version']
+
+def version() -> str:
+    """Version of the library that is loaded, as "0.1.0"."""

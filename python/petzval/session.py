@@ -1,0 +1,206 @@
+"""Sessions: frames made of shots and looks."""
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+import json
+import threading
+from typing import Any, Callable
+
+from . import _declared, errors
+from ._library import call, library, made, names, struct
+from ._pixels import pixels_of
+from .arrays import Array, like
+from .look import Look, as_look
+from .shot import Shot, Window, rect
+
+
+@dataclasses.dataclass
+class Frame:
+    """A frame: its image, and the report with engine, lens, device, radii, seconds by stage and warnings."""
+
+    image: Any
+    report: dict
+
+    @property
+    def warnings(self) -> list[str]:
+        """Sentences about choices without effect and odd input."""
+        return self.report["warnings"]
+
+
+class Session:
+    """What outlives a frame: threads, kernels, one memory budget. May be used by many threads at once.
+
+    threads: 0 for all. max_memory_bytes: 0 for no limit. kernel_folder: where slow kernels are kept between runs.
+    device: "cpu", "gpu", "gpu:1" or "auto". Raises Unsupported for a device that is missing.
+    """
+
+    def __init__(self, *, threads: int = 0, max_memory_bytes: int = 0, kernel_folder: str | None = None,
+                 device: str | None = None) -> None:
+        settings = struct(_declared.petzval_session_settings, threads=threads, max_memory_bytes=max_memory_bytes,
+                          kernel_folder=kernel_folder.encode() if kernel_folder else None,
+                          device=device.encode() if device else None)
+        self._handle = made(_declared.petzval_session, "petzval_session_open", ctypes.byref(settings))
+
+    def defocus(self, shot: Shot, look: Look | str | dict | None = None, *, out=None, region: Window | None = None,
+                progress: Callable[[float], object] | None = None) -> Frame:
+        """One frame. Its image comes in the library of shot.colour (numpy, torch, else petzval.Array), float32.
+
+        out: an array of the frame's size, float32 or float16, any strides, that is written instead; it may be
+        shot.colour itself. region: (x0, y0, x1, y1), the part of the frame to make. progress: called with the share
+        done, 0…1; False from it cancels, and its exceptions end the frame and are raised here. The GIL is released;
+        Ctrl-C ends the frame. Raises the errors of the C API, Cancelled among them.
+        """
+        given, kept = shot._struct()
+        chosen = as_look(look)
+        image = _image_for(shot, given, region) if out is None else out
+        into, held = pixels_of(image, "out", written=True)
+        made_report = ctypes.POINTER(_declared.petzval_report)()
+        with _Run(progress, region) as run:
+            run.call("petzval_defocus", self._open(), ctypes.byref(given), chosen._handle, run.control,
+                     ctypes.byref(into), ctypes.byref(made_report))
+        report = json.loads(library().petzval_report_json(made_report))
+        library().petzval_report_close(made_report)
+        del kept, held
+        return Frame(like(_first(shot.colour), image) if out is None else out, report)
+
+    def region_margin_px(self, shot: Shot, look: Look | str | dict | None = None) -> int:
+        """How many pixels around a region its result depends on."""
+        given, kept = shot._struct()
+        margin = ctypes.c_int()
+        call("petzval_region_margin_px", self._open(), ctypes.byref(given), as_look(look)._handle,
+             ctypes.byref(margin))
+        del kept
+        return margin.value
+
+    def usage(self) -> dict:
+        """{"kept_bytes": …, "lenses": …}: what is kept between frames."""
+        usage = struct(_declared.petzval_usage)
+        call("petzval_session_usage", self._open(), ctypes.byref(usage))
+        return {"kept_bytes": usage.kept_bytes, "lenses": usage.lenses}
+
+    def trim(self, kept_bytes: int = 0) -> None:
+        """Frees kernels, least recently used first, until at most so many bytes are kept."""
+        call("petzval_session_trim", self._open(), kept_bytes)
+
+    def close(self) -> None:
+        """Ends the session. No frame may be under way."""
+        handle, self._handle = getattr(self, "_handle", None), None
+        if handle:
+            library().petzval_session_close(handle)
+
+    def _open(self):
+        if not self._handle:
+            raise errors.InvalidArgument("the session is closed")
+        return self._handle
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        self.close()
+
+
+class _Run:
+    """A call into the library that Ctrl-C and the exceptions of callbacks end.
+
+    In the main thread the library works in another thread, so that Python may handle signals meanwhile.
+    """
+
+    def __init__(self, progress, region: Window | None) -> None:
+        self._stop = ctypes.c_int(0)
+        self._raised: BaseException | None = None
+        control = struct(_declared.petzval_control, region=rect(region))
+        control.stop = ctypes.pointer(self._stop)
+        if progress is not None:
+            control.progress = type(control.progress)(self._reporter(progress))
+        self.control = ctypes.pointer(control)
+
+    def _reporter(self, progress):
+        def report(_host, done: float) -> int:
+            try:
+                return 0 if progress(done) is False else 1
+            except BaseException as raised:  # noqa: BLE001: raised again in call()
+                self._raised = self._raised or raised
+                return 0
+        return report
+
+    def __enter__(self) -> _Run:
+        return self
+
+    def __exit__(self, *_) -> None:
+        pass
+
+    def call(self, name: str, *arguments) -> None:
+        """As _library.call. Raises first what a callback raised."""
+        failure: list[BaseException] = []
+
+        def body() -> None:
+            try:
+                call(name, *arguments)
+            except BaseException as raised:  # noqa: BLE001: raised again below
+                failure.append(raised)
+
+        if threading.current_thread() is threading.main_thread():
+            self._beside(body)
+        else:
+            body()
+        if self._raised is not None:
+            raise self._raised
+        if failure:
+            raise failure[0]
+
+    def _beside(self, body) -> None:
+        # No join(): where an exception interrupts it, Python 3.11 takes a running thread for a finished one.
+        done = threading.Event()
+
+        def finishing() -> None:
+            try:
+                body()
+            finally:
+                done.set()
+
+        threading.Thread(target=finishing, name="petzval").start()
+        while not done.is_set():
+            try:
+                done.wait(0.05)
+            except BaseException as raised:  # noqa: BLE001: Ctrl-C, or what a signal handler raises
+                self._stop.value = 1
+                self._raised = self._raised or raised
+
+
+def _first(colour):
+    return colour[0] if isinstance(colour, (tuple, list)) else colour
+
+
+def _image_for(shot: Shot, given: _declared.petzval_shot, region: Window | None) -> Array:
+    """An image of the frame's size, or of the part of the region inside it, with as many channels as colour."""
+    colour = given.colour.contents
+    x0, y0, x1, y1 = shot.data_window or (0, 0, colour.width, colour.height)
+    if region:
+        x0, y0, x1, y1 = max(x0, region[0]), max(y0, region[1]), min(x1, region[2]), min(y1, region[3])
+    return Array((max(1, y1 - y0), max(1, x1 - x0), 4 if colour.a else 3))
+
+
+def defocus(colour, *, depth_m=None, radii_px=None, camera=None, look: Look | str | dict | None = None,
+            progress: Callable[[float], object] | None = None, **shot) -> Frame:
+    """One frame without a session: petzval.defocus(colour, depth_m=depth, camera=Camera(…), look=Look(…)).
+
+    All other fields of Shot may be given. Errors: as Session.defocus.
+    """
+    with Session() as session:
+        rendered = Shot(colour, depth_m=depth_m, radii_px=radii_px, camera=camera, **shot)
+        return session.defocus(rendered, look, progress=progress)
+
+
+def engine_names() -> list[str]:
+    """The engines."""
+    return names("petzval_engine_name")
+
+
+def device_names() -> list[str]:
+    """The devices of this machine: "cpu", "gpu:0", …. Starts drivers."""
+    return names("petzval_device_name")

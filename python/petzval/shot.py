@@ -1,0 +1,106 @@
+"""Shots: what was rendered."""
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+from typing import Any, Sequence
+
+from . import _declared, errors
+from ._library import struct
+from ._pixels import Kept, pixels_of, plane_of, pointer
+from .camera import Camera
+
+Window = tuple  # (x0, y0, x1, y1), half-open, y down
+
+
+@dataclasses.dataclass(frozen=True)
+class Light:
+    """A light for the engine "sprites". x, y in pixels, centres at +0.5; colour as it adds to one pixel in focus.
+
+    Its depth is depth_m, or where that is NaN its signed radius is radius_px. diameter_px is its own width.
+    """
+
+    x: float
+    y: float
+    r: float
+    g: float
+    b: float
+    depth_m: float = float("nan")
+    radius_px: float = 0
+    diameter_px: float = 0
+
+
+@dataclasses.dataclass
+class Deep:
+    """Any number of samples in each pixel, nearest first, rows top to bottom.
+
+    first: height * width + 1 integers; the samples of pixel i are first[i]…first[i + 1] - 1. samples: a sequence of
+    (r, g, b, a, depth, depth_back), premultiplied.
+    """
+
+    width: int
+    height: int
+    first: Sequence[int]
+    samples: Sequence[tuple[float, float, float, float, float, float]]
+
+    def _struct(self) -> _declared.petzval_deep:
+        count = len(self.samples)
+        first = (ctypes.c_uint64 * len(self.first))(*self.first)
+        samples = (_declared.petzval_deep_sample * max(1, count))(*[tuple(sample) for sample in self.samples])
+        return struct(_declared.petzval_deep, width=self.width, height=self.height, first=first, samples=samples,
+                      sample_count=count)
+
+
+@dataclasses.dataclass
+class Shot:
+    """What was rendered: borrowed arrays, a camera, where the picture lies. Nothing is copied.
+
+    colour: scene-linear, premultiplied, (height, width, 3 or 4) float32 or float16 with any strides, or a list of
+    3 or 4 planes; without alpha it is 1. depth_m: planar metres, +infinity for a miss; or radii_px: signed radii of
+    the circle of confusion, + behind focus. mask: 1 where the effect is wanted. deep, behind, holdout: deep samples
+    of the picture, of hidden layers, of a matte. Windows are (x0, y0, x1, y1); None: the picture is the frame.
+    """
+
+    colour: Any
+    depth_m: Any = None
+    radii_px: Any = None
+    camera: Camera | None = None
+    mask: Any = None
+    deep: Deep | None = None
+    behind: Deep | None = None
+    holdout: Deep | None = None
+    lights: Sequence[Light] = ()
+    display_window: Window | None = None
+    data_window: Window | None = None
+    pixel_aspect: float = 1
+
+    def _struct(self) -> tuple[_declared.petzval_shot, Kept]:
+        """The C struct and what it points at. Raises InvalidArgument naming the field."""
+        if (self.depth_m is None) == (self.radii_px is None):
+            raise errors.InvalidArgument("shot: one of depth_m and radii_px, and not both")
+        colour, kept = pixels_of(self.colour, "colour")
+        members: dict[str, Any] = {"colour": ctypes.pointer(colour)}
+        for name in ("depth_m", "radii_px", "mask"):
+            array = getattr(self, name)
+            if array is not None:
+                plane, owners = plane_of(array, name)
+                members[name] = ctypes.pointer(plane)
+                kept += owners
+        for name in ("deep", "behind", "holdout", "camera"):
+            value = getattr(self, name)
+            members[name] = pointer(None if value is None else value._struct())
+        lights = (_declared.petzval_light * max(1, len(self.lights)))(*[dataclasses.astuple(l) for l in self.lights])
+        members.update(lights=lights, light_count=len(self.lights), pixel_aspect=self.pixel_aspect,
+                       display_window=rect(self.display_window), data_window=rect(self.data_window))
+        return struct(_declared.petzval_shot, **members), kept
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) of the picture."""
+        colour, _ = pixels_of(self.colour, "colour")
+        return colour.width, colour.height
+
+
+def rect(window: Window | None) -> _declared.petzval_rect:
+    """A window as the C API has it; None: empty."""
+    return _declared.petzval_rect(*(window or (0, 0, 0, 0)))
