@@ -132,76 +132,83 @@ Status check_job(const DefocusJob& job) {
     return Done{};
 }
 
-PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double lens_reach_px)
-    : coc_px_(radii.of(depth_or_radii(job), *job.workers)) {
-    input.colour = job.colour;
+PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double lens_reach_px) {
+    engine::Samples& samples = view.samples;
+    samples.colour = job.colour;
     if (!is_finite(job.colour, *job.workers))
-        input.colour = repaired_ = finite_picture(job.colour, *job.workers);
-    const bool is_spent = job.spent_colour && job.mask.empty() && job.layers.empty() && !job.colour.empty() &&
-                          job.spent_colour->pixels() == job.colour.row(0);
-    if (is_spent) input.spent = job.spent_colour;
+        samples.colour = repaired_ = finite_picture(job.colour, *job.workers);
+    shows_spent = job.spent_colour && job.mask.empty() && job.layers.empty() && !job.colour.empty() &&
+                  job.spent_colour->pixels() == samples.colour.row(0);
     for (const ColourLayer& layer : job.layers) {
-        input.layers.push_back({layer.colour, layer.is_light});
+        samples.layers.push_back({layer.colour, layer.is_light});
         if (is_finite(layer.colour, *job.workers)) continue;
         repaired_layers_.push_back(finite_picture(layer.colour, *job.workers));
-        input.layers.back().colour = repaired_layers_.back();
+        samples.layers.back().colour = repaired_layers_.back();
     }
-    input.coc_px = coc_px_, input.spent_coc_px = &coc_px_;
+    samples.coc_px = spare.coc_px = radii.of(depth_or_radii(job), *job.workers);
     take_samples(job, radii, lens_reach_px);
     note_radii();
-    place_in_field(job);
-    input.open_edges = open_edges(job);
-    input.quality = job.quality;
-    input.pupil_points = job.pupil_points;
-    input.fill = job.fill;
-    input.gather = job.gather;
-    input.gaussian = job.gaussian;
-    input.sprites = job.sprites;
     points_ = drawable_points(
         job, [&](float depth_m) { return radii(depth_m); }, warnings);
-    input.points = points_;
-    if (!has_radii(job)) {
-        input.depth_m = job.depth_m;
-        input.focus_distance_m = job.camera.focus_distance_m;
-    }
-    input.radius_at_infinity_px = radii.at_infinity_px();
-    input.workers = job.workers;
-    input.max_memory_bytes = job.max_memory_bytes;
-    input.seed = job.seed;
+    samples.points = points_;
+    if (!has_radii(job)) samples.depth_m = job.depth_m;
+    view.window.open_edges = open_edges(job);
+    place_in_field(job);
+    view.lens.radius_at_infinity_px = radii.at_infinity_px();
+    take_options(job);
+    view.services.workers = job.workers;
+    view.services.max_memory_bytes = job.max_memory_bytes;
+}
+
+void PreparedFrame::take_options(const DefocusJob& job) {
+    engine::EngineOptions& options = view.options;
+    options.quality = job.quality, options.fill = job.fill;
+    if (job.engine == "gather" || job.engine == "realtime")
+        options.own = engine::GatherOwn{job.gather, job.sprites};
+    else if (job.engine == "gaussian")
+        options.own = engine::GaussianOwn{job.gaussian};
+    else if (job.engine == "sprites")
+        options.own = engine::SpritesOwn{job.sprites, job.gather, job.gaussian};
+    else if (job.engine == "reference")
+        options.own = engine::ReferenceOwn{job.pupil_points, job.seed};
 }
 
 void PreparedFrame::take_samples(const DefocusJob& job, const Radii& radii, double lens_reach_px) {
-    const engine::StatedPicture stated{input.colour, depth_or_radii(job), has_radii(job),
-                                       job.deep,     job.behind,          radii};
+    engine::Samples& seen = view.samples;
+    const engine::StatedPicture stated{seen.colour, depth_or_radii(job), has_radii(job),
+                                       job.deep,    job.behind,          radii};
     samples_ = engine::all_samples(stated, *job.workers);
     plate_ = engine::back_picture(stated, *job.workers);
     const bool all = job.scatter.view == ScatterView::Layers || job.scatter.view == ScatterView::Hidden;
-    if (!plate_.empty()) input.plate = {plate_.colour, plate_.coc_px, all};
+    if (!plate_.empty()) seen.plate = {plate_.colour, plate_.coc_px, all};
     if (!all) engine::drop_out_of_sight(samples_, lens_reach_px, *job.workers);
-    if (!samples_.first.empty()) input.deep = samples_;
-    input.deep_dims_itself = job.deep && !job.deep->empty();
-    if (job.fill != Fill::Full && !input.deep.empty() && (input.plate.empty() || job.engine != "scatter"))
+    if (!samples_.first.empty()) seen.deep = samples_;
+    seen.deep_dims_itself = job.deep && !job.deep->empty();
+    if (job.fill != Fill::Full && !seen.deep.empty() && (seen.plate.empty() || job.engine != "scatter"))
         warnings.emplace_back("job.fill has no effect where all samples of a pixel are given");
     if (job.holdout && !job.holdout->empty())
-        input.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, has_radii(job), *job.workers);
+        seen.holdout = holdout_ = engine::deep_samples(*job.holdout, radii, has_radii(job), *job.workers);
 }
 
 void PreparedFrame::note_radii() {
+    engine::Samples& seen = view.samples;
     const auto note = [&](float radius_px) {
-        input.nearest_coc_px = std::min(input.nearest_coc_px, radius_px);
-        input.farthest_coc_px = std::max(input.farthest_coc_px, radius_px);
+        seen.nearest_coc_px = std::min(seen.nearest_coc_px, radius_px);
+        seen.farthest_coc_px = std::max(seen.farthest_coc_px, radius_px);
     };
-    for (std::size_t i = 0; i < coc_px_.size(); ++i) note(coc_px_.pixels()[i]);
+    for (std::size_t i = 0; i < spare.coc_px.size(); ++i) note(spare.coc_px.pixels()[i]);
     for (const engine::CocSample& sample : samples_.samples) note(sample.coc_px);
 }
 
 void PreparedFrame::place_in_field(const DefocusJob& job) {
-    static_cast<PixelField&>(input) = job.place.field();
+    engine::LensOnPicture& lens = view.lens;
+    static_cast<PixelField&>(lens) = job.place.field();
     const Rect& data = job.place.data_window;
-    input.frame = job.place.display_window.moved(-data.x0, -data.y0);
-    if (!has_radii(job))
-        input.tan_per_field = job.camera.sensor_width_mm / job.camera.focal_length_mm /
-                              (job.place.display_window.width() * input.field_per_px);
+    lens.frame = job.place.display_window.moved(-data.x0, -data.y0);
+    if (has_radii(job)) return;
+    lens.focus_distance_m = job.camera.focus_distance_m;
+    lens.tan_per_field = job.camera.sensor_width_mm / job.camera.focal_length_mm /
+                         (job.place.display_window.width() * lens.field_per_px);
 }
 
 }  // namespace petzval

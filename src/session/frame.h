@@ -38,7 +38,7 @@ private:
 // Errors: InvalidArgument naming what is wrong with the sizes, windows or numbers of a job.
 Status check_job(const DefocusJob& job);
 
-// The input of an engine with everything that it looks at. Stays where it was made: the input points into it.
+// What an engine sees of a whole frame. Stays where it was made: the view points into it.
 class PreparedFrame {
 public:
     // lens_reach_px: how far light of a point with a radius of one pixel lands. Requires: check_job(job),
@@ -47,17 +47,20 @@ public:
     PreparedFrame(const PreparedFrame&) = delete;
     PreparedFrame& operator=(const PreparedFrame&) = delete;
 
-    engine::Input input;
+    engine::EngineView view;
+    engine::Spare spare;  // radii that the view shows
+    // Whether the view shows the picture that the job's owner no longer needs.
+    bool shows_spent = false;
     std::vector<std::string> warnings;
 
 private:
     void take_samples(const DefocusJob& job, const Radii& radii, double lens_reach_px);
     void note_radii();
     void place_in_field(const DefocusJob& job);
+    void take_options(const DefocusJob& job);
 
     Picture repaired_;  // stays empty for a picture that needs no repair
     std::vector<Picture> repaired_layers_;
-    Plane coc_px_;
     engine::CocSamples samples_, holdout_;
     engine::BackPicture plate_;
     std::vector<LightPoint> points_;

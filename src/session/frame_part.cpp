@@ -59,26 +59,29 @@ Picture part_of(const Picture& image, const Rect& pixels) {
     return part;
 }
 
-FramePart::FramePart(const engine::Input& whole, const Rect& pixels)
-    : deep_(part_of(whole.deep, pixels)), holdout_(part_of(whole.holdout, pixels)), input_(whole) {
-    static_cast<engine::LensOnPicture&>(input_) = whole.from(pixels.x0, pixels.y0);
-    input_.whole = &whole;
-    input_.colour = whole.colour.part(pixels);
-    input_.coc_px = whole.coc_px.part(pixels);
-    if (!whole.depth_m.empty()) input_.depth_m = whole.depth_m.part(pixels);
-    for (engine::Input::Layer& layer : input_.layers) layer.colour = layer.colour.part(pixels);
-    if (!whole.deep.empty()) input_.deep = deep_;
-    if (!whole.plate.empty())
-        input_.plate = {whole.plate.colour.part(pixels), whole.plate.coc_px.part(pixels), whole.plate.all};
-    if (!whole.holdout.empty()) input_.holdout = holdout_;
-    // Where the part ends and the frame does not, the scene goes on.
-    const Rect all = whole.colour.rect();
-    engine::OpenEdges& open = input_.open_edges;
-    open.left = open.left || pixels.x0 > all.x0, open.top = open.top || pixels.y0 > all.y0;
-    open.right = open.right || pixels.x1 < all.x1, open.bottom = open.bottom || pixels.y1 < all.y1;
-    points_.assign(whole.points.begin(), whole.points.end());
+FramePart::FramePart(const engine::EngineView& whole, const Rect& pixels)
+    : deep_(part_of(whole.samples.deep, pixels)),
+      holdout_(part_of(whole.samples.holdout, pixels)),
+      view_(whole) {
+    const engine::Samples& all = whole.samples;
+    engine::Samples& part = view_.samples;
+    part.colour = all.colour.part(pixels);
+    part.coc_px = all.coc_px.part(pixels);
+    if (!all.depth_m.empty()) part.depth_m = all.depth_m.part(pixels);
+    for (engine::SampleLayer& layer : part.layers) layer.colour = layer.colour.part(pixels);
+    if (!all.deep.empty()) part.deep = deep_;
+    if (!all.plate.empty()) part.plate = all.plate.part(pixels);
+    if (!all.holdout.empty()) part.holdout = holdout_;
+    points_.assign(all.points.begin(), all.points.end());
     for (LightPoint& p : points_) p.x -= float(pixels.x0), p.y -= float(pixels.y0);
-    input_.points = points_;
+    part.points = points_;
+    // Where the part ends and the frame does not, the scene continues.
+    const Rect frame = all.colour.rect();
+    engine::OpenEdges& open = view_.window.open_edges;
+    open.left = open.left || pixels.x0 > frame.x0, open.top = open.top || pixels.y0 > frame.y0;
+    open.right = open.right || pixels.x1 < frame.x1, open.bottom = open.bottom || pixels.y1 < frame.y1;
+    view_.window.whole = &whole;
+    view_.lens = whole.lens.from(pixels.x0, pixels.y0);
 }
 
 }  // namespace petzval

@@ -31,16 +31,16 @@ Picture part_of(const Picture& image, const Rect& pixels);
 
 class FramePart {
 public:
-    // Of an input that is whole and outlives this.
-    FramePart(const engine::Input& whole, const Rect& pixels);
+    // Of a view that is whole and outlives this.
+    FramePart(const engine::EngineView& whole, const Rect& pixels);
     FramePart(const FramePart&) = delete;
     FramePart& operator=(const FramePart&) = delete;
-    const engine::Input& input() const { return input_; }
+    const engine::EngineView& view() const { return view_; }
 
 private:
     engine::CocSamples deep_, holdout_;
     std::vector<LightPoint> points_;
-    engine::Input input_;
+    engine::EngineView view_;
 };
 
 }  // namespace petzval

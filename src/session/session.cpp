@@ -22,6 +22,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace petzval {
@@ -113,18 +114,18 @@ struct Asked {
 };
 
 // The pixels that an engine is to see for those that are asked for.
-Rect seen_pixels(const Asked& asked, const DefocusJob& job, const engine::Input& input) {
-    const Rect all = input.colour.rect();
+Rect seen_pixels(const Asked& asked, const DefocusJob& job, const engine::EngineView& view) {
+    const Rect all = view.samples.colour.rect();
     if (!asked.is_region) return all;
     // What is shown instead of a result takes its measures from all it sees.
     if (!shows_result(job)) return all;
-    const float largest = std::max(-input.nearest_coc_px, input.farthest_coc_px);
-    const int margin = region_margin_px(double(largest), input.lens(0).reach_px(double(largest)));
+    const float largest = std::max(-view.samples.nearest_coc_px, view.samples.farthest_coc_px);
+    const int margin = region_margin_px(double(largest), view.lens.level(0).reach_px(double(largest)));
     constexpr int kTiles = 128;  // pixels of the largest
     const Rect from = job.lens.distortion != 0
                           ? before_distortion(asked.pixels, job.place, job.lens.distortion)
                           : asked.pixels;
-    return pixels_for(from, margin, std::max(kTiles, grid_for(largest, input.lens(0))), all);
+    return pixels_for(from, margin, std::max(kTiles, grid_for(largest, view.lens.level(0))), all);
 }
 
 // Deep samples that the caller holds; engines count the flat pictures, and what they make of samples.
@@ -150,17 +151,18 @@ Picture taken(engine::Output& output) {
 }
 
 // Each layer as the picture, with its alpha.
-Status run_layers(const engine::Engine& chosen, const engine::Input& drawn, engine::Output& output) {
-    for (const engine::Input::Layer& layer : drawn.layers) {
+Status run_layers(const engine::Engine& chosen, const engine::EngineView& drawn, engine::Output& output) {
+    const View<const Rgba> whole = drawn.samples.colour;
+    for (const engine::SampleLayer& layer : drawn.samples.layers) {
         Picture colour(drawn.width(), drawn.height());
         for (int y = 0; y < colour.height(); ++y)
             for (int x = 0; x < colour.width(); ++x) {
                 colour(x, y) = layer.colour(x, y);
-                colour(x, y).a = drawn.colour(x, y).a;
+                colour(x, y).a = whole(x, y).a;
             }
-        engine::Input input = drawn;
-        input.colour = colour, input.picture = drawn.colour;
-        Result<engine::Output> blurred = chosen.run(input);
+        engine::EngineView view = drawn;
+        view.samples.colour = colour, view.samples.picture = whole;
+        Result<engine::Output> blurred = chosen.run(view, {});
         if (!blurred) return blurred.error();
         output.layers.push_back(taken(*blurred));
     }
@@ -212,32 +214,31 @@ void take_view(DefocusReport& report, engine::Output& output, views::PlanView& v
 Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, const engine::Engine& chosen,
                                  const Radii& radii, MountedLens& lens, const NotingDevice& drawing,
                                  const Clock& clock, Progress& progress, std::size_t beside_bytes,
-                                 const Finish& last) {
+                                 bool may_take_colour, const Finish& last) {
     const double lens_ready = clock.seconds();
     PreparedFrame frame(job, radii, lens.levels.front()->reach_px(1));
-    engine::Input& input = frame.input;
-    input.lens_levels = lens.levels;
-    input.lamps = lens.lamps;
-    input.device = &drawing;
-    input.memory = &lens.kernels;
-    input.progress = &progress;
-    input.beside_bytes = beside_bytes;
+    engine::EngineView& whole = frame.view;
+    whole.lens.levels = lens.levels, whole.lens.lamps = lens.lamps;
+    whole.services.device = &drawing, whole.services.memory = &lens.kernels;
+    whole.services.progress = &progress, whole.services.beside_bytes = beside_bytes;
     const std::unique_ptr<views::PlanView> view = views::plan_view(job.scatter.view);
     if (view) {
         const std::string name = std::string("job.view ") + views::name_of(job.scatter.view);
-        if (const Status fits = engine::fits_memory(input, views::kBytesPerPixel, name); !fits)
+        if (const Status fits = engine::fits_memory(whole, views::kBytesPerPixel, name); !fits)
             return fits.error();
-        input.plan_reader = view.get();
+        whole.options.own = engine::ScatterOwn{view.get()};
     }
-    const Rect seen = seen_pixels(asked, job, input);
+    const Rect seen = seen_pixels(asked, job, whole);
     std::optional<FramePart> part;
-    if (seen != input.colour.rect()) part.emplace(input, seen);
-    const engine::Input& drawn = part ? part->input() : input;
+    if (seen != whole.samples.colour.rect()) part.emplace(whole, seen);
+    const engine::EngineView& drawn = part ? part->view() : whole;
+    if (may_take_colour && frame.shows_spent) frame.spare.colour = std::move(*job.spent_colour);
     const double prepared = clock.seconds();
 
-    Result<engine::Output> output = chosen.run(drawn);
+    const bool runs_again = chosen.layers == engine::Layers::OneByOne && !drawn.samples.layers.empty();
+    Result<engine::Output> output = chosen.run(drawn, runs_again ? engine::Spare{} : std::move(frame.spare));
     if (!output) return output.error();
-    if (chosen.layers == engine::Layers::OneByOne)
+    if (runs_again)
         if (const Status done = run_layers(chosen, drawn, *output); !done) return done.error();
     DefocusReport report;
     std::shared_ptr<device::Canvas> canvas;
@@ -252,7 +253,7 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     report.device = drawing.drawn_by();
     report.lens = lens.levels.front()->description();
     report.kernels_from_cache = lens.store ? lens.store->kernels_found() : 0;
-    const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
+    const std::size_t pixels = std::size_t(whole.width()) * std::size_t(whole.height());
     report.stages = {{"kernels", lens_ready},
                      {"prepare", prepared - lens_ready, pixels * (sizeof(Rgba) + 2 * sizeof(float))}};
     report.stages.insert(report.stages.end(), output->stages.begin(), output->stages.end());
@@ -264,19 +265,20 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
                                   "render that much overscan");
     for (std::string& said : drawing.said()) report.warnings.push_back(std::move(said));
     if (lens.store && !lens.store->warning().empty()) report.warnings.push_back(lens.store->warning());
-    report.largest_radius_px = double(input.farthest_coc_px);
-    report.smallest_radius_px = double(input.nearest_coc_px);
+    report.largest_radius_px = double(whole.samples.farthest_coc_px);
+    report.smallest_radius_px = double(whole.samples.nearest_coc_px);
     return report;
 }
 
-// made_by(device, last) with this device; with the CPU where its memory does not hold the least part of a
-// frame. Whoever asks for a GPU is told where he did not get it.
+// made_by(device, whether it is the last try, last) with this device; with the CPU where its memory does not
+// hold the least part of a frame. Whoever asks for a GPU is told where he did not get it.
 template <typename MadeBy>
 Result<DefocusReport> made_on_either(const NotingDevice& drawing, const std::string& asked,
                                      const std::string& engine, const Finish& last, const MadeBy& made_by) {
     std::string too_large;
     try {
-        auto report = made_by(drawing, last);
+        const bool never_fails = drawing.name() == std::string_view(device::cpu_device().name());
+        auto report = made_by(drawing, never_fails, last);
         if (report && asked.starts_with("gpu") && report->device != drawing.name())
             report->warnings.push_back("session.device " + asked + " had nothing to draw of job.engine " +
                                        engine + "'s; the CPU made the frame");
@@ -290,7 +292,7 @@ Result<DefocusReport> made_on_either(const NotingDevice& drawing, const std::str
         picture = canvas_of(drawing, picture->take());
         return last(picture);
     };
-    auto report = made_by(NotingDevice(device::cpu_device()), last ? moved : Finish());
+    auto report = made_by(NotingDevice(device::cpu_device()), true, last ? moved : Finish());
     static_cast<void>(drawing.said());  // it drew nothing
     if (report) report->warnings.push_back(too_large + "; the CPU made the frame");
     return report;
@@ -333,10 +335,10 @@ Result<DefocusReport> Session::Contents::defocus(const DefocusJob& given, const 
         if (!lens) return lens.error();
     }
     const Rect asked = region ? region->intersected(job.place.data_window) : job.place.data_window;
-    const auto made_by = [&](const NotingDevice& by, const Finish& finishing) {
+    const auto made_by = [&](const NotingDevice& by, bool is_last_try, const Finish& finishing) {
         return made_frame(wider ? wider->job() : job,
                           {asked.moved(-window.x0, -window.y0), region.has_value()}, **engine, *radii, **lens,
-                          by, clock, progress, beside, finishing);
+                          by, clock, progress, beside, is_last_try, finishing);
     };
     auto report = made_on_either(drawing, settings.device, job.engine, last, made_by);
     if (report && !edges.what_was_done().empty()) report->warnings.push_back(edges.what_was_done());

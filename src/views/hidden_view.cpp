@@ -36,18 +36,19 @@ void add_hidden_light(std::vector<DeepSample>& deep, std::size_t first, const en
 
 }  // namespace
 
-bool HiddenView::read(const engine::Input& input, const engine::CompletedPicture& completed) {
+bool HiddenView::read(const engine::EngineView& input, const engine::CompletedPicture& completed) {
     const engine::CocSamples all = completed.all();
     const engine::CocSamplesView samples = all;
     shown_.image = Picture(input.width(), input.height());
     for (int y = 0; y < input.height(); ++y)
-        for (int x = 0; x < input.width(); ++x) shown_.image(x, y) = input.colour(x, y);
+        for (int x = 0; x < input.width(); ++x) shown_.image(x, y) = input.samples.colour(x, y);
     const auto samples_at = [&](int x, int y, std::vector<DeepSample>& deep) {
         const std::size_t first = deep.size();
         for (const engine::CocSample& s : samples.at(x, y))
             if (s.colour.a > 0) deep.push_back({s.colour, s.coc_px, s.coc_back_px});
         Rgba missing;
-        if (input.deep.empty()) missing = complete_light(std::span(deep).subspan(first), input.colour(x, y));
+        if (input.samples.deep.empty())
+            missing = complete_light(std::span(deep).subspan(first), input.samples.colour(x, y));
         for (const engine::CocSample& s : samples.at(x, y))
             if (s.colour.a == 0 && s.colour != Rgba{}) add_hidden_light(deep, first, s, missing);
     };

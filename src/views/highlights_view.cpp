@@ -5,7 +5,7 @@ namespace petzval::views {
 using engine::Highlight;
 
 void HighlightsView::read(const engine::PlannedStrip& strip) {
-    const engine::Input& input = strip.input;
+    const engine::EngineView& input = strip.input;
     const int width = input.width(), height = input.height();
     shown_.image = Picture(2 * width, height);
     const Rect drawn{0, 0, width, height}, taken{width, 0, 2 * width, height};
@@ -18,7 +18,7 @@ void HighlightsView::read(const engine::PlannedStrip& strip) {
                 pixel += h.colour, pixel.a = 1;
             }
     draw_lights(strip, shown_.image.view().part(drawn));
-    input.progress->advance(1);
+    input.services.progress->advance(1);
 }
 
 }  // namespace petzval::views

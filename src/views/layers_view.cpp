@@ -11,7 +11,7 @@ namespace petzval::views {
 
 using engine::CocSample;
 using engine::CocSamplesView;
-using engine::Input;
+using engine::EngineView;
 
 namespace {
 
@@ -27,7 +27,7 @@ constexpr std::array<Rank, 4> kRanks{{{"", "NEAREST"},
 
 bool holds_light(const CocSample& s) { return s.colour.a > 0 || s.colour != Rgba{}; }
 
-std::size_t most_in_a_pixel(const Input& input, const CocSamplesView& samples) {
+std::size_t most_in_a_pixel(const EngineView& input, const CocSamplesView& samples) {
     std::size_t most = 0;
     for (int y = 0; y < input.height(); ++y)
         for (int x = 0; x < input.width(); ++x) {
@@ -39,7 +39,7 @@ std::size_t most_in_a_pixel(const Input& input, const CocSamplesView& samples) {
 
 }  // namespace
 
-bool LayersView::read(const Input& input, const engine::CompletedPicture& completed) {
+bool LayersView::read(const EngineView& input, const engine::CompletedPicture& completed) {
     const engine::CocSamples all = completed.all();
     const CocSamplesView samples = all;
     const std::size_t most = most_in_a_pixel(input, samples);
@@ -58,10 +58,10 @@ bool LayersView::read(const Input& input, const engine::CompletedPicture& comple
                                  layer + (n > 0 ? ".depth_layer" : "depth_layer"),
                                  true});
     }
-    parallel_for(height, *input.workers, [&](int y) {
+    parallel_for(height, *input.services.workers, [&](int y) {
         for (int x = 0; x < width; ++x) {
             for (int n = 0; n < int(ranks); ++n) atlas(width + x, n * height + y) = {kNoNumber, 0, 0, 1};
-            engine::LayersOfPixel layers(!input.deep.empty());
+            engine::LayersOfPixel layers(!input.samples.deep.empty());
             int n = 0;
             for (const CocSample& s : samples.at(x, y)) {
                 const int number = layers.next(s).layer / engine::kNextLayer;

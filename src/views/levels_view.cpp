@@ -76,13 +76,14 @@ device::KernelSet kernels_of(const ScatterKernels& kernels, const Rect& frame, c
 
 // All that the sources of one level send, over all depths.
 void accumulate(const PlannedStrip& strip, int level, View<Rgba> out) {
-    const Input& input = strip.input;
+    const EngineView& input = strip.input;
     const SourceArray& sources = strip.scatter.levels[std::size_t(level)];
-    const device::KernelSet set = kernels_of(strip.kernels, input.frame, sources, level);
-    const device::StampAtlas atlas(device::laid_out<device::StampSet>(
-        strip.kernels, set, "stamping", *input.memory, {*input.workers, *input.progress}));
-    parallel_for((out.height() + kBand - 1) / kBand, *input.workers, [&](int band) {
-        if (input.progress->cancelled()) return;
+    const device::KernelSet set = kernels_of(strip.kernels, input.lens.frame, sources, level);
+    const device::StampAtlas atlas(
+        device::laid_out<device::StampSet>(strip.kernels, set, "stamping", *input.services.memory,
+                                           {*input.services.workers, *input.services.progress}));
+    parallel_for((out.height() + kBand - 1) / kBand, *input.services.workers, [&](int band) {
+        if (input.services.progress->cancelled()) return;
         const Rect rows{0, band * kBand, out.width(), std::min(out.height(), (band + 1) * kBand)};
         std::array<Accumulator, 1> cells;
         cells[0].reset(rows);
@@ -90,7 +91,7 @@ void accumulate(const PlannedStrip& strip, int level, View<Rgba> out) {
         for (int y = rows.y0 - reach; y < rows.y1 + reach; ++y)
             for (const Source& s : sources.row(y)) {
                 if (is_emptiness(s.layer)) continue;
-                for_kernels(strip.kernels, input.frame, s, level,
+                for_kernels(strip.kernels, input.lens.frame, s, level,
                             [&](const device::KernelAsk& ask, float share) {
                                 const auto place = std::lower_bound(set.asks.begin(), set.asks.end(), ask);
                                 stamp(atlas[std::uint32_t(place - set.asks.begin())].kernels, s.x, s.y(),
@@ -103,7 +104,7 @@ void accumulate(const PlannedStrip& strip, int level, View<Rgba> out) {
 
 // Every pixel of half the size: the colours of the levels, by the lens area that each drew there, on the
 // picture's own brightness.
-void draw_map(const Input& input, View<const Rgba> atlas, const Layout& layout, View<Rgba> out) {
+void draw_map(const EngineView& input, View<const Rgba> atlas, const Layout& layout, View<Rgba> out) {
     const auto shown = [](float light) { return 0.25f + 0.75f * light / (light + 0.5f); };
     for (int y = 0; y < out.height(); ++y)
         for (int x = 0; x < out.width(); ++x) {
@@ -116,7 +117,7 @@ void draw_map(const Input& input, View<const Rgba> atlas, const Layout& layout, 
                 sum += covered * colour_of(int(l)), area += covered;
             }
             const Rgba light = atlas(layout.highlights.x0 + u, layout.highlights.y0 + v);
-            const float bright = luminance(light), brightness = luminance(input.colour(u, v));
+            const float bright = luminance(light), brightness = luminance(input.samples.colour(u, v));
             const Rgba drawn = area > 0 ? sum * (shown(std::max(0.0f, brightness)) / area) : Rgba{};
             const float white = bright > 0 ? bright / (bright + 0.5f) : 0;
             out(x, y) = drawn * (1 - white) + white * kHighlightColour;
@@ -127,7 +128,7 @@ void draw_map(const Input& input, View<const Rgba> atlas, const Layout& layout, 
 }  // namespace
 
 void LevelsView::read(const PlannedStrip& strip) {
-    const Input& input = strip.input;
+    const EngineView& input = strip.input;
     const std::size_t levels = strip.scatter.levels.size();
     const Layout layout(input.width(), input.height(), int(levels));
     shown_.image = Picture(layout.all.width(), layout.all.height(), Rgba{0, 0, 0, 1});
@@ -135,7 +136,7 @@ void LevelsView::read(const PlannedStrip& strip) {
         accumulate(strip, int(l), shown_.image.view().part(layout.levels[l]));
         shown_.panels.push_back(
             {name_of_level(int(l), strip.scatter.rule), layout.levels[l], colour_of(int(l))});
-        if (!input.progress->advance(0.8 / double(levels))) return;
+        if (!input.services.progress->advance(0.8 / double(levels))) return;
     }
     const View<Rgba> bright = shown_.image.view().part(layout.highlights);
     draw_lights(strip, bright);

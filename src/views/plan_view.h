@@ -26,7 +26,7 @@ constexpr std::size_t kBytesPerPixel = 260;
 
 class PlanView : public engine::PlanReader {
 public:
-    bool read(const engine::Input&, const engine::CompletedPicture&) override { return true; }
+    bool read(const engine::EngineView&, const engine::CompletedPicture&) override { return true; }
     void read(const engine::PlannedStrip&) override {}
     Shown take() { return std::move(shown_); }
 
@@ -44,14 +44,14 @@ const char* name_of(ScatterView view);
 // rows; a warning says if there is more.
 class LayersView final : public PlanView {
 public:
-    bool read(const engine::Input& input, const engine::CompletedPicture& completed) override;
+    bool read(const engine::EngineView& input, const engine::CompletedPicture& completed) override;
 };
 
 // All surfaces of every pixel, nearest first; over one another they are the picture. Light of lamps stands on
 // the surface that shows it.
 class HiddenView final : public PlanView {
 public:
-    bool read(const engine::Input& input, const engine::CompletedPicture& completed) override;
+    bool read(const engine::EngineView& input, const engine::CompletedPicture& completed) override;
 };
 
 // Level 0 at the top left, highlights right of it; below, the reduced levels side by side, and a map of which

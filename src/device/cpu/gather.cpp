@@ -168,7 +168,7 @@ private:
 
     // Whether what lies outside at (x, y) goes on as the nearest cell inside; else there is emptiness.
     bool goes_on(int x, int y, int width, int height) const {
-        const OpenEdges& open = plan_.strip.open_edges;
+        const OpenEdges& open = plan_.strip.window.open_edges;
         return (x >= 0 || open.left) && (x < width || open.right) && (y >= 0 || open.top) &&
                (y < height || open.bottom);
     }
@@ -386,7 +386,8 @@ private:
 
 void copy_tile(const GatherPlan& plan, const Rect& tile, View<Rgba> out) {
     for (int y = tile.y0; y < tile.y1; ++y)
-        std::copy_n(plan.strip.colour.row(y) + tile.x0, tile.width(), out.row(plan.first_row + y) + tile.x0);
+        std::copy_n(plan.strip.samples.colour.row(y) + tile.x0, tile.width(),
+                    out.row(plan.first_row + y) + tile.x0);
 }
 
 }  // namespace

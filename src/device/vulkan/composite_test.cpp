@@ -1,7 +1,7 @@
 #include "device/vulkan/composite.h"
 
 #include "device/vulkan/test_context.h"
-#include "engine/samples/sample_set.h"
+#include "engine/samples/complete_testing.h"
 #include "engine/scatter/scatter_kernels.h"
 #include "kernel/lenses/make_lens.h"
 
@@ -15,7 +15,7 @@
 namespace petzval::device::vulkan {
 namespace {
 
-using engine::Input;
+using engine::EngineView;
 
 constexpr int kWidth = 150, kHeight = 90;
 
@@ -25,7 +25,7 @@ struct Shown {
     Plane coc_px{kWidth, kHeight, 2.0f};
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
     Progress progress;
-    Input input;
+    EngineView input;
 
     Shown() {
         for (int y = 0; y < kHeight; ++y)
@@ -36,11 +36,11 @@ struct Shown {
         const kernel::Mount mount{{50, 36, 1.4, 2}, kWidth, kHeight};
         for (int level = 0; level < 2; ++level)
             lenses.push_back(std::move(kernel::make_lens({}, mount)).value());
-        input.lens_levels = lenses;
-        input.field_per_px = 2 / std::hypot(kWidth, kHeight);
-        input.colour = colour, input.coc_px = coc_px, input.frame = colour.rect();
-        input.nearest_coc_px = -3, input.farthest_coc_px = 2;
-        input.quality = Quality::Draft, input.progress = &progress;
+        input.lens.levels = lenses;
+        input.lens.field_per_px = 2 / std::hypot(kWidth, kHeight);
+        input.samples.colour = colour, input.samples.coc_px = coc_px, input.lens.frame = colour.rect();
+        input.samples.nearest_coc_px = -3, input.samples.farthest_coc_px = 2;
+        input.options.quality = Quality::Draft, input.services.progress = &progress;
     }
 };
 
@@ -48,12 +48,12 @@ struct Shown {
 struct Planned {
     Shown shown;
     engine::LevelRule rule = engine::level_rule(shown.input);
-    engine::ScatterKernels kernels{shown.input, rule};
+    engine::ScatterKernels kernels{shown.input.lens, rule};
     engine::SampleSet set = engine::complete_samples(shown.input);
     engine::ScatterPlan plan =
         engine::make_plan(shown.input, set.samples, set.connected, shown.colour.rect(), 0, rule, kernels);
     Memory memory{std::numeric_limits<std::size_t>::max()};
-    Control control{*shown.input.workers, shown.progress};
+    Control control{*shown.input.services.workers, shown.progress};
     PackedAtlas atlas{laid_out<PackedSet>(kernels, plan.kernels, "test", memory, control)};
 };
 

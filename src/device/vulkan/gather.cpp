@@ -107,7 +107,7 @@ public:
         for (std::size_t t = begin; t < end; ++t, to += kTilePixels) {
             const Rect& tile = tiles.emplace_back(plan_.tiles[t].pixels);
             for (int y = 0; y < tile.height(); ++y)
-                std::copy_n(plan_.strip.colour.row(tile.y0 + y) + tile.x0, tile.width(),
+                std::copy_n(plan_.strip.samples.colour.row(tile.y0 + y) + tile.x0, tile.width(),
                             to + std::ptrdiff_t(y) * kTile);
         }
         Recording recording(context_);
@@ -188,7 +188,7 @@ private:
                          {turn, std::uint32_t(ring), std::uint32_t(level), std::uint32_t(reach)});
             ++push.turn_count;
         }
-        const engine::OpenEdges& open = plan_.strip.open_edges;
+        const engine::OpenEdges& open = plan_.strip.window.open_edges;
         push.open_edges =
             (open.left ? 1u : 0u) | (open.top ? 2u : 0u) | (open.right ? 4u : 0u) | (open.bottom ? 8u : 0u);
         push.is_opaque = plan_.opaque ? 1 : 0;

@@ -30,17 +30,17 @@ public:
                 std::move(
                     kernel::make_lens({}, kernel::Mount{{50, 36, 1.4, 2}, width >> level, kHeight >> level}))
                     .value());
-        input_.lens_levels = lenses_;
-        input_.field_per_px = 2 / std::hypot(width, kHeight);
-        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
-        input_.farthest_coc_px = 12, input_.progress = &progress_;
+        input_.lens.levels = lenses_;
+        input_.lens.field_per_px = 2 / std::hypot(width, kHeight);
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_, input_.lens.frame = colour_.rect();
+        input_.samples.farthest_coc_px = 12, input_.services.progress = &progress_;
     }
     Picture by(Context& context) {
         const engine::RingSizes sizes(0, 12, engine::ring_rule(Quality::Standard));
-        const engine::RingKernels kernels(input_, sizes);
+        const engine::RingKernels kernels(input_.lens, sizes);
         const engine::GatherPlan plan = engine::plan_gather(input_, colour_.rect(), 0, sizes, kernels);
         Memory memory(std::numeric_limits<std::size_t>::max());
-        const Control control{*input_.workers, progress_};
+        const Control control{*input_.services.workers, progress_};
         Picture out(colour_.width(), kHeight);
         gather_tiles(context, plan,
                      PackedAtlas(laid_out<PackedSet>(kernels, plan.kernels, "test", memory, control)), out,
@@ -54,7 +54,7 @@ private:
     Plane coc_px_;
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses_;
     Progress progress_;
-    engine::Input input_;
+    engine::EngineView input_;
 };
 
 std::uint64_t bytes_of(const Context& context) {

@@ -29,17 +29,17 @@ struct Strips {
     std::size_t least_bytes = 0;  // of job.max_memory_bytes
 };
 
-Strips plan_strips(const Input& input, const RingSizes& sizes, const BrightPoints& found) {
+Strips plan_strips(const EngineView& input, const RingSizes& sizes, const BrightPoints& found) {
     constexpr std::size_t kBytesPerPixel = 94;  // of cells, light and what is hidden, where many depths meet
     const int cell = 1 << (sizes.levels() - 1);
-    const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.nearest_coc_px)});
+    const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.samples.nearest_coc_px)});
     const auto whole_units = [unit](double rows) {
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
     };
-    const double largest = double(std::max(-input.nearest_coc_px, input.farthest_coc_px));
+    const double largest = double(std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px));
     Strips strips{whole_units(input.height()),
-                  whole_units(1.05 * input.lens(0).reach_px(largest) +
-                              double(fill_reach_px(input.nearest_coc_px)) + 4.0 * cell + 8)};
+                  whole_units(1.05 * input.lens.level(0).reach_px(largest) +
+                              double(fill_reach_px(input.samples.nearest_coc_px)) + 4.0 * cell + 8)};
     const std::size_t row_bytes =
         kBytesPerPixel * std::size_t(input.width()) + found.bytes_beside(1) - found.bytes_beside(0);
     const std::size_t held = held_bytes(input) + found.bytes_beside(0) +
@@ -47,38 +47,41 @@ Strips plan_strips(const Input& input, const RingSizes& sizes, const BrightPoint
     strips.least_bytes =
         held + std::max(std::size_t(std::min(unit + 2 * strips.halo, input.height())) * row_bytes,
                         sprites_bytes(input, found.count()));
-    const std::size_t rows = (std::max(input.max_memory_bytes, held) - held) / row_bytes;
-    if (input.max_memory_bytes == 0 || rows >= std::size_t(input.height())) return strips;
+    const std::size_t rows = (std::max(input.services.max_memory_bytes, held) - held) / row_bytes;
+    if (input.services.max_memory_bytes == 0 || rows >= std::size_t(input.height())) return strips;
     strips.rows = std::max(unit, (int(rows) - 2 * strips.halo) / unit * unit);
     return strips;
 }
 
-RingSizes ring_sizes(const Input& input) {
-    return RingSizes(input.nearest_coc_px, input.farthest_coc_px, ring_rule(input.quality));
+RingSizes ring_sizes(const EngineView& input) {
+    return RingSizes(input.samples.nearest_coc_px, input.samples.farthest_coc_px,
+                     ring_rule(input.options.quality));
 }
 
 class Gather {
 public:
-    explicit Gather(const Input& input) : frame_(input), sizes_(ring_sizes(input)), kernels_(input, sizes_) {}
+    explicit Gather(const EngineView& input)
+        : frame_(input), sizes_(ring_sizes(input)), kernels_(input.lens, sizes_) {}
 
     Result<Output> run(const char* engine) {
         Stopwatch watch(stages_);
         const BrightPoints found(frame_);
         if (BrightPoints::are_looked_for(frame_)) watch.lap("bright points");
         const Strips strips = plan_strips(frame_, sizes_, found);
-        if (frame_.max_memory_bytes > 0 && frame_.max_memory_bytes < strips.least_bytes)
+        if (frame_.services.max_memory_bytes > 0 && frame_.services.max_memory_bytes < strips.least_bytes)
             return too_little_memory(engine, strips.least_bytes);
         Output output;
-        output.canvas = frame_.device->canvas(Picture::uninitialised(frame_.width(), frame_.height()));
-        for (int y = 0; y < frame_.height() && !frame_.progress->cancelled(); y += strips.rows)
-            draw(Rect{0, y, frame_.width(), y + strips.rows}.intersected(frame_.colour.rect()), strips.halo,
-                 found, *output.canvas);
-        if (!frame_.progress->cancelled() && (!found.empty() || !frame_.points.empty())) {
+        output.canvas =
+            frame_.services.device->canvas(Picture::uninitialised(frame_.width(), frame_.height()));
+        for (int y = 0; y < frame_.height() && !frame_.services.progress->cancelled(); y += strips.rows)
+            draw(Rect{0, y, frame_.width(), y + strips.rows}.intersected(frame_.samples.colour.rect()),
+                 strips.halo, found, *output.canvas);
+        if (!frame_.services.progress->cancelled() && (!found.empty() || !frame_.samples.points.empty())) {
             Stopwatch lights(stages_);
             const device::Work work = draw_sprites(frame_, found.sprites(), *output.canvas);
             lights.lap("sprites", work.bytes, work.multiply_adds);
         }
-        if (frame_.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+        if (frame_.services.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
         output.stages = std::move(stages_);
         return output;
     }
@@ -88,18 +91,19 @@ private:
         Stopwatch watch(stages_);
         const int first = std::max(0, rows.y0 - halo), last = std::min(frame_.height(), rows.y1 + halo);
         const BrightPoints::Rest rest = found.rest(first, last);
-        const Input& strip = rest.input();
+        const EngineView& strip = rest.input();
         const GatherPlan plan = plan_gather(strip, rows.moved(0, -first), first, sizes_, kernels_);
         watch.lap("prefilter");
-        const device::Control control{*strip.workers, *strip.progress,
+        const device::Control control{*strip.services.workers, *strip.services.progress,
                                       double(rows.height()) / frame_.height()};
-        const auto atlas = strip.device->atlas(kernels_, plan.kernels, *strip.memory, control);
+        const auto atlas =
+            strip.services.device->atlas(kernels_, plan.kernels, *strip.services.memory, control);
         watch.lap("atlas");
-        if (!strip.progress->cancelled()) strip.device->gather(plan, *atlas, out, control);
+        if (!strip.services.progress->cancelled()) strip.services.device->gather(plan, *atlas, out, control);
         watch.lap("gather");
     }
 
-    const Input& frame_;
+    const EngineView& frame_;
     RingSizes sizes_;
     RingKernels kernels_;
     std::vector<StageTime> stages_;
@@ -114,41 +118,44 @@ struct KeptRealtimeLens final : device::Memory::Thing {
     RealtimeLens lens;
 };
 
-std::shared_ptr<const RealtimeLens> kept_realtime_lens(const Input& input) {
-    const double near_px = std::ceil(double(std::max(0.0f, -input.nearest_coc_px))),
-                 far_px = std::ceil(double(std::max(0.0f, input.farthest_coc_px)));
-    const auto kept = input.memory->get<KeptRealtimeLens>(
+std::shared_ptr<const RealtimeLens> kept_realtime_lens(const EngineView& input) {
+    const double near_px = std::ceil(double(std::max(0.0f, -input.samples.nearest_coc_px))),
+                 far_px = std::ceil(double(std::max(0.0f, input.samples.farthest_coc_px)));
+    const auto kept = input.services.memory->get<KeptRealtimeLens>(
         "realtime " + std::to_string(int(near_px)) + " " + std::to_string(int(far_px)), [&] {
             return std::make_shared<KeptRealtimeLens>(
-                realtime_lens(input.lens(0), kernel::FieldPosition{}, near_px, far_px));
+                realtime_lens(input.lens.level(0), kernel::FieldPosition{}, near_px, far_px));
         });
     return {kept, &kept->lens};
 }
 
-Result<Output> run_gather(const Input& input) {
-    if (input.gather.stage != GatherStage::Final) return run_gather_stage(input);
+Result<Output> run_gather(const EngineView& input, Spare) {
+    if (input.options.of<GatherOwn>().gather.stage != GatherStage::Final) return run_gather_stage(input);
     return run_gather_for("gather", input);
 }
 
-Result<Output> run_gather_for(const char* engine, const Input& input) { return Gather(input).run(engine); }
+Result<Output> run_gather_for(const char* engine, const EngineView& input) {
+    return Gather(input).run(engine);
+}
 
-Result<Output> run_realtime(const Input& input) {
+Result<Output> run_realtime(const EngineView& input, Spare) {
     const auto start = std::chrono::steady_clock::now();
     constexpr std::size_t kBytesPerPixel = 3 * sizeof(Rgba);
     if (const Status fits = fits_memory(input, kBytesPerPixel, "realtime"); !fits) return fits.error();
     Output output;
-    output.canvas = input.device->canvas(Picture::uninitialised(input.width(), input.height()));
-    const RealtimePlan plan{input.colour, input.coc_px,
-                            std::max(-input.nearest_coc_px, input.farthest_coc_px), float(input.pixel_aspect),
-                            kept_realtime_lens(input)};
-    if (!input.progress->cancelled())
-        input.device->draw_realtime(plan, *output.canvas, {*input.workers, *input.progress});
-    if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
+    output.canvas = input.services.device->canvas(Picture::uninitialised(input.width(), input.height()));
+    const RealtimePlan plan{input.samples.colour, input.samples.coc_px,
+                            std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px),
+                            float(input.lens.pixel_aspect), kept_realtime_lens(input)};
+    if (!input.services.progress->cancelled())
+        input.services.device->draw_realtime(plan, *output.canvas,
+                                             {*input.services.workers, *input.services.progress});
+    if (!input.services.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     output.stages = {
         {"realtime", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
-    if (!input.deep.empty())
+    if (!input.samples.deep.empty())
         output.warnings.emplace_back("job.engine realtime looks at the front view alone");
-    if (input.lens(0).varies_over_field())
+    if (input.lens.level(0).varies_over_field())
         output.warnings.emplace_back(
             "job.engine realtime draws the lens as it is in the middle of the frame");
     return output;

@@ -19,8 +19,8 @@ CellLight& of_turn(std::vector<CellLight>& lights, std::size_t begin, int turn) 
 // A row of cells: first every column of pixels by itself, then the columns of each cell.
 class RowOfCells {
 public:
-    RowOfCells(const Input& input, const Guessed& guessed, const RingSizes& sizes, const CellAxis& across,
-               const CellAxis& down)
+    RowOfCells(const EngineView& input, const Guessed& guessed, const RingSizes& sizes,
+               const CellAxis& across, const CellAxis& down)
         : input_(input),
           guessed_(guessed),
           sizes_(sizes),
@@ -64,12 +64,12 @@ private:
     // Which columns have light of this level at all: most have not.
     void find_lit(int columns, int cy) {
         const int width = input_.width();
-        is_lit_.assign(std::size_t(columns), input_.deep.empty() ? 0 : 1);
-        if (!input_.deep.empty()) return;
+        is_lit_.assign(std::size_t(columns), input_.samples.deep.empty() ? 0 : 1);
+        if (!input_.samples.deep.empty()) return;
         const float above_px = may_hold_.above_px, below_px = may_hold_.below_px;
         const auto note = [&](int x, float coc_px) { is_lit_[std::size_t(x)] |= may_hold_.contains(coc_px); };
         for (int y = down_.begin(cy); y < std::min(down_.end(cy), input_.height()); ++y) {
-            const float* const coc_px = input_.coc_px.row(y);
+            const float* const coc_px = input_.samples.coc_px.row(y);
             unsigned char* const is_lit = is_lit_.data();
             for (int x = 0; x < width; ++x) {
                 const float size_px = std::abs(coc_px[x]);
@@ -85,7 +85,8 @@ private:
     void add_pixel(int x, int y, float weight, std::size_t begin) {
         const int u = std::min(x, input_.width() - 1), v = std::min(y, input_.height() - 1);
         const bool outside_x = u != x, outside_y = v != y, outside = outside_x || outside_y;
-        const bool open = (!outside_x || input_.open_edges.right) && (!outside_y || input_.open_edges.bottom);
+        const bool open =
+            (!outside_x || input_.window.open_edges.right) && (!outside_y || input_.window.open_edges.bottom);
         for_each_sample(input_, guessed_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
             if (!may_hold_.contains(coc_px)) return;
             sizes_.hand_out(coc_px, hidden, [&](int turn, float share) {
@@ -97,7 +98,7 @@ private:
         });
     }
 
-    const Input& input_;
+    const EngineView& input_;
     const Guessed& guessed_;
     const RingSizes& sizes_;
     const CellAxis &across_, &down_;
@@ -109,12 +110,12 @@ private:
 
 }  // namespace
 
-CellLevel::CellLevel(const Input& input, const Guessed& guessed, const RingSizes& sizes, int level)
+CellLevel::CellLevel(const EngineView& input, const Guessed& guessed, const RingSizes& sizes, int level)
     : width_((input.width() + (1 << level) - 1) >> level),
       height_((input.height() + (1 << level) - 1) >> level),
       rows_(std::size_t(height_)) {
     const CellAxis across(level, width_), down(level, height_);
-    parallel_for(height_, *input.workers, [&](int cy) {
+    parallel_for(height_, *input.services.workers, [&](int cy) {
         Row& row = rows_[std::size_t(cy)];
         RowOfCells(input, guessed, sizes, across, down).make(cy, row.first, row.lights);
     });

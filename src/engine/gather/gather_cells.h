@@ -33,9 +33,9 @@ struct CellLight {
 // where so little farther away that no ray comes past what is in front. What a straight ray is left with is
 // emptiness.
 template <typename Emit>
-void for_each_deep_sample(const Input& input, int x, int y, Emit& emit) {
-    float open = 1, last_px = input.coc_px(x, y), front_px = -1e30f;
-    for (const CocSample& s : input.deep.at(x, y)) {
+void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
+    float open = 1, last_px = input.samples.coc_px(x, y), front_px = -1e30f;
+    for (const CocSample& s : input.samples.deep.at(x, y)) {
         const float a = s.colour.a,
                     share = a < laws::kOpaque || s.coc_px - front_px < laws::kNoRoomPx ? open : 1.0f;
         if (share > 0) emit(share * s.colour, s.coc_px, s.colour == Rgba{} ? share : share * a);
@@ -47,29 +47,29 @@ void for_each_deep_sample(const Input& input, int x, int y, Emit& emit) {
 
 // The samples that a gather takes from one pixel, as emit(colour, coc_px, covered, hidden).
 template <typename Emit>
-void for_each_sample(const Input& input, const Guessed& guessed, int x, int y, const Emit& emit) {
+void for_each_sample(const EngineView& input, const Guessed& guessed, int x, int y, const Emit& emit) {
     SeenFirst take(emit);
-    if (input.deep.empty()) {
-        const float coc = input.coc_px(x, y);
+    if (input.samples.deep.empty()) {
+        const float coc = input.samples.coc_px(x, y);
         if (const Rim* const rim = guessed.rims.at(x, y)) {
-            take(rim->near(input.colour(x, y)), rim->near_coc_px, rim->share);
+            take(rim->near(input.samples.colour(x, y)), rim->near_coc_px, rim->share);
             take(rim->far, coc, 1.0f);
         } else {
-            emit(input.colour(x, y), coc, 1.0f, false);
+            emit(input.samples.colour(x, y), coc, 1.0f, false);
         }
         if (const FilledIn* const hidden = guessed.fill.at(x, y))
             emit(hidden->colour, hidden->coc_px, 1.0f, is_hidden(coc, hidden->coc_px));
         return;
     }
-    if (input.deep_dims_itself) return for_each_deep_sample(input, x, y, take);
-    for (const CocSample& s : input.deep.at(x, y))
+    if (input.samples.deep_dims_itself) return for_each_deep_sample(input, x, y, take);
+    for (const CocSample& s : input.samples.deep.at(x, y))
         take(s.colour, s.coc_px, s.colour == Rgba{} ? 1.0f : s.colour.a);
 }
 
 class CellLevel {
 public:
     // Requires: level >= 1.
-    CellLevel(const Input& input, const Guessed& guessed, const RingSizes& sizes, int level);
+    CellLevel(const EngineView& input, const Guessed& guessed, const RingSizes& sizes, int level);
     int width() const { return width_; }
     int height() const { return height_; }
     std::span<const CellLight> at(int x, int y) const {

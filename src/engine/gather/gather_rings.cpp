@@ -117,11 +117,11 @@ RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
       sizes_(sizes),
       reach_(std::size_t(sizes.levels()), 0) {
     zones_.frame = lens_.frame;
-    if (lens.lens(0).varies_over_field()) zones_.columns = kZonesX, zones_.rows = kZonesY;
+    if (lens.level(0).varies_over_field()) zones_.columns = kZonesX, zones_.rows = kZonesY;
     for (int ring = 0; ring < sizes.count(); ++ring) {
         const int level = sizes.level(ring);
         const double reach =
-            lens.lens(level).reach_px(std::abs(radius_in_cells(double(sizes.radius_px(ring)), level)));
+            lens.level(level).reach_px(std::abs(radius_in_cells(double(sizes.radius_px(ring)), level)));
         int& cells = reach_[std::size_t(level)];
         cells = std::max(cells, int(std::ceil(reach + 0.5)));
     }
@@ -139,7 +139,7 @@ std::vector<device::KernelSource::Made> RingKernels::make(std::span<const device
         const double y = (row + 0.5) * lens_.frame.height() / zones_.rows - 0.5;
         const double radius = radius_in_cells(double(bits_as<float>(ask.step)), ask.level);
         made.push_back({std::make_shared<const kernel::PointSpread>(
-            lens_.lens(ask.level).point_spread(radius, lens_.field_at(x, y)))});
+            lens_.level(ask.level).point_spread(radius, lens_.field_at(x, y)))});
     }
     return made;
 }

@@ -62,16 +62,18 @@ auto bilinear(float x, float y, const Read& read) {
 
 class Article {
 public:
-    explicit Article(const Input& input) : in_(input), disc_(disc_of(input.gather.taps)) {
+    explicit Article(const EngineView& input)
+        : in_(input), disc_(disc_of(input.options.of<GatherOwn>().gather.taps)) {
         // CoC = clamp(1 - F/z, -1, 1) * largest: with `largest` the radius at infinity that is the metric
         // one, but for near things closer than half the focus distance.
-        largest_px_ = input.radius_at_infinity_px;
-        if (largest_px_ <= 0) largest_px_ = std::max(-input.nearest_coc_px, input.farthest_coc_px);
+        largest_px_ = input.lens.radius_at_infinity_px;
+        if (largest_px_ <= 0)
+            largest_px_ = std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px);
     }
 
     // What was drawn up to the stage, timed.
     Picture stage(Stopwatch watch) const {
-        const GatherStage stage = in_.gather.stage;
+        const GatherStage stage = in_.options.of<GatherOwn>().gather.stage;
         const auto timed = [&](const char* pass, auto made) {
             watch.lap(pass);
             return made;
@@ -83,7 +85,8 @@ public:
                          }));
         const HalfPicture half = timed("half size", prefiltered());
         if (stage == GatherStage::Prefilter) return timed("enlarged", enlarged(half.colour));
-        if (stage == GatherStage::Taps) return timed("taps drawn", drawn(figure(half), *in_.workers));
+        if (stage == GatherStage::Taps)
+            return timed("taps drawn", drawn(figure(half), *in_.services.workers));
         const bool apart = stage == GatherStage::NearFar || stage == GatherStage::Cure;
         const bool blind = stage == GatherStage::Disc || stage == GatherStage::DiscBlur;
         const Picture bokeh = timed(apart ? "near and far" : "disc", gathered(half, blind, apart));
@@ -96,7 +99,9 @@ public:
     }
 
 private:
-    float coc(int x, int y) const { return std::clamp(in_.coc_px.clamped(x, y), -largest_px_, largest_px_); }
+    float coc(int x, int y) const {
+        return std::clamp(in_.samples.coc_px.clamped(x, y), -largest_px_, largest_px_);
+    }
 
     template <typename Make>
     Picture each(const Make& make) const {
@@ -105,7 +110,7 @@ private:
     template <typename Make>
     Picture each(int width, int height, const Make& make) const {
         Picture picture = Picture::uninitialised(width, height);
-        parallel_for(height, *in_.workers, [&](int y) {
+        parallel_for(height, *in_.services.workers, [&](int y) {
             for (int x = 0; x < width; ++x) picture(x, y) = make(x, y);
         });
         return picture;
@@ -117,10 +122,10 @@ private:
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-                    half.colour(x, y) += 0.25f * in_.colour.clamped(2 * x + dx, 2 * y + dy);
+                    half.colour(x, y) += 0.25f * in_.samples.colour.clamped(2 * x + dx, 2 * y + dy);
                     const float c = coc(2 * x + dx, 2 * y + dy);
                     float& kept = half.coc_px(x, y);
-                    if (!in_.gather.extreme_coc)
+                    if (!in_.options.of<GatherOwn>().gather.extreme_coc)
                         kept += 0.25f * c;
                     else if (std::abs(c) > std::abs(kept))
                         kept = c;
@@ -145,7 +150,7 @@ private:
 
     TapsFigure figure(const HalfPicture& half) const {
         const auto cell = [](int pixel) { return std::floor(float(pixel) / 2); };
-        return {each([&](int x, int y) { return in_.colour(x, y); }),
+        return {each([&](int x, int y) { return in_.samples.colour(x, y); }),
                 [&half, cell, this](int x, int y, float u, float v) {
                     return read(half, cell(x), cell(y), {u, v}).colour;
                 },
@@ -189,7 +194,7 @@ private:
     // one, as published, the corners of that alone.
     Picture blurred(const Picture& half) const {
         const View<const Rgba> from = half;
-        const float off = float(in_.gather.tap_offset);
+        const float off = float(in_.options.of<GatherOwn>().gather.tap_offset);
         return each(half.width(), half.height(), [&](int x, int y) {
             Rgba sum;
             for (const float dx : {-off, off})
@@ -209,10 +214,11 @@ private:
     }
 
     Picture combined(const Picture& bokeh, bool apart) const {
-        const float sharp_px = float(in_.gather.pixel_size_px);
-        const float blurred_px = float(in_.gather.blurred_px.value_or(apart ? kFarBlurredPx : kBlurredPx));
+        const float sharp_px = float(in_.options.of<GatherOwn>().gather.pixel_size_px);
+        const float blurred_px =
+            float(in_.options.of<GatherOwn>().gather.blurred_px.value_or(apart ? kFarBlurredPx : kBlurredPx));
         return each([&](int x, int y) {
-            const Rgba sharp = in_.colour(x, y);
+            const Rgba sharp = in_.samples.colour(x, y);
             Rgba soft = bokeh(x, y);
             const float near = soft.a;
             if (apart) soft.a = sharp.a;
@@ -222,14 +228,14 @@ private:
         });
     }
 
-    const Input& in_;
+    const EngineView& in_;
     std::vector<Place> disc_;
     float largest_px_ = 0;
 };
 
 }  // namespace
 
-Result<Output> run_gather_stage(const Input& input) {
+Result<Output> run_gather_stage(const EngineView& input) {
     Output output;
     output.image = Article(input).stage(Stopwatch(output.stages));
     output.warnings.emplace_back("this picture is a stage of the published gather method, not a result");

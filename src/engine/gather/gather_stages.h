@@ -6,7 +6,7 @@
 
 namespace petzval::engine {
 
-// The picture that input.gather.stage asks for. Requires: a stage other than Final.
-Result<Output> run_gather_stage(const Input& input);
+// The picture that input.options.of<GatherOwn>().gather.stage asks for. Requires: a stage other than Final.
+Result<Output> run_gather_stage(const EngineView& input);
 
 }  // namespace petzval::engine

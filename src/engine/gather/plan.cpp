@@ -20,28 +20,29 @@ std::vector<Rect> tiles_of(const Rect& picture) {
     return tiles;
 }
 
-float largest_px(const Input& input, const Rect& tile) {
+float largest_px(const EngineView& input, const Rect& tile) {
     float largest = 0;
     for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x) largest = std::max(largest, std::abs(input.coc_px(x, y)));
+        for (int x = tile.x0; x < tile.x1; ++x)
+            largest = std::max(largest, std::abs(input.samples.coc_px(x, y)));
     return largest;
 }
 
-bool is_opaque(const Input& part) {
-    const Input& input = part.all();
-    if (!input.deep.empty()) return false;
+bool is_opaque(const EngineView& part) {
+    const EngineView& input = part.all();
+    if (!input.samples.deep.empty()) return false;
     for (int y = 0; y < input.height(); ++y)
         for (int x = 0; x < input.width(); ++x)
-            if (input.colour(x, y).a != 1) return false;
+            if (input.samples.colour(x, y).a != 1) return false;
     return true;
 }
 
 // Whether blurred light from any tile can land in this one; largest: of each.
-bool is_reached(const Input& input, const std::vector<Rect>& tiles, const std::vector<float>& largest,
+bool is_reached(const EngineView& input, const std::vector<Rect>& tiles, const std::vector<float>& largest,
                 const Rect& tile) {
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (largest[i] <= kSharpPx) continue;
-        const int reach = int(std::ceil(input.lens(0).reach_px(double(largest[i])) * 1.05)) + 4;
+        const int reach = int(std::ceil(input.lens.level(0).reach_px(double(largest[i])) * 1.05)) + 4;
         if (!tiles[i].grown(reach).intersected(tile).empty()) return true;
     }
     return false;
@@ -85,24 +86,26 @@ void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
 
 }  // namespace
 
-GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, const RingSizes& sizes,
+GatherPlan plan_gather(const EngineView& strip, const Rect& rows, int first_row, const RingSizes& sizes,
                        const RingKernels& kernels) {
     GatherPlan plan(sizes);
     plan.strip = strip, plan.first_row = first_row, plan.opaque = is_opaque(strip);
-    const std::vector<Rect> tiles = tiles_of(strip.colour.rect());
+    const std::vector<Rect> tiles = tiles_of(strip.samples.colour.rect());
     std::vector<float> largest(tiles.size());
-    parallel_for(int(tiles.size()), *strip.workers,
+    parallel_for(int(tiles.size()), *strip.services.workers,
                  [&](int i) { largest[std::size_t(i)] = largest_px(strip, tiles[std::size_t(i)]); });
-    if (strip.deep.empty()) plan.guessed = guess(strip, strip.fill != Fill::Off && strip.gather.fill_hidden);
+    if (strip.samples.deep.empty())
+        plan.guessed =
+            guess(strip, strip.options.fill != Fill::Off && strip.options.of<GatherOwn>().gather.fill_hidden);
     for (int level = 0; level < sizes.levels(); ++level) {
         plan.reach.push_back(kernels.reach(level));
         if (level > 0) plan.levels.emplace_back(strip, plan.guessed, sizes, level);
     }
     for (const Rect& tile : tiles) {
         if (tile.intersected(rows).empty()) continue;
-        plan.tiles.push_back({tile, strip.deep.empty() && !is_reached(strip, tiles, largest, tile)});
+        plan.tiles.push_back({tile, strip.samples.deep.empty() && !is_reached(strip, tiles, largest, tile)});
     }
-    plan.zones = kernels.zones(strip.frame);
+    plan.zones = kernels.zones(strip.lens.frame);
     ask_for_kernels(kernels, plan);
     return plan;
 }

@@ -33,7 +33,7 @@ struct GatherPlan {
 
     explicit GatherPlan(RingSizes rings) : sizes(std::move(rings)) {}
 
-    Input strip;          // what light comes from; pixels here are its own
+    EngineView strip;     // what light comes from; pixels here are its own
     int first_row = 0;    // row of the frame that is its row 0
     bool opaque = false;  // alpha is coverage: every pixel of the picture has alpha 1
     RingSizes sizes;
@@ -65,7 +65,7 @@ private:
 };
 
 // rows: the pixels of the strip to be drawn.
-GatherPlan plan_gather(const Input& strip, const Rect& rows, int first_row, const RingSizes& sizes,
+GatherPlan plan_gather(const EngineView& strip, const Rect& rows, int first_row, const RingSizes& sizes,
                        const RingKernels& kernels);
 
 }  // namespace petzval::engine

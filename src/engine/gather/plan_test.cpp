@@ -23,21 +23,22 @@ public:
             const kernel::Mount mount{{50, 36, 1.4, 2}, kWidth >> level, kHeight >> level};
             lenses_.push_back(std::move(kernel::make_lens(choice, mount)).value());
         }
-        input_.lens_levels = lenses_;
-        input_.field_centre_x = 0.5 * kWidth, input_.field_centre_y = 0.5 * kHeight;
-        input_.field_per_px = 2 / std::hypot(kWidth, kHeight);
-        input_.frame = colour_.rect();
+        input_.lens.levels = lenses_;
+        input_.lens.field_centre_x = 0.5 * kWidth, input_.lens.field_centre_y = 0.5 * kHeight;
+        input_.lens.field_per_px = 2 / std::hypot(kWidth, kHeight);
+        input_.lens.frame = colour_.rect();
     }
     void put(const Rect& pixels, float coc_px) {
         for (int y = pixels.y0; y < pixels.y1; ++y)
             for (int x = pixels.x0; x < pixels.x1; ++x) coc_px_(x, y) = coc_px;
-        input_.nearest_coc_px = std::min(input_.nearest_coc_px, coc_px);
-        input_.farthest_coc_px = std::max(input_.farthest_coc_px, coc_px);
+        input_.samples.nearest_coc_px = std::min(input_.samples.nearest_coc_px, coc_px);
+        input_.samples.farthest_coc_px = std::max(input_.samples.farthest_coc_px, coc_px);
     }
     GatherPlan plan() {
-        input_.colour = colour_, input_.coc_px = coc_px_;
-        const RingSizes sizes(input_.nearest_coc_px, input_.farthest_coc_px, ring_rule(Quality::Standard));
-        const RingKernels kernels(input_, sizes);
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_;
+        const RingSizes sizes(input_.samples.nearest_coc_px, input_.samples.farthest_coc_px,
+                              ring_rule(Quality::Standard));
+        const RingKernels kernels(input_.lens, sizes);
         return plan_gather(input_, colour_.rect(), 0, sizes, kernels);
     }
 
@@ -45,7 +46,7 @@ private:
     Picture colour_{kWidth, kHeight, Rgba{0.5f, 0.5f, 0.5f, 1}};
     Plane coc_px_{kWidth, kHeight};
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses_;
-    Input input_;
+    EngineView input_;
 };
 
 TEST(GatherPlan, TilesThatNoBlurReachesStayAsTheyWere) {

@@ -15,7 +15,7 @@ namespace {
 
 // The result, the layers, what blurring copies of one at a time, and what was guessed; for every worker a
 // tile of each narrow blur.
-std::size_t working_bytes(const GaussianPlan& plan, const Input& input) {
+std::size_t working_bytes(const GaussianPlan& plan, const EngineView& input) {
     constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float), kTilePixels = 288 * 96;
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     std::size_t layers = 0, largest = 0, tiles = 1;
@@ -27,36 +27,38 @@ std::size_t working_bytes(const GaussianPlan& plan, const Input& input) {
             layers += bytes, largest = std::max(largest, bytes);
     }
     return pixels * (sizeof(Rgba) + layers + largest) + plan.guessed.bytes() +
-           std::size_t(input.workers->width()) * tiles * kOfCell * kTilePixels;
+           std::size_t(input.services.workers->width()) * tiles * kOfCell * kTilePixels;
 }
 
 }  // namespace
 
-std::size_t least_gaussian_bytes(const Input& input) {
+std::size_t least_gaussian_bytes(const EngineView& input) {
     return held_bytes(input) + working_bytes(plan_gaussian(input), input);
 }
 
-Result<Output> run_gaussian(const Input& input) {
+Result<Output> run_gaussian(const EngineView& input, Spare) {
     Output output;
     Stopwatch stopwatch(output.stages);
-    const GaussianView view = input.gaussian.view;
-    const float largest_px = std::max(-input.nearest_coc_px, input.farthest_coc_px);
+    const GaussianView view = input.options.of<GaussianOwn>().gaussian.view;
+    const float largest_px = std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px);
     const bool is_sharp =
         view == GaussianView::Sharp || (largest_px <= kWithinPixelPx && view == GaussianView::Result);
     const GaussianPlan plan = is_sharp ? GaussianPlan() : plan_gaussian(input);
     if (const Status fits = fits_memory(input, 0, "gaussian", working_bytes(plan, input)); !fits)
         return fits.error();
     stopwatch.lap("plan");
-    output.canvas = input.device->canvas(Picture::uninitialised(input.width(), input.height()));
+    output.canvas = input.services.device->canvas(Picture::uninitialised(input.width(), input.height()));
     if (is_sharp || plan.blurs.empty()) {
         const View<Rgba> out = output.canvas->view();
-        for (int y = 0; y < input.height(); ++y) std::copy_n(input.colour.row(y), input.width(), out.row(y));
+        for (int y = 0; y < input.height(); ++y)
+            std::copy_n(input.samples.colour.row(y), input.width(), out.row(y));
         return output;
     }
     const auto passed = [&](const char* pass) { stopwatch.lap(pass); };
-    input.device->mix(plan, *output.canvas, {*input.workers, *input.progress, 0, passed});
+    input.services.device->mix(plan, *output.canvas,
+                               {*input.services.workers, *input.services.progress, 0, passed});
     stopwatch.lap("mix");
-    if (!input.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
+    if (!input.services.progress->advance(1)) return Error{ErrorCode::Cancelled, "cancelled"};
     return output;
 }
 

@@ -29,21 +29,22 @@ float BlurStack::sharpness(float radius_px) const {
     return std::clamp((largest - r) / (largest - kWithinPixelPx), 0.0f, 1.0f);
 }
 
-DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_m), coc_px_(input.coc_px) {
-    const GaussianOptions& o = input.gaussian;
+DepthMix::DepthMix(const EngineView& input, float largest_px)
+    : depth_m_(input.samples.depth_m), coc_px_(input.samples.coc_px) {
+    const GaussianOptions& o = input.options.of<GaussianOwn>().gaussian;
     half_band_ = 0.5f * std::clamp(float(o.focus_band.value_or(0.2)), 0.0f, 1.0f);
-    if (input.depth_m.empty()) {
+    if (input.samples.depth_m.empty()) {
         near_ = -largest_px, scale_ = largest_px > 0 ? 0.5f / largest_px : 0;
         offset_ = float(o.depth_offset.value_or(0));
         return;
     }
-    if (o.along_ray) field_ = static_cast<const PixelField&>(input), tan_per_field_ = input.tan_per_field;
+    if (o.along_ray) field_ = input.lens, tan_per_field_ = input.lens.tan_per_field;
     double near = o.depth_near_m, far = o.depth_far_m;
     if (near == 0 && far == 0) {
         near = std::numeric_limits<double>::infinity();
-        const View<const float> depth_m = input.all().depth_m;
+        const View<const float> depth_m = input.all().samples.depth_m;
         DepthMix whole;
-        whole.field_ = static_cast<const PixelField&>(input.all()), whole.tan_per_field_ = tan_per_field_;
+        whole.field_ = input.all().lens, whole.tan_per_field_ = tan_per_field_;
         for (int y = 0; y < depth_m.height(); ++y)
             for (int x = 0; x < depth_m.width(); ++x) {
                 const double z = double(depth_m(x, y) * whole.ray_length(x, y));
@@ -52,7 +53,7 @@ DepthMix::DepthMix(const Input& input, float largest_px) : depth_m_(input.depth_
         if (!std::isfinite(near)) near = 0;
     }
     near_ = float(near), scale_ = far > near ? float(1 / (far - near)) : 0;
-    const double focus = (std::min(input.focus_distance_m, far) - near) * double(scale_);
+    const double focus = (std::min(input.lens.focus_distance_m, far) - near) * double(scale_);
     offset_ = float(o.depth_offset.value_or(0.5 - focus));
 }
 

@@ -49,7 +49,7 @@ class DepthMix {
 public:
     DepthMix() = default;
     // largest_px: where radii stand for depth, they are mapped to 0…1 with 0 in the middle.
-    DepthMix(const Input& input, float largest_px);
+    DepthMix(const EngineView& input, float largest_px);
     float index(int x, int y) const;
     MixWeights operator()(int x, int y) const {
         const float d = index(x, y), rest = 1 - d;

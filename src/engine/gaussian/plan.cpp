@@ -70,11 +70,12 @@ Blur blur_of_rows(double radius_px, double pixel_aspect, int width, int height) 
     return {level, axis(sigma_of(radius_px), level, width), axis_of({1}, level, height)};
 }
 
-void plan_layers(const Input& input, float band_px, GaussianPlan& plan) {
-    plan.near = BlurStack(-input.nearest_coc_px, band_px);
-    plan.far = BlurStack(input.farthest_coc_px, band_px);
+void plan_layers(const EngineView& input, float band_px, GaussianPlan& plan) {
+    plan.near = BlurStack(-input.samples.nearest_coc_px, band_px);
+    plan.far = BlurStack(input.samples.farthest_coc_px, band_px);
     const auto add = [&](float radius_px) {
-        plan.blurs.push_back(blur_of(double(radius_px), input.pixel_aspect, input.width(), input.height()));
+        plan.blurs.push_back(
+            blur_of(double(radius_px), input.lens.pixel_aspect, input.width(), input.height()));
     };
     for (int k = plan.near.count(); k > 0; --k) add(plan.near.radius_px(k));
     for (int k = 1; k <= plan.far.count(); ++k) add(plan.far.radius_px(k));
@@ -95,19 +96,20 @@ Blur blur_of(double radius_px, double pixel_aspect, int width, int height) {
             axis(sigma_of(radius_px * pixel_aspect), level, height)};
 }
 
-GaussianPlan plan_gaussian(const Input& input) {
-    const GaussianOptions& options = input.gaussian;
-    const float largest_px = std::max(-input.nearest_coc_px, input.farthest_coc_px);
+GaussianPlan plan_gaussian(const EngineView& input) {
+    const GaussianOptions& options = input.options.of<GaussianOwn>().gaussian;
+    const float largest_px = std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px);
     const float band_px = float(options.focus_band.value_or(0));
     GaussianPlan plan;
-    plan.view = options.view, plan.colour = input.colour, plan.coc_px = input.coc_px;
+    plan.view = options.view, plan.colour = input.samples.colour, plan.coc_px = input.samples.coc_px;
     if (options.style == GaussianStyle::Layered && options.view == GaussianView::Result) {
         plan_layers(input, band_px, plan);
-        plan.guessed = guess(input, input.fill != Fill::Off);
+        plan.guessed = guess(input, input.options.fill != Fill::Off);
         return plan;
     }
     const auto add = [&](float radius_px) {
-        plan.blurs.push_back(blur_of(double(radius_px), input.pixel_aspect, input.width(), input.height()));
+        plan.blurs.push_back(
+            blur_of(double(radius_px), input.lens.pixel_aspect, input.width(), input.height()));
     };
     plan.far = BlurStack(largest_px, band_px);
     if (options.style == GaussianStyle::Wgld) {
@@ -122,7 +124,7 @@ GaussianPlan plan_gaussian(const Input& input) {
     add(largest_px / 2), add(largest_px);
     if (plan.view == GaussianView::BlurRows)
         plan.blurs[GaussianPlan::kLarge] =
-            blur_of_rows(largest_px, input.pixel_aspect, input.width(), input.height());
+            blur_of_rows(largest_px, input.lens.pixel_aspect, input.width(), input.height());
     return plan;
 }
 

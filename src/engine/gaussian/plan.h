@@ -101,6 +101,6 @@ Blur blur_of(double radius_px, double pixel_aspect, int width, int height);
 int blur_level(double radius_px, double pixel_aspect);
 
 // Not for GaussianView::Sharp.
-GaussianPlan plan_gaussian(const Input& input);
+GaussianPlan plan_gaussian(const EngineView& input);
 
 }  // namespace petzval::engine

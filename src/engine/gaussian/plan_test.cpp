@@ -88,18 +88,20 @@ TEST(GaussianPlan, LightIsSharedBetweenBlursOfAboutItsOwnWidth) {
 class Drafts {
 public:
     Drafts(float nearest_px, float farthest_px) {
-        input_.colour = colour_, input_.coc_px = coc_px_;
-        input_.nearest_coc_px = nearest_px, input_.farthest_coc_px = farthest_px;
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_;
+        input_.samples.nearest_coc_px = nearest_px, input_.samples.farthest_coc_px = farthest_px;
     }
     GaussianPlan plan(GaussianStyle style, GaussianView view = GaussianView::Result) {
-        input_.gaussian.style = style, input_.gaussian.view = view;
+        GaussianOwn own;
+        own.gaussian.style = style, own.gaussian.view = view;
+        input_.options.own = own;
         return plan_gaussian(input_);
     }
 
 private:
     Picture colour_{kWidth, kHeight, Rgba{0.5f, 0.5f, 0.5f, 1}};
     Plane coc_px_{kWidth, kHeight, 3.0f};
-    Input input_;
+    EngineView input_;
 };
 
 TEST(GaussianPlan, WhereNothingIsNearNothingIsBlurredForIt) {

@@ -24,14 +24,15 @@ float share_that_stays(const HighlightSplit& split, int x, int y, float coc_px, 
 
 }  // namespace
 
-BrightPoints::BrightPoints(const Input& frame) : frame_(frame) {
+BrightPoints::BrightPoints(const EngineView& frame) : frame_(frame) {
     if (!are_looked_for(frame)) return;
-    const HighlightSplit split(frame, {.factor = float(frame.sprites.bright_factor),
+    const HighlightSplit split(frame, {.factor = float(frame.options.lights().bright_factor),
                                        .least_floor = 1,
                                        .floor_at_1px = 0,
                                        .contested_floor = 1});
     std::vector<Row> rows{std::size_t(frame.height())};
-    parallel_for(frame.height(), *frame.workers, [&](int y) { rows[std::size_t(y)] = row(split, y); });
+    parallel_for(frame.height(), *frame.services.workers,
+                 [&](int y) { rows[std::size_t(y)] = row(split, y); });
     for (const Row& row : rows) {
         sprites_.insert(sprites_.end(), row.sprites.begin(), row.sprites.end());
         taken_.insert(taken_.end(), row.taken.begin(), row.taken.end());
@@ -44,17 +45,17 @@ void BrightPoints::Row::add(int x, int y, float coc_px, Rgba light, const Taken&
 }
 
 BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
-    const View<const Rgba> judged = frame_.judged();
+    const View<const Rgba> judged = frame_.samples.judged();
     Row row;
     for (int x = 0; x < frame_.width(); ++x) {
-        if (!frame_.deep.empty()) {
+        if (!frame_.samples.deep.empty()) {
             find_in_samples(split, x, y, row);
             continue;
         }
-        const float stays = share_that_stays(split, x, y, frame_.coc_px(x, y), judged(x, y));
+        const float stays = share_that_stays(split, x, y, frame_.samples.coc_px(x, y), judged(x, y));
         if (stays < 1)
-            row.add(x, y, radius_of_brightest(judged, frame_.coc_px, x, y), (1 - stays) * frame_.colour(x, y),
-                    {stays, 1, 0});
+            row.add(x, y, radius_of_brightest(judged, frame_.samples.coc_px, x, y),
+                    (1 - stays) * frame_.samples.colour(x, y), {stays, 1, 0});
     }
     return row;
 }
@@ -66,7 +67,7 @@ void BrightPoints::find_in_samples(const HighlightSplit& split, int x, int y, Ro
     const auto add = [&](Rgba light, float, float, bool) { drawn += light; };
     SeenFirst take(add);
     float open = 1;
-    for (const CocSample& s : frame_.deep.at(x, y)) {
+    for (const CocSample& s : frame_.samples.deep.at(x, y)) {
         const float covered = s.colour == Rgba{} ? 1.0f : s.colour.a;
         const float shows = covered > 0 ? std::min(covered, open) / covered : 1.0f;
         drawn = {};
@@ -77,27 +78,29 @@ void BrightPoints::find_in_samples(const HighlightSplit& split, int x, int y, Ro
         const float all = luminance(drawn) / luminance(s.colour),
                     taken = (1 - stays) * (shows > 0 ? shows : all);
         row.add(x, y, s.coc_px, taken * s.colour,
-                {1 - taken / all, shows > 0 ? all : 0.0f, std::size_t(&s - frame_.deep.samples().data())});
+                {1 - taken / all, shows > 0 ? all : 0.0f,
+                 std::size_t(&s - frame_.samples.deep.samples().data())});
     }
 }
 
 BrightPoints::Rest BrightPoints::rest(int first_row, int last_row) const {
     Rest rest;
     rest.input_ = frame_.rows(first_row, last_row);
-    Input& input = rest.input_;
+    EngineView& input = rest.input_;
     const auto first_in = [&](int row) {
         const auto row_of = [](const Sprite& s) { return int(s.y); };
         return std::size_t(std::ranges::lower_bound(sprites_, row, {}, row_of) - sprites_.begin());
     };
     const std::size_t begin = first_in(first_row), end = first_in(last_row);
     if (begin == end) return rest;
-    rest.colour_ = without(input.colour, begin, end, first_row);
-    input.lit = std::exchange(input.colour, rest.colour_);
-    if (!input.picture.empty()) {
-        rest.picture_ = without(input.picture, begin, end, first_row);
-        input.lit_picture = std::exchange(input.picture, rest.picture_);
+    rest.colour_ = without(input.samples.colour, begin, end, first_row);
+    input.samples.lit = std::exchange(input.samples.colour, rest.colour_);
+    if (!input.samples.picture.empty()) {
+        rest.picture_ = without(input.samples.picture, begin, end, first_row);
+        input.samples.lit_picture = std::exchange(input.samples.picture, rest.picture_);
     }
-    if (!input.deep.empty()) input.deep = rest.samples_ = samples_without(input.deep, begin, end);
+    if (!input.samples.deep.empty())
+        input.samples.deep = rest.samples_ = samples_without(input.samples.deep, begin, end);
     return rest;
 }
 
@@ -108,7 +111,8 @@ Picture BrightPoints::without(View<const Rgba> picture, std::size_t begin, std::
     for (std::size_t i = begin; i < end; ++i) {
         const Taken& taken = taken_[i];
         Rgba& at = rest(int(sprites_[i].x), int(sprites_[i].y) - first_row);
-        const Rgba all = frame_.deep.empty() ? at : frame_.deep.samples()[taken.sample].colour;
+        const Rgba all =
+            frame_.samples.deep.empty() ? at : frame_.samples.deep.samples()[taken.sample].colour;
         at = with_light(at - taken.seen * (1 - taken.stays) * all, at.a);
     }
     return rest;
@@ -132,10 +136,11 @@ CocSamples BrightPoints::samples_without(const CocSamplesView& deep, std::size_t
 std::size_t BrightPoints::bytes_beside(int rows) const {
     if (empty()) return 0;
     const std::size_t pixels = std::size_t(frame_.width()) * std::size_t(rows),
-                      deep = frame_.deep.samples().size_bytes() + frame_.deep.first().size_bytes();
+                      deep = frame_.samples.deep.samples().size_bytes() +
+                             frame_.samples.deep.first().size_bytes();
     return count() * (sizeof(Sprite) + sizeof(Taken)) +
            deep * std::size_t(rows) / std::size_t(frame_.height()) +
-           pixels * sizeof(Rgba) * (frame_.picture.empty() ? 1 : 2);
+           pixels * sizeof(Rgba) * (frame_.samples.picture.empty() ? 1 : 2);
 }
 
 }  // namespace petzval::engine

@@ -13,30 +13,32 @@ namespace petzval::engine {
 class HighlightSplit;
 
 // Light above `sprites.bright_factor` times its surroundings and above white, out of focus. Layers of a
-// picture give the shares of their light that the picture gives of its own (Input::judged()).
+// picture give the shares of their light that the picture gives of its own (Samples::judged()).
 class BrightPoints {
 public:
     // Of a frame, which outlives this; none unless sprites.find says so. Pictures whose samples dim each
     // other have none, since what dims a light in its own pixel is not looked for.
-    explicit BrightPoints(const Input& frame);
+    explicit BrightPoints(const EngineView& frame);
 
-    static bool are_looked_for(const Input& frame) { return frame.sprites.find && !frame.deep_dims_itself; }
+    static bool are_looked_for(const EngineView& frame) {
+        return frame.options.lights().find && !frame.samples.deep_dims_itself;
+    }
     bool empty() const { return sprites_.empty(); }
     std::span<const Sprite> sprites() const { return sprites_; }
     std::size_t count() const { return sprites_.size(); }
     // That they take, and a rest of so many rows.
     std::size_t bytes_beside(int rows) const;
 
-    // Rows of the frame without them. Their light is in Input::lit.
+    // Rows of the frame without them. Their light is in Samples::lit.
     class Rest {
     public:
-        const Input& input() const { return input_; }
+        const EngineView& input() const { return input_; }
 
     private:
         friend class BrightPoints;
         Picture colour_, picture_;
         CocSamples samples_;
-        Input input_;
+        EngineView input_;
     };
     Rest rest(int first_row, int last_row) const;
 
@@ -56,7 +58,7 @@ private:
     Picture without(View<const Rgba> picture, std::size_t begin, std::size_t end, int first_row) const;
     CocSamples samples_without(const CocSamplesView& deep, std::size_t begin, std::size_t end) const;
 
-    const Input& frame_;
+    const EngineView& frame_;
     std::vector<Sprite> sprites_;  // row by row
     std::vector<Taken> taken_;     // of each
 };

@@ -49,21 +49,21 @@ constexpr int kSizes[] = {1, 2, 4, kLargestSquare};
 
 }  // namespace
 
-HighlightKernels::HighlightKernels(const Input& input)
+HighlightKernels::HighlightKernels(const EngineView& input)
     : KernelSource("highlights", device::KernelUse::ByPixel) {
     const kernel::BankOptions options{.columns = 32,
                                       .rows = 18,
                                       .largest_rim_step_px = 0.5,
-                                      .aspect = double(input.frame.width()) / input.frame.height(),
+                                      .aspect = double(input.lens.frame.width()) / input.lens.frame.height(),
                                       .relative_step = 0.005,
                                       .least_step_px = 0.0625,
                                       .max_bytes = std::size_t(64) << 20};
     kernel::BankOptions fine = options;
     fine.relative_step = 0.001, fine.least_step_px = 0.02;
     // Of bright discs; final quality gives each the kernel of its own place.
-    fine.largest_rim_step_px = input.quality == Quality::Final ? 0.01 : 0.1;
+    fine.largest_rim_step_px = input.options.quality == Quality::Final ? 0.01 : 0.1;
     for (const int size : kSizes) {
-        lenses_.push_back(std::make_unique<const SquareLens>(input.lens(0), size));
+        lenses_.push_back(std::make_unique<const SquareLens>(input.lens.level(0), size));
         banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), options));
         banks_.push_back(std::make_unique<const kernel::KernelBank>(*lenses_.back(), fine));
     }

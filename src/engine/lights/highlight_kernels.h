@@ -18,7 +18,7 @@ class SquareLens;
 // those of the bank that this names.
 class HighlightKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
-    explicit HighlightKernels(const Input& input);
+    explicit HighlightKernels(const EngineView& input);
     ~HighlightKernels() override;
 
     // fine: radius and place of the kernel as near to the highlight's as anybody can tell.

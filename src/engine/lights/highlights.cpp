@@ -51,16 +51,16 @@ float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int
     return coc;
 }
 
-HighlightSplit::HighlightSplit(const Input& input, const HighlightRule& rule)
+HighlightSplit::HighlightSplit(const EngineView& input, const HighlightRule& rule)
     : rule_(rule),
-      colour_(input.deep.empty() ? input.judged() : View<const Rgba>{}),
-      coc_px_(input.coc_px),
+      colour_(input.samples.deep.empty() ? input.samples.judged() : View<const Rgba>{}),
+      coc_px_(input.samples.coc_px),
       width_(input.width()),
       height_(input.height()) {
-    Workers& workers = *input.workers;
+    Workers& workers = *input.services.workers;
     if (rule.contested_floor < rule.least_floor || rule.floor_at_1px > 0)
-        find_contested(input.coc_px, workers);
-    const Plane reciprocal = reciprocal_cells(input.judged(), kCell, workers);
+        find_contested(input.samples.coc_px, workers);
+    const Plane reciprocal = reciprocal_cells(input.samples.judged(), kCell, workers);
     surroundings_ = Plane(reciprocal.width(), reciprocal.height());
     parallel_for(reciprocal.height(), workers, [&](int y) {
         for (int x = 0; x < reciprocal.width(); ++x) {
@@ -69,7 +69,7 @@ HighlightSplit::HighlightSplit(const Input& input, const HighlightRule& rule)
             surroundings_(x, y) = std::max(0.0f, std::min(narrow, 2 * wide) - kDark);
         }
     });
-    white_ = white_of(input.all().judged(), workers);
+    white_ = white_of(input.all().samples.judged(), workers);
 }
 
 // A surface at radius n, d pixels away, stands in the way of radius c if c - n > d: c > min(n + d) over all

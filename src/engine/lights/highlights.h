@@ -57,7 +57,7 @@ public:
     static constexpr float kLeastAlpha = 1e-4f;  // what has less is light without alpha
     // Of the input's picture, which must last as long, by the nearest radius of each of its pixels; white is
     // that of the whole frame.
-    HighlightSplit(const Input& input, const HighlightRule& rule);
+    HighlightSplit(const EngineView& input, const HighlightRule& rule);
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
     // `light` without that of a lamp: what is left of a lamp is as bright as its surroundings.

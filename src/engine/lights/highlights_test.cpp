@@ -14,8 +14,9 @@ constexpr float kHiddenPx = 7;
 std::vector<Highlight> taken(float light) {
     const Picture colour(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1});
     const Plane coc_px(kWidth, kHeight, -5.0f);
-    Input input;
-    input.colour = colour, input.coc_px = coc_px, input.frame = colour.rect(), input.workers = &one_thread();
+    EngineView input;
+    input.samples.colour = colour, input.samples.coc_px = coc_px, input.lens.frame = colour.rect(),
+    input.services.workers = &one_thread();
     CocSamples samples;
     samples.width = kWidth;
     for (int i = 0; i < kWidth * kHeight; ++i) {
@@ -49,8 +50,9 @@ TEST(Highlights, TheRimOfALampStandsWhereTheLampDoes) {
             colour(x, y) = inside ? Rgba{100, 80, 60, 1} : Rgba{30, 24, 18, 1};
             if (inside) coc_px(x, y) = kLampPx;
         }
-    Input input;
-    input.colour = colour, input.coc_px = coc_px, input.frame = colour.rect(), input.workers = &one_thread();
+    EngineView input;
+    input.samples.colour = colour, input.samples.coc_px = coc_px, input.lens.frame = colour.rect(),
+    input.services.workers = &one_thread();
     CocSamples samples;
     samples.width = kWidth;
     for (std::size_t i = 0; i < colour.size(); ++i) {

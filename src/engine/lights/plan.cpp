@@ -37,7 +37,7 @@ Viewpoint shared_viewpoint(const Highlight& h, Quality quality) {
 
 }  // namespace
 
-LightsPlanner::LightsPlanner(const Input& strip, const HighlightKernels& kernels,
+LightsPlanner::LightsPlanner(const EngineView& strip, const HighlightKernels& kernels,
                              const ShadowCasters& casters, const std::vector<Highlight>& highlights,
                              float white, const Rect& rows, int first_row,
                              const std::vector<Highlight>* asked_by)
@@ -46,12 +46,13 @@ LightsPlanner::LightsPlanner(const Input& strip, const HighlightKernels& kernels
       highlights_(highlights),
       asked_by_(asked_by ? *asked_by : highlights),
       casters_(casters),
-      bright_disc_(white * (strip.lens(0).is_quick() ? kBrightDisc : kSlowBrightDisc)),
+      bright_disc_(white * (strip.lens.level(0).is_quick() ? kBrightDisc : kSlowBrightDisc)),
       rows_(rows),
       first_row_(first_row) {
     find_viewpoints();
-    const float largest = std::max(std::abs(strip.nearest_coc_px), std::abs(strip.farthest_coc_px));
-    sending_ = rows.grown(int(std::ceil(strip.lens(0).reach_px(double(largest)))) + 1 + kLargestSquare);
+    const float largest =
+        std::max(std::abs(strip.samples.nearest_coc_px), std::abs(strip.samples.farthest_coc_px));
+    sending_ = rows.grown(int(std::ceil(strip.lens.level(0).reach_px(double(largest)))) + 1 + kLargestSquare);
 }
 
 // Viewpoints that nobody shares are the highlight's own.
@@ -60,7 +61,7 @@ void LightsPlanner::find_viewpoints() {
     constexpr std::size_t kShared = std::size_t(-1);
     std::vector<std::size_t> first;  // highlight of each viewpoint; those of shared ones are kShared
     for (std::size_t i = 0; i < highlights_.size(); ++i) {
-        const Viewpoint v = shared_viewpoint(highlights_[i], input_.quality);
+        const Viewpoint v = shared_viewpoint(highlights_[i], input_.options.quality);
         const auto [at, is_new] = known.try_emplace({v.y, v.x, v.coc_px, v.size}, viewpoints_.size());
         if (is_new)
             viewpoints_.push_back(v), first.push_back(i);
@@ -71,21 +72,22 @@ void LightsPlanner::find_viewpoints() {
     for (std::size_t v = 0; v < viewpoints_.size(); ++v)
         if (first[v] != kShared) viewpoints_[v] = own_viewpoint(highlights_[first[v]]);
     // In a deep picture, what lies nearer within one pixel is itself.
-    const float least = input_.deep_dims_itself ? same_pixel_px(input_.pixel_aspect) : 0;
+    const float least = input_.samples.deep_dims_itself ? same_pixel_px(input_.lens.pixel_aspect) : 0;
     for (Viewpoint& v : viewpoints_) v.own_surface_px = std::max(v.own_surface_px, least);
 }
 
 device::KernelAsk LightsPlanner::ask(const Highlight& h) const {
     const float on_disc =
         luminance(h.colour) * float(h.size * h.size) / (float(M_PI) * h.coc_px * h.coc_px + 1);
-    return kernels_.ask(h, input_.field_at(h.x, h.y), on_disc > bright_disc_);
+    return kernels_.ask(h, input_.lens.field_at(h.x, h.y), on_disc > bright_disc_);
 }
 
 bool LightsPlanner::next(LightsPlan& plan) {
     plan = {};
-    plan.rows = rows_, plan.first_row = first_row_, plan.casters = &casters_, plan.holdout = input_.holdout;
-    plan.picture = input_.coc_px.rect(), plan.open_edges = input_.open_edges;
-    plan.stretch = float(std::max(1.0, input_.pixel_aspect));
+    plan.rows = rows_, plan.first_row = first_row_, plan.casters = &casters_,
+    plan.holdout = input_.samples.holdout;
+    plan.picture = input_.samples.coc_px.rect(), plan.open_edges = input_.window.open_edges;
+    plan.stretch = float(std::max(1.0, input_.lens.pixel_aspect));
     std::vector<std::uint32_t> placed(viewpoints_.size(), 0);  // place in the plan, from 1 on
     std::vector<device::KernelAsk> asks;
     for (std::size_t bytes = 0; next_ < highlights_.size() && bytes < kBatchBytes; ++next_) {

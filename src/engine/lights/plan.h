@@ -69,7 +69,7 @@ struct LightsPlan {
     std::vector<LightsTile> tiles;     // with masks; one more closes the list
     std::vector<std::uint32_t> order;  // of the lights of each tile: those of one kernel follow each other
     float stretch = 1;                 // of the pupil, vertically, by pixels that are not square
-    CocSamplesView holdout;            // Input::holdout
+    CocSamplesView holdout;            // Samples::holdout
     device::KernelSet kernels;
 };
 
@@ -79,7 +79,7 @@ public:
     // `casters` are what may stand in the way; `white` as in HighlightSplit; rows: the pixels to be drawn.
     // The others outlive this.
     // asked_by: the same highlights with the light that decides how finely kernels are made; null: their own.
-    LightsPlanner(const Input& strip, const HighlightKernels& kernels, const ShadowCasters& casters,
+    LightsPlanner(const EngineView& strip, const HighlightKernels& kernels, const ShadowCasters& casters,
                   const std::vector<Highlight>& highlights, float white, const Rect& rows, int first_row,
                   const std::vector<Highlight>* asked_by = nullptr);
     // False: there is nothing left to be drawn.
@@ -90,7 +90,7 @@ private:
     void find_viewpoints();
     void add(std::size_t highlight, LightsPlan& plan) const;
 
-    const Input& input_;
+    const EngineView& input_;
     const HighlightKernels& kernels_;
     const std::vector<Highlight>& highlights_;
     const std::vector<Highlight>& asked_by_;

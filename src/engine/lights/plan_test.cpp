@@ -17,10 +17,10 @@ public:
         LensChoice choice;
         choice.cats_eye = 0.5;
         lenses_.push_back(std::move(kernel::make_lens(choice, {{50, 36, 1.4, 2}, kWidth, kHeight})).value());
-        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
-        input_.lens_levels = lenses_, input_.quality = quality, input_.farthest_coc_px = 40;
-        input_.field_centre_x = 0.5 * kWidth, input_.field_centre_y = 0.5 * kHeight;
-        input_.field_per_px = 2 / std::hypot(kWidth, kHeight);
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_, input_.lens.frame = colour_.rect();
+        input_.lens.levels = lenses_, input_.options.quality = quality, input_.samples.farthest_coc_px = 40;
+        input_.lens.field_centre_x = 0.5 * kWidth, input_.lens.field_centre_y = 0.5 * kHeight;
+        input_.lens.field_per_px = 2 / std::hypot(kWidth, kHeight);
         kernels_ = std::make_unique<HighlightKernels>(input_);
         samples_.width = kWidth;
         for (int i = 0; i <= kWidth * kHeight; ++i) samples_.first.push_back(std::size_t(i));
@@ -43,7 +43,7 @@ private:
     Picture colour_;
     Plane coc_px_;
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses_;
-    Input input_;
+    EngineView input_;
     std::unique_ptr<HighlightKernels> kernels_;
     CocSamples samples_;
     std::vector<Highlight> highlights_;

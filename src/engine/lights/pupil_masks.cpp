@@ -42,12 +42,12 @@ void PupilMasks::Node::include(const Node& other) {
 }
 
 int PupilMasks::bin(float coc_px) const {
-    return int(std::clamp((coc_px - in_.nearest_coc_px) * bins_per_px_, 0.0f, 63.0f));
+    return int(std::clamp((coc_px - in_.samples.nearest_coc_px) * bins_per_px_, 0.0f, 63.0f));
 }
 
 // Up to the middle between it and each of its neighbours on one surface, so that a surface has no cracks.
 PupilMasks::Node PupilMasks::pixel(int x, int y) const {
-    const View<const float> coc = in_.coc_px;
+    const View<const float> coc = in_.samples.coc_px;
     const float own = coc(x, y);
     Node node{own, own, true, 0};
     const auto meet = [&](int u, int v) {
@@ -63,14 +63,14 @@ PupilMasks::Node PupilMasks::pixel(int x, int y) const {
     return node;
 }
 
-PupilMasks::PupilMasks(const Input& input) : in_(input) {
-    const float range = input.farthest_coc_px - input.nearest_coc_px;
+PupilMasks::PupilMasks(const EngineView& input) : in_(input) {
+    const float range = input.samples.farthest_coc_px - input.samples.nearest_coc_px;
     bins_per_px_ = range > 0 ? 64 / range : 0;
     for (int width = input.width(), height = input.height(); width > 1 || height > 1;) {
         const int level = top(), below_width = width, below_height = height;
         width = (width + 1) / 2, height = (height + 1) / 2;
         Image<Node> nodes(width, height);
-        parallel_for(height, *input.workers, [&](int y) {
+        parallel_for(height, *input.services.workers, [&](int y) {
             for (int x = 0; x < width; ++x)
                 for (int v = 2 * y; v < std::min(2 * y + 2, below_height); ++v)
                     for (int u = 2 * x; u < std::min(2 * x + 2, below_width); ++u)
@@ -98,14 +98,14 @@ struct PupilMasks::Square {
 };
 
 PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int y, const Node& node) const {
-    const Rect pixels =
-        Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(in_.coc_px.rect());
-    const float per_row = 1 / float(in_.pixel_aspect);
+    const Rect pixels = Rect{x << level, y << level, (x + 1) << level, (y + 1) << level}.intersected(
+        in_.samples.coc_px.rect());
+    const float per_row = 1 / float(in_.lens.pixel_aspect);
     Square square{float(pixels.x0) - light.x, (float(pixels.y0) - light.y) * per_row,
                   float(pixels.x1) - light.x, (float(pixels.y1) - light.y) * per_row};
     // Surfaces that touch an open edge of the picture continue beyond it.
     constexpr float kBeyondPx = 1e6f;
-    const OpenEdges& open = in_.open_edges;
+    const OpenEdges& open = in_.window.open_edges;
     if (open.left && pixels.x0 == 0) square.left = -kBeyondPx;
     if (open.top && pixels.y0 == 0) square.top = -kBeyondPx;
     if (open.right && pixels.x1 == in_.width()) square.right = kBeyondPx;
@@ -126,9 +126,10 @@ PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int 
     // Surfaces apart, each between the radii of a run of bins.
     for (std::uint64_t bins = node.bins; bins;) {
         const int first = std::countr_zero(bins), count = std::countr_one(bins >> first);
-        const float nearest = std::max(node.nearest, in_.nearest_coc_px + float(first) / bins_per_px_);
-        const float farthest =
-            std::min({node.farthest, limit, in_.nearest_coc_px + float(first + count) / bins_per_px_});
+        const float nearest =
+            std::max(node.nearest, in_.samples.nearest_coc_px + float(first) / bins_per_px_);
+        const float farthest = std::min(
+            {node.farthest, limit, in_.samples.nearest_coc_px + float(first + count) / bins_per_px_});
         if (nearest >= limit) break;
         found.all |= square.anywhere(1 / (light.coc_px - farthest), 1 / (light.coc_px - nearest));
         if (first + count == 64) break;
@@ -161,9 +162,9 @@ void PupilMasks::hide_four(const Light& light, int level, const Rect& squares, s
 
 PupilMask PupilMasks::mask(float x, float y, float coc_px) const {
     PupilMask mask;
-    if (!laws::is_in_front(in_.nearest_coc_px, coc_px, laws::kOwnPupilPx)) return mask;
+    if (!laws::is_in_front(in_.samples.nearest_coc_px, coc_px, laws::kOwnPupilPx)) return mask;
     const float reach =
-        (coc_px - in_.nearest_coc_px) * kWidestPupil * std::max(1.0f, float(in_.pixel_aspect));
+        (coc_px - in_.samples.nearest_coc_px) * kWidestPupil * std::max(1.0f, float(in_.lens.pixel_aspect));
     // Squares so large that two by two hold all that is in reach.
     const int level = std::min(1 + int(std::log2(std::max(1.0f, 2 * reach))), top());
     const auto square = [&](float at, int pixels) {

@@ -17,7 +17,7 @@ namespace petzval::engine {
 class PupilMasks {
 public:
     // input outlives this.
-    explicit PupilMasks(const Input& input);
+    explicit PupilMasks(const EngineView& input);
     // (x, y) in pixels, centres at +0.5.
     PupilMask mask(float x, float y, float coc_px) const;
 
@@ -50,7 +50,7 @@ private:
     void hide(const Light& light, int level, int x, int y, std::uint64_t& seen) const;
     void hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const;
 
-    const Input& in_;
+    const EngineView& in_;
     float bins_per_px_ = 0;
     std::vector<Image<Node>> levels_;  // [0]: squares of 2 pixels
 };

@@ -15,19 +15,19 @@ public:
     void put(const Rect& pixels, float coc_px) {
         for (int y = pixels.y0; y < pixels.y1; ++y)
             for (int x = pixels.x0; x < pixels.x1; ++x) coc_px_(x, y) = coc_px;
-        input_.nearest_coc_px = std::min(input_.nearest_coc_px, coc_px);
+        input_.samples.nearest_coc_px = std::min(input_.samples.nearest_coc_px, coc_px);
     }
-    void close_edges() { input_.open_edges = {false, false, false, false}; }
+    void close_edges() { input_.window.open_edges = {false, false, false, false}; }
     PupilMask mask(float x, float y, float coc_px) {
-        input_.colour = colour_, input_.coc_px = coc_px_;
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_;
         return PupilMasks(input_).mask(x, y, coc_px);
     }
-    Scene() { input_.nearest_coc_px = input_.farthest_coc_px = 40; }
+    Scene() { input_.samples.nearest_coc_px = input_.samples.farthest_coc_px = 40; }
 
 private:
     Picture colour_{kSide, kSide};
     Plane coc_px_{kSide, kSide, 40.0f};
-    Input input_;
+    EngineView input_;
 };
 
 TEST(PupilMasks, ALightBeforeEverythingIsSeenWhole) {

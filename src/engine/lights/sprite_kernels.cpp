@@ -62,29 +62,29 @@ float radius_of(int step) {
 
 }  // namespace
 
-SpriteGrid::SpriteGrid(const Input& input, std::span<const Sprite> sprites)
-    : frame_(input.frame),
-      largest_cells_(largest_cells(input.quality)),
-      pixels_per_radius_(std::max(1.0f, float(input.lens(0).reach_px(1000) / 1000))) {
+SpriteGrid::SpriteGrid(const EngineView& input, std::span<const Sprite> sprites)
+    : frame_(input.lens.frame),
+      largest_cells_(largest_cells(input.options.quality)),
+      pixels_per_radius_(std::max(1.0f, float(input.lens.level(0).reach_px(1000) / 1000))) {
     float largest_px = 0;
     for (const Sprite& s : sprites) largest_px = std::max(largest_px, std::abs(s.coc_px));
     steps_ = step_of(largest_px) + 1;
     const float widest_px = radius_of(steps_ - 1);
     for (int level = 0; level <= level_of(widest_px); ++level) {
         const double widest = std::min(double(widest_px), std::ldexp(double(largest_cells_), level));
-        reach_.push_back(int(std::ceil(input.lens(level).reach_px(radius_in_cells(widest, level)) + 0.5)) +
-                         1);
+        reach_.push_back(
+            int(std::ceil(input.lens.level(level).reach_px(radius_in_cells(widest, level)) + 0.5)) + 1);
     }
     // Kernels of lenses that change over the picture are many: those lights are put at whole pixels.
-    if (input.lens(0).varies_over_field()) {
+    if (input.lens.level(0).varies_over_field()) {
         phases_ = 1;
         choose_parts(input, sprites, largest_px);
     }
 }
 
-void SpriteGrid::choose_parts(const Input& input, std::span<const Sprite> sprites, float largest_px) {
-    const double across = std::abs(input.field_at(frame_.width(), 0).x - input.field_at(0, 0).x);
-    const double rim_px = input.lens(0).reach_px(double(largest_px)) * across;
+void SpriteGrid::choose_parts(const EngineView& input, std::span<const Sprite> sprites, float largest_px) {
+    const double across = std::abs(input.lens.field_at(frame_.width(), 0).x - input.lens.field_at(0, 0).x);
+    const double rim_px = input.lens.level(0).reach_px(double(largest_px)) * across;
     int columns =
         int(std::clamp(std::ceil(rim_px / kRimStepPx), double(kFewestColumns), double(kMostColumns)));
     for (;; columns = std::max(kFewestColumns, columns * 2 / 3)) {
@@ -99,7 +99,7 @@ std::size_t SpriteGrid::count() const {
 }
 
 // Of the kernels that the lights take, with what finds them.
-std::size_t SpriteGrid::bytes_for(const Input& input, std::span<const Sprite> sprites) const {
+std::size_t SpriteGrid::bytes_for(const EngineView& input, std::span<const Sprite> sprites) const {
     std::vector<bool> seen(count());
     std::size_t bytes = count() * sizeof(void*);
     for (const Sprite& s : sprites) {
@@ -107,7 +107,7 @@ std::size_t SpriteGrid::bytes_for(const Input& input, std::span<const Sprite> sp
         if (seen[where.kernel]) continue;
         seen[where.kernel] = true;
         const double side =
-            2 * input.lens(where.level).reach_px(radius_in_cells(double(s.coc_px), where.level)) + 3;
+            2 * input.lens.level(where.level).reach_px(radius_in_cells(double(s.coc_px), where.level)) + 3;
         bytes += std::size_t(side * side) * sizeof(Rgba);
     }
     return bytes;
@@ -184,7 +184,7 @@ std::vector<device::KernelSource::Made> SpriteKernels::make(std::span<const devi
         const float down = (float(phase_y) + first) / float(grid_.phases());
         const double radius_px = double(SpriteGrid::radius_px(ask));
         const double cells = radius_in_cells(radius_px, ask.level, moving_blur(right, down));
-        kernel::PointSpread at_cell = lens_.lens(ask.level).point_spread(cells, lens_.field_at(x, y));
+        kernel::PointSpread at_cell = lens_.level(ask.level).point_spread(cells, lens_.field_at(x, y));
         made.push_back({std::make_shared<const kernel::PointSpread>(moved(std::move(at_cell), right, down))});
     }
     return made;

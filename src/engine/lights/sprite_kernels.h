@@ -22,7 +22,7 @@ struct Sprite {
 // lights fit into memory.
 class SpriteGrid {
 public:
-    SpriteGrid(const Input& input, std::span<const Sprite> sprites);
+    SpriteGrid(const EngineView& input, std::span<const Sprite> sprites);
     // Tells as many parts of the window apart as that of all its lights does: so a part of a frame is drawn
     // as in the whole.
     void take_parts_of(const SpriteGrid& whole) { columns_ = whole.columns_, rows_ = whole.rows_; }
@@ -47,8 +47,8 @@ public:
     int rows() const { return rows_; }
 
 private:
-    void choose_parts(const Input& input, std::span<const Sprite> sprites, float largest_px);
-    std::size_t bytes_for(const Input& input, std::span<const Sprite> sprites) const;
+    void choose_parts(const EngineView& input, std::span<const Sprite> sprites, float largest_px);
+    std::size_t bytes_for(const EngineView& input, std::span<const Sprite> sprites) const;
     int level_of(float radius_px) const;
 
     Rect frame_;

@@ -52,22 +52,22 @@ private:
 };
 
 // of_frame: of the whole frame where `input` is a part of it. They decide how finely the lens is told apart.
-device::Work add_sprites(const Input& input, std::span<const Sprite> sprites,
+device::Work add_sprites(const EngineView& input, std::span<const Sprite> sprites,
                          std::span<const Sprite> of_frame, device::Target out,
                          const std::string& light = {}) {
     if (sprites.empty()) return {};
     SpriteGrid grid(input, sprites);
-    if (input.whole && input.lens(0).varies_over_field()) {
-        Input frame = *input.whole;
-        frame.lens_levels = input.lens_levels;
+    if (input.window.whole && input.lens.level(0).varies_over_field()) {
+        EngineView frame = *input.window.whole;
+        frame.lens.levels = input.lens.levels;
         grid.take_parts_of(SpriteGrid(frame, of_frame));
     }
     const LightsPlan plan = plan_sprites(input, sprites, grid);
-    const device::Control control{*input.workers, *input.progress};
-    const auto atlas =
-        input.device->atlas(SpriteKernels(input, grid, light), plan.kernels, *input.memory, control);
-    if (input.progress->cancelled()) return {};
-    return input.device->add_lights(plan, *atlas, out, control);
+    const device::Control control{*input.services.workers, *input.services.progress};
+    const auto atlas = input.services.device->atlas(SpriteKernels(input.lens, grid, light), plan.kernels,
+                                                    *input.services.memory, control);
+    if (input.services.progress->cancelled()) return {};
+    return input.services.device->add_lights(plan, *atlas, out, control);
 }
 
 // Those of one light, each with its area.
@@ -79,45 +79,45 @@ std::vector<Sprite> sprites_of(std::span<const LightPoint> points, LightSpectrum
 }
 
 // Those of the picture's own light, with what was found in it.
-std::vector<Sprite> sprites_of_daylight(const Input& input, std::span<const Sprite> found) {
+std::vector<Sprite> sprites_of_daylight(const EngineView& input, std::span<const Sprite> found) {
     const auto is_of_lamp = [&](const LightPoint& p) {
-        return std::any_of(input.lamps.begin(), input.lamps.end(),
+        return std::any_of(input.lens.lamps.begin(), input.lens.lamps.end(),
                            [&](const LampLens& lamp) { return p.spectrum == lamp.light; });
     };
     std::vector<Sprite> sprites(found.begin(), found.end());
-    for (const LightPoint& p : input.points)
+    for (const LightPoint& p : input.samples.points)
         if (!is_of_lamp(p)) AreaOfLight(p).add_to(sprites, p);
     return sprites;
 }
 
 // What is found in all of the frame, where a part of it must know.
-std::vector<Sprite> sprites_of_frame(const Input& input) {
-    if (!input.whole || !input.lens(0).varies_over_field()) return {};
-    return sprites_of_daylight(*input.whole, BrightPoints(*input.whole).sprites());
+std::vector<Sprite> sprites_of_frame(const EngineView& input) {
+    if (!input.window.whole || !input.lens.level(0).varies_over_field()) return {};
+    return sprites_of_daylight(*input.window.whole, BrightPoints(*input.window.whole).sprites());
 }
 
 }  // namespace
 
-device::Work draw_sprites(const Input& input, std::span<const Sprite> found, device::Target out) {
+device::Work draw_sprites(const EngineView& input, std::span<const Sprite> found, device::Target out) {
     const std::vector<Sprite> sprites = sprites_of_daylight(input, found);
     device::Work work;
     if (!sprites.empty()) work = add_sprites(input, sprites, sprites_of_frame(input), out);
-    for (const LampLens& lamp : input.lamps) {
-        Input lit = input;
-        lit.lens_levels = lamp.levels;
-        work +=
-            add_sprites(lit, sprites_of(input.points, lamp.light), sprites_of(input.all().points, lamp.light),
-                        out, " of lamp " + std::to_string(int(lamp.light)));
+    for (const LampLens& lamp : input.lens.lamps) {
+        EngineView lit = input;
+        lit.lens.levels = lamp.levels;
+        work += add_sprites(lit, sprites_of(input.samples.points, lamp.light),
+                            sprites_of(input.all().samples.points, lamp.light), out,
+                            " of lamp " + std::to_string(int(lamp.light)));
     }
     return work;
 }
 
-std::size_t sprites_bytes(const Input& input, std::size_t found) {
+std::size_t sprites_bytes(const EngineView& input, std::size_t found) {
     // The quad-tree of what may stand in their way; for every light: itself, its copy in a tile, its place in
     // lists.
     constexpr std::size_t kBytesPerPixel = 8, kBytesPerPoint = 200;
     std::size_t count = found;
-    for (const LightPoint& p : input.points) count += AreaOfLight(p).count();
+    for (const LightPoint& p : input.samples.points) count += AreaOfLight(p).count();
     if (count == 0) return 0;
     return kBytesPerPoint * count + kBytesPerPixel * std::size_t(input.width()) * std::size_t(input.height());
 }

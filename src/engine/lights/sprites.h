@@ -13,9 +13,9 @@ namespace petzval::engine {
 
 // Adds lights that were found in the picture and those that are given, each in the light of its lamp.
 // `input`: all of what may stand in their way.
-device::Work draw_sprites(const Input& input, std::span<const Sprite> found, device::Target out);
+device::Work draw_sprites(const EngineView& input, std::span<const Sprite> found, device::Target out);
 
 // What drawing them takes besides the picture and the result.
-std::size_t sprites_bytes(const Input& input, std::size_t found);
+std::size_t sprites_bytes(const EngineView& input, std::size_t found);
 
 }  // namespace petzval::engine

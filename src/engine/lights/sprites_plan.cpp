@@ -25,7 +25,7 @@ void in_batches(std::size_t count, std::size_t batch, Workers& workers, const Wo
 }
 
 // Numbers of the sprites, neighbours after each other: they ask for the same part of the picture.
-std::vector<std::uint32_t> by_place(const Input& input, std::span<const Sprite> sprites) {
+std::vector<std::uint32_t> by_place(const EngineView& input, std::span<const Sprite> sprites) {
     constexpr float kCell = 32;
     const int columns = 1 + int(float(input.width()) / kCell), rows = 1 + int(float(input.height()) / kCell);
     const auto cell = [&](const Sprite& s) {
@@ -41,13 +41,13 @@ std::vector<std::uint32_t> by_place(const Input& input, std::span<const Sprite> 
 
 class SpritesPlanner {
 public:
-    SpritesPlanner(const Input& input, const SpriteGrid& grid)
+    SpritesPlanner(const EngineView& input, const SpriteGrid& grid)
         : in_(input),
           grid_(grid),
           tiles_x_((input.width() + kTile - 1) / kTile),
           tiles_y_((input.height() + kTile - 1) / kTile) {
-        plan_.rows = input.colour.rect();
-        plan_.stretch = float(input.pixel_aspect);
+        plan_.rows = input.samples.colour.rect();
+        plan_.stretch = float(input.lens.pixel_aspect);
     }
 
     LightsPlan plan(std::span<const Sprite> sprites) {
@@ -55,13 +55,13 @@ public:
         reached_.resize(sprites.size());
         const PupilMasks shadows(in_);
         const std::vector<std::uint32_t> order = by_place(in_, sprites);
-        in_batches(sprites.size(), 4096, *in_.workers, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end && !in_.progress->cancelled(); ++i)
+        in_batches(sprites.size(), 4096, *in_.services.workers, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end && !in_.services.progress->cancelled(); ++i)
                 place(sprites[order[i]], shadows, i);
         });
         ask_for_kernels();
         sort_into_tiles();
-        parallel_for(tiles_x_ * tiles_y_, *in_.workers, [&](int tile) { sort_by_kernel(tile); });
+        parallel_for(tiles_x_ * tiles_y_, *in_.services.workers, [&](int tile) { sort_by_kernel(tile); });
         return std::move(plan_);
     }
 
@@ -119,12 +119,13 @@ private:
                           pieces = (reached_.size() + kPiece - 1) / kPiece;
         std::vector<std::size_t> next(tiles * pieces);
         const auto each = [&](const auto& visit) {
-            in_batches(reached_.size(), kPiece, *in_.workers, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i)
-                    for (int y = reached_[i].y0; y < reached_[i].y1; ++y)
-                        for (int x = reached_[i].x0; x < reached_[i].x1; ++x)
-                            visit(next[std::size_t(y * tiles_x_ + x) * pieces + begin / kPiece], i);
-            });
+            in_batches(
+                reached_.size(), kPiece, *in_.services.workers, [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i)
+                        for (int y = reached_[i].y0; y < reached_[i].y1; ++y)
+                            for (int x = reached_[i].x0; x < reached_[i].x1; ++x)
+                                visit(next[std::size_t(y * tiles_x_ + x) * pieces + begin / kPiece], i);
+                });
         };
         each([](std::size_t& n, std::size_t) { ++n; });
         std::size_t sum = 0;
@@ -161,7 +162,7 @@ private:
         for (std::size_t i = begin; i < end; ++i) plan_.order[i] = keys[i - begin].light;
     }
 
-    const Input& in_;
+    const EngineView& in_;
     const SpriteGrid& grid_;
     int tiles_x_, tiles_y_;
     LightsPlan plan_;
@@ -170,7 +171,7 @@ private:
 
 }  // namespace
 
-LightsPlan plan_sprites(const Input& input, std::span<const Sprite> sprites, const SpriteGrid& grid) {
+LightsPlan plan_sprites(const EngineView& input, std::span<const Sprite> sprites, const SpriteGrid& grid) {
     return SpritesPlanner(input, grid).plan(sprites);
 }
 

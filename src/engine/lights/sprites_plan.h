@@ -11,6 +11,6 @@ namespace petzval::engine {
 
 // The lights of a picture, by the kernels of `grid`, which was made for them. What is wholly hidden reaches
 // no tile. The same for any thread count.
-LightsPlan plan_sprites(const Input& input, std::span<const Sprite> sprites, const SpriteGrid& grid);
+LightsPlan plan_sprites(const EngineView& input, std::span<const Sprite> sprites, const SpriteGrid& grid);
 
 }  // namespace petzval::engine

@@ -27,17 +27,18 @@ public:
             const kernel::Mount mount{{50, 36, 1.4, 2}, kWidth >> level, kHeight >> level};
             lenses_.push_back(std::move(kernel::make_lens(choice, mount)).value());
         }
-        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
-        input_.lens_levels = lenses_, input_.farthest_coc_px = 200, input_.nearest_coc_px = 200;
-        input_.field_centre_x = 0.5 * kWidth, input_.field_centre_y = 0.5 * kHeight;
-        input_.field_per_px = 2 / std::hypot(kWidth, kHeight);
-        input_.progress = &progress_;
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_, input_.lens.frame = colour_.rect();
+        input_.lens.levels = lenses_, input_.samples.farthest_coc_px = 200,
+        input_.samples.nearest_coc_px = 200;
+        input_.lens.field_centre_x = 0.5 * kWidth, input_.lens.field_centre_y = 0.5 * kHeight;
+        input_.lens.field_per_px = 2 / std::hypot(kWidth, kHeight);
+        input_.services.progress = &progress_;
     }
     void add(float x, float y, float coc_px) { sprites_.push_back({x, y, coc_px, 1, 1, 1}); }
     void put_in_front(const Rect& pixels, float coc_px) {
         for (int y = pixels.y0; y < pixels.y1; ++y)
             for (int x = pixels.x0; x < pixels.x1; ++x) coc_px_(x, y) = coc_px;
-        input_.nearest_coc_px = std::min(input_.nearest_coc_px, coc_px);
+        input_.samples.nearest_coc_px = std::min(input_.samples.nearest_coc_px, coc_px);
     }
     SpriteGrid grid() const { return {input_, sprites_}; }
     LightsPlan plan() const { return plan_sprites(input_, sprites_, grid()); }
@@ -47,7 +48,7 @@ private:
     Plane coc_px_{kWidth, kHeight, 200.0f};
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses_;
     Progress progress_;
-    Input input_;
+    EngineView input_;
     std::vector<Sprite> sprites_;
 };
 

@@ -66,9 +66,9 @@ float share_that_stays(const CocSample& s, float surroundings, float white) {
 
 }  // namespace
 
-std::vector<BrightPoint> take_bright_points(CocSamples& samples, const Input& input) {
-    const Plane surroundings = surroundings_of(input.colour, *input.workers);
-    const float white = white_of(input.all().colour);
+std::vector<BrightPoint> take_bright_points(CocSamples& samples, const EngineView& input) {
+    const Plane surroundings = surroundings_of(input.samples.colour, *input.services.workers);
+    const float white = white_of(input.all().samples.colour);
     std::vector<BrightPoint> points;
     for (int y = 0; y < samples.height(); ++y)
         for (int x = 0; x < samples.width; ++x) {

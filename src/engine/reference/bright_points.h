@@ -26,6 +26,6 @@ constexpr float kLeastCoverage = 1e-4f;
 // white stays too: rays find it. Outermost pixels, which stand for the scene beyond the frame, keep twice as
 // much of their surroundings. Light without coverage has no surface to stay on and is taken whole; light
 // wider than any picture (1024 px) stays.
-std::vector<BrightPoint> take_bright_points(CocSamples& samples, const Input& input);
+std::vector<BrightPoint> take_bright_points(CocSamples& samples, const EngineView& input);
 
 }  // namespace petzval::engine

@@ -207,44 +207,46 @@ std::vector<Rect> tiles_of(const Rect& area, int size) {
     return tiles;
 }
 
-void trace_base(const Input& input, const Surfaces& surfaces, View<Rgba> out) {
-    const bool varies = input.lens(0).varies_over_field();
+void trace_base(const EngineView& input, const Surfaces& surfaces, View<Rgba> out) {
+    const bool varies = input.lens.level(0).varies_over_field();
     const std::vector<Rect> tiles = tiles_of(out.rect(), varies ? kTileFieldVaries : kTile);
     const auto rays_at = [&](const Rect& r) {
-        return input.lens(0).rays(
-            input.pupil_points, input.field_at(0.5 * (r.x0 + r.x1 - 1), 0.5 * (r.y0 + r.y1 - 1)), input.seed);
+        return input.lens.level(0).rays(input.options.of<ReferenceOwn>().pupil_points,
+                                        input.lens.field_at(0.5 * (r.x0 + r.x1 - 1), 0.5 * (r.y0 + r.y1 - 1)),
+                                        input.options.of<ReferenceOwn>().seed);
     };
     const std::vector<kernel::PupilRay> everywhere = rays_at(out.rect());
-    parallel_for(int(tiles.size()), *input.workers, [&](int i) {
-        if (input.progress->cancelled()) return;
+    parallel_for(int(tiles.size()), *input.services.workers, [&](int i) {
+        if (input.services.progress->cancelled()) return;
         const Rect& area = tiles[std::size_t(i)];
         const std::vector<kernel::PupilRay> here = varies ? rays_at(area) : std::vector<kernel::PupilRay>{};
         const std::vector<kernel::PupilRay>& rays = varies ? here : everywhere;
-        Tile tile(surfaces, input.holdout, area);
-        for (int k = 0; k < int(rays.size()) && !input.progress->cancelled(); ++k)
+        Tile tile(surfaces, input.samples.holdout, area);
+        for (int k = 0; k < int(rays.size()) && !input.services.progress->cancelled(); ++k)
             tile.add(rays[std::size_t(k)], k);
         for (int y = area.y0; y < area.y1; ++y)
             for (int x = area.x0; x < area.x1; ++x) out(x, y) = tile.sum()(x - area.x0, y - area.y0);
-        input.progress->advance(kShareOfRays / double(tiles.size()));
+        input.services.progress->advance(kShareOfRays / double(tiles.size()));
     });
 }
 
-void spread_points(const Input& input, const Surfaces& surfaces, const std::vector<BrightPoint>& points,
+void spread_points(const EngineView& input, const Surfaces& surfaces, const std::vector<BrightPoint>& points,
                    View<Rgba> out) {
     // Kernels are made in parallel, batch by batch, and added in the order of the list: the same bits for any
     // threads.
     constexpr int kBatch = 512;
     const int count = int(points.size());
-    for (int begin = 0; begin < count && !input.progress->cancelled(); begin += kBatch) {
+    for (int begin = 0; begin < count && !input.services.progress->cancelled(); begin += kBatch) {
         const int size = std::min(kBatch, count - begin);
         std::vector<kernel::PointSpread> spreads(static_cast<std::size_t>(size));
-        parallel_for(size, *input.workers, [&](int i) {
+        parallel_for(size, *input.services.workers, [&](int i) {
             const BrightPoint& p = points[std::size_t(begin + i)];
-            spreads[std::size_t(i)] = visible_point_spread(surfaces, input.lens(0), input.field_at(p.x, p.y),
-                                                           p, std::max(1.0, input.pixel_aspect));
+            spreads[std::size_t(i)] =
+                visible_point_spread(surfaces, input.lens.level(0), input.lens.field_at(p.x, p.y), p,
+                                     std::max(1.0, input.lens.pixel_aspect));
         });
         constexpr int kBand = 32;
-        parallel_for((out.height() + kBand - 1) / kBand, *input.workers, [&](int band) {
+        parallel_for((out.height() + kBand - 1) / kBand, *input.services.workers, [&](int band) {
             const Rect rows = Rect{0, band * kBand, out.width(), (band + 1) * kBand}.intersected(out.rect());
             for (int i = 0; i < size; ++i) {
                 const BrightPoint& p = points[std::size_t(begin + i)];
@@ -254,34 +256,35 @@ void spread_points(const Input& input, const Surfaces& surfaces, const std::vect
                 for (int y = place.y0; y < place.y1; ++y)
                     for (int x = place.x0; x < place.x1; ++x)
                         out(x, y) += spread.weights(x - p.x - e.x0, y - p.y - e.y0) * p.light *
-                                     let_through(input.holdout, x, y, p.coc_px);
+                                     let_through(input.samples.holdout, x, y, p.coc_px);
             }
         });
-        input.progress->advance(kShareOfHighlights * size / count);
+        input.services.progress->advance(kShareOfHighlights * size / count);
     }
 }
 
-double largest_radius(const Input& input) {
+double largest_radius(const EngineView& input) {
     float largest = 0;
     for (int y = 0; y < input.height(); ++y)
-        for (int x = 0; x < input.width(); ++x) largest = std::max(largest, std::abs(input.coc_px(x, y)));
-    for (const CocSample& s : input.deep.samples()) largest = std::max(largest, std::abs(s.coc_px));
+        for (int x = 0; x < input.width(); ++x)
+            largest = std::max(largest, std::abs(input.samples.coc_px(x, y)));
+    for (const CocSample& s : input.samples.deep.samples()) largest = std::max(largest, std::abs(s.coc_px));
     return largest;
 }
 
 // The scene goes on beyond the picture as far as a ray may come from, so wide radii take memory: refused in
 // good time rather than tried.
-Status surfaces_fit(const Input& input, const CocSamples& samples, int margin) {
+Status surfaces_fit(const EngineView& input, const CocSamples& samples, int margin) {
     constexpr double kMost = double(std::size_t(8) << 30);
     const double pixels = double(input.width()) * input.height();
     const double cells = (double(input.width()) + 2.0 * margin) * (double(input.height()) + 2.0 * margin);
     const double per_cell =
         sizeof(std::uint32_t) + sizeof(Facet) * std::max(1.0, double(samples.samples.size()) / pixels);
     const double bytes = cells * per_cell + double(held_bytes(input));
-    const double most = input.max_memory_bytes > 0 ? double(input.max_memory_bytes) : kMost;
+    const double most = input.services.max_memory_bytes > 0 ? double(input.services.max_memory_bytes) : kMost;
     if (bytes <= most) return Done{};
     Error error = too_little_memory("reference", std::size_t(bytes));
-    if (input.max_memory_bytes == 0)
+    if (input.services.max_memory_bytes == 0)
         error.message = "engine reference takes about " + std::to_string(std::size_t(bytes) >> 20) +
                         "M for this picture and blur; cut radii with focus.max_radius_px, or allow it with "
                         "job.max_memory_bytes";
@@ -289,13 +292,13 @@ Status surfaces_fit(const Input& input, const CocSamples& samples, int margin) {
 }
 
 // Where the lens looks past what is near and nothing is stated to lie there, rays end in emptiness.
-void say_what_is_not_known(const Input& input, Output& output) {
+void say_what_is_not_known(const EngineView& input, Output& output) {
     constexpr float kCovered = 0.98f;
-    if (!input.deep.empty()) return;
+    if (!input.samples.deep.empty()) return;
     std::size_t empty = 0;
     for (int y = 0; y < input.height(); ++y)
         for (int x = 0; x < input.width(); ++x) {
-            if (input.colour(x, y).a != 1) return;  // emptiness may be meant
+            if (input.samples.colour(x, y).a != 1) return;  // emptiness may be meant
             empty += output.image(x, y).a < kCovered;
         }
     if (empty == 0) return;
@@ -307,19 +310,19 @@ void say_what_is_not_known(const Input& input, Output& output) {
 
 }  // namespace
 
-Result<Output> run_reference(const Input& input) {
+Result<Output> run_reference(const EngineView& input, Spare) {
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
 
-    CocSamples samples = stated_samples(input);
+    CocSamples samples = stated_samples(input.samples);
     const std::vector<BrightPoint> points = take_bright_points(samples, input);
     // A ray may come from as far as the largest radius on either side of focus.
-    const int margin = int(std::ceil(input.lens(0).reach_px(largest_radius(input)))) + 2;
+    const int margin = int(std::ceil(input.lens.level(0).reach_px(largest_radius(input)))) + 2;
     if (const Status fits = surfaces_fit(input, samples, margin); !fits) return fits.error();
-    const Surfaces surfaces =
-        Surfaces::make(samples, input.open_edges, margin, input.deep_dims_itself, *input.workers);
+    const Surfaces surfaces = Surfaces::make(samples, input.window.open_edges, margin,
+                                             input.samples.deep_dims_itself, *input.services.workers);
     const double prepared = seconds();
 
     Output output;
@@ -327,7 +330,7 @@ Result<Output> run_reference(const Input& input) {
     trace_base(input, surfaces, output.image);
     const double traced = seconds();
     spread_points(input, surfaces, points, output.image);
-    if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+    if (input.services.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     say_what_is_not_known(input, output);
     output.stages = {{"surfaces", prepared}, {"rays", traced - prepared}, {"highlights", seconds() - traced}};
     return output;

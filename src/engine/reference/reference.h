@@ -6,6 +6,6 @@
 namespace petzval::engine {
 
 // Errors: Cancelled, OutOfMemory.
-Result<Output> run_reference(const Input& input);
+Result<Output> run_reference(const EngineView& input, Spare = {});
 
 }  // namespace petzval::engine

@@ -42,7 +42,7 @@ public:
         float min = 1e30f, max = -1e30f;
     };
 
-    // dims_itself: as Input::deep_dims_itself.
+    // dims_itself: as Samples::deep_dims_itself.
     static Surfaces make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
                          Workers& workers);
     // Whether a facet that covers part of its pixel lets through its share of whatever lies behind it (fog),

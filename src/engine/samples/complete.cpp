@@ -59,10 +59,10 @@ Image<int> distance_to_emptiness(View<const Rgba> picture) {
 // those so near to one that a lens looks past what they show: there the emptiness goes on, as everything does
 // behind what hides it. It takes what the others leave of a pixel's lens, and is no wider than the pixel.
 // (Coverages of a pixel's samples need not sum to 1 where it is opaque: surfaces that meet in it share it.)
-CocSamples deep_completed(const Input& input) {
-    const CocSamples stated = stated_samples(input);
-    const Image<int> distance = distance_to_emptiness(input.colour);
-    const double stretch = input.lens(0).reach_px(1);
+CocSamples deep_completed(const EngineView& input) {
+    const CocSamples stated = stated_samples(input.samples);
+    const Image<int> distance = distance_to_emptiness(input.samples.colour);
+    const double stretch = input.lens.level(0).reach_px(1);
     CocSamples all;
     all.width = stated.width;
     all.first.reserve(stated.first.size());
@@ -75,7 +75,7 @@ CocSamples deep_completed(const Input& input) {
             largest = std::max(largest, std::abs(stated.samples[k].coc_px));
         }
         const bool looks_past = double(distance.pixels()[i]) <= stretch * double(largest) + 1;
-        const float open = 1 - input.colour.row(int(i) / stated.width)[int(i) % stated.width].a;
+        const float open = 1 - input.samples.colour.row(int(i) / stated.width)[int(i) % stated.width].a;
         if (distance.pixels()[i] == 0 || looks_past) {
             all.samples.push_back(emptiness_behind_everything());
         } else if (open > 1e-6f) {  // too little to tell others of it
@@ -91,22 +91,26 @@ CocSamples deep_completed(const Input& input) {
 // what the plate was completed to.
 class FlatPicture final : public CompletedPicture::Parts {
 public:
-    FlatPicture(const Input& input, View<const unsigned char> connected, const Dim& dim,
+    FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
                 const CocSamples* back = nullptr)
         : input_(input), back_(back) {
-        const LitPicture picture{input.colour, dim};
+        const LitPicture picture{input.samples.colour, dim};
         // A draft looks at half as much.
-        const bool draft = input.quality == Quality::Draft;
+        const bool draft = input.options.quality == Quality::Draft;
         const UnmixRule unmix = draft ? UnmixRule{2, false} : UnmixRule{};
         const FillRule fill = draft ? FillRule{1.5f, 8, 4, false, 6} : FillRule{};
-        mixtures_ = unmix_silhouettes(picture, input.coc_px, connected, *input.workers, unmix);
-        if (input.fill != Fill::Off)
-            hidden_ = fill_hidden(picture, input.coc_px, connected, mixtures_, input.nearest_coc_px,
-                                  input.farthest_coc_px, fill, dim.white, *input.workers);
-        unmix_nearer(mixtures_, picture, hidden_, *input.workers);
-        if (back) unmix_before_plate(mixtures_, picture, input.coc_px, input.plate, *input.workers);
-        if (dim && !back && input.fill == Fill::Full)
-            lamps_ = lamps_behind(picture, input.coc_px, mixtures_, *input.workers);
+        mixtures_ =
+            unmix_silhouettes(picture, input.samples.coc_px, connected, *input.services.workers, unmix);
+        if (input.options.fill != Fill::Off)
+            hidden_ =
+                fill_hidden(picture, input.samples.coc_px, connected, mixtures_, input.samples.nearest_coc_px,
+                            input.samples.farthest_coc_px, fill, dim.white, *input.services.workers);
+        unmix_nearer(mixtures_, picture, hidden_, *input.services.workers);
+        if (back)
+            unmix_before_plate(mixtures_, picture, input.samples.coc_px, input.samples.plate,
+                               *input.services.workers);
+        if (dim && !back && input.options.fill == Fill::Full)
+            lamps_ = lamps_behind(picture, input.samples.coc_px, mixtures_, *input.services.workers);
         count();
     }
 
@@ -114,7 +118,7 @@ public:
         const int width = input_.width();
         const std::size_t before = first_of_row_[std::size_t(y0)];
         restart(all, width, y1 - y0, first_of_row_[std::size_t(y1)] - before);
-        parallel_for(y1 - y0, *input_.workers, [&](int row) {
+        parallel_for(y1 - y0, *input_.services.workers, [&](int row) {
             std::size_t at = first_of_row_[std::size_t(y0 + row)] - before;
             const std::size_t pixel = std::size_t(row) * std::size_t(width);
             visit_row(
@@ -130,7 +134,7 @@ private:
         const auto height = std::size_t(input_.height());
         first_of_row_.assign(height + 1, 0);
         std::vector<float> largest(height, 0);
-        parallel_for(int(height), *input_.workers, [&](int y) {
+        parallel_for(int(height), *input_.services.workers, [&](int y) {
             std::size_t n = 0;
             float row = 0;
             visit_row(
@@ -148,7 +152,7 @@ private:
         for (int x = 0; x < input_.width(); ++x) {
             begin(x);
             const auto emit_before_plate = [&](const CocSample& s) {
-                if (!back_ || is_before_plate(s.coc_px, input_.plate.coc_px(x, y))) emit(s);
+                if (!back_ || is_before_plate(s.coc_px, input_.samples.plate.coc_px(x, y))) emit(s);
             };
             visit_surfaces(x, y, emit_before_plate);
             if (lamp != lamps_.row(y).end() && lamp->x == x)
@@ -162,8 +166,8 @@ private:
         const Mixture* const m = mixtures_.at(x, y);
         if (!m) {
             // What a plate's picture leaves uncovered shows the plate.
-            const Rgba c = input_.colour(x, y);
-            emit(sample(c, input_.coc_px(x, y), back_ ? c.a : 1));
+            const Rgba c = input_.samples.colour(x, y);
+            emit(sample(c, input_.samples.coc_px(x, y), back_ ? c.a : 1));
             for (const Hidden& h : hidden_.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
             return;
         }
@@ -175,7 +179,7 @@ private:
         if (m->far_light != Rgba{}) emit({unhidden_light(*m), m->lamp_coc_px, m->lamp_coc_px});
     }
 
-    const Input& input_;
+    const EngineView& input_;
     const CocSamples* back_;
     Mixtures mixtures_;
     HiddenLayers hidden_;
@@ -204,24 +208,27 @@ private:
     CocSamples all_;
 };
 
-CocSamples completed_before_plate(const Input& input, View<const unsigned char> connected, const Dim& dim) {
-    Input plate = input;
-    plate.colour = input.plate.colour, plate.coc_px = input.plate.coc_px;
+CocSamples completed_before_plate(const EngineView& input, View<const unsigned char> connected,
+                                  const Dim& dim) {
+    EngineView plate = input;
+    plate.samples.colour = input.samples.plate.colour, plate.samples.coc_px = input.samples.plate.coc_px;
     const int height = input.height();
     CocSamples back, all;
-    FlatPicture(plate, connections(plate.coc_px, *input.workers), dim).rows(0, height, back);
+    FlatPicture(plate, connections(plate.samples.coc_px, *input.services.workers), dim).rows(0, height, back);
     FlatPicture(input, connected, dim, &back).rows(0, height, all);
-    if (!input.plate.all) drop_out_of_sight(all, input.lens(0).reach_px(1), *input.workers);
+    if (!input.samples.plate.all)
+        drop_out_of_sight(all, input.lens.level(0).reach_px(1), *input.services.workers);
     return all;
 }
 
 }  // namespace
 
-CompletedPicture::CompletedPicture(const Input& input, View<const unsigned char> connected, const Dim& dim)
+CompletedPicture::CompletedPicture(const EngineView& input, View<const unsigned char> connected,
+                                   const Dim& dim)
     : height_(input.height()) {
-    if (!input.plate.empty())
+    if (!input.samples.plate.empty())
         parts_ = std::make_unique<GivenSamples>(completed_before_plate(input, connected, dim));
-    else if (!input.deep.empty())
+    else if (!input.samples.deep.empty())
         parts_ = std::make_unique<GivenSamples>(deep_completed(input));
     else
         parts_ = std::make_unique<FlatPicture>(input, connected, dim);

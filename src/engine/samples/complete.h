@@ -14,12 +14,13 @@ namespace petzval::engine {
 // Every sample of every pixel, nearest first, put together by rows. A deep input says it all itself; of a
 // flat one, pixels at silhouettes are taken apart into what they show of each surface, and what is hidden
 // near silhouettes is filled in (engine/samples/hidden.h). What a flat pixel leaves uncovered (alpha below 1)
-// lies at the far end as emptiness: covered, transparent black. `connected`: connections(input.coc_px). Of a
-// picture before a clean plate, that is completed, and what is in front of it put before.
+// lies at the far end as emptiness: covered, transparent black. `connected`:
+// connections(input.samples.coc_px). Of a picture before a clean plate, that is completed, and what is in
+// front of it put before.
 class CompletedPicture {
 public:
     // `input` outlives this.
-    CompletedPicture(const Input& input, View<const unsigned char> connected, const Dim& dim);
+    CompletedPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim);
     // Rows y0…y1-1; from any thread. In place of what was in `into`, with its memory.
     void rows(int y0, int y1, CocSamples& into) const { parts_->rows(y0, y1, into); }
     CocSamples all() const {
@@ -45,7 +46,7 @@ private:
     int height_;
 };
 
-// From samples that dim each other (Input::deep_dims_itself) to shares of the lens: what a ray straight
+// From samples that dim each other (Samples::deep_dims_itself) to shares of the lens: what a ray straight
 // through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front
 // of them. An opaque one takes what is left of the lens anyway, and rays that come past what is in front of
 // it see all of it; only translucent samples composited with it in one layer (engine/scatter/sources.h) dim

@@ -24,15 +24,15 @@ public:
                 coc_px_(x, y) = near ? -9.0f : 5.0f;
                 colour_(x, y) = near ? Rgba{0.2f, 0.6f, 0.1f, 1} : Rgba{0.5f, 0.4f, 0.01f * float(x + y), 1};
             }
-        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
-        input_.nearest_coc_px = -9, input_.farthest_coc_px = 5;
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_, input_.lens.frame = colour_.rect();
+        input_.samples.nearest_coc_px = -9, input_.samples.farthest_coc_px = 5;
     }
     CompletedPicture completed() const { return {input_, connections(coc_px_, one_thread()), {}}; }
 
 private:
     Picture colour_;
     Plane coc_px_;
-    Input input_;
+    EngineView input_;
 };
 
 bool equal(const CocSample& a, const CocSample& b) {

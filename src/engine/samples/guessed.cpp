@@ -47,27 +47,27 @@ struct Block {
     Rgba colour, judged;
 };
 
-Block block_of(const Input& input, const Rect& area) {
+Block block_of(const EngineView& input, const Rect& area) {
     Block block;
-    WithoutLamps lamps(input.fill);
+    WithoutLamps lamps(input.options.fill);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            block.nearest_px = std::min(block.nearest_px, input.coc_px(x, y));
-            block.farthest_px = std::max(block.farthest_px, input.coc_px(x, y));
+            block.nearest_px = std::min(block.nearest_px, input.samples.coc_px(x, y));
+            block.farthest_px = std::max(block.farthest_px, input.samples.coc_px(x, y));
         }
     const auto visit_surface = [&](const auto& visit) {
         for (int y = area.y0; y < area.y1; ++y)
             for (int x = area.x0; x < area.x1; ++x)
-                if (one_surface(input.coc_px(x, y), block.farthest_px)) visit(x, y);
+                if (one_surface(input.samples.coc_px(x, y), block.farthest_px)) visit(x, y);
     };
-    const bool dim = input.fill == Fill::Dim;
-    const View<const Rgba> judged = input.judged();
+    const bool dim = input.options.fill == Fill::Dim;
+    const View<const Rgba> judged = input.samples.judged();
     if (dim) visit_surface([&](int x, int y) { lamps.see(judged(x, y), 1); });
     float count = 0, coc = 0, shares = 0;
     visit_surface([&](int x, int y) {
         const float share = dim ? lamps.share(judged(x, y)) : 1;
-        block.colour += share * input.colour(x, y), block.judged += share * judged(x, y);
-        shares += share, coc += input.coc_px(x, y), count += 1;
+        block.colour += share * input.samples.colour(x, y), block.judged += share * judged(x, y);
+        shares += share, coc += input.samples.coc_px(x, y), count += 1;
     });
     block.colour *= 1 / shares, block.judged *= 1 / shares;
     block.farthest_px = coc / count;
@@ -150,19 +150,19 @@ std::array<std::vector<Offset>, kDirections> search_paths() {
 
 class BlockFill {
 public:
-    explicit BlockFill(const Input& input)
-        : fill_(input.fill),
-          block_(fill_block_px(input.nearest_coc_px)),
+    explicit BlockFill(const EngineView& input)
+        : fill_(input.options.fill),
+          block_(fill_block_px(input.samples.nearest_coc_px)),
           blocks_((input.width() + block_ - 1) / block_, (input.height() + block_ - 1) / block_),
           fills_(blocks_.width(), blocks_.height()) {
-        parallel_for(blocks_.height(), *input.workers, [&](int y) {
+        parallel_for(blocks_.height(), *input.services.workers, [&](int y) {
             for (int x = 0; x < blocks_.width(); ++x)
                 blocks_(x, y) = block_of(
                     input, Rect{x * block_, y * block_, (x + 1) * block_, (y + 1) * block_}.intersected(
-                               input.colour.rect()));
+                               input.samples.colour.rect()));
         });
         const auto paths = search_paths();
-        parallel_for(blocks_.height(), *input.workers, [&](int y) {
+        parallel_for(blocks_.height(), *input.services.workers, [&](int y) {
             for (int x = 0; x < blocks_.width(); ++x)
                 if (blocks_(x, y).nearest_px <= -kBlurredPx) fills_(x, y) = fill(x, y, paths);
         });
@@ -228,12 +228,12 @@ private:
 
 class PixelFill {
 public:
-    PixelFill(const Input& input, View<const Touched> touched)
-        : input_(input), judged_(input.judged()), touched_(touched), blocks_(input) {}
+    PixelFill(const EngineView& input, View<const Touched> touched)
+        : input_(input), judged_(input.samples.judged()), touched_(touched), blocks_(input) {}
 
     // votes: room for them.
     std::optional<FilledIn> at(int x, int y, Votes& votes) const {
-        const float own = input_.coc_px(x, y);
+        const float own = input_.samples.coc_px(x, y);
         if (own > -kBlurredPx) return std::nullopt;
         votes.clear();
         blocks_.vote(x, y, own, votes);
@@ -253,26 +253,26 @@ private:
         constexpr std::array<int, 10> kSteps{1, 1, 0, -1, -1, -1, 0, 1, 1, 1};  // across; down two later
         const int dx = kSteps[std::size_t(direction)], dy = kSteps[std::size_t(direction) + 2];
         const float step = dx != 0 && dy != 0 ? float(M_SQRT2) : 1.0f;
-        float surface = input_.coc_px(x, y);
+        float surface = input_.samples.coc_px(x, y);
         const float step_up = std::max(kUnlikePx, kFarther * std::abs(surface));
         for (int t = 1; float(t) * step <= kReach; ++t) {
             int u = x + t * dx, v = y + t * dy;
             if (!touched_.rect().contains(u, v)) return;
-            const float met = input_.coc_px(u, v);
+            const float met = input_.samples.coc_px(u, v);
             if (met - surface <= step_up) {
                 surface = std::max(surface, met);
                 continue;
             }
             if (touched_(u, v) == Touched::ByNearer && touched_.rect().contains(u + dx, v + dy) &&
-                std::abs(input_.coc_px(u + dx, v + dy) - met) <= kUnlikePx)
+                std::abs(input_.samples.coc_px(u + dx, v + dy) - met) <= kUnlikePx)
                 u += dx, v += dy;
-            votes.add({input_.colour(u, v), judged_(u, v), input_.coc_px(u, v)},
+            votes.add({input_.samples.colour(u, v), judged_(u, v), input_.samples.coc_px(u, v)},
                       1 / (float(t * t) * step * step));
             return;
         }
     }
 
-    const Input& input_;
+    const EngineView& input_;
     View<const Rgba> judged_;
     View<const Touched> touched_;
     BlockFill blocks_;
@@ -291,22 +291,23 @@ int fill_reach_px(float nearest_coc_px) {
     return int(std::ceil(-nearest_coc_px)) + 5 * fill_block_px(nearest_coc_px);
 }
 
-HiddenFill fill_hidden(const Input& input, View<const Touched> touched) {
-    const float nearest = input.nearest_coc_px, farthest = input.farthest_coc_px;
+HiddenFill fill_hidden(const EngineView& input, View<const Touched> touched) {
+    const float nearest = input.samples.nearest_coc_px, farthest = input.samples.farthest_coc_px;
     if (nearest > -kBlurredPx || farthest < nearest + 1) return {};
     const PixelFill pixels(input, touched);
-    return HiddenFill(input.width(), input.height(), *input.workers, [&](int y, const auto& emit) {
-        Votes votes(input.fill);
+    return HiddenFill(input.width(), input.height(), *input.services.workers, [&](int y, const auto& emit) {
+        Votes votes(input.options.fill);
         for (int x = 0; x < input.width(); ++x)
             if (const auto hidden = pixels.at(x, y, votes)) emit(x, *hidden);
     });
 }
 
-Guessed guess(const Input& input, bool fills) {
-    const Image<Touched> touched = find_touched(input.coc_px, *input.workers);
+Guessed guess(const EngineView& input, bool fills) {
+    const Image<Touched> touched = find_touched(input.samples.coc_px, *input.services.workers);
     Guessed guessed;
     if (fills) guessed.fill = fill_hidden(input.with_all_light(), touched);
-    guessed.rims = find_rims(input.colour, input.judged(), input.coc_px, touched, *input.workers);
+    guessed.rims = find_rims(input.samples.colour, input.samples.judged(), input.samples.coc_px, touched,
+                             *input.services.workers);
     return guessed;
 }
 

@@ -19,7 +19,7 @@ using HiddenFill = SparseRows<FilledIn>;
 // blur reaches, for farther surfaces around; the one met most, by 1/distance^2, goes on behind, blended from
 // block to block. Beside edges each pixel looks for itself, in 8 directions: so the texture of what is in
 // focus goes on behind a wire.
-HiddenFill fill_hidden(const Input& input, View<const Touched> touched);
+HiddenFill fill_hidden(const EngineView& input, View<const Touched> touched);
 
 struct Guessed {
     HiddenFill fill;
@@ -28,7 +28,7 @@ struct Guessed {
     std::size_t bytes() const { return fill.bytes() + rims.bytes(); }
 };
 // fills: also what is hidden.
-Guessed guess(const Input& input, bool fills);
+Guessed guess(const EngineView& input, bool fills);
 
 // Pixels a side of the blocks (a power of two), and how far what decides a fill may lie from it.
 int fill_block_px(float nearest_coc_px);

@@ -13,7 +13,7 @@ namespace {
 struct Wire {
     Picture colour{64, 64};
     Plane coc_px{64, 64, 0};
-    Input input;
+    EngineView input;
 
     template <typename Wall>
     explicit Wire(const Wall& wall) {
@@ -24,9 +24,9 @@ struct Wire {
                 colour(x, y) = {light, light, light, 1};
                 if (inside) coc_px(x, y) = -12;
             }
-        input.colour = colour, input.coc_px = coc_px;
-        input.nearest_coc_px = -12, input.farthest_coc_px = 0;
-        input.workers = &one_thread();
+        input.samples.colour = colour, input.samples.coc_px = coc_px;
+        input.samples.nearest_coc_px = -12, input.samples.farthest_coc_px = 0;
+        input.services.workers = &one_thread();
     }
     HiddenFill hidden() const { return fill_hidden(input, find_touched(coc_px, one_thread())); }
 };
@@ -67,7 +67,7 @@ TEST(HiddenFill, IsAsBrightAsWhatShowsAlsoWhereLightIsDrawnByItself) {
                 wire.colour(x, y) = {0.1f, 0.1f, 0.1f, 1};
     const auto behind_the_wire = [&] { return guess(wire.input, true).fill.at(32, 32)->colour.g; };
     EXPECT_NEAR(behind_the_wire(), 0.1f, 1e-3);
-    wire.input.lit = lit;
+    wire.input.samples.lit = lit;
     EXPECT_NEAR(behind_the_wire(), 4, 1e-2);
 }
 

@@ -83,7 +83,7 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
 }
 
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
-                        const Input::Plate& plate, Workers& workers) {
+                        const CleanPlate& plate, Workers& workers) {
     const LitPicture back{plate.colour, picture.dim_of};
     const Fronts front{picture, coc_px, mixtures, back, plate.coc_px};
     parallel_for(picture.colour.height(), workers, [&](int y) {

@@ -28,6 +28,6 @@ inline bool is_before_plate(float coc_px, float plate_px) {
 
 // Takes those silhouettes apart anew behind which the plate lies, whose colour is known.
 void unmix_before_plate(Mixtures& mixtures, const LitPicture& picture, View<const float> coc_px,
-                        const Input::Plate& plate, Workers& workers);
+                        const CleanPlate& plate, Workers& workers);
 
 }  // namespace petzval::engine

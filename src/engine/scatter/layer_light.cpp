@@ -56,7 +56,7 @@ struct OfSurface {
 class Shares {
 public:
     static constexpr int kRows = 8;  // of pixels that are done together, the largest square
-    Shares(const Input& input, const CocSamples& complete, std::span<const Input::Layer> layers)
+    Shares(const EngineView& input, const CocSamples& complete, std::span<const SampleLayer> layers)
         : input_(input), complete_(complete), all_layers_(layers), layers_(layers.size()) {
         for (std::size_t side = 2, i = 0; i < kSizes; side *= 2, ++i)
             found_[i].resize((std::size_t(input.width()) + side - 1) / side);
@@ -93,19 +93,20 @@ private:
         const std::span<const CocSample> samples = CocSamplesView(complete_).at(x, y);
         const bool alone = !samples.empty() && cover(samples[0]) > laws::kOpaqueAlone;
         for (std::size_t k = 0; k < samples.size(); ++k) {
-            const OfSurface* const surface =
-                input_.deep_dims_itself || (alone && k == 0) ? nullptr : &of_surface(x, y, samples[k].coc_px);
+            const OfSurface* const surface = input_.samples.deep_dims_itself || (alone && k == 0)
+                                                 ? nullptr
+                                                 : &of_surface(x, y, samples[k].coc_px);
             for (std::size_t i = 0; i < layers_; ++i) {
                 const Rgba own = own_share(x, y, i);
                 out[k * layers_ + i] = surface ? surface->share(i, own) : own;
             }
         }
-        if (!input_.deep_dims_itself)
+        if (!input_.samples.deep_dims_itself)
             for (std::size_t i = 0; i < layers_; ++i) meet(samples, own_share(x, y, i), i, out);
     }
     Rgba own_share(int x, int y, std::size_t i) const {
-        const Input::Layer& layer = all_layers_[i];
-        return ratio(layer.colour(x, y), guide(input_.colour(x, y), layer.is_light));
+        const SampleLayer& layer = all_layers_[i];
+        return ratio(layer.colour(x, y), guide(input_.samples.colour(x, y), layer.is_light));
     }
 
     // The mean of what the pixel shows becomes the layer's own share.
@@ -148,17 +149,17 @@ private:
         for (const auto& direction : steps())
             for (int t = 0, pixels = 0; t < kFarthest && pixels < kPixels; ++t) {
                 const int u = x + direction[std::size_t(t)][0], v = y + direction[std::size_t(t)][1];
-                if (!input_.coc_px.rect().contains(u, v)) break;
-                if (std::abs(input_.coc_px(u, v) - coc_px) > same) continue;
+                if (!input_.samples.coc_px.rect().contains(u, v)) break;
+                if (std::abs(input_.samples.coc_px(u, v) - coc_px) > same) continue;
                 add(u, v, 1 / float((t + 1) * (t + 1)), found), ++pixels;
             }
         return found;
     }
     void add(int x, int y, float weight, OfSurface& to) const {
         for (std::size_t i = 0; i < layers_; ++i) {
-            const Input::Layer& layer = all_layers_[i];
+            const SampleLayer& layer = all_layers_[i];
             to.layer[i] += weight * layer.colour(x, y);
-            to.guide[i] += weight * guide(input_.colour(x, y), layer.is_light);
+            to.guide[i] += weight * guide(input_.samples.colour(x, y), layer.is_light);
         }
     }
     // Squares grow with the blur, as where hidden parts are filled in (samples/hidden.h).
@@ -167,19 +168,20 @@ private:
         return found_[i][std::size_t(x) / (std::size_t(2) << i)];
     }
 
-    const Input& input_;
+    const EngineView& input_;
     const CocSamples& complete_;
-    std::span<const Input::Layer> all_layers_;
+    std::span<const SampleLayer> all_layers_;
     std::size_t layers_;                                             // of them
     std::array<std::vector<std::vector<OfSurface>>, kSizes> found_;  // by square of the rows under way
 };
 
 }  // namespace
 
-LayerShares::LayerShares(const Input& input, const CocSamples& complete, std::span<const Input::Layer> layers)
+LayerShares::LayerShares(const EngineView& input, const CocSamples& complete,
+                         std::span<const SampleLayer> layers)
     : layers_(layers.size()), all_(layers_ * complete.samples.size()) {
     const int bands = (input.height() + Shares::kRows - 1) / Shares::kRows;
-    parallel_for(bands, *input.workers, [&](int band) {
+    parallel_for(bands, *input.services.workers, [&](int band) {
         Shares(input, complete, layers).of_rows(band * Shares::kRows, all_.data());
     });
 }
@@ -190,7 +192,7 @@ std::vector<Rgba> LayerShares::of(std::size_t layer) const {
     return shares;
 }
 
-CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const Input::Layer& layer) {
+CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const SampleLayer& layer) {
     CocSamples lit;
     lit.width = base.width, lit.first = base.first, lit.samples = base.samples;
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -203,7 +205,7 @@ CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const
 }
 
 std::vector<Highlight> lit_by(const std::vector<Highlight>& highlights, const CocSamples& base,
-                              const std::vector<Rgba>& shares, const Input::Layer& layer) {
+                              const std::vector<Rgba>& shares, const SampleLayer& layer) {
     std::vector<Highlight> lit;
     if (!layer.is_light) return lit;
     lit.reserve(highlights.size());

@@ -16,14 +16,14 @@
 namespace petzval::engine {
 
 // The share that each of some layers has of every sample: 1 where it is all of the light (or of the coverage,
-// for what is no light). `complete` are the samples of input.colour before highlights were taken. A sample
-// that is all that its pixel shows has the pixel's share; what was found behind it, that of the pixels around
-// which show the same surface; shares of what a pixel shows together meet its own.
+// for what is no light). `complete` are the samples of input.samples.colour before highlights were taken. A
+// sample that is all that its pixel shows has the pixel's share; what was found behind it, that of the pixels
+// around which show the same surface; shares of what a pixel shows together meet its own.
 class LayerShares {
 public:
     // Layers are done several at once, which costs memory.
     static constexpr std::size_t kAtOnce = 4;
-    LayerShares(const Input& input, const CocSamples& complete, std::span<const Input::Layer> layers);
+    LayerShares(const EngineView& input, const CocSamples& complete, std::span<const SampleLayer> layers);
     // The shares of the layer with this number among them, by sample.
     std::vector<Rgba> of(std::size_t layer) const;
 
@@ -33,9 +33,9 @@ private:
 };
 
 // The layer's light in the place of the beauty's; coverage stays.
-CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const Input::Layer& layer);
+CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const SampleLayer& layer);
 // The same of highlights, which were taken of `base`. Empty for what is no light.
 std::vector<Highlight> lit_by(const std::vector<Highlight>& highlights, const CocSamples& base,
-                              const std::vector<Rgba>& shares, const Input::Layer& layer);
+                              const std::vector<Rgba>& shares, const SampleLayer& layer);
 
 }  // namespace petzval::engine

@@ -15,7 +15,7 @@ struct Silhouette {
     Picture colour{kSide, kSide, Rgba{0.5f, 0.5f, 0.5f, 1}};
     Plane coc_px{kSide, kSide, kFarPx};
     CocSamples samples;
-    Input input;
+    EngineView input;
 
     explicit Silhouette(float near_share) {
         samples.width = kSide;
@@ -28,7 +28,7 @@ struct Silhouette {
                 if (a < 1) samples.samples.push_back({{0.5f, 0.5f, 0.5f, 1}, kFarPx, kFarPx});
             }
         samples.first.push_back(samples.samples.size());
-        input.colour = colour, input.coc_px = coc_px;
+        input.samples.colour = colour, input.samples.coc_px = coc_px;
     }
     // The shares of the two samples of a pixel at the edge.
     std::span<const Rgba> at_edge(const std::vector<Rgba>& shares) const {
@@ -53,7 +53,7 @@ TEST(LayerShares, OfAMatteStayWithinItsRangeAndMeetThePixelsOwn) {
         for (const float own : {0.0f, 0.3f, 1.0f}) {
             const Silhouette scene(near_share);
             const Picture m = matte(1, own, 0);
-            const Input::Layer layers[] = {{m, false}};
+            const SampleLayer layers[] = {{m, false}};
             const auto shares = LayerShares(scene.input, scene.samples, layers).of(0);
             const auto at = scene.at_edge(shares);
             for (const Rgba& share : at) {
@@ -69,7 +69,7 @@ TEST(LayerShares, OfLightsThatSumToTheColourSumToOne) {
     Picture key = matte(0.4f, 0.1f, 0.2f), fill(kSide, kSide), ghost = matte(0, 0.3f, 0);
     for (std::size_t i = 0; i < key.size(); ++i)
         fill.pixels()[i] = scene.colour.pixels()[i] - key.pixels()[i] - ghost.pixels()[i];
-    const Input::Layer layers[] = {{key}, {fill}, {ghost}};
+    const SampleLayer layers[] = {{key}, {fill}, {ghost}};
     const LayerShares shares(scene.input, scene.samples, layers);
     const auto a = shares.of(0), b = shares.of(1), c = shares.of(2);
     for (std::size_t k = 0; k < a.size(); ++k) ASSERT_NEAR(a[k].g + b[k].g + c[k].g, 1, 1e-5) << k;

@@ -284,9 +284,9 @@ float LevelRule::radius_at(float position) const {
     return largest_cells * std::exp2(std::max(kOctavesPerLevel * position, position - 1));
 }
 
-LevelRule level_rule(const Input& input) {
+LevelRule level_rule(const EngineView& input) {
     LevelRule rule;
-    switch (input.quality) {
+    switch (input.options.quality) {
         case Quality::Draft:
             rule = {.largest_cells = 5, .surfaces_for_sectors = std::numeric_limits<int>::max()};
             rule.gathers_squares = true;
@@ -298,32 +298,32 @@ LevelRule level_rule(const Input& input) {
             rule = {.largest_cells = 12, .surfaces_for_sectors = 2, .inner_sectors = 1, .outer_sectors = 5};
             break;
     }
-    rule.hidden_known = !input.deep.empty();
-    if (rule.hidden_known && input.quality != Quality::Draft) {
+    rule.hidden_known = !input.samples.deep.empty();
+    if (rule.hidden_known && input.options.quality != Quality::Draft) {
         rule.another_surface = kAnotherKnownSurface;
         rule.inner_sectors = 3, rule.outer_sectors = 13;
     }
     return rule;
 }
 
-ScatterPlan make_plan(const Input& strip, SampleSource samples, View<const unsigned char> connected,
+ScatterPlan make_plan(const EngineView& strip, SampleSource samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels) {
     ScatterPlan plan;
-    plan.rows = rows, plan.first_row = first_row, plan.frame = strip.frame;
-    plan.rule = rule, plan.holdout = strip.holdout;
-    plan.levels = make_sources(std::move(samples), strip.coc_px, connected, strip.open_edges, rule, kernels,
-                               *strip.workers);
-    fill_tiles(kernels, *strip.progress, *strip.workers, plan);
+    plan.rows = rows, plan.first_row = first_row, plan.frame = strip.lens.frame;
+    plan.rule = rule, plan.holdout = strip.samples.holdout;
+    plan.levels = make_sources(std::move(samples), strip.samples.coc_px, connected, strip.window.open_edges,
+                               rule, kernels, *strip.services.workers);
+    fill_tiles(kernels, *strip.services.progress, *strip.services.workers, plan);
     return plan;
 }
 
-void relight(ScatterPlan& plan, const Input& strip, SampleSource samples, View<const unsigned char> connected,
-             const ScatterKernels& kernels) {
+void relight(ScatterPlan& plan, const EngineView& strip, SampleSource samples,
+             View<const unsigned char> connected, const ScatterKernels& kernels) {
     std::vector<std::size_t> sources;
     for (const SourceArray& level : plan.levels) sources.push_back(level.sources.size());
     plan.levels = {};
-    plan.levels = make_sources(std::move(samples), strip.coc_px, connected, strip.open_edges, plan.rule,
-                               kernels, *strip.workers);
+    plan.levels = make_sources(std::move(samples), strip.samples.coc_px, connected, strip.window.open_edges,
+                               plan.rule, kernels, *strip.services.workers);
     PETZVAL_CHECK(plan.levels.size() == sources.size());
     for (std::size_t l = 0; l < sources.size(); ++l)
         PETZVAL_CHECK(plan.levels[l].sources.size() == sources[l]);

@@ -47,7 +47,7 @@ struct LevelRule {
     bool gathers_squares = false;
 };
 
-LevelRule level_rule(const Input& input);
+LevelRule level_rule(const EngineView& input);
 
 // The signed radius in pixels of a source whose radius is given in cells of its level.
 inline float radius_in_pixels(float radius, int level) {
@@ -132,7 +132,7 @@ struct ScatterPlan {
     BigVector<Arrival> arrivals;
     std::vector<float> shares;  // of each arrival's light that it sends; empty: all of it
     device::KernelSet kernels;
-    // Light that lands in a pixel is dimmed by these (Input::holdout).
+    // Light that lands in a pixel is dimmed by these (Samples::holdout).
     CocSamplesView holdout;
 };
 
@@ -140,12 +140,12 @@ class ScatterKernels;
 
 // The plan of a strip: its sources, and what of them reaches which tile. `strip` is what the samples were
 // made from, by rows; rows: the pixels of it to be drawn; first_row: the frame's row that is its row 0.
-ScatterPlan make_plan(const Input& strip, SampleSource samples, View<const unsigned char> connected,
+ScatterPlan make_plan(const EngineView& strip, SampleSource samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels);
 
 // The same plan with other light in its sources: `samples` differ from those that it was made from in colour,
 // not in coverage.
-void relight(ScatterPlan& plan, const Input& strip, SampleSource samples, View<const unsigned char> connected,
-             const ScatterKernels& kernels);
+void relight(ScatterPlan& plan, const EngineView& strip, SampleSource samples,
+             View<const unsigned char> connected, const ScatterKernels& kernels);
 
 }  // namespace petzval::engine

@@ -14,7 +14,7 @@ namespace petzval::engine {
 
 // All that a strip is drawn from.
 struct PlannedStrip {
-    const Input& input;
+    const EngineView& input;
     const ScatterPlan& scatter;
     const ScatterKernels& kernels;
     const std::vector<Highlight>& highlights;
@@ -32,7 +32,7 @@ class PlanReader {
 public:
     virtual ~PlanReader() = default;
     // `strip` is what the plan is made from. False: nothing that follows is wanted.
-    virtual bool read(const Input& strip, const CompletedPicture& completed) = 0;
+    virtual bool read(const EngineView& strip, const CompletedPicture& completed) = 0;
     virtual void read(const PlannedStrip& strip) = 0;
 };
 

@@ -1,7 +1,7 @@
 // What is planned, told from the plan alone: nothing is drawn here.
 #include "engine/scatter/plan.h"
 
-#include "engine/samples/sample_set.h"
+#include "engine/samples/complete_testing.h"
 #include "engine/scatter/scatter_kernels.h"
 #include "kernel/lenses/make_lens.h"
 
@@ -26,10 +26,10 @@ public:
                 {50, 36, 1.4, 2}, std::max(1, width >> shift), std::max(1, height >> shift)};
             lenses_.push_back(std::move(kernel::make_lens(choice, mount)).value());
         }
-        input_.lens_levels = lenses_;
-        input_.field_centre_x = 0.5 * width, input_.field_centre_y = 0.5 * height;
-        input_.field_per_px = 2 / std::hypot(width, height);
-        input_.quality = quality;
+        input_.lens.levels = lenses_;
+        input_.lens.field_centre_x = 0.5 * width, input_.lens.field_centre_y = 0.5 * height;
+        input_.lens.field_per_px = 2 / std::hypot(width, height);
+        input_.options.quality = quality;
     }
     // coc(x, y)
     template <typename Coc>
@@ -47,13 +47,14 @@ public:
     // change(rule): what is planned by otherwise than this quality is.
     template <typename Change>
     const ScatterPlan& plan(const Rect& rows, const Change& change) {
-        input_.colour = colour_, input_.coc_px = coc_px_, input_.frame = colour_.rect();
+        input_.samples.colour = colour_, input_.samples.coc_px = coc_px_, input_.lens.frame = colour_.rect();
         const auto [low, high] = std::minmax_element(coc_px_.pixels(), coc_px_.pixels() + coc_px_.size());
-        input_.nearest_coc_px = std::min(0.0f, *low), input_.farthest_coc_px = std::max(0.0f, *high);
-        input_.progress = &progress_;
+        input_.samples.nearest_coc_px = std::min(0.0f, *low),
+        input_.samples.farthest_coc_px = std::max(0.0f, *high);
+        input_.services.progress = &progress_;
         LevelRule rule = level_rule(input_);
         change(rule);
-        kernels_ = std::make_unique<ScatterKernels>(input_, rule);
+        kernels_ = std::make_unique<ScatterKernels>(input_.lens, rule);
         const SampleSet set = complete_samples(input_);
         plan_ = make_plan(input_, set.samples, set.connected, rows, 0, rule, *kernels_);
         return plan_;
@@ -64,7 +65,7 @@ private:
     Plane coc_px_;
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses_;
     Progress progress_;
-    Input input_;
+    EngineView input_;
     std::unique_ptr<ScatterKernels> kernels_;
     ScatterPlan plan_;
 };

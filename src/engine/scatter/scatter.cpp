@@ -57,10 +57,10 @@ constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 
 // The share of pixels that are cut from a neighbour: they are kept taken apart, and what they hide has
 // samples and sources of its own.
-double share_at_silhouettes(const Input& input) {
-    const Image<unsigned char> connected = connections(input.coc_px, *input.workers);
+double share_at_silhouettes(const EngineView& input) {
+    const Image<unsigned char> connected = connections(input.samples.coc_px, *input.services.workers);
     std::atomic<std::ptrdiff_t> cut = 0;
-    parallel_for(input.height(), *input.workers, [&](int y) {
+    parallel_for(input.height(), *input.services.workers, [&](int y) {
         const unsigned char* const row = connected.row(y);
         cut += std::count_if(row, row + input.width(), [](unsigned char c) { return c != kAll; });
     });
@@ -69,19 +69,19 @@ double share_at_silhouettes(const Input& input) {
 
 // What a flat picture takes that is done at once, as whole commands did at their peak (docs/measurements.md,
 // Fewer bytes). Of strips, and of what is more than flat, less is known and more is reckoned with.
-std::size_t bytes_at_once(const Input& input) {
+std::size_t bytes_at_once(const EngineView& input, bool has_spare) {
     constexpr double kPerPixel = 50, kPerSilhouettePixel = 345, kFixed = 52 << 20, kAberrated = 28 << 20;
-    const bool flat =
-        input.deep.empty() && input.plate.empty() && input.layers.empty() && input.holdout.empty();
+    const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
+                      input.samples.layers.empty() && input.samples.holdout.empty();
     if (!flat) return std::numeric_limits<std::size_t>::max();
     const double per_pixel =
-        kPerPixel + (input.spent ? 0 : sizeof(Rgba)) + kPerSilhouettePixel * share_at_silhouettes(input);
-    const double fixed = kFixed + (input.lens(0).reach_px(0) > 0.5 ? kAberrated : 0);
+        kPerPixel + (has_spare ? 0 : sizeof(Rgba)) + kPerSilhouettePixel * share_at_silhouettes(input);
+    const double fixed = kFixed + (input.lens.level(0).reach_px(0) > 0.5 ? kAberrated : 0);
     return std::size_t(per_pixel * double(input.width()) * double(input.height()) + fixed) +
-           input.beside_bytes;
+           input.services.beside_bytes;
 }
 
-Error too_little(const Input& input, std::size_t held, std::size_t of_strip, std::size_t at_once,
+Error too_little(const EngineView& input, std::size_t held, std::size_t of_strip, std::size_t at_once,
                  std::size_t rows) {
     const auto mib = [](std::size_t bytes) { return std::to_string(bytes >> 20); };
     const std::size_t in_strips = held + of_strip;
@@ -89,14 +89,16 @@ Error too_little(const Input& input, std::size_t held, std::size_t of_strip, std
                                 ? "M, done at once"
                                 : "M, " + mib(held) + "M of them whole pictures, the rest a strip of " +
                                       std::to_string(rows) + " rows, as high as the blur reaches";
-    return Error{ErrorCode::OutOfMemory, "job.max_memory_bytes " + mib(input.max_memory_bytes) +
+    return Error{ErrorCode::OutOfMemory, "job.max_memory_bytes " + mib(input.services.max_memory_bytes) +
                                              "M is too little for this picture and blur; it takes at least " +
                                              mib(std::min(at_once, in_strips) + (std::size_t(1) << 20)) +
                                              why};
 }
 
-Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const ScatterKernels& kernels) {
-    const double largest = std::max(std::abs(input.nearest_coc_px), std::abs(input.farthest_coc_px));
+Result<StripPlan> plan_strips(const EngineView& input, const LevelRule& rule, const ScatterKernels& kernels,
+                              bool has_spare) {
+    const double largest =
+        std::max(std::abs(input.samples.nearest_coc_px), std::abs(input.samples.farthest_coc_px));
     const int coarsest = kernels.coarsest_for(int(std::ceil(rule.position(float(largest)))));
     const int unit = std::max(ScatterPlan::kTile, 1 << coarsest);
     const auto whole_units = [unit](double rows) {
@@ -106,80 +108,81 @@ Result<StripPlan> plan_strips(const Input& input, const LevelRule& rule, const S
     // What is spread onto a row, and beyond that what decides what lies hidden there: the other end of a lamp
     // comes from as far again.
     constexpr int kLookedAtPx = std::max(2 * kWidestLampPx + 16, kOutlineReachPx);
-    const double reach = std::min(input.lens(0).reach_px(largest), double(input.height()));
+    const double reach = std::min(input.lens.level(0).reach_px(largest), double(input.height()));
     plan.halo = whole_units(1.2 * reach + 4.0 * (1 << coarsest) +
                             2 * std::min(largest, double(input.height())) + kLookedAtPx);
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     // The caller's colour and depth, the radii and the result exist besides.
     // Of each layer too, but for the radii.
     const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) +
-                             input.layers.size() * pixels * 2 * sizeof(Rgba) + kFixedWorkingBytes +
-                             input.beside_bytes;
+                             input.samples.layers.size() * pixels * 2 * sizeof(Rgba) + kFixedWorkingBytes +
+                             input.services.beside_bytes;
     std::size_t working = kDefaultWorkingBytes;
-    if (input.max_memory_bytes > 0)
-        working = input.max_memory_bytes > held ? input.max_memory_bytes - held : 0;
-    const double samples = std::max(1.0, double(input.deep.samples().size()) / double(pixels));
+    if (input.services.max_memory_bytes > 0)
+        working = input.services.max_memory_bytes > held ? input.services.max_memory_bytes - held : 0;
+    const double samples = std::max(1.0, double(input.samples.deep.samples().size()) / double(pixels));
     // A layer has samples, sources and shares beside the beauty's.
-    const double bytes_per_sample = double(kBytesPerSample) * (input.layers.empty() ? 1 : 3);
+    const double bytes_per_sample = double(kBytesPerSample) * (input.samples.layers.empty() ? 1 : 3);
     const auto row_bytes = std::size_t((double(kBytesPerPixel) + bytes_per_sample * samples) * input.width());
     const std::size_t rows = working / row_bytes;
-    const std::size_t at_once = input.max_memory_bytes > 0 ? bytes_at_once(input) : 0;
-    if (rows >= std::size_t(input.height()) || at_once < input.max_memory_bytes) {
+    const std::size_t at_once = input.services.max_memory_bytes > 0 ? bytes_at_once(input, has_spare) : 0;
+    if (rows >= std::size_t(input.height()) || at_once < input.services.max_memory_bytes) {
         plan.rows = whole_units(input.height());
         return plan;
     }
     const std::ptrdiff_t own = std::ptrdiff_t(rows) - 2 * std::ptrdiff_t(plan.halo);
     plan.rows = int(std::max<std::ptrdiff_t>(unit, own / unit * unit));
     const std::size_t least = std::min(std::size_t(unit + 2 * plan.halo), std::size_t(input.height()));
-    if (input.max_memory_bytes > 0 && rows < least)
+    if (input.services.max_memory_bytes > 0 && rows < least)
         return too_little(input, held, least * row_bytes, at_once, least);
     return plan;
 }
 
-HighlightRule bright_rule(const Input& frame) {
-    return {.same_pixel_px = frame.deep_dims_itself ? same_pixel_px(frame.pixel_aspect) : 0};
+HighlightRule bright_rule(const EngineView& frame) {
+    return {.same_pixel_px = frame.samples.deep_dims_itself ? same_pixel_px(frame.lens.pixel_aspect) : 0};
 }
 
 // A run over the strips of a frame: each is completed, split, planned and drawn.
 class ScatterRun {
 public:
-    ScatterRun(const Input& frame, Stopwatch& watch)
+    ScatterRun(const EngineView& frame, Spare spare, Stopwatch& watch)
         : frame_(frame),
+          spare_(std::move(spare)),
           watch_(watch),
           rule_(level_rule(frame)),
-          kernels_(frame.memory->get<ScatterKernels>(
+          kernels_(frame.services.memory->get<ScatterKernels>(
               ScatterKernels::name_for(rule_),
-              [&] { return std::make_shared<ScatterKernels>(frame, rule_); })),
-          highlight_kernels_(frame.memory->get<HighlightKernels>(
+              [&] { return std::make_shared<ScatterKernels>(frame.lens, rule_); })),
+          highlight_kernels_(frame.services.memory->get<HighlightKernels>(
               "highlights", [&] { return std::make_shared<HighlightKernels>(frame); })),
           split_(frame, bright_rule(frame)) {
-        watch_.lap("split", {bytes_of(frame.colour) + bytes_of(frame.coc_px)});
+        watch_.lap("split", {bytes_of(frame.samples.colour) + bytes_of(frame.samples.coc_px)});
     }
-    Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_); }
+    Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_, !spare_.colour.empty()); }
     // Of all the frame; its colour is not asked for after this where it is done as one strip.
-    Picture memory_for_result(bool one_strip) const {
-        Picture* const spent = frame_.spent;
-        if (one_strip && spent && spent->rect() == frame_.colour.rect()) return std::move(*spent);
+    Picture memory_for_result(bool one_strip) {
+        if (one_strip && spare_.colour.rect() == frame_.samples.colour.rect())
+            return std::move(spare_.colour);
         return Picture::uninitialised(frame_.width(), frame_.height());
     }
 
     // Draws `rows` of the frame. `share`: of the progress.
     void draw(const Rect& rows, int halo, double share, Output& out) {
         const int first = std::max(0, rows.y0 - halo);
-        const Input input = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
-        share /= double(1 + input.layers.size());
+        const EngineView input = frame_.rows(first, std::min(frame_.height(), rows.y1 + halo));
+        share /= double(1 + input.samples.layers.size());
         Strip strip = complete(input, rows, first);
-        const CocSamples seen = input.layers.empty() ? CocSamples{} : strip.completed->all();
+        const CocSamples seen = input.samples.layers.empty() ? CocSamples{} : strip.completed->all();
         planned(strip, [&](const PlannedStrip& p, ScatterPlan& plan) {
-            const bool one_strip = rows == frame_.colour.rect();
-            if (input.layers.empty()) let_go(strip, one_strip);
-            if (!out.canvas) out.canvas = frame_.device->canvas(memory_for_result(one_strip));
+            const bool one_strip = rows == frame_.samples.colour.rect();
+            if (input.samples.layers.empty()) let_go(strip, one_strip);
+            if (!out.canvas) out.canvas = frame_.services.device->canvas(memory_for_result(one_strip));
             draw(p, share, *out.canvas);
             draw_layers(strip, p, plan, seen, share, out.layers);
         });
     }
     void show(PlanReader& reader) {
-        Strip strip = complete(frame_, frame_.colour.rect(), 0);
+        Strip strip = complete(frame_, frame_.samples.colour.rect(), 0);
         if (!reader.read(frame_, *strip.completed)) return;
         planned(strip, [&](const PlannedStrip& p, ScatterPlan&) { reader.read(p); });
     }
@@ -187,7 +190,7 @@ public:
 private:
     // Rows of the frame, of which `rows` are to be drawn, on their way.
     struct Strip {
-        const Input& input;
+        const EngineView& input;
         Rect rows;  // counted from the strip's own
         int first_row = 0;
         Image<unsigned char> connected;
@@ -196,9 +199,9 @@ private:
         CocSamples base;               // all that is seen but highlights, where there are layers
     };
 
-    Strip complete(const Input& input, const Rect& rows, int first_row) {
+    Strip complete(const EngineView& input, const Rect& rows, int first_row) {
         Strip strip{input,     {0, rows.y0 - first_row, rows.width(), rows.y1 - first_row},
-                    first_row, connections(input.coc_px, *input.workers),
+                    first_row, connections(input.samples.coc_px, *input.services.workers),
                     nullptr,   0,
                     {}};
         strip.completed = std::make_shared<CompletedPicture>(
@@ -207,13 +210,14 @@ private:
                 split_.least_of_lamps(), split_.white()});
         strip.sample_bytes = strip.completed->sample_count() * sizeof(CocSample) +
                              std::size_t(input.width()) * std::size_t(input.height()) * sizeof(std::size_t);
-        watch_.lap("complete", {bytes_of(input.colour) + bytes_of(input.coc_px) + strip.connected.bytes()});
+        watch_.lap("complete", {bytes_of(input.samples.colour) + bytes_of(input.samples.coc_px) +
+                                strip.connected.bytes()});
         return strip;
     }
 
     // What is found on the way from a strip's samples to its sources.
     struct Found {
-        explicit Found(const Input& strip)
+        explicit Found(const EngineView& strip)
             : highlights(std::size_t(strip.height() / SampleSource::kRows + 1)),
               casters(strip.width(), strip.height()) {}
         std::vector<std::vector<Highlight>> highlights;  // by rows
@@ -225,16 +229,18 @@ private:
                  CocSamples& rows) const {
         completed.rows(y0, y1, rows);
         std::vector<Highlight>& taken = found.highlights[std::size_t(y0 / SampleSource::kRows)];
-        taken = take_highlights(rows, split_, strip.first_row + y0, kLargestSquare, *strip.input.workers);
+        taken = take_highlights(rows, split_, strip.first_row + y0, kLargestSquare,
+                                *strip.input.services.workers);
         for (Highlight& h : taken) h.y += y0;
-        if (strip.input.deep_dims_itself) share_lens_area(rows, rule_.another_surface, *strip.input.workers);
+        if (strip.input.samples.deep_dims_itself)
+            share_lens_area(rows, rule_.another_surface, *strip.input.services.workers);
         found.casters.add(y0, rows);
     }
     // The same, held at once for layers alone; else what was completed lasts until every row was asked for.
     SampleSource base_of(Strip& strip, Found& found) const {
         const std::shared_ptr<const CompletedPicture> completed = std::move(strip.completed);
         const int width = strip.input.width(), height = strip.input.height();
-        if (!strip.input.layers.empty()) {
+        if (!strip.input.samples.layers.empty()) {
             base_of(strip, *completed, 0, height, found, strip.base);
             return strip.base;
         }
@@ -259,46 +265,45 @@ private:
     ScatterPlan plan_of(const Strip& strip, SampleSource base) {
         ScatterPlan plan = make_plan(strip.input, std::move(base), strip.connected, strip.rows,
                                      strip.first_row, rule_, *kernels_);
-        watch_.lap("sources", {2 * strip.sample_bytes + bytes_of(strip.input.coc_px) +
+        watch_.lap("sources", {2 * strip.sample_bytes + bytes_of(strip.input.samples.coc_px) +
                                strip.connected.bytes() + bytes_of(plan)});
         return plan;
     }
 
     void draw(const PlannedStrip& p, double share, device::Target out) {
-        const Input& strip = p.input;
-        const device::Device& device = *strip.device;
-        const device::Control control{*strip.workers, *strip.progress, 0.9 * share};
-        const auto atlas = device.atlas(*kernels_, p.scatter.kernels, *strip.memory, control);
+        const EngineView& strip = p.input;
+        const device::Device& device = *strip.services.device;
+        const device::Control control{*strip.services.workers, *strip.services.progress, 0.9 * share};
+        const auto atlas = device.atlas(*kernels_, p.scatter.kernels, *strip.services.memory, control);
         watch_.lap("atlas");
-        if (!strip.progress->cancelled()) lap("spread", device.composite(p.scatter, *atlas, out, control));
+        if (!strip.services.progress->cancelled())
+            lap("spread", device.composite(p.scatter, *atlas, out, control));
         lap("highlights", draw_lights(p, out));
-        strip.progress->advance(0.1 * share);
+        strip.services.progress->advance(0.1 * share);
     }
 
     // What nobody asks for once the only plan of a strip is made.
-    void let_go(Strip& strip, bool is_all) const {
+    void let_go(Strip& strip, bool is_all) {
         strip.connected = {};
-        Plane* const radii = frame_.spent_coc_px;
-        if (is_all && radii && radii->rect() == frame_.colour.rect()) *radii = {};
+        if (is_all && spare_.coc_px.rect() == frame_.samples.colour.rect()) spare_.coc_px = {};
     }
 
     // The same plan with a layer's light in place of the beauty's.
     void draw_layers(const Strip& strip, const PlannedStrip& beauty, ScatterPlan& plan,
                      const CocSamples& seen, double share, std::vector<Picture>& out) {
-        const std::span<const Input::Layer> layers = strip.input.layers;
+        const std::span<const SampleLayer> layers = strip.input.samples.layers;
         for (std::size_t first = 0; first < layers.size(); first += LayerShares::kAtOnce) {
             const auto together =
                 layers.subspan(first, std::min(LayerShares::kAtOnce, layers.size() - first));
-            if (frame_.progress->cancelled()) return;
+            if (frame_.services.progress->cancelled()) return;
             const LayerShares shares(strip.input, seen, together);
             watch_.lap("layers", {bytes_of(seen) * (1 + together.size())});
-            for (std::size_t i = 0; i < together.size() && !frame_.progress->cancelled(); ++i)
+            for (std::size_t i = 0; i < together.size() && !frame_.services.progress->cancelled(); ++i)
                 draw_layer(strip, beauty, plan, shares.of(i), together[i], share, out[first + i]);
         }
     }
     void draw_layer(const Strip& strip, const PlannedStrip& beauty, ScatterPlan& plan,
-                    const std::vector<Rgba>& shares, const Input::Layer& layer, double share,
-                    View<Rgba> out) {
+                    const std::vector<Rgba>& shares, const SampleLayer& layer, double share, View<Rgba> out) {
         const CocSamples base = lit_by(strip.base, shares, layer);
         const std::vector<Highlight> highlights = lit_by(beauty.highlights, strip.base, shares, layer);
         relight(plan, strip.input, base, strip.connected, *kernels_);
@@ -310,7 +315,8 @@ private:
 
     void lap(const char* stage, device::Work work) { watch_.lap(stage, work.bytes, work.multiply_adds); }
 
-    const Input& frame_;
+    const EngineView& frame_;
+    Spare spare_;
     Stopwatch& watch_;
     LevelRule rule_;
     std::shared_ptr<const ScatterKernels> kernels_;
@@ -322,37 +328,40 @@ private:
 
 device::Work draw_lights(const PlannedStrip& strip, device::Target out) {
     if (strip.highlights.empty()) return {};
-    const Input& input = strip.input;
-    const device::Control control{*input.workers, *input.progress};
+    const EngineView& input = strip.input;
+    const device::Control control{*input.services.workers, *input.services.progress};
     LightsPlanner planner(input, strip.highlight_kernels, strip.casters, strip.highlights, strip.white,
                           strip.scatter.rows, strip.scatter.first_row, strip.asked_by);
     device::Work work;
     LightsPlan plan;
-    while (!input.progress->cancelled() && planner.next(plan)) {
-        const auto atlas = input.device->atlas(strip.highlight_kernels, plan.kernels, *input.memory, control);
-        if (!input.progress->cancelled()) work += input.device->add_lights(plan, *atlas, out, control);
+    while (!input.services.progress->cancelled() && planner.next(plan)) {
+        const auto atlas = input.services.device->atlas(strip.highlight_kernels, plan.kernels,
+                                                        *input.services.memory, control);
+        if (!input.services.progress->cancelled())
+            work += input.services.device->add_lights(plan, *atlas, out, control);
     }
     return work;
 }
 
-Result<Output> run_scatter(const Input& input) {
+Result<Output> run_scatter(const EngineView& input, Spare spare) {
     Output output;
     Stopwatch watch(output.stages);
-    ScatterRun run(input, watch);
-    if (input.plan_reader) {
-        run.show(*input.plan_reader);
-        if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+    ScatterRun run(input, std::move(spare), watch);
+    if (input.options.of<ScatterOwn>().plan_reader) {
+        run.show(*input.options.of<ScatterOwn>().plan_reader);
+        if (input.services.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
         return output;
     }
     const Result<StripPlan> strips = run.strips();
     if (!strips) return strips.error();
-    for (std::size_t i = 0; i < input.layers.size(); ++i)
+    for (std::size_t i = 0; i < input.samples.layers.size(); ++i)
         output.layers.push_back(Picture::uninitialised(input.width(), input.height()));
-    for (int y = 0; y < input.height() && !input.progress->cancelled(); y += strips->rows) {
-        const Rect rows = Rect{0, y, input.width(), y + strips->rows}.intersected(input.colour.rect());
+    for (int y = 0; y < input.height() && !input.services.progress->cancelled(); y += strips->rows) {
+        const Rect rows =
+            Rect{0, y, input.width(), y + strips->rows}.intersected(input.samples.colour.rect());
         run.draw(rows, strips->halo, double(rows.height()) / input.height(), output);
     }
-    if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+    if (input.services.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     return output;
 }
 

@@ -6,6 +6,6 @@
 namespace petzval::engine {
 
 // Errors: Cancelled, OutOfMemory.
-Result<Output> run_scatter(const Input& input);
+Result<Output> run_scatter(const EngineView& input, Spare spare = {});
 
 }  // namespace petzval::engine

@@ -98,24 +98,24 @@ std::string ScatterKernels::name_for(const LevelRule& rule) {
 ScatterKernels::ScatterKernels(const LensOnPicture& lens, const LevelRule& rule)
     : KernelSource(name_for(rule), device::KernelUse::Stamped),
       lens_(lens.from(lens.frame.x0, lens.frame.y0)),
-      levels_(int(lens.lens_levels.size())),
+      levels_(int(lens.levels.size())),
       steps_(int(std::ceil(place_of(rule.largest_radius(), false))) + 2),
       inner_sectors_(rule.inner_sectors),
       outer_sectors_(rule.outer_sectors),
       core_begin_(rule.largest_cells),
       core_end_(kCoreEnd * rule.largest_cells) {
-    if (lens.lens(0).varies_over_field()) zones_x_ = kZonesX, zones_y_ = kZonesY;
+    if (lens.level(0).varies_over_field()) zones_x_ = kZonesX, zones_y_ = kZonesY;
     const int longest = int(std::ceil(core_end_));
     for (int l = 0; l < levels_; ++l) {
-        const int reach = int(std::ceil(lens.lens(l).reach_px(double(rule.largest_radius())) + 0.5));
+        const int reach = int(std::ceil(lens.level(l).reach_px(double(rule.largest_radius())) + 0.5));
         has_skirts_ = has_skirts_ || reach > longest;
-        const bool blurred = lens.lens(l).reach_px(0) > kBlurredCells;
+        const bool blurred = lens.level(l).reach_px(0) > kBlurredCells;
         blurred_.push_back(blurred);
         reach_.push_back(std::min(reach, longest));
         int farthest = reach;
         for (int step = 0; step < steps_; ++step) {
             const double radius = double(radius_at(float(step) + 0.5f, blurred));
-            const int own = int(std::ceil(lens.lens(l).reach_px(radius) + 0.5));
+            const int own = int(std::ceil(lens.level(l).reach_px(radius) + 0.5));
             reach_of_radius_.push_back(short(std::min(own, reach_.back())));
             farthest = std::max(farthest, own);
         }
@@ -188,7 +188,7 @@ kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
     const int column = at_place.zone % zones_x_, row = at_place.zone / zones_x_;
     const double x = (column + 0.5) * lens_.frame.width() / zones_x_ - 0.5;
     const double y = (row + 0.5) * lens_.frame.height() / zones_y_ - 0.5;
-    const kernel::LensModel& lens = lens_.lens(at_place.level);
+    const kernel::LensModel& lens = lens_.level(at_place.level);
     const auto made = [&](float r) { return lens.point_spread(double(r), lens_.field_at(x, y)); };
     const float asked = radius_of(at_place), side = at_place.step < 0 ? -1 : 1;
     const float place = std::abs(asked) * kMadePerCell, first = std::floor(place);

@@ -19,7 +19,7 @@ TEST(ScatterKernels, ZonesBlendIntoEachOtherByBilinearShares) {
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
     lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 2, 2}, kWidth, kHeight})).value());
     LensOnPicture lens;
-    lens.lens_levels = lenses, lens.frame = {0, 0, kWidth, kHeight};
+    lens.levels = lenses, lens.frame = {0, 0, kWidth, kHeight};
     const ScatterKernels table(lens, LevelRule{});
     // The mean column of a small box grows evenly from the middle of the first zone to that of the last.
     for (int x = 30; x + kBox < kWidth - 30; x += 7)
@@ -45,7 +45,7 @@ TEST(ScatterKernels, NearlySharpSourcesOfAnAberratedLensTakeTheirShareOfEachZone
         std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
         lenses.push_back(std::move(kernel::make_lens(choice, {{50, 36, 1.4, 2}, kWidth, kHeight})).value());
         LensOnPicture lens;
-        lens.lens_levels = lenses, lens.frame = {0, 0, kWidth, kHeight};
+        lens.levels = lenses, lens.frame = {0, 0, kWidth, kHeight};
         const ScatterKernels table(lens, LevelRule{});
         std::array<double, 3> sum{};
         for (const auto& [zone, share] : table.zones_for(lens.frame, 0, x, y, 0.5f)) {
@@ -72,7 +72,7 @@ TEST(ScatterKernels, TheFirstToAskForAKernelDoesNotShapeIt) {
             std::move(kernel::make_lens(choice, {{105, 36, 2.1, 4.8}, 3840 >> level, 2160 >> level}))
                 .value());
     LensOnPicture lens;
-    lens.lens_levels = lenses, lens.frame = {0, 0, 3840, 2160};
+    lens.levels = lenses, lens.frame = {0, 0, 3840, 2160};
     const ScatterKernels one(lens, LevelRule{}), other(lens, LevelRule{});
     int skirts = 0;
     for (int level = 0; level < 4; ++level)
@@ -104,7 +104,7 @@ TEST(ScatterKernels, AsksAreNumberedInTheirOrder) {
             std::move(kernel::make_lens(choice, {{105, 36, 2.1, 4.8}, 3840 >> level, 2160 >> level}))
                 .value());
     LensOnPicture lens;
-    lens.lens_levels = lenses, lens.frame = {0, 0, 3840, 2160};
+    lens.levels = lenses, lens.frame = {0, 0, 3840, 2160};
     const ScatterKernels kernels(lens, LevelRule{});
     device::KernelAsk last = kernels.ask_of(0);
     EXPECT_EQ(kernels.number_of(last), 0U);
@@ -122,7 +122,7 @@ TEST(ScatterKernels, SectorsSumToTheKernel) {
     std::vector<std::unique_ptr<const kernel::LensModel>> lenses;
     lenses.push_back(std::move(kernel::make_lens(choice, {{105, 36, 2.1, 4.8}, 960, 540})).value());
     LensOnPicture lens;
-    lens.lens_levels = lenses, lens.frame = {0, 0, 960, 540};
+    lens.levels = lenses, lens.frame = {0, 0, 960, 540};
     const LevelRule rule;
     const ScatterKernels kernels(lens, rule);
     for (const float radius : {-6.0f, -1.5f, 0.0f, 3.3f, 7.9f}) {

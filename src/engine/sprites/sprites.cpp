@@ -14,34 +14,43 @@
 namespace petzval::engine {
 namespace {
 
-Result<Output> run_over_gaussian(const Input& input) {
+Result<Output> run_over_gaussian(const EngineView& input) {
     const BrightPoints found(input);
     const BrightPoints::Rest rest = found.rest(0, input.height());
-    Input below = rest.input();
-    below.beside_bytes += found.bytes_beside(input.height());
-    if (input.max_memory_bytes > 0) {
+    EngineView below = rest.input();
+    GaussianOwn own{input.options.of<SpritesOwn>().gaussian};
+    own.gaussian.view = GaussianView::Result;
+    below.options.own = own;
+    below.services.beside_bytes += found.bytes_beside(input.height());
+    if (input.services.max_memory_bytes > 0) {
         const std::size_t least =
             std::max(least_gaussian_bytes(below),
                      whole_picture_bytes(below, sizeof(Rgba)) + sprites_bytes(input, found.count()));
-        if (input.max_memory_bytes < least) return too_little_memory("sprites", least);
+        if (input.services.max_memory_bytes < least) return too_little_memory("sprites", least);
     }
     Result<Output> output = run_gaussian(below);
-    if (!output || input.progress->cancelled()) return output;
+    if (!output || input.services.progress->cancelled()) return output;
     Stopwatch watch(output->stages);
     const device::Work work = draw_sprites(input, found.sprites(), *output->canvas);
     watch.lap("sprites", work.bytes, work.multiply_adds);
     return output;
 }
 
+// Gather draws lights by itself.
+Result<Output> run_over_gather(const EngineView& input) {
+    const SpritesOwn& own = input.options.of<SpritesOwn>();
+    EngineView below = input;
+    below.options.own = GatherOwn{own.gather, own.lights};
+    return run_gather_for("sprites", below);
+}
+
 }  // namespace
 
-Result<Output> run_sprites(const Input& input) {
-    Input results = input;
-    results.gaussian.view = GaussianView::Result;
-    const bool over_gather = input.sprites.background == SpriteBackground::Gather;
-    Result<Output> output = over_gather ? run_gather_for("sprites", results) : run_over_gaussian(results);
+Result<Output> run_sprites(const EngineView& input, Spare) {
+    const bool over_gather = input.options.lights().background == SpriteBackground::Gather;
+    Result<Output> output = over_gather ? run_over_gather(input) : run_over_gaussian(input);
     if (!output) return output.error();
-    if (input.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+    if (input.services.progress->cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
     StageTime background{"background"}, sprites{"sprites"};
     for (const StageTime& stage : output->stages) {
         if (stage.stage == sprites.stage)
@@ -50,7 +59,7 @@ Result<Output> run_sprites(const Input& input) {
             background.seconds += stage.seconds;
     }
     output->stages = {background, sprites};
-    if (input.sprites.find && !BrightPoints::are_looked_for(input))
+    if (input.options.lights().find && !BrightPoints::are_looked_for(input))
         output->warnings.emplace_back("bright points are not looked for in deep pictures");
     return output;
 }

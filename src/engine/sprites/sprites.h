@@ -6,6 +6,6 @@
 namespace petzval::engine {
 
 // Errors: Cancelled, OutOfMemory.
-Result<Output> run_sprites(const Input& input);
+Result<Output> run_sprites(const EngineView& input, Spare = {});
 
 }  // namespace petzval::engine

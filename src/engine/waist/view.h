@@ -1,0 +1,125 @@
+// What an engine sees of a frame: samples, windows, the mounted lens, its own options, services. It edits
+// none of them; what it may take away is moved in beside (Spare).
+#pragma once
+
+#include "petzval/image.h"
+#include "petzval/light_point.h"
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "engine/waist/coc_samples.h"
+#include "engine/waist/lens_on_picture.h"
+#include "engine/waist/options.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace petzval::device {
+class Canvas;
+class Device;
+class Memory;
+}  // namespace petzval::device
+
+namespace petzval::engine {
+
+// Another picture of the same things, drawn alike. Light: a share of the picture's; else of its coverage.
+struct SampleLayer {
+    View<const Rgba> colour;
+    bool is_light = true;
+};
+
+// What is known of a picture without the things in front; then Samples::deep holds them both. Empty: no
+// plate.
+struct CleanPlate {
+    View<const Rgba> colour;
+    View<const float> coc_px;
+    bool all = false;  // also what no ray can reach: for those who look at samples
+    bool empty() const { return coc_px.empty(); }
+    CleanPlate part(const Rect& r) const { return {colour.part(r), coc_px.part(r), all}; }
+};
+
+// What was rendered, with radii in place of depths. All pictures are of one size.
+struct Samples {
+    View<const Rgba> colour;   // premultiplied; the front view of `deep` where that is given
+    View<const float> coc_px;  // signed radius, + behind focus
+    // Where `colour` is a layer of a picture: that picture. Empty otherwise.
+    View<const Rgba> picture;
+    // Both with the light that was taken out of them to be drawn by itself: what continues behind an edge is
+    // as bright as what shows. Empty: none was.
+    View<const Rgba> lit, lit_picture;
+    // Every sample of every pixel, when more is known than its front view (deep files, hidden layers); then
+    // colour and coc_px are not all there is to hit. Empty otherwise.
+    CocSamplesView deep;
+    // What a coverage below 1 in `deep` means. True: as in deep files, each sample dims what is behind it in
+    // its pixel, as thin fog does. False: it is the share of the pixel's area that a surface fills, and
+    // others lie beside it.
+    bool deep_dims_itself = false;
+    CleanPlate plate;
+    // Light that lands in a pixel is dimmed by these samples of that pixel that lie in front of where it came
+    // from (engine/waist/holdout.h). Coverages as in deep files: each sample dims what is behind it. Empty:
+    // none.
+    CocSamplesView holdout;
+    std::vector<SampleLayer> layers;                // for engines that take them
+    std::span<const LightPoint> points;             // checked; coc_px holds the radius of each
+    View<const float> depth_m;                      // planar, may hold misses; empty where radii were given
+    float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
+
+    // What decisions look at, so that those of all layers agree.
+    View<const Rgba> judged() const { return picture.empty() ? colour : picture; }
+    // Rows y0…y1-1 alone.
+    Samples rows(int y0, int y1) const;
+};
+
+// Which edges of the picture are merely where the render stopped (the scene continues beyond them), as
+// against edges of a data window inside the frame, beyond which there is nothing.
+struct OpenEdges {
+    bool left = true, top = true, right = true, bottom = true;
+};
+
+struct EngineView;
+
+// Which part of the frame is seen.
+struct SeenWindow {
+    OpenEdges open_edges;
+    // What this is a part of, for what an engine must know of all the frame; null: it is all of it.
+    const EngineView* whole = nullptr;
+};
+
+struct Services {
+    const device::Device* device = nullptr;  // what draws; never null
+    // What may outlive this frame, of this lens, size and quality alone; never null.
+    device::Memory* memory = nullptr;
+    Workers* workers = &one_thread();  // never null
+    Progress* progress = nullptr;      // never null
+    std::size_t max_memory_bytes = 0;
+    std::size_t beside_bytes = 0;  // of the same limit, what others hold while the engine runs
+};
+
+struct EngineView {
+    Samples samples;
+    SeenWindow window;
+    LensOnPicture lens;
+    EngineOptions options;
+    Services services;
+
+    int width() const { return samples.colour.width(); }
+    int height() const { return samples.colour.height(); }
+    const EngineView& all() const { return window.whole ? *window.whole : *this; }
+    EngineView with_all_light() const;
+    // Rows y0…y1-1 as a view of their own, while this one lasts. The edges towards the other rows count as
+    // open.
+    EngineView rows(int y0, int y1) const;
+};
+
+// Memory that an engine may put its result in, or give back early, once it no longer asks for what it holds:
+// the pictures that Samples::colour and Samples::coc_px show. Empty: none.
+struct Spare {
+    Picture colour;
+    Plane coc_px;
+};
+
+// Every sample that is stated: those of deep, or the one of each pixel.
+CocSamples stated_samples(const Samples& samples);
+
+}  // namespace petzval::engine
