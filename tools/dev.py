@@ -225,10 +225,16 @@ def wheel(*_):
     run(sys.executable, "tools/wheel.py", "build/wheel", "build/portable/lib/libpetzval.so")
 
 
+def site(*words):
+    """[--no-gallery]: static pages of docs/ with a gallery of every lens, in build/site"""
+    make("release", "petzval_cli")
+    run(sys.executable, "tools/site_pages.py", program(), *words)
+
+
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
-         "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "web": web, "web-test": web_test,
-         "wheel": wheel}
+         "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "site": site, "web": web,
+         "web-test": web_test, "wheel": wheel}
 
 
 def help_text():

@@ -3,24 +3,33 @@
 #include "console.h"
 
 namespace petzval::cli {
+namespace {
+
+// "off" and "on" are the trade's words; "rendered" and "thin-lens" those of reports and older scripts.
+Result<ImageScale> parse_breathing(const std::string& text) {
+    static const NameTable<ImageScale> kWords{{"off", ImageScale::Rendered},
+                                              {"on", ImageScale::ThinLens},
+                                              {"rendered", ImageScale::Rendered},
+                                              {"thin-lens", ImageScale::ThinLens}};
+    return parse_name(text, kWords);
+}
+
+}  // namespace
 
 void CameraFlags::add_to(Verb& verb, const std::string& owner) {
     FlagGroup(verb, "Camera (numbers of the " + owner + " hold unless given here)")
-        .value("--focal-length", "MM", "focal length, as 85mm", parse_length_mm, focal_length_mm)
-        .value("--sensor-width", "MM", "width of the sensor that the picture spans, as 36mm", parse_length_mm,
-               sensor_width_mm)
-        .value("--fstop", "N", "f-number, as 2.8", parse_f_number, f_number)
-        .value("--aperture-diameter", "MM",
-               "diameter of the aperture in place of an f-number, as 25mm: focal length / it",
+        .value("--focal-length", "MM", "focal length, such as 85mm", parse_length_mm, focal_length_mm)
+        .value("--sensor-width", "MM", "width of the sensor that the picture spans, such as 36mm",
+               parse_length_mm, sensor_width_mm)
+        .value("--fstop", "N", "f-number, such as 2.8", parse_f_number, f_number)
+        .value("--aperture-diameter", "MM", "aperture diameter instead of an f-number, such as 25mm",
                parse_length_mm, aperture_diameter_mm)
-        .value("--focus", "M", "focus distance along the axis, as 2.5m, 120cm or 8ft", parse_length_m,
+        .value("--focus", "M", "focus distance along the axis, such as 2.5m, 120cm or 8ft", parse_length_m,
                focus_distance_m)
-        .choice<ImageScale>(
-            "--image-scale",
-            "rendered: sensor one focal length behind the pinhole, as renderers have it (default); "
-            "thin-lens: "
-            "where a real lens forms the image, which breathes with focus",
-            image_scale);
+        .value("--breathing,--image-scale", "off|on",
+               "focus breathing: off, sensor one focal length behind the pinhole, as renderers place it "
+               "(default); on, thin-lens image distance; also rendered and thin-lens",
+               parse_breathing, image_scale);
 }
 
 void CameraFlags::add_to(MadeWith& made) const {
@@ -39,7 +48,7 @@ std::vector<std::string> CameraFlags::given() const {
     if (f_number) names.emplace_back("--fstop");
     if (aperture_diameter_mm) names.emplace_back("--aperture-diameter");
     if (focus_distance_m) names.emplace_back("--focus");
-    if (image_scale) names.emplace_back("--image-scale");
+    if (image_scale) names.emplace_back("--breathing");
     return names;
 }
 
@@ -60,15 +69,14 @@ bool CameraFlags::any() const { return !given().empty(); }
 
 void FocusFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Focus")
-        .value("--focus-at", "X,Y", "focus on what this pixel shows, counted from the top left", parse_pixel,
-               focus_at)
+        .value("--focus-at", "X,Y", "focus on the surface at this pixel, counted from the top left",
+               parse_pixel, focus_at)
         .value("--focus-point", "X,Y,Z",
-               "focus on this point of the scene's world, in its units, by the file's worldToCamera",
-               parse_place, focus_point)
-        .value(
-            "--permissible-radius", "PX",
-            "blur radius that still counts as sharp, for --view focus and the limits in --json (default 1)",
-            parse_positive, permissible_radius_px);
+               "focus on this world point, in scene units; needs the file's worldToCamera", parse_place,
+               focus_point)
+        .value("--permissible-radius", "PX",
+               "blur radius that still counts as sharp, for near and far limits and --view focus (default 1)",
+               parse_positive, permissible_radius_px);
 }
 
 std::vector<std::string> FocusFlags::given() const {

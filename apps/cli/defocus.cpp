@@ -139,7 +139,7 @@ Status Run::read() {
     for (const auto& line : detected_in_picture(shot_)) note(line);
     if (is_beauty() && was_blurred(shot_))
         shot_.warnings.emplace_back(
-            "it was blurred before, by its petzval:history; this blurs it a second time");
+            "input already defocused by petzval (see petzval:history); blurring it a second time");
     tell_new_warnings();
     if (flags_.input.transfer && !shot_.display_referred && *kind_of_output(flags_.output) != FileKind::Png)
         return Error{ErrorCode::InvalidArgument,
@@ -379,9 +379,9 @@ Status Run::render(const DefocusJob& job) {
     report_["lens"]["description"] = done->lens;
     report_["radius_px"] = {{"farthest_behind", number(done->largest_radius_px)},
                             {"farthest_in_front", number(done->smallest_radius_px)}};
-    note(done->engine + " on " + done->device + ", " + done->lens + ": radius " +
-         plain(done->smallest_radius_px, 3) + " to " + plain(done->largest_radius_px, 3) + " px, " +
-         plain(seconds, 3) + " s");
+    note(done->engine + " on " + done->device + ", " + done->lens + ": blur radius " +
+         plain(std::max(-done->smallest_radius_px, 0.0), 3) + " px (foreground), " +
+         plain(std::max(done->largest_radius_px, 0.0), 3) + " px (background), " + plain(seconds, 3) + " s");
     if (const double largest = std::max(done->largest_radius_px, -done->smallest_radius_px);
         largest > std::max(shot_.place.display_window.width(), shot_.place.display_window.height()))
         warn({"a radius of " + plain(largest, 4) +
@@ -464,7 +464,7 @@ Status defocus_frame(DefocusFlags& flags, Session& session) { return Run(flags, 
 
 void add_defocus(Verb& program, Action& chosen) {
     Verb& verb =
-        add_verb(program, "defocus", "the picture that a lens would have taken, from a sharp one with depth",
+        add_verb(program, "defocus", "blur a sharp picture with depth as a real lens would",
                  "petzval defocus beauty.exr -o out.exr --focal-length 85mm --sensor-width 36mm --fstop 2 "
                  "--focus 3.2m\n"
                  "petzval defocus beauty.exr -o focus.png --view focus --focus-at 960,540\n"

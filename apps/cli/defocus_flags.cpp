@@ -54,36 +54,30 @@ ScatterView scatter_view(ViewKind view) {
 void DefocusFlags::add_engines_to(Verb& verb) {
     look.add_to(verb, {"Engine"});
     FlagGroup(verb, "Engine")
-        .value("--max-memory", "BYTES", "use at most this much to read and to blur, as 2G", parse_bytes,
+        .value("--max-memory", "BYTES", "limit the memory for reading and blurring, such as 2G", parse_bytes,
                max_memory_bytes);
     look.add_to(verb, {"Engine gather", "Engine gaussian", "Engine sprites"});
     FlagGroup(verb, "Engine sprites")
         .reads("--points", "FILE.csv",
-               "lights to draw: columns x, y, depth or coc, r, g, b, perhaps size and spectrum, named in its "
-               "first line",
+               "lights to draw: a CSV file with the columns x, y, depth or coc, r, g, b, and optionally size "
+               "and spectrum",
                points);
 }
 
 void DefocusFlags::add_output_to(Verb& verb) {
     FlagGroup(verb, "Output")
         .writes("-o,--output", "OUT",
-                "the result: .exr holds scene-linear light and all else the input held, .png "
-                "a display picture",
+                "the result: .exr holds scene-linear light and all other channels of the input, .png a "
+                "display picture",
                 output)
-        .choice(
-            "--view",
-            "the picture (beauty, default); coc, signed blur radius; focus, what is sharp, near and far; "
-            "depth; alpha; of "
-            "--engine gaussian: sharp, blur-small, blur-large, blur-rows, focus-index; of "
-            "scatter: layers, the surfaces seen and found behind them; levels, what each level of detail "
-            "drew; "
-            "highlights, light spread by itself; hidden, all surfaces with what was found behind them as a "
-            "deep EXR",
-            view_names(), view)
+        .choice("--view",
+                "buffer to write: beauty, the picture (default); coc, signed blur radius; focus, map of "
+                "sharp, near and far; depth; alpha; hidden, all surfaces as deep EXR; of scatter: layers, "
+                "levels, highlights; of gaussian: sharp, blur-small, blur-large, blur-rows, focus-index",
+                view_names(), view)
         .value("--overscan", "PX",
-               "room for light that leaves a data window which ends inside the frame: fit, as far as it "
-               "reaches in "
-               "the frame (default); auto, as far as it reaches; off; or so many pixels",
+               "room for light that leaves a data window inside the frame: fit, within the frame (default); "
+               "auto, as far as the blur reaches; off; or a number of pixels",
                parse_overscan, overscan_px);
 }
 
@@ -105,12 +99,12 @@ void DefocusFlags::add_choices_to(Verb& verb) {
 void DefocusFlags::add_session_to(Verb& verb) {
     FlagGroup(verb, "Run")
         .value("--device", "DEVICE",
-               "what draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a GPU that is no software "
-               "driver, else the CPU. Engine reference is the CPU's alone",
+               "device that draws: cpu (default), gpu, gpu:N of petzval devices, or auto: a hardware GPU, "
+               "otherwise the CPU. Engine reference always uses the CPU",
                parse_text, device)
         .value("--kernel-cache", "FOLDER",
-               "where kernels that take long to make are kept between runs, 1 GiB at most; off keeps none. "
-               "Default: $PETZVAL_KERNEL_CACHE, else petzval/kernels in the user's cache folder",
+               "folder for slow kernels between runs, 1 GiB at most; off keeps none. Default: "
+               "$PETZVAL_KERNEL_CACHE, otherwise petzval/kernels in the user's cache folder",
                parse_text, kernel_cache);
 }
 
@@ -161,7 +155,8 @@ void DefocusFlags::check_choices() {
     refuse_both(focus.focus_at.has_value(), "--focus-at", focus.focus_point.has_value(), "--focus-point");
     if (input.depth_is_coc()) check_coc_input();
     if (look.look().expand_highlights && !input.behind.empty())
-        throw UsageError("--expand-highlights cannot be used with --behind: a plate has no hidden layers");
+        throw UsageError(
+            "--expand-highlights cannot be used with --plate: a display picture has no clean plate");
 }
 
 void DefocusFlags::check_shown() {

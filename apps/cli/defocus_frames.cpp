@@ -70,7 +70,7 @@ void check_temporal(const DefocusFlags& flags, bool from_many) {
     if (!from_many)
         throw UsageError("--temporal needs an input of many frames, with #### or %04d in its name");
     const std::pair<bool, const char*> others[] = {
-        {!flags.input.behind.empty(), "--behind"},
+        {!flags.input.behind.empty(), "--plate"},
         {!flags.input.merge.empty(), "--merge"},
         {flags.input.depth_is_coc(), "--depth-kind coc-px"},
         {flags.look.look().expand_highlights, "--expand-highlights"},
@@ -239,29 +239,27 @@ void name_track(const TrackedFrame& tracked, FoundCamera& camera) {
 void TrackFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Frames")
         .reads("--track", "FILE",
-               "what changes over the frames, CSV or JSON: columns frame, focus (m) or focus_x, focus_y "
-               "(pixels; follow, on or off), fstop, focal_length (mm), and fields of a look, as lens.blades",
+               "values over the frames: a CSV or JSON file with the columns frame, focus (m) or focus_x, "
+               "focus_y (pixels), fstop, focal_length (mm), and look fields such as lens.blades",
                file)
         .values(
             "--rack", "FRAME:X,Y",
             "a focus pull: at each key a pixel that is sharp, as 1001:80,45, or a distance, as 1024:3.2m; "
             "between keys the focus moves evenly in dioptres",
             rack)
-        .value("--focus-speed", "DIOPTRES", "the focus of a track moves no faster from frame to frame",
+        .value("--focus-speed", "DIOPTRES", "limit the focus change of a track, in dioptres per frame",
                parse_positive, focus_speed)
-        .value(
-            "--temporal", "N",
-            "what silhouettes hide is taken from up to N frames before and N after, where these see it, by "
-            "motion vectors, or worldToCamera and depth (default 0: each frame by itself)",
-            parse_index, temporal)
-        .value(
-            "--motion", "LAYER",
-            "motion vectors for --temporal, as Vector or forward; off: by the cameras alone (default: found "
-            "by name)",
-            parse_text, motion)
+        .value("--temporal", "N",
+               "fill hidden background from up to N neighbouring frames before and after, matched by motion "
+               "vectors, or by worldToCamera and depth (default 0)",
+               parse_index, temporal)
+        .value("--motion", "LAYER",
+               "motion vectors for --temporal, such as Vector or forward; off: cameras only (default: found "
+               "by name)",
+               parse_text, motion)
         .value("--motion-scale", "S[,SY]",
-               "vectors are multiplied by it to be pixels per frame, +x right and +y up: 2 for a shutter of "
-               "half a frame, -1 for the other direction (default 1)",
+               "multiply vectors to get pixels per frame, +x right and +y up: 2 for a shutter of half a "
+               "frame, -1 for the other direction (default 1)",
                parse_motion_scale, motion_scale);
 }
 

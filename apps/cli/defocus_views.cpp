@@ -175,12 +175,12 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
                           settings.overwrite, settings.png_texts);
 }
 
-// What --behind reads.
+// A deep EXR that --plate reads.
 Status write_hidden(const Frame& frame, const ViewSource& source, const ViewSettings& settings) {
     WriteOptions options = exr_options(settings);
     options.camera = settings.camera;
-    note(std::to_string(source.hidden.sample_count()) + " samples; --behind " + settings.output +
-         " takes them for what the picture hides");
+    note(std::to_string(source.hidden.sample_count()) + " samples; --plate " + settings.output +
+         " reads them as a clean plate");
     return write_deep_exr(settings.output, frame.place, source.hidden, options);
 }
 

@@ -16,7 +16,7 @@ Status list_devices(const RunFlags& run) {
     for (const DeviceFacts& device : devices()) {
         text += device.name + "  " + printable(device.title) +
                 (device.is_software ? ", a software driver" : "") +
-                (device.lacks.empty() ? "" : "; it lacks " + device.lacks) + "\n";
+                (device.lacks.empty() ? "" : "; missing: " + device.lacks) + "\n";
         list.push_back({{"name", device.name},
                         {"title", device.title},
                         {"software", device.is_software},

@@ -35,8 +35,8 @@ const Verb& current(const Verb& app) {
 }
 
 class Help : public CLI::FormatterBase {
-    std::string make_help(const CLI::App* verb, std::string, CLI::AppFormatMode) const override {
-        return as_text(help_of(*verb));
+    std::string make_help(const CLI::App* verb, std::string, CLI::AppFormatMode mode) const override {
+        return as_text(help_of(*verb), mode == CLI::AppFormatMode::All);
     }
 };
 
@@ -88,7 +88,8 @@ Verb& add_verb(Verb& parent, const std::string& name, const std::string& purpose
     Verb& verb = *parent.add_subcommand(name, purpose);
     verb.footer(example);
     verb.require_subcommand(0, 1);
-    verb.set_help_flag("-h,--help", "this page")->group(VerbHelp::kLastHeading);
+    verb.set_help_flag("-h,--help", "show the common flags")->group(VerbHelp::kLastHeading);
+    verb.set_help_all_flag("--help-all", "show all flags")->group(VerbHelp::kLastHeading);
     return verb;
 }
 

@@ -140,9 +140,8 @@ void add_focus_track(Verb& program, Action& chosen) {
     flags->input.add_depth_to(verb);
     FlagGroup(verb, "Focus")
         .values("--at", "[FRAME:]X,Y",
-                "what is to be sharp: a pixel of the display window in a frame, as 1001:960,540; evenly from "
-                "one to "
-                "the next. Without a frame: in all",
+                "pixel of the display window to keep sharp in a frame, such as 1001:960,540; interpolated "
+                "between frames. Without a frame: in all frames",
                 flags->at)
         .value("--within", "PX", "the median depth of the pixels so many columns and rows around (default 2)",
                parse_index, flags->within_px)
@@ -151,7 +150,7 @@ void add_focus_track(Verb& program, Action& chosen) {
                parse_not_negative, flags->smooth_frames);
     FlagGroup(verb, "Output")
         .writes("-o,--output", "TRACK.csv", "the track, for defocus --track", flags->output)
-        .writes("--plot", "FILE.svg", "a drawing of what was measured and of the track", flags->plot);
+        .writes("--plot", "FILE.svg", "a drawing of the measured distances and of the track", flags->plot);
     flags->overwrite.add_to(verb, false);
     flags->frames.add_to(verb);
     flags->run.add_log_to(verb, true);

@@ -132,8 +132,8 @@ private:
         auto there = pattern->frames_there();
         if (!there) return there.error();
         frames_ = std::move(*there);
-        if (frames_.empty()) return Error{ErrorCode::InvalidFile, work_.input + ": no frame is there"};
-        note("no --frames: those that are there");
+        if (frames_.empty()) return Error{ErrorCode::InvalidFile, work_.input + ": no frame exists"};
+        note("no --frames given: all existing frames");
         return Done{};
     }
 
@@ -150,13 +150,13 @@ private:
         }
         if (missing.empty()) return Done{};
         const std::string what = std::to_string(missing.size()) + " of " + std::to_string(frames_.size()) +
-                                 " frames lack a file: " + frames_text(missing) + " (" + example +
+                                 " frames have missing files: " + frames_text(missing) + " (" + example +
                                  (missing.size() > 1 ? ", …)" : ")");
         const Missing how = flags_.missing.value_or(Missing::Fail);
         if (how == Missing::Fail)
             return Error{ErrorCode::InvalidFile,
-                         what + "; --missing skip leaves them out" +
-                             (work_.black ? ", --missing black makes them black" : "")};
+                         what + "; --missing skip leaves these frames out" +
+                             (work_.black ? ", --missing black writes black frames" : "")};
         warning(what + (how == Missing::Skip ? "; left out" : "; made black"));
         if (how == Missing::Skip) std::erase_if(frames_, [&](int frame) { return contains(missing, frame); });
         if (frames_.empty() || (how == Missing::Black && missing.size() == frames_.size()))
@@ -277,11 +277,12 @@ private:
 void FrameFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Frames")
         .value("--frames", "LIST",
-               "frames of a shot, as 1001-1100x2,1200; file names then hold #### or %04d. Without it those "
-               "that are there",
+               "frames of a shot, such as 1001-1100x2,1200; file names hold #### or %04d. Default: all "
+               "existing frames",
                parse_frames, frames)
-        .choice("--missing", "frames that lack a file: fail (default), skip, black", kMissing, missing)
-        .writes("--report", "FILE", "one JSON record a frame, a line each, written as they are made", report);
+        .choice("--missing", "missing input frames: fail (default), skip, or black frames", kMissing, missing)
+        .writes("--report", "FILE", "write one JSON record per frame, one line each, as frames finish",
+                report);
 }
 
 std::vector<std::string> FrameFlags::given() const {

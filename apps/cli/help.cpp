@@ -14,14 +14,16 @@ struct Form {
     std::string (*write)(const VerbHelp&);
 };
 
-const NameTable<Form> kForms{{"text", {as_text}}, {"md", {as_markdown}}, {"man", {as_manual}},
-                             {"bash", {as_bash}}, {"zsh", {as_zsh}},     {"fish", {as_fish}}};
+std::string as_whole_text(const VerbHelp& program) { return as_text(program, true); }
+
+const NameTable<Form> kForms{{"text", {as_whole_text}}, {"md", {as_markdown}}, {"man", {as_manual}},
+                             {"bash", {as_bash}},       {"zsh", {as_zsh}},     {"fish", {as_fish}}};
 
 }  // namespace
 
 void add_help(Verb& program, Action& chosen) {
     struct Flags {
-        Form form{as_text};
+        Form form{as_whole_text};
         std::string save_to = "-";
     };
     Verb& verb = add_verb(program, "help", "this page; all verbs as a manual, or completions for a shell",

@@ -1,6 +1,7 @@
 #include "help_forms.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace petzval::cli {
@@ -115,6 +116,33 @@ void add_manual(const VerbHelp& verb, std::string& out) {
     if (!verb.flags.empty()) out += ".El\n";
 }
 
+constexpr std::size_t kManyFlags = 40;
+
+bool is_common(const FlagHelp& flag) {
+    static const std::set<std::string> kCommon{
+        "--depth",    "--plate",    "--mask",        "--focal-length", "--sensor-width", "--fstop",
+        "--focus",    "--focus-at", "--focus-range", "--look",         "--lens",         "--blades",
+        "--cats-eye", "--bloom",    "--star",        "--engine",       "--quality",      "--fill",
+        "-o",         "--view",     "--frames",      "--track",        "--temporal",     "--no-clobber",
+        "--json",     "--exposure", "--device",      "--threads",      "--scene",        "--against",
+        "--script",   "-h",         "--help-all"};
+    return flag.is_argument() || kCommon.contains(flag.names.front());
+}
+
+// A long list of choices is NAME.
+FlagHelp in_short(FlagHelp flag) {
+    constexpr std::size_t kLongest = 60;
+    if (flag.placeholder.size() > kLongest) flag.placeholder = "NAME";
+    return flag;
+}
+
+// Up to the first semicolon or colon, without a bracket at its end.
+std::string first_clause(const std::string& help) {
+    const std::string clause = help.substr(0, help.find_first_of(";:"));
+    const std::size_t bracket = clause.find(" (");
+    return bracket == std::string::npos ? clause : clause.substr(0, bracket);
+}
+
 }  // namespace
 
 std::string FlagHelp::shown() const {
@@ -152,8 +180,9 @@ std::string VerbHelp::usage() const {
     return text + output + " [flags]";
 }
 
-// Example first; then what to type, what it does, and the flags by heading.
-std::string as_text(const VerbHelp& verb) {
+// Example, usage, purpose, and the flags by heading. The short form fits one screen.
+std::string as_text(const VerbHelp& verb, bool all) {
+    const bool is_short = !all && verb.flags.size() > kManyFlags;
     std::string out;
     if (!verb.example.empty()) out += "Example\n";
     for (const std::string& line : lines_of(verb.example)) out += "  " + line + "\n";
@@ -161,7 +190,12 @@ std::string as_text(const VerbHelp& verb) {
     out += verb.usage() + "\n" + verb.purpose + "\n";
     if (!verb.verbs.empty()) out += "\nVerbs\n";
     for (const VerbHelp& sub : verb.verbs) out += row(sub.last_name(), sub.purpose);
+    if (is_short) out += "\nCommon flags (" + verb.name + " --help-all lists all)\n";
     for_each_flag(verb, [&](const FlagHelp& flag, bool begins) {
+        if (is_short) {
+            if (is_common(flag)) out += row(in_short(flag).shown(), first_clause(flag.help));
+            return;
+        }
         if (begins) out += "\n" + flag.heading + "\n";
         out += row(flag.shown(), flag.help);
     });

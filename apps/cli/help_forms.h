@@ -30,8 +30,9 @@ struct VerbHelp {
     std::string usage() const;  // "petzval compare REF TEST [flags]"
 };
 
-std::string as_text(const VerbHelp& verb);         // --help
-std::string as_markdown(const VerbHelp& program);  // all verbs, for docs/command-line.md
+// --help: the common flags where a verb has many; --help-all: all flags.
+std::string as_text(const VerbHelp& verb, bool all);
+std::string as_markdown(const VerbHelp& program);  // all verbs, for docs/reference/command-line.md
 std::string as_manual(const VerbHelp& program);    // mdoc
 std::string as_bash(const VerbHelp& program);      // completions
 std::string as_zsh(const VerbHelp& program);

@@ -16,62 +16,58 @@ void InputFlags::add_to(Verb& verb) {
                   "is standard input",
                   path)
         .value("--layer", "NAME", "colour layer or part", parse_text, read.layer)
-        .value("--view-name", "NAME", "view of a stereo file, as left; all (defocus): every view", parse_text,
-               read.view_name);
+        .value("--view-name", "NAME", "view of a stereo file, such as left; all: every view (defocus)",
+               parse_text, read.view_name);
 }
 
 void InputFlags::add_depth_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .reads("--depth", "FILE", "read depth from another file, EXR, PNG or TIFF, of any size",
+        .reads("--depth", "FILE", "read depth from another file: EXR, PNG or TIFF, of any size",
                read.depth_file)
-        .value("--depth-channel", "NAME", "depth channel, as Z or ViewLayer.Depth.Z", parse_text,
+        .value("--depth-channel", "NAME", "depth channel, such as Z or ViewLayer.Depth.Z", parse_text,
                read.depth_channel)
-        .choice<DepthKind>("--depth-kind",
-                           "what depth means: planar, along the axis (default, but for whole numbers as of a "
-                           "PNG); ray, from the "
-                           "pinhole; inverse, 1/planar, and with --depth-range disparity from 0, far, to 1, "
-                           "near; normalized, "
-                           "device and mist, 0…1, z-buffer and Blender's mist between --depth-range; coc-px, "
-                           "signed blur radius "
-                           "in pixels",
-                           depth_kind)
-        .value("--depth-range", "NEAR,FAR",
-               "the ends of normalized, device, inverse or mist depth in units of the scene, as 0.1,100; of "
-               "coc-px the radii of 0 and 1, as -20,35",
-               parse_range, depth_range)
-        .value("--unit-scale", "METRES", "metres per unit of depth, as 0.01 or 1cm for centimetres",
-               parse_length_m, unit_scale_m);
+        .choice<DepthKind>(
+            "--depth-kind",
+            "meaning of the depth: planar, distance along the axis (default, except for whole numbers); ray, "
+            "distance from the pinhole; inverse, 1/planar, or with --depth-range disparity from 0 (far) to 1 "
+            "(near); normalized, device, mist: 0 to 1, z-buffer or Blender's mist between --depth-range; "
+            "coc-px, signed blur radius in pixels",
+            depth_kind)
+        .value(
+            "--depth-range", "NEAR,FAR",
+            "range of normalized, device, inverse or mist depth in scene units, such as 0.1,100; of coc-px "
+            "the radii of 0 and 1, such as -20,35",
+            parse_range, depth_range)
+        .value("--unit-scale", "METRES", "metres per unit of depth, such as 0.01, or 1cm", parse_length_m,
+               unit_scale_m);
 }
 
 void InputFlags::add_transfer_to(Verb& verb) {
     FlagGroup(verb, "Input")
         .choice<Transfer>("--transfer",
-                          "how codes of PNG, JPEG and TIFF stand for light, read and written (default srgb)",
-                          transfer);
+                          "transfer curve of PNG, JPEG and TIFF, read and written (default srgb)", transfer);
 }
 
 void InputFlags::add_others_to(Verb& verb) {
     FlagGroup(verb, "Input")
-        .reads("--behind", "FILE", "what the picture hides: deep EXR, or RGBA and Z", behind)
-        .values("--merge", "FILE…", "more pictures of the shot, deep EXR or RGBA and Z, sorted in by depth",
-                merge)
+        .reads("--plate,--behind", "FILE",
+               "clean plate: the background without the foreground (deep EXR, or RGBA and Z)", behind)
+        .values("--merge", "FILE…",
+                "combine more pictures of the shot (deep EXR, or RGBA and Z), sorted by depth", merge)
         .reads("--holdout", "FILE",
-               "a matte, deep EXR or RGBA and Z, that hides what is behind it and stays sharp", holdout)
+               "holdout matte (deep EXR, or RGBA and Z): hides light behind it and stays sharp", holdout)
         .value("--mask", "FILE[:CHANNEL]",
-               "where the effect is wanted: 1 as blurred, 0 as given, mixed between; without a channel "
-               "alpha, or "
-               "luminance where alpha is 1 everywhere",
+               "limit the effect: 1 blurred, 0 unchanged, mixed in between; without a channel: alpha, or "
+               "luminance if alpha is 1 everywhere",
                parse_text, mask);
 }
 
 void InputFlags::add_layers_to(Verb& verb) {
     FlagGroup(verb, "Input")
         .value("--layers", "LIST",
-               "blur more layers of the file with the colour, so that what sums to it still does: all, or "
-               "names of "
-               "layers, parts and channels with commas between; all,-NAME leaves one out; NAME:LAMP says "
-               "what its "
-               "light is made of, as signs:neon, in the picture too",
+               "blur more layers in the same run, so that layers that sum to the colour still do: all, or "
+               "names of layers, parts and channels separated by commas; all,-NAME leaves one out; NAME:LAMP "
+               "gives its light a lamp's spectrum, such as signs:neon",
                parse_words, read.layers);
 }
 

@@ -86,7 +86,7 @@ void describe_depth(const Shot& shot, const InputFlags& flags, std::ostream& out
     out << ", " << plain(flags.unit_scale_m.value_or(1))
         << " m per unit: " << plain(shot.depth_report.nearest_m) << " m to "
         << plain(shot.depth_report.farthest_finite_m) << " m, " << shot.depth_report.misses << " of "
-        << shot.colour.size() << " pixels are misses\n";
+        << shot.colour.size() << " pixels without depth\n";
 }
 
 void describe_camera(const FoundCamera& camera, std::ostream& out) {
@@ -261,7 +261,7 @@ Status inspect_frames(const InspectFlags& all) {
 
 void add_inspect(Verb& program, Action& chosen) {
     Verb& verb = add_verb(program, "inspect",
-                          "what a file holds: parts, layers, depth, camera numbers, and what was taken",
+                          "show parts, layers, depth and camera numbers of a file, and the ones petzval uses",
                           "petzval inspect beauty.exr\n"
                           "petzval inspect beauty.exr --json - | jq .camera\n"
                           "petzval inspect beauty.####.exr --frames 1001-1100");
@@ -272,8 +272,8 @@ void add_inspect(Verb& program, Action& chosen) {
     flags->camera.add_to(verb, "file");
     FlagGroup(verb, "Focus")
         .value("--permissible-radius", "PX",
-               "blur radius that still counts as sharp, for near and far limit (default 1)", parse_positive,
-               flags->permissible_radius_px);
+               "blur radius that still counts as sharp, for near and far limits and --view focus (default 1)",
+               parse_positive, flags->permissible_radius_px);
     flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);

@@ -7,9 +7,9 @@
 namespace petzval::cli {
 
 void describe_range(const DynamicRange& range, std::ostream& out) {
-    out << "light\n  shadow " << plain(range.shadow, 3) << ", middle " << plain(range.middle, 3)
-        << ", diffuse " << plain(range.diffuse, 3) << ", specular " << plain(range.specular, 3)
-        << "  (5, 50, 90 and 99.9 % of the lit pixels are darker); brightest " << plain(range.brightest, 4)
+    out << "light\n  luminance percentiles of lit pixels: p5 (shadow) " << plain(range.shadow, 3)
+        << ", p50 (middle) " << plain(range.middle, 3) << ", p90 (diffuse) " << plain(range.diffuse, 3)
+        << ", p99.9 (specular) " << plain(range.specular, 3) << "; brightest " << plain(range.brightest, 4)
         << "\n  diffuse over shadow " << plain(range.diffuse_over_shadow_stops, 3)
         << " stops, specular over diffuse " << plain(range.specular_over_diffuse_stops, 3) << " stops\n"
         << (range.comparison.empty() ? "" : "  diffuse is " + range.comparison + "\n") << "  "

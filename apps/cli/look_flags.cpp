@@ -56,9 +56,9 @@ void LookFlags::add_to(Verb& verb, const Headings& headings, const std::string& 
 
 void LookFlags::add_files_to(Verb& verb) {
     FlagGroup(verb, "Look")
-        .reads("--look", "FILE.json", "all of the artist's choices from a file; flags beside it win", file_)
-        .writes("--save-look", "FILE.json", "write the choices of this run, to be taken again with --look",
-                save_to_);
+        .reads("--look", "FILE.json", "load all artistic choices from a file; flags on the command line win",
+               file_)
+        .writes("--save-look", "FILE.json", "save the artistic choices of this run, for --look", save_to_);
 }
 
 bool LookFlags::is_typed(const std::string& field) const {

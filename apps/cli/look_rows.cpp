@@ -76,23 +76,23 @@ LookRow row(const char* heading, const char* flag, const char* field, Kind kind,
 std::vector<LookRow> rows_of_input_and_focus() {
     return {
         row("Input", "--expand-highlights", "plate.expand_highlights", nothing(),
-            "for plates that end at 1: blur as if their highlights were as bright as they once were, then "
-            "go back; what is sharp stays as it is"),
+            "reconstruct clipped highlights of plates that end at 1 while blurring; sharp areas are "
+            "unchanged"),
         row("Input", "--highlight-peak", "plate.peak", value("LIGHT", parse_positive),
-            "what 1 stood for then (default 16, four stops above white)"),
+            "scene brightness assumed for pixel value 1.0 (default 16, four stops above white)"),
         row("Input", "--depth-edges", "depth.edges", name<DepthEdges>(),
-            "silhouettes that are ramps, as in depth of networks: each pixel goes to one side where most are "
-            "(auto, default) or wherever there is one (snap), or they stay (keep)"),
+            "sharpen soft depth edges, as in depth maps of neural networks: auto, only if most edges are "
+            "soft (default); snap, always; keep, never"),
         row("Focus", "--focus-range", "focus.range_m", value("M,M", parse_range_m),
-            "keep everything between two distances sharp, as 1.8m,3m"),
-        row("Focus", "--focus-falloff", "focus.falloff", value("SHARE", parse_not_negative),
-            "ease blur in beyond the range over this share of its ends' distance"),
+            "keep everything between two distances sharp, such as 1.8m,3m"),
+        row("Focus", "--focus-falloff", "focus.falloff", value("FRACTION", parse_not_negative),
+            "soft transition outside --focus-range, as a fraction of the range limits"),
         row("Focus", "--near-scale", "focus.near_scale", value("FACTOR", parse_not_negative),
-            "multiply radii in front of focus"),
+            "multiply blur radii in front of focus"),
         row("Focus", "--far-scale", "focus.far_scale", value("FACTOR", parse_not_negative),
-            "multiply radii behind focus"),
+            "multiply blur radii behind focus"),
         row("Focus", "--max-radius", "focus.max_radius_px", value("PX", parse_positive),
-            "cut radii off here; smaller ones stay as they are"),
+            "limit the blur radius; smaller radii are unchanged"),
     };
 }
 
@@ -101,57 +101,57 @@ std::vector<LookRow> rows_of_lenses() {
     const Kind focus_mode = one_of({{"best", "\"best\""}, {"paraxial", "\"paraxial\""}});
     return {
         row("Lens", "--lens", "lens.name", value("NAME", parse_text),
-            "a lens by name, or a lens file; ideal is a flat disc (default)"),
+            "lens name (petzval lens list) or lens file; ideal is a flat disc (default)"),
         row("Lens", "--blades", "lens.blades", value("N", parse_blades),
-            "blades of the aperture, 3 or more; 0 is round (default)"),
+            "aperture blades, 3 or more; 0 is round (default)"),
         row("Lens", "--blade-rotation", "lens.blade_rotation_deg", value("DEG", parse_number),
-            "first corner, counter-clockwise from the right, in the far disc"),
-        row("Lens", "--blade-curvature", "lens.blade_curvature", value("SHARE", parse_share),
-            "0 straight edges (default) to 1 circle"),
+            "aperture rotation: angle of the first corner, counter-clockwise from +x, as seen in background "
+            "bokeh"),
+        row("Lens", "--blade-curvature", "lens.blade_curvature", value("FRACTION", parse_share),
+            "blade shape: 0 straight (default) to 1 circular"),
         row("Lens", "--squeeze", "lens.squeeze", value("FACTOR", parse_positive),
-            "the disc is so many times taller than wide, as 2 for an anamorphic lens"),
-        row("Lens", "--cats-eye", "lens.cats_eye", value("SHARE", parse_share),
-            "0 (default) to 1: how far a rim in front of the pupil cuts discs towards the corners"),
+            "height of the disc divided by its width, such as 2 for an anamorphic lens"),
+        row("Lens", "--cats-eye", "lens.cats_eye", value("FRACTION", parse_share),
+            "optical vignetting: cuts discs towards the corners, 0 (default) to 1"),
         row("Lens character", "--focus-mode", "lens.focus_mode", focus_mode,
-            "where the sensor stands behind a lens with aberrations: best, least blur at this aperture "
-            "(default); paraxial, where light near the axis meets"),
+            "sensor position for a lens with aberrations: best, least blur at this aperture (default); "
+            "paraxial, focus of light near the axis"),
         row("Lens character", "--focus-shift", "lens.focus_shift_mm", value("MM", parse_number),
-            "the sensor this far behind the paraxial focus; negative is nearer the lens"),
+            "move the sensor this far behind the paraxial focus; negative: towards the lens"),
         row("Lens character", "--spherical", "lens.spherical", value("FACTOR", parse_number),
-            "times its spherical aberration: 1 as built, 0 none, -1 reversed"),
+            "multiply the lens's spherical aberration: 1 as built, 0 none, -1 reversed; --add-spherical adds "
+            "instead"),
         row("Lens character", "--axial-colour", "lens.axial_colour", value("FACTOR", parse_number),
-            "times its axial colour"),
+            "multiply the lens's axial colour"),
         row("Lens character", "--lateral-colour", "lens.lateral_colour", value("FACTOR", parse_number),
-            "times a prescription's lateral colour, that colours land apart off the axis; 0 none"),
+            "multiply a prescription's lateral colour (colour fringes off the axis); 0 none"),
         row("Lens character", "--add-spherical", "lens.added_spherical_waves", value("WAVES", parse_number),
-            "defocus control of any lens: spherical aberration of so many waves (588 nm) at the rim; "
-            "positive, "
-            "bright rings in front of focus and soft discs behind; negative, the reverse"),
+            "add spherical aberration to any lens, in waves (588 nm) at the rim; positive: bright rings in "
+            "front of focus, soft discs behind; negative: the reverse"),
         row("Lens character", "--add-at-fstop", "lens.added_at_f_number", value("N", parse_f_number),
-            "the f-number that --add-spherical is stated for (default: the camera's); stopped down, it falls "
-            "with the fourth power"),
+            "f-number at which --add-spherical holds (default: the camera's); stopped down, it falls with "
+            "the fourth power"),
         row("Lens character", "--add-axial-colour", "lens.added_axial_colour_mm", value("MM", parse_number),
-            "blue (486 nm) focuses so far behind red (656 nm); negative as in simple lenses, nearer the "
-            "lens"),
+            "distance of the blue focus (486 nm) behind the red one (656 nm); negative as in simple lenses"),
         row("Lens character", "--add-field-curvature", "lens.added_field_curvature_mm",
             value("MM", parse_number),
-            "the frame's corners focus so far behind the sensor; negative as in simple lenses, before it"),
+            "distance of the corners' focus behind the sensor; negative as in simple lenses"),
         row("Lens character", "--add-lateral-colour", "lens.added_lateral_colour_percent",
             value("PERCENT", parse_number),
-            "the blue image (486 nm) is so much larger than the red one (656 nm)"),
+            "size of the blue image (486 nm) relative to the red one (656 nm), in percent more"),
         row("Lens character", "--coma", "lens.coma", value("AMOUNT", parse_number),
-            "added off the axis, 1 is strong; positive tails point outward"),
+            "add coma off the axis, 1 is strong; positive tails point outward"),
         row("Lens character", "--astigmatism", "lens.astigmatism", value("AMOUNT", parse_number),
-            "added off the axis, 1 is strong: behind focus strokes round the middle, swirl; negative, from "
-            "it"),
-        row("Lens character", "--distortion", "lens.distortion", value("SHARE", parse_number),
-            "discs, and the picture of defocus with them, stretch towards the corners by this share"),
+            "add astigmatism off the axis, 1 is strong; positive: strokes circle the middle behind focus "
+            "(swirl)"),
+        row("Lens character", "--distortion", "lens.distortion", value("FRACTION", parse_number),
+            "distort the picture and its discs: stretch towards the corners by this fraction; negative: "
+            "barrel"),
         row("Lens character", "--light", "lens.light", name<LightSpectrum>(),
-            "what the light is made of (default daylight): a lamp's lines land where their own wavelengths "
-            "do, "
-            "and its discs have no rainbow"),
+            "spectrum of the light (default daylight): a lamp's lines focus separately, so its discs have no "
+            "rainbow"),
         row("Lens character", "--wavelengths", "lens.wavelengths", value("N", parse_count),
-            "bands of the spectrum; as many as needed by default"),
+            "number of spectral bands; as many as needed by default"),
         row("Lens character", "--wave", "lens.wave", nothing(),
             "diffraction: rings in discs of small sensors, spikes of blades; slow"),
     };
@@ -160,107 +160,104 @@ std::vector<LookRow> rows_of_lenses() {
 std::vector<LookRow> rows_of_pupils() {
     return {
         row("Pupil", "--iris-open", "lens.iris_open", value("N", parse_f_number),
-            "f-number at which the iris is open and round; blades show as it closes"),
+            "f-number at which the iris is round; blades show as it closes"),
         row("Pupil", "--barrel", "lens.barrel", value("R,D", parse_barrel),
-            "a rim of this radius so far in front of the pupil, mm: it cuts the outer side of discs behind "
-            "focus, "
-            "a negative distance the inner; several with ; between"),
+            "barrel rim: radius and distance in front of the pupil, mm; cuts the outer side of discs behind "
+            "focus, a negative distance the inner side; separate several with ;"),
         row("Pupil", "--barn-doors", "lens.barn_doors", value("L,R,T,B", parse_barn_doors),
-            "doors of a matte box, in pupil radii from each side"),
+            "matte box doors, in pupil radii from each side"),
         row("Pupil", "--aperture-image", "lens.aperture_image", value("FILE", parse_text),
-            "transmission of the pupil, upright as behind focus: PNG or EXR"),
+            "transmission of the pupil (PNG or EXR), upright as behind focus"),
         row("Pupil", "--kernel-image", "lens.kernel_image", value("FAR[,NEAR]", parse_one_or_two_files),
-            "a disc as photographed or drawn, instead of a lens; one for each side"),
-        row("Pupil", "--dust", "lens.dust", value("SHARE", parse_share),
-            "specks of dust, 0 to 1; seen in large discs"),
-        row("Pupil", "--scratches", "lens.scratches", value("SHARE", parse_share),
+            "photographed or drawn disc instead of a lens; one, or one for each side of focus"),
+        row("Pupil", "--dust", "lens.dust", value("FRACTION", parse_share),
+            "dust specks, 0 to 1; visible in large discs"),
+        row("Pupil", "--scratches", "lens.scratches", value("FRACTION", parse_share),
             "scratches on the glass, 0 to 1"),
-        row("Pupil", "--onion-rings", "lens.onion_rings", value("SHARE", parse_share),
+        row("Pupil", "--onion-rings", "lens.onion_rings", value("FRACTION", parse_share),
             "turning marks of a moulded asphere, 0 to 1"),
         row("Pupil", "--texture-seed", "lens.texture_seed", value("N", parse_seed),
-            "where dust, scratches and rings lie"),
+            "seed for the position of dust, scratches and rings"),
     };
 }
 
 std::vector<LookRow> rows_of_glare() {
     return {
-        row("Glare", "--bloom", "glare.bloom", value("SHARE", parse_share),
-            "a glow around all light, which takes this share of it, as 0.1"),
-        row("Glare", "--bloom-radius", "glare.bloom_radius", value("SHARE", parse_positive),
-            "standard deviation of its widest layer, in heights of the picture (default 0.08)"),
+        row("Glare", "--bloom", "glare.bloom", value("FRACTION", parse_share),
+            "glow around all light: the fraction of light that it spreads, such as 0.1"),
+        row("Glare", "--bloom-radius", "glare.bloom_radius", value("FRACTION", parse_positive),
+            "standard deviation of the widest bloom layer, in picture heights (default 0.08)"),
         row("Glare", "--bloom-threshold", "glare.bloom_threshold", value("LIGHT", parse_not_negative),
-            "only the light above this glows; 1 is diffuse white, 0 all light (default)"),
-        row("Glare", "--star", "glare.star", value("SHARE", parse_share),
-            "stars around highlights, by diffraction at the --blades, as 0.1"),
-        row("Glare", "--star-radius", "glare.star_radius", value("SHARE", parse_positive),
-            "where their red light ends, in heights of the picture (default 0.5)"),
+            "only light above this glows; 1 is diffuse white, 0 all light (default)"),
+        row("Glare", "--star", "glare.star", value("FRACTION", parse_share),
+            "diffraction stars around highlights: the fraction of their light, such as 0.1; needs --blades"),
+        row("Glare", "--star-radius", "glare.star_radius", value("FRACTION", parse_positive),
+            "end of the stars' red light, in picture heights (default 0.5)"),
         row("Glare", "--star-quality", "glare.star_quality", name<StarQuality>(),
-            "final (default): diffraction, by wavelength; draft: quick streaks"),
-        row("Glare", "--ghosts", "glare.ghosts", value("SHARE", parse_share),
-            "reflections of highlights: of the --lens's surfaces if it is a prescription, else coloured "
-            "copies"),
+            "final: diffraction by wavelength (default); draft: quick streaks"),
+        row("Glare", "--ghosts", "glare.ghosts", value("FRACTION", parse_share),
+            "reflections of highlights: between the surfaces of a prescription, otherwise coloured copies"),
         row("Glare", "--coating", "glare.coating", name<LensCoating>(),
-            "of the surfaces that reflect: single layer (default), none"),
-        row("Glare", "--veil", "glare.veil", value("SHARE", parse_share),
-            "spread this share of all light evenly"),
+            "coating of reflecting surfaces: single layer (default) or none"),
+        row("Glare", "--veil", "glare.veil", value("FRACTION", parse_share),
+            "spread this fraction of all light evenly"),
         row("Glare", "--glare-threshold", "glare.threshold", value("LIGHT", parse_not_negative),
-            "stars and ghosts are made of the light above this; 1 is diffuse white (default)"),
+            "stars and ghosts use light above this; 1 is diffuse white (default)"),
         row("Glare", "--vignetting", "glare.vignetting", nothing(),
-            "light lost towards the corners: cos^4 and what the barrel cuts off"),
+            "light falloff towards the corners: cos^4 and barrel vignetting"),
     };
 }
 
 std::vector<LookRow> rows_of_engines() {
     return {
-        row("Engine", "--engine", "engine", engine(), "what computes the blur (default scatter)"),
+        row("Engine", "--engine", "engine", engine(), "method that computes the blur (default scatter)"),
         row("Engine", "--quality", "quality", name<Quality>(),
-            "accuracy only, never the size of the blur (default standard)"),
+            "accuracy only; the blur keeps its size (default standard)"),
         row("Engine", "--fill", "fill", name<Fill>(),
-            "behind edges, where nothing is known: what is around goes on (full, default); of lamps only "
-            "what "
-            "shows (dim); nothing is added (off)"),
+            "how to fill the background hidden behind foreground edges: full, extends the surroundings "
+            "(default); dim, extends them without highlights; off, adds nothing"),
         row("Engine", "--pupil-points", "pupil_points", value("N", parse_count),
             "rays per pixel of --engine reference (default 4096)"),
-        row("Engine", "--seed", "seed", value("N", parse_seed),
-            "start of all random choices of --engine reference (default 1)"),
+        row("Engine", "--seed", "seed", value("N", parse_seed), "seed of --engine reference (default 1)"),
         row("Engine gather", "--gather-stage", "gather.stage", name<GatherStage>(),
-            "a stop of the published method in place of the result; final (default) is the engine itself"),
+            "debug: output an intermediate stage of the published method; final is the engine itself "
+            "(default)"),
         row("Engine gather", "--gather-taps", "gather.taps",
             one_of({{"16", "16"}, {"22", "22"}, {"43", "43"}, {"71", "71"}}),
             "samples of the published disc (default 43)"),
         row("Engine gather", "--gather-tap-offset", "gather.tap_offset", value("N", parse_positive),
-            "published four-tap blur: how far its taps stand off, in half-size pixels (default 0.5, a tent; "
-            "published: 1; at most 4)"),
+            "published four-tap blur: tap offset in half-size pixels (default 0.5, a tent; published: 1; at "
+            "most 4)"),
         row("Engine gather", "--gather-pixel-size", "gather.pixel_size_px", value("PX", parse_not_negative),
             "published combine and cure: radii up to this stay sharp (default 0.2; less than 1)"),
         row("Engine gather", "--gather-blurred-from", "gather.blurred_px", value("PX", parse_positive),
-            "published combine and cure: radii from this on are wholly blurred (default 1, in cure 1.2, as "
+            "published combine and cure: radii from this on are fully blurred (default 1, in cure 1.2, as "
             "published; at least 1)"),
         row("Engine gather", "--gather-coc", "gather.coc",
             one_of({{"mean", "\"mean\""}, {"extreme", "\"extreme\""}}),
-            "the radius of 2 x 2 pixels in the published prefilter (default mean)"),
+            "radius of 2 x 2 pixels in the published prefilter (default mean)"),
         row("Engine gather", "--gather-fill", "gather.fill", on_or_off(),
-            "continue what near things hide under their soft edges (default on)"),
+            "extend background under soft foreground edges (default on)"),
         row("Engine gaussian", "--gaussian-style", "gaussian.style", name<GaussianStyle>(),
-            "near and far apart (layered, default), by each pixel's radius (plain), or by "
-            "depth, as published (wgld)"),
+            "layered: near and far separated (default); plain: by each pixel's radius; wgld: by depth, as "
+            "published"),
         row("Engine gaussian", "--focus-band", "gaussian.focus_band", value("N", parse_not_negative),
-            "hold radii up to N px sharp (default 0); wgld: the band's share of all depth (default 0.2)"),
+            "keep radii up to N px sharp (default 0); wgld: the band's fraction of the depth range (default "
+            "0.2)"),
         row("Engine gaussian", "--depth-offset", "gaussian.depth_offset", value("N", parse_number),
-            "wgld: added to depth of 0 to 1; the default puts the focus into the band"),
+            "wgld: added to depth of 0 to 1; by default the focus lies in the band"),
         row("Engine gaussian", "--depth-along", "gaussian.depth_along",
             one_of({{"axis", "\"axis\""}, {"ray", "\"ray\""}}),
-            "wgld: depth is counted along the axis (default) or along the ray from the pinhole, as "
-            "published"),
+            "wgld: measure depth along the axis (default) or along the ray, as published"),
         row("Engine gaussian", "--depth-band-range", "gaussian.depth_band_range_m",
             value("NEAR,FAR", parse_range_m),
-            "wgld: depths that count as 0 and 1, as 0.1m,30m; default: the picture's"),
+            "wgld: depths that map to 0 and 1, such as 0.1m,30m; default: the picture's range"),
         row("Engine sprites", "--background", "sprites.background", name<SpriteBackground>(),
-            "the engine that draws everything else (default gather)"),
+            "engine that draws everything except the lights (default gather)"),
         row("Engine sprites", "--find-points", "sprites.find_points", on_or_off(),
-            "of gather too: draw the picture's own bright points each as a whole kernel (default on)"),
+            "also for gather: draw the picture's bright points as whole kernels (default on)"),
         row("Engine sprites", "--bright-factor", "sprites.bright_factor", value("N", parse_positive),
-            "of gather too: how many times its surroundings a bright point is (default 3)"),
+            "also for gather: a bright point is this many times brighter than its surroundings (default 3)"),
     };
 }
 

@@ -20,7 +20,7 @@
 namespace petzval::cli {
 namespace {
 
-// Exit codes of docs/conventions.md.
+// Exit codes of docs/reference/exit-codes.md.
 int exit_code(const Error& error) {
     // A device that fails at its work was not chosen wrongly.
     const bool is_device = error.field == "session.device" && !error.message.starts_with(error.field);
@@ -111,6 +111,8 @@ Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
         program.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         return said(program.help());
+    } catch (const CLI::CallForAllHelp&) {
+        return said(program.help("", CLI::AppFormatMode::All));
     } catch (const CLI::CallForVersion& version) {
         return said(std::string(version.what()) + "\n");
     } catch (const CLI::ParseError& error) {
@@ -122,9 +124,7 @@ Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
         return Error{error.code, error.what(), error.field};
     }
     typed.verb = verb_of(program);
-    if (!chosen)
-        return Error{ErrorCode::InvalidArgument,
-                     "what is to be done? petzval --help lists the verbs, as defocus and inspect"};
+    if (!chosen) return Error{ErrorCode::InvalidArgument, "no verb given; petzval --help lists the verbs"};
     if (Status fine = run_files().check(); !fine) return fine;
     Status done = chosen();
     if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};

@@ -13,13 +13,12 @@ namespace petzval::cli {
 
 void OcioFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Display picture (PNG)")
-        .value(
-            "--ocio", "DISPLAY,VIEW",
-            "display and view of OpenColorIO, by the config in $OCIO, in place of --tone and sRGB; default: "
-            "the config's own",
-            parse_text, view)
+        .value("--ocio", "DISPLAY,VIEW",
+               "OpenColorIO display and view instead of --tone and sRGB, by the config in $OCIO; default: "
+               "the config's own",
+               parse_text, view)
         .value("--ocio-space", "NAME",
-               "what the config calls scene-linear Rec.709, if it does not say itself", parse_text, space);
+               "the config's name for scene-linear Rec.709, if it does not define one", parse_text, space);
 }
 
 void OcioFlags::check(const DevelopFlags& develop, std::optional<Transfer> transfer) const {

@@ -31,8 +31,8 @@ Result<FileKind> kind_of_output(const std::string& path) {
 
 void OverwriteFlags::add_to(Verb& verb, bool with_update) {
     FlagGroup group(verb, "Output");
-    group.on("--overwrite", "replace files that are there (default)", overwrite)
-        .on("--no-clobber", "leave files that are there alone, and succeed", no_clobber);
+    group.on("--overwrite", "replace existing files (default)", overwrite)
+        .on("--no-clobber", "skip existing complete files, and succeed", no_clobber);
     if (with_update) group.on("-u,--update", "do nothing if the output is newer than all inputs", update);
 }
 
@@ -59,15 +59,14 @@ OutputState OverwriteFlags::state_of(const std::vector<std::string>& outputs,
 
 void DevelopFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Display picture (PNG)")
-        .value("--exposure", "STOPS", "brighter by this many stops, as 1.5 or -2", parse_number,
+        .value("--exposure", "STOPS", "brighten by this many stops, such as 1.5 or -2", parse_number,
                exposure_stops)
-        .value("--contrast", "FACTOR", "exponent about mid-grey, as 1.2; 1 leaves it (default)",
+        .value("--contrast", "FACTOR", "exponent around mid-grey, such as 1.2; 1 is neutral (default)",
                parse_positive, contrast)
-        .choice<ToneCurve>(
-            "--tone",
-            "filmic: mid-grey kept, highlights roll off and pale, hue kept (default; none for PNG input); "
-            "reinhard: n/(1 + n); none: clip",
-            tone);
+        .choice<ToneCurve>("--tone",
+                           "tone curve: filmic, keeps mid-grey and hue, rolls off highlights (default; none "
+                           "for PNG input); reinhard, n/(1 + n); none, clip",
+                           tone);
 }
 
 void DevelopFlags::add_to(MadeWith& made) const {

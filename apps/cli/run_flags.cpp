@@ -18,21 +18,21 @@ const NameTable<ProgressMode> kProgressModes{{"auto", ProgressMode::Auto},
 
 void RunFlags::add_json_to(Verb& verb) {
     FlagGroup(verb, "Output")
-        .writes("--json", "FILE", "write what was done as JSON; - is standard output", json);
+        .writes("--json", "FILE", "write a report of the run as JSON; - is standard output", json);
 }
 
 void RunFlags::add_threads_to(Verb& verb) {
     FlagGroup(verb, "Run")
-        .value("--threads", "N", "threads; 0 is all (default). The result never depends on it", parse_threads,
-               threads);
+        .value("--threads", "N", "number of threads; 0 is all (default). The result never depends on it",
+               parse_threads, threads);
 }
 
 void RunFlags::add_log_to(Verb& verb, bool with_progress) {
     FlagGroup group(verb, "Run");
     if (with_progress)
-        group.choice("--progress", "auto: a bar on a terminal, else one plain line a second (default)",
+        group.choice("--progress", "auto: a bar on a terminal, otherwise one plain line per second (default)",
                      kProgressModes, progress);
-    group.on("-v,--verbose", "say more", verbose).on("-q,--quiet", "say nothing but errors", quiet);
+    group.on("-v,--verbose", "print more", verbose).on("-q,--quiet", "print errors only", quiet);
 }
 
 void RunFlags::apply() {

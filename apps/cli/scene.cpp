@@ -89,7 +89,7 @@ void MakeFlags::add_to(Verb& verb) {
     FlagGroup(verb, "Output")
         .writes("-o,--output", "FILE.exr", "sharp picture, planar Z in metres and camera numbers", output)
         .writes("--truth", "FILE.exr", "also what the lens of the same camera records", truth)
-        .writes("--layers", "FILE.exr", "also the hidden surfaces, as a deep EXR for defocus --behind",
+        .writes("--layers", "FILE.exr", "also write the hidden surfaces, as a deep EXR for defocus --plate",
                 layers);
     FlagGroup(verb, "Output")
         .on("--motion",
@@ -295,7 +295,7 @@ void add_list(Verb& scene, Action& chosen) {
 
 void add_make(Verb& scene, Action& chosen) {
     Verb& verb = add_verb(
-        scene, "make", "a sharp picture with depth and camera numbers, and what a lens makes of it",
+        scene, "make", "render a sharp picture with depth and camera numbers, and the ray-traced truth",
         "petzval scene make night -o night.exr\n"
         "petzval scene make fence -o fence.exr --truth truth.exr --width 480 --height 270 --fstop 4");
     auto flags = std::make_shared<MakeFlags>();

@@ -74,7 +74,8 @@ std::vector<std::string> command_words(const ViewFlags& flags, const view::Choic
     add_number(words, "--focal-length", choice.camera.focal_length_mm);
     add_number(words, "--sensor-width", choice.camera.sensor_width_mm);
     if (choice.camera.image_scale != ImageScale::Rendered)
-        words.insert(words.end(), {"--image-scale", name_of(choice.camera.image_scale)});
+        words.insert(words.end(),
+                     {"--breathing", choice.camera.image_scale == ImageScale::ThinLens ? "on" : "off"});
     for (std::string& word : words_of(choice.look)) words.push_back(std::move(word));
     if (!output.ends_with(".png")) return words;
     if (choice.ocio) {
@@ -245,7 +246,7 @@ void add_view(Verb& program, Action& chosen) {
                flags->against)
         .value(
             "--scene", "NAME",
-            "a built-in scene, or a .gltf or .glb file, in place of IN, rendered at every move of its camera",
+            "a built-in scene, or a .gltf or .glb file, instead of IN, rendered at every move of its camera",
             parse_text, flags->scene)
         .value("--scene-camera", "NAME",
                "of a glTF file's cameras that of this name, or number from 1 (default: the first)",
@@ -254,10 +255,10 @@ void add_view(Verb& program, Action& chosen) {
         .value(
             "--listen", "PORT",
             "take pictures that renderers push to the viewer tev, on this port of this machine (tev's own is "
-            "14158); with a channel Z in metres they are shown, without compared; in place of IN: waits for "
+            "14158); with a channel Z in metres they are shown, without compared; instead of IN: waits for "
             "one",
             parse_port, flags->listen)
-        .reads("--script", "FILE", "do what the lines of a file say (docs/view.md), then close",
+        .reads("--script", "FILE", "do what the lines of a file say (docs/reference/window.md), then close",
                flags->script)
         .value("--window", "WxH", "its size (default 1280x800)", parse_window, flags->size)
         .value("--ui-scale", "FACTOR", "size of letters and widgets; the display's by default",

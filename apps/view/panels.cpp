@@ -55,7 +55,7 @@ void camera_panel(App& app) {
                 say(app, std::string("set camera.image_scale ") + known.name);
         ImGui::EndCombo();
     }
-    if (ImGui::Button("as in the file"))
+    if (ImGui::Button("reset to file"))
         for (const char* number : {"f_number", "focus_distance_m", "focal_length_mm", "sensor_width_mm"})
             say(app, std::string("set camera.") + number + " file");
 }
@@ -171,7 +171,7 @@ void files_panel(App& app) {
     }
     command_button(app, "copy command", "copy");
     if (flowing_button("load look")) say(app, "load_look \"" + std::string(look) + "\"");
-    if (flowing_button("read again")) say(app, "reload");
+    if (flowing_button("reload")) say(app, "reload");
     if (flowing_button("to tev")) say(app, "tev");
 }
 

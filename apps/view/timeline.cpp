@@ -93,9 +93,9 @@ void draw_buttons(App& app) {
     flowing_switch(app, "keys by clicks", "shot.keying");
     flowing_switch(app, "eased", "shot.easing");
     const float number = 4 * ImGui::GetFontSize();
-    flow(number + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("dpt a frame").x);
+    flow(number + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("max. dioptres/frame").x);
     ImGui::SetNextItemWidth(number);
-    number_widget(app, "shot.focus_speed", "dpt a frame", 0.002, false);
+    number_widget(app, "shot.focus_speed", "max. dioptres/frame", 0.002, false);
     button("save track", "save_track track.csv", "track.csv, for defocus --track");
     button("load track", "load_track track.csv", "track.csv");
     if (!app.is_live()) return;

@@ -25,11 +25,10 @@ Plane linear_values(View<const float> depth, bool is_radii, Workers& workers) {
 
 std::string in_words(const EdgeSoftness& softness) {
     char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "the depth's silhouettes are ramps about %.0f px wide: their pixels went to one side by colour; "
-        "depth.edges keep leaves them",
-        4 * double(softness.deviation_px));
+    std::snprintf(text, sizeof text,
+                  "soft depth edges (about %.0f px) were sharpened using the colour image; "
+                  "depth.edges keep leaves them soft",
+                  4 * double(softness.deviation_px));
     return text;
 }
 

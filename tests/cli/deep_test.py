@@ -58,7 +58,7 @@ class Deep(CommandLineTest):
     def test_what_was_found_behind_is_a_deep_file_that_behind_takes(self):
         write_exr(self.path("in.exr"), picture(40, 30, lambda x, y: 0.2 if x < 16 else 1.0, lambda x, y: 1.0 if x < 16 else 6.0))
         said = self.succeed("defocus", "in.exr", "-o", "hidden.exr", "--view", "hidden", *CAMERA, "--fstop", "1.4").err
-        self.assertIn("--behind hidden.exr", said)
+        self.assertIn("--plate hidden.exr", said)
         self.defocus("in.exr", "-o", "plain.exr")
         self.defocus("in.exr", "-o", "given.exr", "--behind", "hidden.exr")
         for plain, given in zip(self.rows("plain.exr")[15], self.rows("given.exr")[15]):
@@ -88,7 +88,7 @@ class Deep(CommandLineTest):
 
     def test_hidden_layers_of_a_deep_picture_are_in_it(self):
         self.refuse(2, "defocus", "far.exr", "-o", "out.exr", *CAMERA, "--fstop", "2", "--merge", "near.exr", "--behind", "middle.exr",
-                    says=["--behind", "deep"])
+                    says=["--plate", "deep"])
 
     def test_a_holdout_hides_what_is_behind_it_and_stays_sharp(self):
         self.defocus("far.exr", "-o", "free.exr")

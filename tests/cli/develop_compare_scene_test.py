@@ -101,7 +101,7 @@ class Inspect(CommandLineTest):
         channels["diffuse.R"] = plane(8, 6, 0)
         write_exr(self.path("in.exr"), channels, half="RGB", attributes=attribute("aperture", "float", b"\0\0\0\x40"))
         text = self.succeed("inspect", "in.exr").out
-        for words in ("8 x 6", "R G B  (half)", "diffuse. R  (float)", "Z  (float)", "2 m to 9 m", "8 of 48 pixels are misses",
+        for words in ("8 x 6", "R G B  (half)", "diffuse. R  (float)", "Z  (float)", "2 m to 9 m", "8 of 48 pixels without depth",
                       "OpenEXR aperture", "give --focus"):
             self.assertIn(words, text)
         report = self.report("inspect", "in.exr")

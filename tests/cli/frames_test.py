@@ -199,7 +199,7 @@ class Shots(CommandLineTest):
         self.refuse(2, "defocus", "in.####.exr", "-o", "out.exr", *CAMERA, says=["####"])
         self.refuse(2, "defocus", "in.0001.exr", "-o", "out.####.exr", *CAMERA, says=["--frames, --track or --rack"])
         self.refuse(2, "defocus", "in.0001.exr", "-o", "out.exr", *CAMERA, "--frames", "1", says=["--frames", "neither"])
-        self.refuse(3, "defocus", "no.####.exr", "-o", "out.####.exr", *CAMERA, says=["no frame is there"])
+        self.refuse(3, "defocus", "no.####.exr", "-o", "out.####.exr", *CAMERA, says=["no frame exists"])
         self.refuse(3, "defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, "--track", "none.csv", says=["none.csv"])
 
     def test_inspect_tells_what_changes(self):

@@ -39,7 +39,7 @@ class Help(CommandLineTest):
     def test_the_prose_of_the_page_names_flags_that_there_are(self):
         known = set(FLAG.findall(self.form("md")))
         prose = PAGE.split("\n## Verbs\n")[0]
-        self.assertEqual(set(FLAG.findall(prose)) - known - {"--help"}, set(FLAG.findall(NOT_YET)))
+        self.assertEqual(set(FLAG.findall(prose)) - known - {"--help", "--help-all"}, set(FLAG.findall(NOT_YET)))
 
     def test_what_is_not_there_yet_is_refused(self):
         for flag in FLAG.findall(NOT_YET):
@@ -50,10 +50,19 @@ class Help(CommandLineTest):
     def test_every_form_has_every_flag_of_every_verb(self):
         forms = {name: self.form(name) for name in ("md", "man", "bash", "zsh", "fish")}
         for verb in VERBS:
-            for flag in set(FLAG.findall(self.succeed(*verb.split(), "--help").out)):
+            for flag in set(FLAG.findall(self.succeed(*verb.split(), "--help-all").out)):
                 for name, text in forms.items():
-                    if flag != "--help" or name != "md":
+                    if not flag.startswith("--help") or name != "md":
                         self.assertRegex(text, re.escape(flag if name != "fish" else " -l " + flag[2:]) + r"(?![\w-])", (verb, name))
+
+    def test_short_help_fits_a_screen_and_names_the_long_one(self):
+        short, whole = (self.succeed("defocus", flag).out for flag in ("--help", "--help-all"))
+        self.assertLessEqual(short.count("\n"), 48)
+        self.assertLessEqual(max(map(len, short.split("Common flags")[1].split("\n"))), 100)
+        self.assertIn("--help-all", short)
+        for flag in ("--depth", "--plate", "--fstop", "--focus-at", "--lens", "--frames"):
+            self.assertIn(f"  {flag}", short)
+        self.assertGreater(len(FLAG.findall(whole)), 2 * len(FLAG.findall(short)))
 
     def test_the_manual_page_is_clean(self):
         self.assertEqual(self.check("mandoc", "-T", "lint", self.file("man")), "")

@@ -9,8 +9,8 @@ VERBS = ["defocus", "lens", "lens list", "lens show", "lens psf", "lens table", 
 # Every flag of defocus that takes a value, with a value it accepts.
 DEFOCUS_VALUES = {
     "--layer": "x", "--view-name": "left", "--depth": "in.exr", "--depth-channel": "Z", "--depth-kind": "planar",
-    "--unit-scale": "0.01", "--behind": "in.exr", "--holdout": "in.exr", "--mask": "in.exr", "--overscan": "8", "--focal-length": "50mm", "--sensor-width": "36mm", "--fstop": "2",
-    "--focus": "2m", "--focus-at": "1,1", "--focus-point": "1,2,3", "--image-scale": "rendered", "--focus-range": "1,3",
+    "--unit-scale": "0.01", "--plate": "in.exr", "--holdout": "in.exr", "--mask": "in.exr", "--overscan": "8", "--focal-length": "50mm", "--sensor-width": "36mm", "--fstop": "2",
+    "--focus": "2m", "--focus-at": "1,1", "--focus-point": "1,2,3", "--breathing": "off", "--focus-range": "1,3",
     "--permissible-radius": "2", "--near-scale": "1", "--far-scale": "1", "--max-radius": "9", "--lens": "ideal", "--blades": "5",
     "--squeeze": "2", "--cats-eye": "0.5", "--engine": "reference", "--quality": "draft", "--seed": "3", "--ocio": "sRGB", "--ocio-space": "scene",
     "--bloom": "0.1", "--star": "0", "--ghosts": "0.1", "--veil": "0.1", "--bloom-radius": "0.1", "--bloom-threshold": "1", "--transfer": "srgb",
@@ -65,7 +65,7 @@ CONTRADICTIONS = [
 WRONG_VALUES = {
     "--focal-length": ["0", "-85mm", "85 mm", "85yd", "mm", "", "nan"], "--focus": ["0m", "3,2", "three"],
     "--sensor-width": ["0"], "--fstop": ["0", "-2", "f2.8"], "--focus-at": ["1", "1,2,3", "a,b", "1.5,2"], "--focus-point": ["1,2", "1,2,3,4", "a,b,c", "1,2,inf"],
-    "--image-scale": ["thick"], "--focus-range": ["3m,1m", "2", "0,1"], "--near-scale": ["-1", "inf"],
+    "--breathing": ["thick"], "--focus-range": ["3m,1m", "2", "0,1"], "--near-scale": ["-1", "inf"],
     "--far-scale": ["x"], "--max-radius": ["0"], "--permissible-radius": ["0", "x"], "--blades": ["2", "-5", "5.5", "65"], "--blade-curvature": ["1.1"],
     "--squeeze": ["0"], "--cats-eye": ["2"], "--dust": ["2"], "--barrel": ["14", "0,3", "a,b"], "--wavelengths": ["0"],
     "--barn-doors": ["1,1", "2,0,0,0", "a,0,0,0"], "--kernel-image": ["a,b,c", ","], "--engine": ["warp"], "--quality": ["best"], "--seed": ["-1", "x"],
@@ -91,7 +91,7 @@ class Usage(CommandLineTest):
             self.assertLessEqual(max(map(len, outcome.out.splitlines())), 120, verb)
 
     def test_help_names_every_flag(self):
-        text = self.succeed("defocus", "--help").out
+        text = self.succeed("defocus", "--help-all").out
         for flag in list(DEFOCUS_VALUES) + DEFOCUS_SWITCHES:
             self.assertIn(flag, text)
 
