@@ -64,6 +64,19 @@ def stage_pages():
         page.write_text(LINK.sub(moved, page.read_text()))
 
 
+def nav():
+    """The order of the start page: its sections, and under each its links."""
+    found = [{"Start": "README.md"}, {"Gallery": "gallery.md"}]
+    for section in re.split(r"^## ", (DOCS / "README.md").read_text(), flags=re.MULTILINE)[1:]:
+        pages = [page for _, page in LINK.findall(section) if page.endswith(".md") and not page.startswith("..")]
+        found.append({section.split("\n")[0]: pages})
+    listed = {page for entry in found[2:] for pages in entry.values() for page in pages}
+    missing = {p.relative_to(DOCS).as_posix() for p in DOCS.glob("*/*.md")} - listed
+    if missing := sorted(page for page in missing if not page.startswith("journal/")):
+        sys.exit(f"site: docs/README.md has no link to {', '.join(missing)}")
+    return json.dumps(found)
+
+
 def picture(program, name, *flags):
     """One picture of the gallery, made once."""
     path = PICTURES / f"{name}.png"
@@ -142,6 +155,7 @@ def main(program, *words):
     for name in ("site.css", "site.js"):
         shutil.copy(ROOT / "tools/site" / name, STAGE)
     settings = (ROOT / "tools/site/mkdocs.yml").read_text().replace("STAGE", str(STAGE)).replace("SITE", str(SITE))
+    settings = settings.replace("NAV", nav())
     (ROOT / "build/site.yml").write_text(settings)
     run(mkdocs, "build", "--quiet", "--clean", "--config-file", ROOT / "build/site.yml",
         env={**os.environ, "NO_MKDOCS_2_WARNING": "1", "DISABLE_MKDOCS_2_WARNING": "true"})
