@@ -5,6 +5,7 @@ PyPI, with its version pinned here. mkdocs-material was chosen because it builds
 used without other hosts, and installs; its successor Zensical reads the same tools/site/mkdocs.yml, but its wheel
 zensical-ui did not install when this was written. Links that leave docs/ lead to copies under source/.
 """
+import html
 import json
 import os
 import pathlib
@@ -19,6 +20,7 @@ DOCS, STAGE, SITE, VENV = ROOT / "docs", ROOT / "build/site-pages", ROOT / "buil
 PICTURES = ROOT / "build/site-gallery"
 GENERATOR = "mkdocs-material==9.8.1"
 LINK = re.compile(r"(\]\()([^)\s#]+)")
+BARS = re.compile(r"`([^`\n]*\\\|[^`\n]*)`")
 PAIRS = [("scatter against the sharp picture", "sharp", "ideal"), ("ideal lens, achromat", "ideal", "doublet"),
          ("ideal lens, Petzval portrait lens", "ideal", "petzval-portrait")]
 
@@ -61,7 +63,12 @@ def stage_pages():
                 shutil.copy(target, copy)
             return match[1] + os.path.relpath(copy, page.parent)
 
-        page.write_text(LINK.sub(moved, page.read_text()))
+        page.write_text(BARS.sub(as_code, LINK.sub(moved, page.read_text())))
+
+
+def as_code(match):
+    """Code with the escaped bars of a table: the generator shows their backslashes, GitHub does not."""
+    return "<code>" + html.escape(match[1]).replace("\\|", "&#124;") + "</code>"
 
 
 def nav():
