@@ -16,7 +16,7 @@ import c_api_written
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADERS = ROOT / "include/petzval"
-NAMES = ["petzval_c.h", "petzval_lens_c.h"]
+NAMES = ["petzval_c.h", "petzval_lens_c.h", "petzval_frame_c.h"]
 OPTIONAL = "vulkan.h"  # exported all or not at all
 PAGE = ROOT / "docs/reference/c-api.md"
 DECLARED = ROOT / "python/petzval/_declared.py"

@@ -46,7 +46,7 @@ ALLOWED = {
     "shot": PIXELS | {"laws", "optics", "depth", "names", "look", "session", "files"},
     "sequence": PIXELS | {"optics", "names", "look", "session", "shot", "files"},
     "lens_facts": LENS,
-    "c": PIXELS | {"kernel/lenses", "device/vulkan", "lens_facts", "look", "session"},
+    "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session"},
     "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "depth", "views", "look", "glare"},
 }
 # What tests beside the code may see as well.
@@ -96,6 +96,7 @@ PUBLIC = {
     "petzval": "session",
     "petzval_c": "c",
     "petzval_lens_c": "c",
+    "petzval_frame_c": "c",
     "pixel_view": "image",
     "result": "base",
     "scene": "scene",

@@ -46,6 +46,11 @@ PETZVAL_C_API const char* petzval_status_name(petzval_status status);
 /* Of the library that is loaded: "0.1.0". Lives for ever. */
 PETZVAL_C_API const char* petzval_version(void);
 
+/* JSON made for the caller, who closes it. Infinity is written as 1e999, what is unknown is null. */
+typedef struct petzval_text petzval_text;
+PETZVAL_C_API const char* petzval_text_json(const petzval_text* text); /* lives as long as the text */
+PETZVAL_C_API void petzval_text_close(petzval_text* text);
+
 /* --- Sessions: what outlives a frame
  * ------------------------------------------------------------------------ */
 
@@ -172,6 +177,19 @@ typedef struct petzval_light {
     float x, y, r, g, b, depth_m, radius_px, diameter_px;
 } petzval_light;
 
+/* Another picture of what the shot's colour shows, of its size, blurred by the same weights. For the engine
+ * "scatter". */
+typedef struct petzval_layer {
+    size_t size;
+    const petzval_pixels* colour; /* scene-linear, premultiplied; its alpha is not read */
+    /* 0: light; layers that sum to the shot's colour sum to it when blurred. 1: a matte, blurred as the
+     * coverage of surfaces is. */
+    int is_matte;
+    /* The lamp of this light: "daylight", "sodium", "mercury", "neon", "led"; null: the lens's own. */
+    const char* spectrum;
+    const petzval_pixels* out; /* written with the frame, in its size; null: not wanted */
+} petzval_layer;
+
 /* What was rendered. Only read. */
 typedef struct petzval_shot {
     size_t size;
@@ -191,6 +209,8 @@ typedef struct petzval_shot {
     /* Where the effect is wanted, of the picture's size: 1 as blurred, 0 as given, a share mixes; null:
      * everywhere. */
     const petzval_plane* mask;
+    const petzval_layer* const* layers; /* layer_count of them */
+    uint64_t layer_count;
 } petzval_shot;
 
 /* --- A frame
@@ -232,7 +252,8 @@ PETZVAL_C_API void petzval_report_close(petzval_report* report);
 }
 #endif
 
-#include <petzval/petzval_lens_c.h> /* lenses */
+#include <petzval/petzval_frame_c.h> /* stages of a frame, display codes, comparison */
+#include <petzval/petzval_lens_c.h>  /* lenses */
 
 /* NOLINTEND(modernize-use-using,modernize-deprecated-headers,readability-identifier-naming) */
 #endif

@@ -10,11 +10,6 @@
 extern "C" {
 #endif
 
-/* JSON made for the caller, who closes it. Infinity is written as 1e999, what is unknown is null. */
-typedef struct petzval_text petzval_text;
-PETZVAL_C_API const char* petzval_text_json(const petzval_text* text); /* lives as long as the text */
-PETZVAL_C_API void petzval_text_close(petzval_text* text);
-
 typedef struct petzval_lens petzval_lens;
 
 /* A lens that ships, by its name, or a lens file, by its path. The file is read here and never again.

@@ -8,12 +8,13 @@ Pictures are scene-linear, premultiplied, rows top-down. Signs and units are tho
 from ._library import library as _library
 from .arrays import Array
 from .camera import Camera
+from .comparison import compare
 from .errors import Cancelled, Error, Internal, InvalidArgument, InvalidFile, OutOfMemory, OutputFailed, Unsupported
 from .lens import Lens, lens_list, lens_names
 from .look import Look
-from .session import Frame, Session, defocus, device_names, engine_names
-from .shot import Deep, Light, Shot
-__all__ = ['Array', 'Camera', 'Cancelled', 'Deep', 'Error', 'Frame', 'Internal', 'InvalidArgument', 'InvalidFile', 'Lens', 'Light', 'Look', 'OutOfMemory', 'OutputFailed', 'Session', 'Shot', 'Unsupported', 'defocus', 'device_names', 'engine_names', 'lens_list', 'lens_names', 'version']
+from .session import Codes, Frame, Session, defocus, device_names, engine_names
+from .shot import Deep, Layer, Light, Shot
+__all__ = ['Array', 'Camera', 'Cancelled', 'Codes', 'Deep', 'Error', 'Frame', 'Internal', 'InvalidArgument', 'InvalidFile', 'Layer', 'Lens', 'Light', 'Look', 'OutOfMemory', 'OutputFailed', 'Session', 'Shot', 'Unsupported', 'compare', 'defocus', 'device_names', 'engine_names', 'lens_list', 'lens_names', 'version']
 
 def version() -> str:
     """Version of the library that is loaded, as "0.1.0"."""

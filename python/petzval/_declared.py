@@ -16,6 +16,10 @@ PETZVAL_FLOAT = 0
 PETZVAL_HALF = 1
 
 
+class petzval_text(Structure):
+    """A handle."""
+
+
 class petzval_session(Structure):
     """A handle."""
 
@@ -25,10 +29,6 @@ class petzval_look(Structure):
 
 
 class petzval_report(Structure):
-    """A handle."""
-
-
-class petzval_text(Structure):
     """A handle."""
 
 
@@ -146,6 +146,16 @@ class petzval_light(Structure):
     ]
 
 
+class petzval_layer(Structure):
+    _fields_ = [
+        ("size", c_size_t),
+        ("colour", POINTER(petzval_pixels)),
+        ("is_matte", c_int),
+        ("spectrum", c_char_p),
+        ("out", POINTER(petzval_pixels)),
+    ]
+
+
 class petzval_shot(Structure):
     _fields_ = [
         ("size", c_size_t),
@@ -162,6 +172,8 @@ class petzval_shot(Structure):
         ("lights", POINTER(petzval_light)),
         ("light_count", c_uint64),
         ("mask", POINTER(petzval_plane)),
+        ("layers", POINTER(POINTER(petzval_layer))),
+        ("layer_count", c_uint64),
     ]
 
 
@@ -217,11 +229,30 @@ class petzval_texture(Structure):
     ]
 
 
+class petzval_codes(Structure):
+    _fields_ = [
+        ("size", c_size_t),
+        ("data", c_void_p),
+        ("row_stride", c_ssize_t),
+        ("width", c_int),
+        ("height", c_int),
+        ("bits", c_int),
+        ("exposure_stops", c_double),
+        ("contrast", c_double),
+        ("tone", c_char_p),
+        ("transfer", c_char_p),
+        ("no_dither", c_int),
+        ("window", petzval_rect),
+    ]
+
+
 # Name: type of the result, types of the arguments.
 PROTOTYPES = {
     "petzval_error_text": (c_char_p, []),
     "petzval_status_name": (c_char_p, [c_int]),
     "petzval_version": (c_char_p, []),
+    "petzval_text_json": (c_char_p, [POINTER(petzval_text)]),
+    "petzval_text_close": (None, [POINTER(petzval_text)]),
     "petzval_session_open": (c_int, [POINTER(petzval_session_settings), POINTER(POINTER(petzval_session))]),
     "petzval_session_close": (None, [POINTER(petzval_session)]),
     "petzval_session_usage": (c_int, [POINTER(petzval_session), POINTER(petzval_usage)]),
@@ -240,8 +271,6 @@ PROTOTYPES = {
         POINTER(petzval_look), POINTER(c_int)]),
     "petzval_report_json": (c_char_p, [POINTER(petzval_report)]),
     "petzval_report_close": (None, [POINTER(petzval_report)]),
-    "petzval_text_json": (c_char_p, [POINTER(petzval_text)]),
-    "petzval_text_close": (None, [POINTER(petzval_text)]),
     "petzval_lens_open": (c_int, [c_char_p, POINTER(POINTER(petzval_lens))]),
     "petzval_lens_from_memory": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(POINTER(petzval_lens))]),
     "petzval_lens_with": (c_int, [POINTER(petzval_lens), POINTER(petzval_look),
@@ -262,4 +291,11 @@ PROTOTYPES = {
         POINTER(petzval_texture), POINTER(c_int)]),
     "petzval_lens_texture": (c_int, [POINTER(petzval_lens), POINTER(petzval_lens_mount),
         POINTER(petzval_texture), POINTER(petzval_pixels), POINTER(c_double), POINTER(c_int)]),
+    "petzval_defocus_stage": (c_int, [POINTER(petzval_session), c_char_p, POINTER(petzval_shot),
+        POINTER(petzval_look), POINTER(petzval_control), POINTER(petzval_pixels),
+        POINTER(POINTER(petzval_report))]),
+    "petzval_defocus_codes": (c_int, [POINTER(petzval_session), POINTER(petzval_shot), POINTER(petzval_look),
+        POINTER(petzval_control), POINTER(petzval_codes), POINTER(POINTER(petzval_report))]),
+    "petzval_compare": (c_int, [POINTER(petzval_pixels), POINTER(petzval_pixels), POINTER(petzval_plane),
+        c_double, POINTER(POINTER(petzval_text))]),
 }

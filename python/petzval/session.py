@@ -17,15 +17,27 @@ from .shot import Shot, Window, rect
 
 @dataclasses.dataclass
 class Frame:
-    """A frame: its image, and the report with engine, lens, device, radii, seconds by stage and warnings."""
+    """A frame: its image, its layers in the shot's order, and the report.
+
+    The report has engine, lens, device, radii, seconds by stage and warnings.
+    """
 
     image: Any
     report: dict
+    layers: list = dataclasses.field(default_factory=list)
 
     @property
     def warnings(self) -> list[str]:
         """Sentences about choices without effect and odd input."""
         return self.report["warnings"]
+
+
+@dataclasses.dataclass
+class Codes:
+    """A frame as codes of a display: (height, width, 3), bytes or 16-bit words, and the report."""
+
+    codes: Any
+    report: dict
 
 
 class Session:
@@ -52,24 +64,63 @@ class Session:
         Ctrl-C ends the frame. Raises the errors of the C API, Cancelled among them.
         """
         given, kept = shot._struct()
-        chosen = as_look(look)
+        images = [_image_for(shot, given, region) for _ in shot.layers]
+        if images:
+            given, kept = shot._struct(images)
         image = _image_for(shot, given, region) if out is None else out
         into, held = pixels_of(image, "out", written=True)
-        made_report = ctypes.POINTER(_declared.petzval_report)()
-        with _Run(progress, region) as run:
-            run.call("petzval_defocus", self._open(), ctypes.byref(given), chosen._handle, run.control,
-                     ctypes.byref(into), ctypes.byref(made_report))
-        report = json.loads(library().petzval_report_json(made_report))
-        library().petzval_report_close(made_report)
+        report = self._run("petzval_defocus", (), given, look, ctypes.byref(into), progress, region)
+        del kept, held
+        layers = [like(_first(layer.colour), made_layer) for layer, made_layer in zip(shot.layers, images)]
+        return Frame(like(_first(shot.colour), image) if out is None else out, report, layers)
+
+    def stage(self, stage: str, shot: Shot, look: Look | str | dict | None = None, *, out=None,
+              progress: Callable[[float], object] | None = None) -> Frame:
+        """One stage of a frame: "blur", "falloff" or "glare". shot.colour is the result of the stage before.
+
+        All three in turn give the bits of defocus(), for looks without expand_highlights and shots without mask.
+        """
+        given, kept = shot._struct()
+        image = _image_for(shot, given, None) if out is None else out
+        into, held = pixels_of(image, "out", written=True)
+        report = self._run("petzval_defocus_stage", (stage.encode(),), given, look, ctypes.byref(into), progress, None)
         del kept, held
         return Frame(like(_first(shot.colour), image) if out is None else out, report)
+
+    def codes(self, shot: Shot, look: Look | str | dict | None = None, *, bits: int = 8, exposure_stops: float = 0,
+              contrast: float = 1, tone: str = "filmic", transfer: str = "srgb", dither: bool = True,
+              progress: Callable[[float], object] | None = None) -> Codes:
+        """A frame developed to codes of a display over the display window: (height, width, 3), 8 or 16 bits."""
+        given, kept = shot._struct()
+        width, height = shot.size
+        x0, y0, x1, y1 = shot.display_window or shot.data_window or (0, 0, width, height)
+        height, width = y1 - y0, x1 - x0
+        kind, letter = (ctypes.c_uint16, "H") if bits == 16 else (ctypes.c_uint8, "B")
+        memory = (kind * (3 * width * height))()
+        wanted = struct(_declared.petzval_codes, data=ctypes.addressof(memory), width=width, height=height, bits=bits,
+                        row_stride=3 * width * ctypes.sizeof(kind), exposure_stops=exposure_stops, contrast=contrast,
+                        tone=tone.encode(), transfer=transfer.encode(), no_dither=int(not dither))
+        report = self._run("petzval_defocus_codes", (), given, look, ctypes.byref(wanted), progress, None)
+        del kept
+        return Codes(memoryview(memory).cast("B").cast(letter, (height, width, 3)), report)
+
+    def _run(self, name: str, first: tuple, given, look, into, progress, region) -> dict:
+        """Calls a function that makes a frame; its report."""
+        chosen = as_look(look)  # lives until the call returns
+        report = ctypes.POINTER(_declared.petzval_report)()
+        with _Run(progress, region) as run:
+            run.call(name, self._open(), *first, ctypes.byref(given), chosen._handle, run.control, into,
+                     ctypes.byref(report))
+        text = library().petzval_report_json(report)
+        library().petzval_report_close(report)
+        return json.loads(text)
 
     def region_margin_px(self, shot: Shot, look: Look | str | dict | None = None) -> int:
         """How many pixels around a region its result depends on."""
         given, kept = shot._struct()
+        chosen = as_look(look)
         margin = ctypes.c_int()
-        call("petzval_region_margin_px", self._open(), ctypes.byref(given), as_look(look)._handle,
-             ctypes.byref(margin))
+        call("petzval_region_margin_px", self._open(), ctypes.byref(given), chosen._handle, ctypes.byref(margin))
         del kept
         return margin.value
 

@@ -15,13 +15,23 @@ from .shot import Shot, Window, rect
 
 @dataclasses.dataclass
 class Frame:
-    """A frame: its image, and the report with engine, lens, device, radii, seconds by stage and warnings."""
+    """A frame: its image, its layers in the shot's order, and the report.
+
+    The report has engine, lens, device, radii, seconds by stage and warnings.
+    """
     image: Any
     report: dict
+    layers: list = dataclasses.field(default_factory=list)
 
     @property
     def warnings(self) -> list[str]:
         """Sentences about choices without effect and odd input."""
+
+@dataclasses.dataclass
+class Codes:
+    """A frame as codes of a display: (height, width, 3), bytes or 16-bit words, and the report."""
+    codes: Any
+    report: dict
 
 class Session:
     """What outlives a frame: threads, kernels, one memory budget. May be used by many threads at once.
@@ -41,6 +51,15 @@ class Session:
         done, 0…1; False from it cancels, and its exceptions end the frame and are raised here. The GIL is released;
         Ctrl-C ends the frame. Raises the errors of the C API, Cancelled among them.
         """
+
+    def stage(self, stage: str, shot: Shot, look: Look | str | dict | None=None, *, out=None, progress: Callable[[float], object] | None=None) -> Frame:
+        """One stage of a frame: "blur", "falloff" or "glare". shot.colour is the result of the stage before.
+
+        All three in turn give the bits of defocus(), for looks without expand_highlights and shots without mask.
+        """
+
+    def codes(self, shot: Shot, look: Look | str | dict | None=None, *, bits: int=8, exposure_stops: float=0, contrast: float=1, tone: str='filmic', transfer: str='srgb', dither: bool=True, progress: Callable[[float], object] | None=None) -> Codes:
+        """A frame developed to codes of a display over the display window: (height, width, 3), 8 or 16 bits."""
 
     def region_margin_px(self, shot: Shot, look: Look | str | dict | None=None) -> int:
         """How many pixels around a region its result depends on."""

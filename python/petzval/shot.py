@@ -52,13 +52,26 @@ class Deep:
 
 
 @dataclasses.dataclass
+class Layer:
+    """Another picture of what the shot's colour shows, blurred by the same weights; for the engine "scatter".
+
+    colour: as of a shot, and of its size; its alpha is not read. is_matte False: light; layers that sum to the
+    shot's colour sum to it when blurred. spectrum: the lamp of this light, "sodium", "mercury", "neon" or "led".
+    """
+
+    colour: Any
+    is_matte: bool = False
+    spectrum: str | None = None
+
+
+@dataclasses.dataclass
 class Shot:
     """What was rendered: borrowed arrays, a camera, where the picture lies. Nothing is copied.
 
     colour: scene-linear, premultiplied, (height, width, 3 or 4) float32 or float16 with any strides, or a list of
     3 or 4 planes; without alpha it is 1. depth_m: planar metres, +infinity for a miss; or radii_px: signed radii of
     the circle of confusion, + behind focus. mask: 1 where the effect is wanted. deep, behind, holdout: deep samples
-    of the picture, of hidden layers, of a matte. Windows are (x0, y0, x1, y1); None: the picture is the frame.
+    of the picture, of hidden layers, of a matte. layers: more pictures that are blurred with it. Windows are (x0, y0, x1, y1); None: the picture is the frame.
     """
 
     colour: Any
@@ -70,12 +83,13 @@ class Shot:
     behind: Deep | None = None
     holdout: Deep | None = None
     lights: Sequence[Light] = ()
+    layers: Sequence[Layer] = ()
     display_window: Window | None = None
     data_window: Window | None = None
     pixel_aspect: float = 1
 
-    def _struct(self) -> tuple[_declared.petzval_shot, Kept]:
-        """The C struct and what it points at. Raises InvalidArgument naming the field."""
+    def _struct(self, outs: Sequence[Any] = ()) -> tuple[_declared.petzval_shot, Kept]:
+        """The C struct and what it points at. outs: where layers are written. Raises InvalidArgument."""
         if (self.depth_m is None) == (self.radii_px is None):
             raise errors.InvalidArgument("shot: one of depth_m and radii_px, and not both")
         colour, kept = pixels_of(self.colour, "colour")
@@ -89,6 +103,9 @@ class Shot:
         for name in ("deep", "behind", "holdout", "camera"):
             value = getattr(self, name)
             members[name] = pointer(None if value is None else value._struct())
+        layers, owners = _layers(self.layers, outs)
+        kept += owners
+        members.update(layers=layers, layer_count=len(self.layers))
         lights = (_declared.petzval_light * max(1, len(self.lights)))(*[dataclasses.astuple(l) for l in self.lights])
         members.update(lights=lights, light_count=len(self.lights), pixel_aspect=self.pixel_aspect,
                        display_window=rect(self.display_window), data_window=rect(self.data_window))
@@ -99,6 +116,24 @@ class Shot:
         """(width, height) of the picture."""
         colour, _ = pixels_of(self.colour, "colour")
         return colour.width, colour.height
+
+
+def _layers(layers: Sequence[Layer], outs: Sequence[Any]):
+    """An array of pointers to layers, and what they point at."""
+    kept: Kept = []
+    pointers = (ctypes.POINTER(_declared.petzval_layer) * max(1, len(layers)))()
+    for i, layer in enumerate(layers):
+        colour, owners = pixels_of(layer.colour, f"layers[{i}]")
+        made = struct(_declared.petzval_layer, colour=ctypes.pointer(colour), is_matte=int(layer.is_matte),
+                      spectrum=layer.spectrum.encode() if layer.spectrum else None)
+        kept += owners
+        if i < len(outs):
+            out, owners = pixels_of(outs[i], f"layers[{i}].out", written=True)
+            made.out = ctypes.pointer(out)
+            kept += owners
+        pointers[i] = ctypes.pointer(made)
+        kept.append(made)
+    return pointers, kept
 
 
 def rect(window: Window | None) -> _declared.petzval_rect:

@@ -38,13 +38,24 @@ class Deep:
     samples: Sequence[tuple[float, float, float, float, float, float]]
 
 @dataclasses.dataclass
+class Layer:
+    """Another picture of what the shot's colour shows, blurred by the same weights; for the engine "scatter".
+
+    colour: as of a shot, and of its size; its alpha is not read. is_matte False: light; layers that sum to the
+    shot's colour sum to it when blurred. spectrum: the lamp of this light, "sodium", "mercury", "neon" or "led".
+    """
+    colour: Any
+    is_matte: bool = False
+    spectrum: str | None = None
+
+@dataclasses.dataclass
 class Shot:
     """What was rendered: borrowed arrays, a camera, where the picture lies. Nothing is copied.
 
     colour: scene-linear, premultiplied, (height, width, 3 or 4) float32 or float16 with any strides, or a list of
     3 or 4 planes; without alpha it is 1. depth_m: planar metres, +infinity for a miss; or radii_px: signed radii of
     the circle of confusion, + behind focus. mask: 1 where the effect is wanted. deep, behind, holdout: deep samples
-    of the picture, of hidden layers, of a matte. Windows are (x0, y0, x1, y1); None: the picture is the frame.
+    of the picture, of hidden layers, of a matte. layers: more pictures that are blurred with it. Windows are (x0, y0, x1, y1); None: the picture is the frame.
     """
     colour: Any
     depth_m: Any = None
@@ -55,6 +66,7 @@ class Shot:
     behind: Deep | None = None
     holdout: Deep | None = None
     lights: Sequence[Light] = ()
+    layers: Sequence[Layer] = ()
     display_window: Window | None = None
     data_window: Window | None = None
     pixel_aspect: float = 1

@@ -8,7 +8,7 @@
 namespace petzval::c {
 namespace {
 
-// Of this thread's last failure.
+// The sentence of the last failure of this thread.
 std::string& error_text() {
     thread_local std::string text;
     return text;

@@ -1,4 +1,4 @@
-// What the C door's files share: handles, and how a call ends.
+// Handles, and the end of every call: shared by all files of this room.
 #pragma once
 
 #include "petzval/lens.h"

@@ -1,5 +1,7 @@
 #include "c/lent.h"
 
+#include "petzval/names.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -66,15 +68,6 @@ Status check_lights(const petzval_shot& shot) {
     return shot.light_count > 0 && !shot.lights ? Status(refused("lights is null")) : Done{};
 }
 
-Plane read_plane(const petzval_plane* given) {
-    const petzval_plane plane = taken(given);
-    Plane read = Plane::uninitialised(plane.width, plane.height);
-    read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
-                          plane.row_stride},
-                read);
-    return read;
-}
-
 // Samples are read once, so that a host that changes them meanwhile breaks nothing.
 Status take_deep(const petzval_deep* given, const char* name, DeepPicture& into) {
     const petzval_deep deep = taken(given);
@@ -112,6 +105,43 @@ Result<Place> place_of(const petzval_shot& shot, const ColourView& colour) {
     if (shot.pixel_aspect != 0) place.pixel_aspect = shot.pixel_aspect;
     if (Status ok = check(place); !ok) return ok.error();
     return place;
+}
+
+Result<ComparedLayer> compared_layer(const petzval_layer* given, const ColourView& colour,
+                                     const std::string& name) {
+    if (!given) return refused(name + " is null");
+    const petzval_layer layer = taken(given);
+    ComparedLayer compared;
+    auto view = colour_view(layer.colour, name.c_str());
+    if (!view) return view.error();
+    if (view->width != colour.width || view->height != colour.height)
+        return refused(name + " is not of the size of colour");
+    compared.colour = *view;
+    compared.is_light = layer.is_matte == 0;
+    if (layer.spectrum) {
+        const auto spectrum = parse<LightSpectrum>(layer.spectrum);
+        if (!spectrum) return refused(name + ".spectrum is " + spectrum.error().message);
+        compared.spectrum = *spectrum;
+    }
+    if (!layer.out) return compared;
+    view = colour_view(layer.out, (name + ".out").c_str());
+    if (!view) return view.error();
+    compared.out = *view;
+    return compared;
+}
+
+Result<std::vector<ComparedLayer>> compared_layers(const petzval_shot& shot, const ColourView& colour) {
+    constexpr std::uint64_t kMost = 1024;
+    if (shot.layer_count > kMost || (shot.layer_count > 0 && !shot.layers))
+        return refused("layer_count is " + std::to_string(shot.layer_count) + "; 0 to " +
+                       std::to_string(kMost) + ", with layers");
+    std::vector<ComparedLayer> layers;
+    for (std::uint64_t i = 0; i < shot.layer_count; ++i) {
+        auto layer = compared_layer(shot.layers[i], colour, "layers[" + std::to_string(i) + "]");
+        if (!layer) return layer.error();
+        layers.push_back(std::move(*layer));
+    }
+    return layers;
 }
 
 // A host's functions behind our interface.
@@ -173,6 +203,15 @@ Status check_plane(const petzval_plane* given, int width, int height, const char
                    "; they must be of one size");
 }
 
+Plane read_plane(const petzval_plane* given) {
+    const petzval_plane plane = taken(given);
+    Plane read = Plane::uninitialised(plane.width, plane.height);
+    read_pixels(PlaneView{type_of(plane.sample), static_cast<std::byte*>(plane.data), plane.pixel_stride,
+                          plane.row_stride},
+                read);
+    return read;
+}
+
 Result<ComparedShot> ComparedShot::compare(const petzval_shot* given) {
     if (!given) return refused("shot is null");
     const petzval_shot shot = taken(given);
@@ -188,9 +227,11 @@ Result<ComparedShot> ComparedShot::compare(const petzval_shot* given) {
          {std::pair{shot.deep, "deep"}, {shot.behind, "behind"}, {shot.holdout, "holdout"}})
         if (Status ok = check_deep(deep, *colour, name); !ok) return ok.error();
     if (Status ok = check_lights(shot); !ok) return ok.error();
+    auto layers = compared_layers(shot, *colour);
+    if (!layers) return layers.error();
     const auto place = place_of(shot, *colour);
     if (!place) return place.error();
-    return ComparedShot{shot, *colour, *place};
+    return ComparedShot{shot, *colour, *place, std::move(*layers)};
 }
 
 Status TakenShot::take(const ComparedShot& compared, TakenShot& into) {
@@ -217,6 +258,12 @@ Status TakenShot::take(const ComparedShot& compared, TakenShot& into) {
         d.of_job = &d.own;
     }
     take_lights(shot, into);
+    for (const ComparedLayer& layer : compared.layers) {
+        into.layers.push_back(Picture::uninitialised(compared.colour.width, compared.colour.height));
+        read_pixels(layer.colour, into.layers.back());
+    }
+    for (std::size_t i = 0; i < into.layers.size(); ++i)
+        into.job.layers.push_back({into.layers[i], compared.layers[i].is_light, compared.layers[i].spectrum});
     return Done{};
 }
 

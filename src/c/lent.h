@@ -12,11 +12,12 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace petzval::c {
 
-// A struct of a host that may be older or newer than we are: what it lacks is zero, what we do not know is
+// A struct of a host that may be older or newer than we are: missing members are zero, unknown ones are
 // left. Requires: it begins with its size.
 template <typename Struct>
 Struct taken(const Struct* given) {
@@ -34,11 +35,21 @@ Status check_plane(const petzval_plane* given, int width, int height, const char
 
 Camera camera_of(const petzval_camera& c);
 
+Plane read_plane(const petzval_plane* given);
+
+// A layer as it was given, and the memory for its result; without channels where it is not wanted.
+struct ComparedLayer {
+    ColourView colour, out;
+    bool is_light = true;
+    std::optional<LightSpectrum> spectrum;
+};
+
 // A shot whose pictures were compared with each other. Nothing of them was read.
 struct ComparedShot {
     petzval_shot given;
     ColourView colour;
     Place place;
+    std::vector<ComparedLayer> layers;
     // Errors: InvalidArgument naming the field.
     static Result<ComparedShot> compare(const petzval_shot* shot);
 };
@@ -49,6 +60,7 @@ struct TakenShot {
     Plane depth, mask;
     DeepPicture deep, behind, holdout;
     std::vector<LightPoint> lights;
+    std::vector<Picture> layers;
     DefocusJob job;  // of all these
     // Errors: InvalidArgument for deep samples that are not counted right.
     static Status take(const ComparedShot& shot, TakenShot& into);

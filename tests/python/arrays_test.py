@@ -169,6 +169,7 @@ class Out(unittest.TestCase):
     def test_a_region_is_a_crop_of_the_whole(self):
         whole = self.session.defocus(self.shot).image
         part = self.session.defocus(self.shot, region=(5, 7, 20, 40)).image
+        self.assertTrue(100 < self.session.region_margin_px(self.shot) < 400)
         np.testing.assert_array_equal(part, whole[7:, 5:20])
 
     def test_dlpack_of_petzvals_arrays(self):
