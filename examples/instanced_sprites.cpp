@@ -1,8 +1,8 @@
-// HexaDrive's way of 2009 (docs/published.md), on Vulkan: one instanced draw, one sprite for each pixel. The
-// vertex shader reads depth, makes size, flip and level of it, and shifts the sprite into one oversized atlas
-// that holds all levels; the fragment shader cuts five blades and the barrel's rims; a composite lays the
-// levels over what is sharp. It is what the engines of petzval are measured against, and a frame of a program
-// of Vulkan that draws.
+// HexaDrive's way of 2009 (docs/explain/published.md), on Vulkan: one instanced draw, one sprite for each
+// pixel. The vertex shader reads depth, makes size, flip and level of it, and shifts the sprite into one
+// oversized atlas that holds all levels; the fragment shader cuts five blades and the barrel's rims; a
+// composite lays the levels over what is sharp. It is what the engines of petzval are measured against, and a
+// frame of a program of Vulkan that draws.
 //
 //     instanced_sprites picture.exr result.exr [--every N] [--at-least DB]
 //

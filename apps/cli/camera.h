@@ -1,4 +1,4 @@
-// The camera of a command: its flags, and how its numbers are spoken of.
+// The camera flags of a command, and the messages about its numbers.
 #pragma once
 
 #include "petzval/camera.h"
@@ -32,7 +32,7 @@ struct CameraFlags {
     void check() const;
 };
 
-// What only `defocus` knows: what to focus on. The artist's controls are a look's.
+// Focus flags of `defocus`. The artistic controls belong to the look.
 struct FocusFlags {
     std::optional<PixelPosition> focus_at;  // in pixels of the display window
     std::optional<WorldPoint> focus_point;  // of the world, in scene units
@@ -43,7 +43,7 @@ struct FocusFlags {
     std::vector<std::string> given() const;
 };
 
-// What to add to a message on missing camera numbers: ", for example: petzval defocus … --fstop 2.8".
+// Text to append to a message about missing camera numbers: ", for example: petzval defocus … --fstop 2.8".
 std::string camera_example(const FoundCamera& found, const std::string& input, const std::string& output);
 
 // "camera: 85 mm (file: focalLength), sensor 36 mm (--sensor-width), f/4 (--fstop), focus 4 m (--focus)"

@@ -1,4 +1,4 @@
-// What changes over the frames of a shot, and what is the same in all of them.
+// Values of a shot's frames: constant ones, and those that change.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ public:
     using Value = std::pair<std::string, std::string>;  // its name, and what it is
     // Every frame has the same names in the same order.
     void add(int frame, std::vector<Value> values);
-    // One line of what is the same, a table of the rest, one row a frame; empty without frames.
+    // One line of constant values, then a table with one row per frame; empty without frames.
     std::string text() const;
 
 private:

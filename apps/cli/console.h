@@ -1,4 +1,4 @@
-// What people read: one line at a time on standard error. Standard output is left to results.
+// Messages for people: one line at a time on standard error. Standard output is for results.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ bool colour_wanted();
 void note(const std::string& line);     // unless -q
 void detail(const std::string& line);   // with -v
 void warning(const std::string& line);  // unless -q; "petzval: warning: …"
-// Always; "petzval: …". Fields are spoken of by their flags, or as they stand in a file.
+// Prints "petzval: …". Fields appear as their flags, or as they stand in a file.
 enum class Words { Flags, Fields };
 void failure(const std::string& line, Words words = Words::Flags);
 
-// The text with control characters and what is not UTF-8 made harmless, line breaks kept.
+// The text with control characters and invalid UTF-8 escaped, line breaks kept.
 std::string printable(const std::string& text);
 // The text with line breaks and other control characters made harmless: file names may hold anything.
 std::string one_line(const std::string& text);

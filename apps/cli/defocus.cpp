@@ -60,7 +60,7 @@ private:
 
     double permissible_radius_px() const { return flags_.focus.permissible_radius_px.value_or(1); }
     const Look& look() const { return flags_.look.look(); }
-    // Glare, falloff and what is given back to a plate are part of the picture, not of what is shown instead.
+    // True for the picture itself: other views have no glare, falloff or plate compression.
     bool is_beauty() const { return flags_.view == ViewKind::Beauty; }
     bool expands_plate() const { return look().expand_highlights && is_beauty(); }
     bool needs_camera() const { return !flags_.input.depth_is_coc() && flags_.view != ViewKind::Depth; }
@@ -79,7 +79,7 @@ private:
     std::string made_with_;       // what the output will say
 };
 
-// Another view in a run of its own, but for its writing.
+// A second view in a separate run that is not written.
 struct Run::OtherView {
     DefocusFlags flags;
     Run run;
@@ -90,7 +90,7 @@ struct Run::OtherView {
 };
 
 Status Run::operator()() {
-    // A look is compared by what it says, whatever the age of its file.
+    // A look is compared by content, not by the age of its file.
     std::vector<std::string> inputs = flags_.pictures();
     for (const std::string& file : flags_.look.lens_files()) inputs.push_back(file);
     const MadeWith made_with = flags_.made_with();
@@ -111,7 +111,7 @@ Status Run::operator()() {
     return Done{};
 }
 
-// What is there already stays.
+// Keeps the existing output and reports why.
 Status Run::leave(const std::string& why) {
     note(why);
     report_["skipped"] = why;
@@ -154,7 +154,7 @@ Status Run::read() {
     return Done{};
 }
 
-// What else the file has to be blurred, and what became of it.
+// Reports the other layers of the file and their treatment.
 void Run::say_layers() {
     Json blurred = Json::array(), carried = Json::array();
     std::vector<std::string> sharp;
@@ -221,7 +221,7 @@ Status Run::read_other_views() {
     return Done{};
 }
 
-// What the picture hides and others see: frames before and after, or the other eye.
+// Collects background that neighbouring frames or the other eye see.
 Status Run::look_around() {
     std::vector<Run*> runs{this};
     for (const auto& other : others_) runs.push_back(&other->run);
@@ -350,7 +350,7 @@ Result<DefocusReport> Run::take(const DefocusJob& job) {
                           .codes = codes_wanted()};
     if (!is_beauty()) return session_.defocus(job, control);
     auto taken = session_.take(job, look(), control);
-    // What the look's file holds in vain was said when it was read.
+    // Fields of a look file without effect were reported when it was read.
     if (taken)
         for (const Error& idle : check(look()).idle) std::erase(taken->warnings, idle.message);
     return taken;

@@ -1,4 +1,4 @@
-// The flags of `defocus`: what may be said, what contradicts, and the job they make.
+// The flags of `defocus`: values, contradictions, and the job they make.
 #pragma once
 
 #include "petzval/camera.h"
@@ -51,25 +51,25 @@ struct DefocusFlags {
     RunFlags run;
     FrameFlags frames;
     TrackFlags track;
-    // Of a frame of a shot: what a track changed, and the files of the frames around it.
+    // One frame of a shot: values from the track, and the files of neighbouring frames.
     std::optional<TrackedFrame> tracked;
     std::vector<std::string> neighbours;
-    // Of a frame of a shot with --temporal: what the frames around it and its other eyes see behind its
-    // surfaces.
+    // Set for a frame of a shot with --temporal: returns the background that neighbouring frames and other
+    // eyes see.
     std::function<Result<SeenElsewhere>(const Shot&, std::span<const Shot* const> eyes)> around;
 
     void add_to(Verb& verb);
-    // What a window knows of them: what is rendered, what is chosen, how it is shown.
+    // Adds the flags a window uses: input, look, display.
     void add_shown_to(Verb& verb);
     void check(const Verb& verb);  // throws UsageError for what is missing or contradicts
     void check_shown();            // the same for those of add_shown_to()
     std::vector<std::string> input_files() const;
     std::vector<std::string> pictures() const;  // those that are neither a look's nor a lens's
-    // What -u compares with the settings that the output holds.
+    // Settings that -u compares with those stored in the output.
     MadeWith made_with() const;
     static std::string default_kernel_cache();
     SessionSettings session() const;
-    // The job with what the flags choose.
+    // The job with the choices of the flags.
     DefocusJob job(DefocusJob job) const;
     // Those that the report has no other place for.
     Json parameters_json(const DefocusJob& job) const;

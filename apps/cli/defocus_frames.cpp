@@ -25,7 +25,7 @@ std::vector<std::string*> paths_of(DefocusFlags& flags) {
     return paths;
 }
 
-// The flags of one frame; what a track says of it stands in place of what was typed.
+// The flags of one frame: values of the track replace those on the command line.
 Result<DefocusFlags> flags_of(const DefocusFlags& all, int frame, const Track* track) {
     DefocusFlags flags = at_frame(all, frame);
     flags.run.progress = ProgressMode::Off;  // that of the shot is shown
@@ -79,7 +79,7 @@ void check_temporal(const DefocusFlags& flags, bool from_many) {
         if (given) throw UsageError(std::string("--temporal cannot be used with ") + name);
 }
 
-// What the frames around each frame see of what it hides, of each view by itself.
+// Background that neighbouring frames see behind each frame's surfaces, per view.
 class Around {
 public:
     // Errors: those of listing the files.

@@ -34,7 +34,7 @@ DefocusFlags at_frame(DefocusFlags flags, int frame);
 // Numbers that a track changes are the track's, whatever was typed.
 void name_track(const TrackedFrame& tracked, FoundCamera& camera);
 
-// Whether the flags are about more than one frame. Throws UsageError where they do not fit each other.
+// True if the flags describe more than one frame. Throws UsageError if they contradict each other.
 bool is_sequence(const DefocusFlags& flags);
 
 // Makes one frame: its flags, whose files have no place for a number any more. Returns its report.

@@ -143,7 +143,7 @@ Status write_panels(Frame& frame, const ViewSource& source, const ViewSettings& 
     return write_exr(settings.output, alone, options);
 }
 
-// As PNG: nearest/z, so that infinity is 0 and the file can be read again as inverse depth.
+// Writes nearest/z in a PNG: infinity is 0, and the file can be read back as inverse depth.
 Status write_depth(Frame& frame, const ViewSettings& settings) {
     if (is_exr(settings)) {
         WriteOptions options = exr_options(settings);

@@ -1,5 +1,4 @@
-// What --view shows, and how each is written: EXR covers the data window of the input, PNG its display
-// window.
+// The buffers of --view, and their files: EXR covers the input's data window, PNG its display window.
 #pragma once
 
 #include "petzval/defocus.h"

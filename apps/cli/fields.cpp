@@ -12,7 +12,7 @@ namespace {
 
 using Rows = std::map<std::string, std::string, std::less<>>;
 
-// The flags that choose no look: where things are and what they mean.
+// Flags that are not part of a look: inputs and their meaning.
 const Rows& source_flags() {
     static const Rows rows{
         {"depth.kind", "--depth-kind"},
@@ -102,7 +102,7 @@ const Rows& flags_by_field() {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; }
 
-// Where the word that begins at `start` ends: letters, and dots between letters.
+// End of the word that begins at `start`: letters, and dots between letters.
 std::size_t end_of_word(std::string_view text, std::size_t start) {
     std::size_t end = start;
     while (end < text.size() &&

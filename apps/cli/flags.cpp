@@ -42,7 +42,7 @@ class Help : public CLI::FormatterBase {
 
 std::string unknown_argument(const Verb& verb) {
     const auto extras = verb.remaining(true);
-    // Where a verb is wanted the first word is it, and what follows was meant for that one.
+    // If a verb is expected, the first word is the verb, and later words were meant for it.
     auto odd = extras.begin();
     if (verb.get_subcommands({}).empty())
         odd = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with("-"); });

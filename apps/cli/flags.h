@@ -32,7 +32,7 @@ struct UsageError : std::runtime_error {
     std::string field;  // of a look, where one is wrong
 };
 
-// What a command line asks for; main runs it once all of the line has been understood.
+// The action of a command line; main runs it after parsing the whole line.
 using Action = std::function<Status()>;
 
 // A verb of the program. `example` is what its --help shows first, one command per line.
@@ -45,7 +45,7 @@ void require_verb(const Verb& verb);
 // Help in this program's form, for the program itself and all its verbs.
 void use_our_help(Verb& program);
 
-// What a verb says of itself, and its own verbs (help_forms.h).
+// Help of a verb and its subverbs (help_forms.h).
 struct VerbHelp;
 VerbHelp help_of(const Verb& verb);
 
@@ -79,7 +79,7 @@ public:
     // "--name VALUE…": one or more texts.
     FlagGroup& values(const std::string& name, const std::string& placeholder, const std::string& help,
                       std::vector<std::string>& target);
-    // "--name FILE": a file that the run reads, or writes: the guard of its files is told (guard.h).
+    // "--name FILE": a file that the run reads, or writes; the file is registered with the guard (guard.h).
     FlagGroup& reads(const std::string& name, const std::string& placeholder, const std::string& help,
                      std::string& target);
     FlagGroup& writes(const std::string& name, const std::string& placeholder, const std::string& help,
@@ -90,7 +90,7 @@ public:
         add_switch(name, help, [&target](bool on) { target = on; });
         return *this;
     }
-    // A plain argument, without a name. Where it is that of a file, the guard is told that it is read.
+    // A positional argument. If it is a file, it is registered with the guard as an input.
     FlagGroup& argument(const std::string& name, const std::string& help, std::string& target);
     // All plain arguments, the same.
     FlagGroup& arguments(const std::string& name, const std::string& help, std::vector<std::string>& target);
@@ -105,7 +105,7 @@ private:
     std::string heading_;
 };
 
-// What was typed under these headings, as words of a command line: flags with their values, arguments.
+// Flags, values and arguments typed under these headings, as words of a command line.
 std::vector<std::string> typed_words(const Verb& verb, const std::vector<std::string>& headings,
                                      const std::vector<std::string>& without);
 
@@ -114,7 +114,7 @@ void require_argument(const Verb& verb, const std::string& given, const std::str
 // Throws UsageError if both were given.
 void refuse_both(bool first, const std::string& first_name, bool second, const std::string& second_name);
 
-// One line for what CLI11 found wrong with a command line.
+// One line for an error that CLI11 found in a command line.
 std::string usage_message(const CLI::ParseError& error, const Verb& program);
 
 }  // namespace petzval::cli

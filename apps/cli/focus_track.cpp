@@ -1,4 +1,4 @@
-// petzval focus-track: from what is to be sharp in a few frames to how far away it is in every one.
+// petzval focus-track: computes the focus distance of every frame from pixels that are sharp in a few frames.
 #include "petzval/focus_track.h"
 
 #include "petzval/output.h"

@@ -190,7 +190,7 @@ private:
         if (!files) return files.error();
         const Result<Json> made = contains(black_, frame) ? black(frame, *files) : quietly(frame, *files);
         if (interrupted_by() != 0) return Done{};
-        // What all frames are written to can be written for none of them.
+        // Stops: an output shared by all frames cannot be written for any of them.
         if (!made && files->outputs.empty() && made.error().code == ErrorCode::OutputFailed)
             return made.error();
         Json record = {{"frame", frame}};
@@ -243,8 +243,8 @@ private:
         return work_.keeps_what_is_there && fs::exists(files.outputs.front(), missing);
     }
 
-    // A frame says nothing itself; what it warns of is said once, whatever its numbers: those of all frames
-    // are in the reports.
+    // Makes a frame without printing. Equal warnings of all frames are printed once; the reports hold all of
+    // them.
     Result<Json> quietly(int frame, const FrameWork::Files& files) {
         const bool again = is_there(files) && !is_whole_picture(files.outputs.front());
         if (again) warning(files.outputs.front() + ": damaged or cut off; made again");

@@ -1,4 +1,4 @@
-// Many frames by one command: which, from which files to which, what lacks, what failed, how long it takes.
+// Many frames by one command: frame list, inputs, outputs, missing files, failures, times.
 #pragma once
 
 #include "petzval/frames.h"
@@ -15,7 +15,7 @@ namespace petzval::cli {
 
 struct RunFlags;
 
-// What to do about a frame whose files are not all there.
+// Treatment of frames with missing files.
 enum class Missing { Fail, Skip, Black };
 
 struct FrameFlags {
@@ -36,15 +36,16 @@ struct FramesFailed {
 bool has_pattern(const std::string& path);
 // The path of a frame; one without a place for a number as it is.
 std::string at_frame(const std::string& path, int frame);
-// Of each in its place.
+// Puts the frame number into every path.
 void put_frame(int frame, const std::vector<std::string*>& paths);
 
-// Whether the flags are about more than one frame: `inputs` or `output` hold a place for a number, or frames
-// were given. An empty `output` is none. Throws UsageError where they do not fit each other.
+// True if the flags describe more than one frame: `inputs` or `output` hold a placeholder for a number, or
+// frames were given. An empty `output` means there is none. Throws UsageError if the flags contradict each
+// other.
 bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
                  const RunFlags& run);
 
-// What a verb does with the frames of a shot.
+// The work of a verb on the frames of a shot.
 struct FrameWork {
     struct Files {
         std::vector<std::string> inputs, outputs;  // of outputs the first is the picture
@@ -55,7 +56,7 @@ struct FrameWork {
     std::function<Result<Files>(int frame)> files;
     // Once the frames are known, before one is made. Empty: nothing is left to be found out.
     std::function<Status(const std::vector<int>& frames)> begin = {};
-    // Makes one frame and returns its report. `again`: what is there does not count.
+    // Makes one frame and returns its report. `again`: existing outputs are ignored.
     std::function<Result<Json>(int frame, bool again)> make;
     // Makes a frame without light, of the size of another. Empty: the verb cannot.
     std::function<Status(int frame, int like)> black = {};
@@ -63,8 +64,8 @@ struct FrameWork {
     std::function<Status()> finish = {};
 };
 
-// Makes all of them, one after the other; one that fails does not keep the others from being made. Errors:
-// those of the list and of files that lack, before any frame is made; Cancelled. Throws FramesFailed.
+// Makes all frames in order; a failing frame does not stop the others. Errors: those of the list and of
+// missing files, before any frame is made; Cancelled. Throws FramesFailed.
 Status make_frames(const FrameFlags& frames, const RunFlags& run, const FrameWork& work);
 
 }  // namespace petzval::cli

@@ -11,7 +11,7 @@ namespace petzval::cli {
 // Those of this process, which runs one verb.
 RunFiles& run_files();
 
-// From here on --no-clobber holds.
+// Applies --no-clobber from now on.
 void never_replace();
 // With --no-clobber and a file of that name: says that it is left alone.
 bool is_left_alone(const std::string& path);

@@ -83,7 +83,7 @@ std::string roff(const std::string& text) {
             safe.replace(at, std::string(letter).size(), name);
     return safe.starts_with(".") || safe.starts_with("'") ? "\\&" + safe : safe;
 }
-// A paragraph in short lines, each sentence on one of its own.
+// A paragraph in short lines, one sentence per line.
 std::string filled(const std::string& text) {
     constexpr std::size_t kWidth = 76;
     std::istringstream words(text);
@@ -95,7 +95,7 @@ std::string filled(const std::string& text) {
     }
     return page + roff(line) + "\n";
 }
-// As an argument of a command.
+// The text quoted as a roff argument.
 std::string roff_quoted(const std::string& text) {
     return "\"" + escaped(roff(text), "\"", [](char) { return std::string("\\(dq"); }) + "\"";
 }

@@ -1,4 +1,4 @@
-// What the verbs say of themselves, in every form that people and shells read. One source: the declarations.
+// Help of the verbs in every form for people and shells, made from the declarations of the flags.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The shot of a command: flags that say where it is and what it means, and how it is spoken of.
+// The input flags of a command: files, their meaning, and messages about them.
 #pragma once
 
 #include "petzval/depth.h"
@@ -34,7 +34,7 @@ struct InputFlags : ShotSource {
     bool depth_is_coc() const { return depth_kind == DepthKind::CocPx; }
     // Files that are read.
     std::vector<std::string> files() const;
-    // Where the shot is, with the user's camera.
+    // The source of the shot, with the user's camera.
     ShotSource source(const CameraFlags& user = {}) const;
 };
 

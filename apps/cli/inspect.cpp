@@ -188,8 +188,7 @@ Status inspect(const InspectFlags& flags) {
     return tell(description(seen->shot, flags, seen->range), seen->report, flags.run.json);
 }
 
-// Where the camera stands in the world: the point that becomes the origin, with rotations alone in the
-// matrix.
+// World position of the camera: the point that becomes the origin if the matrix holds only rotations.
 std::string place_of_camera(const FoundCamera& camera) {
     if (!camera.camera_from_world) return "none";
     const auto& m = *camera.camera_from_world;
@@ -199,7 +198,7 @@ std::string place_of_camera(const FoundCamera& camera) {
     return text;
 }
 
-// What may change over a shot, in the words of description().
+// Values that may change over a shot, in the words of description().
 std::vector<Changes::Value> values_of(const Inspected& seen) {
     const Shot& shot = seen.shot;
     const auto found = [](const std::optional<FoundNumber>& number) {

@@ -34,7 +34,7 @@ void watch_for_interrupts() {
         // A shell that starts us in the background may have asked for SIGINT to be ignored, nohup for SIGHUP.
         if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
     }
-    // Nobody reads what we say: as any program ends then, but for what is half-written.
+    // Nobody reads the output: ends like any program, after removing half-written files.
     struct sigaction before = {};
     sigaction(SIGPIPE, nullptr, &before);
     if (before.sa_handler != SIG_IGN) std::signal(SIGPIPE, end_at_once);

@@ -1,4 +1,4 @@
-// What is said and done where no memory is left to say it with.
+// Error handling for the case that no memory is left.
 #pragma once
 
 namespace petzval::cli {
@@ -6,9 +6,8 @@ namespace petzval::cli {
 // The line on standard error; takes no memory.
 void say_out_of_memory() noexcept;
 
-// From here on std::terminate() is an error like others: half-written outputs are removed, a line says why,
-// the exit code is 1. It is called where a library throws on a thread of its own, or where memory ends while
-// an error is told.
+// Makes std::terminate() an ordinary error: removes half-written outputs, prints one line, exits with code 1.
+// It is called if a library throws on one of its threads, or if memory runs out while an error is reported.
 void end_orderly_on_terminate() noexcept;
 
 }  // namespace petzval::cli

@@ -158,7 +158,7 @@ struct Mounted {
     Lens lens;
 };
 
-// What a picture is made of, or nothing where there is nothing to do.
+// The mounted lens of a picture, or nothing if there is nothing to do.
 Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
     if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
         note(*reason);

@@ -122,7 +122,7 @@ std::string longitudinal_text(const LongitudinalAberrationFacts& lsa) {
     return text;
 }
 
-// What is left of zero after rounding, without its sign.
+// Replaces rounding errors around zero, and −0, by 0.
 double clean(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
 
 std::string field_text(const std::vector<FieldFacts>& field) {

@@ -1,4 +1,4 @@
-// What `inspect` says about a picture's light and about what will be sharp.
+// Texts of `inspect` about a picture's light and the range in focus.
 #pragma once
 
 #include "petzval/camera.h"

@@ -84,7 +84,7 @@ void LookFlags::settle() {
         if (json) typed.push_back(field), apply(field, *json);
     for (const auto& [field, on] : switches_)
         if (on) typed.push_back(field), apply(field, *on ? "true" : "false");
-    // A shift is a mode of its own.
+    // --focus-shift selects a focus mode by itself.
     const bool shift = holds(typed, "lens.focus_shift_mm"), mode = holds(typed, "lens.focus_mode");
     refuse_both(mode, "--focus-mode", shift, "--focus-shift");
     if (shift) look_.lens.focus_mode = FocusMode::Shift;

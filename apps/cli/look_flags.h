@@ -21,14 +21,14 @@ public:
     void add_to(Verb& verb, const Headings& headings, const std::string& without = "");
     void add_files_to(Verb& verb);  // --look, --save-look
 
-    // Reads --look and puts what was typed over it. Throws UsageError for a file that is no look, choices
-    // that contradict each other, and for what was typed in vain.
+    // Reads --look and applies the flags on top. Throws UsageError for a file that is not a look, for
+    // contradictions, and for flags without effect.
     void settle();
 
-    // What settle() begins with and leaves. Pictures of apertures and discs are read by read_lens_images().
+    // The look before and after settle(). read_lens_images() reads the pictures of apertures and discs.
     const Look& look() const { return look_; }
     Look& look() { return look_; }
-    // Sentences on what the look's file holds to no effect: one look serves drafts and final frames.
+    // Sentences about fields of the look file without effect: one look serves drafts and final frames.
     const std::vector<std::string>& idle_in_file() const { return idle_in_file_; }
     bool is_typed(const std::string& field) const;
     // Flags under these headings that were typed, for messages.
@@ -37,7 +37,7 @@ public:
     std::vector<std::string> input_files() const;
     std::vector<std::string> lens_files() const;
     const std::string& save_to() const { return save_to_; }
-    // What was typed of an engine's own options, by flag: {"gather_taps": 16}.
+    // Options of one engine given on the command line, by flag: {"gather_taps": 16}.
     Json engine_options_json() const;
 
 private:

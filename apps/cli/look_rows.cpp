@@ -97,7 +97,7 @@ std::vector<LookRow> rows_of_input_and_focus() {
 }
 
 std::vector<LookRow> rows_of_lenses() {
-    // Shift is said by its own flag.
+    // The third mode, shift, is selected by --focus-shift.
     const Kind focus_mode = one_of({{"best", "\"best\""}, {"paraxial", "\"paraxial\""}});
     return {
         row("Lens", "--lens", "lens.name", value("NAME", parse_text),
@@ -307,7 +307,7 @@ std::vector<std::string> words_of(const Look& look) {
         const std::string field = row.field;
         const Json &value = at_path(now, field), &other = at_path(unset, field);
         if (value == other) continue;
-        // A shift is a mode of its own, said by its flag; what changes nothing would be refused.
+        // --focus-shift implies its mode; a mode without effect would be refused.
         if (field == "lens.focus_mode" && value == "shift") continue;
         if (std::find(idle.begin(), idle.end(), field) != idle.end()) continue;
         if (row.placeholder.empty()) {

@@ -53,7 +53,7 @@ bool asks_for_json(int argc, const char* const* argv) {
     return false;
 }
 
-// The same for programs, in place of the report that there is none of.
+// Writes the failure as JSON instead of a report.
 void print_failure(int exit_code, const Error& error, const std::string& verb) {
     Json report = new_report(verb);
     if (verb.empty()) report["verb"] = nullptr;
@@ -64,7 +64,7 @@ void print_failure(int exit_code, const Error& error, const std::string& verb) {
     static_cast<void>(write_report(report, "-"));  // the line on standard error is written in any case
 }
 
-// What is known of a command line that fails.
+// Data about a failing command line.
 struct Typed {
     Words words = Words::Flags;  // of the message
     std::string verb;            // as in a report: "lens psf"; empty if none was understood
@@ -77,7 +77,7 @@ std::string verb_of(const CLI::App& program) {
     return verb;
 }
 
-// Errors: what was wrong with the line, and with what it asks for.
+// Errors: an invalid command line, or the errors of its action.
 Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
     CLI::App program("gives rendered pictures the depth of field of a real lens", "petzval");
     use_our_help(program);

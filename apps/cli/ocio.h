@@ -1,4 +1,4 @@
-// --ocio: a display and view of the config that $OCIO names, in place of our own tone curve and transfer.
+// --ocio: a display and view of the config in $OCIO, instead of our tone curve and transfer.
 #pragma once
 
 #include "petzval/develop.h"
@@ -19,15 +19,15 @@ struct OcioFlags {
     std::string space;
 
     void add_to(Verb& verb);
-    // Throws UsageError, also for flags of what --ocio takes the place of.
+    // Throws UsageError, also for flags that --ocio replaces.
     void check(const DevelopFlags& develop, std::optional<Transfer> transfer) const;
     void add_to(MadeWith& made) const;
     bool is_on() const { return !view.empty(); }
-    // Whether the config has what was asked for; errors as of show().
+    // Checks that the config has the display and view; errors as show().
     Status try_out() const;
-    // From scene-linear light to what the display wants; `settings` are then what is left to do to it: dither
-    // and rounding. `used`: a line that says what was taken. Errors: those of ocio_codes(); InvalidArgument
-    // where this program was built without OpenColorIO.
+    // Converts scene-linear light to the display's values; `settings` then hold the remaining steps: dither
+    // and rounding. `used`: a line that names the display and view. Errors: those of ocio_codes();
+    // InvalidArgument if this program was built without OpenColorIO.
     Status show(Picture& light, DevelopSettings& settings, std::string& used,
                 std::vector<std::string>& warnings) const;
 

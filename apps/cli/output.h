@@ -1,4 +1,4 @@
-// Where results go: names are checked before the work, files are written in the form their name asks for.
+// Outputs: names are checked before the work; the extension chooses the format.
 #pragma once
 
 #include "petzval/develop.h"
@@ -18,10 +18,10 @@ namespace petzval::cli {
 
 enum class FileKind { Exr, Png };
 
-// From the name's extension. Errors: InvalidArgument naming what is accepted.
+// The format by extension. Errors: InvalidArgument naming the accepted extensions.
 Result<FileKind> kind_of_output(const std::string& path);
 
-// What to do with files that are already there.
+// Treatment of existing files.
 struct OverwriteFlags {
     bool overwrite = false, no_clobber = false, update = false;
 
@@ -31,12 +31,12 @@ struct OverwriteFlags {
     // are newer than all inputs and -u.
     std::optional<std::string> reason_to_skip(const std::vector<std::string>& outputs,
                                               const std::vector<std::string>& inputs) const;
-    // The same, and where -u makes again what is there, why.
+    // The same, with the reason why -u renders an existing output again.
     OutputState state_of(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                          const MadeWith* made_with = nullptr) const;
 };
 
-// From scene-linear light to a display picture; only for PNG.
+// Settings from scene-linear light to a display picture; only for PNG.
 struct DevelopFlags {
     std::optional<double> exposure_stops;
     std::optional<double> contrast;
@@ -49,7 +49,7 @@ struct DevelopFlags {
     DevelopSettings settings(bool display_referred, std::optional<Transfer> transfer, int threads) const;
 };
 
-// What a PNG says beside its pixels.
+// Text chunks of a PNG.
 using PngTexts = std::vector<std::pair<std::string, std::string>>;
 // Codes of develop(). pixel_aspect: of the file's pixels, where they are not square. Errors: OutputFailed.
 Status write_codes(const std::string& path, int width, int height, std::vector<std::uint16_t> codes, int bits,

@@ -32,7 +32,7 @@ ProgressLine::~ProgressLine() {
 bool ProgressLine::operator()(double share) {
     if (interrupted_by() != 0) return false;
     if (style_ == Style::None) return true;
-    // Bars and programs are told ten times a second, logs once; a program also hears of the end.
+    // Bars and JSON are updated ten times a second, logs once; JSON also reports the end.
     const auto interval = std::chrono::milliseconds(style_ == Style::Plain ? 1000 : 100);
     const auto now = Clock::now();
     // Shares are summed by the library and may miss 1 by their rounding.

@@ -1,4 +1,4 @@
-// How far the work is: a bar on a terminal, one plain line a second elsewhere, or JSON lines for programs.
+// Progress: a bar on a terminal, one plain line per second elsewhere, or JSON lines for programs.
 #pragma once
 
 #include <chrono>

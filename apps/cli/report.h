@@ -1,4 +1,4 @@
-// What was done, for programs: the --json report. Keys are described in docs/command-line.md.
+// The --json report of a run. docs/reference/report.md describes its keys.
 #pragma once
 
 #include "petzval/camera.h"
@@ -33,18 +33,17 @@ Json new_report(const std::string& verb);
 
 // JSON has no infinity; see write_report.
 Json number(double value);
-// What the library wrote, where infinity is 1e999. Requires: it is JSON.
+// Parses JSON of the library, where infinity is 1e999. Requires: it is JSON.
 Json json_of(const std::string& text);
 Json camera_json(const FoundCamera& camera, ImageScale image_scale);
-// As --save-look writes it.
+// The look in the form of --save-look.
 Json look_json(const Look& look);
 Json glare_json(const Look& look);  // null where there is none
 Json lens_json(const Look& look, const std::string& description);
 Json part_json(const PartSummary& part);
 Json depth_json(const DepthReport& depth, DepthKind kind);
 Json window_json(const Rect& window);
-// What took how long of `seconds`, as stages and in sums: those that stand under a name of their own, and
-// `compute`.
+// Adds the stages and sums of `seconds`: stages with a name, and `compute`.
 void add_stages(Json& report, const std::vector<StageTime>& stages, double seconds);
 
 // Largest resident memory of this process so far.
@@ -55,8 +54,8 @@ std::size_t peak_memory_bytes();
 // One line where `indent` is below 0.
 std::string report_text(Json report, int indent = 2);
 Status write_report(Json report, const std::string& path);
-// What a verb found: as text on standard output, and as a report where --json names a file; the report alone
-// where that is "-". Errors: OutputFailed.
+// Prints a verb's result as text on standard output, and as a report if --json names a file; only the report
+// if that is "-". Errors: OutputFailed.
 Status tell(const std::string& text, Json report, const std::string& json);
 
 }  // namespace petzval::cli

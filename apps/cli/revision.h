@@ -1,4 +1,4 @@
-// Which source the program was built of.
+// The source revision of the program.
 #pragma once
 
 #include <string>

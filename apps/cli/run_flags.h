@@ -17,7 +17,7 @@ struct RunFlags {
     void add_json_to(Verb& verb);
     void add_threads_to(Verb& verb);
     void add_log_to(Verb& verb, bool with_progress);
-    // Throws UsageError for contradictions; sets how much is said from here on.
+    // Throws UsageError for contradictions; sets the verbosity.
     void apply();
 };
 

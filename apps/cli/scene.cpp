@@ -109,7 +109,7 @@ std::vector<std::string> MakeFlags::outputs() const {
     return files;
 }
 
-// Of width and height the one that was not given follows from the other.
+// Computes the missing one of width and height.
 void put_size(std::optional<int> width, std::optional<int> height, SceneSettings& scene) {
     const auto other = [](int side, int of, int to) {
         return std::max(1, int((std::int64_t(side) * to + of / 2) / of));
@@ -165,7 +165,7 @@ Frame frame_of(const Place& place, Picture colour) {
     return frame;
 }
 
-// The scene as --no-clobber leaves it to be made: what is there already is neither rendered nor written.
+// The flags without outputs that exist under --no-clobber: these are neither rendered nor written.
 MakeFlags without_what_is_there(MakeFlags flags) {
     for (std::string* path : {&flags.output, &flags.truth, &flags.layers})
         if (is_left_alone(*path)) path->clear();

@@ -81,7 +81,7 @@ private:
         const Place& at = shot->place;
         Picture whole = through_window(shot->colour, at.data_window, at.display_window, Rgba{});
         if (width_ == 0) choose_size(whole, at.pixel_aspect);
-        // What has another shape keeps it, in the middle.
+        // A frame of another shape keeps it, centred.
         const double scale =
             std::min(width_ / (whole.width() * at.pixel_aspect), double(height_) / whole.height());
         const int width = std::clamp(int(std::lround(whole.width() * at.pixel_aspect * scale)), 1, width_);
@@ -96,7 +96,7 @@ private:
         return Json{{"input", input.path}, {"warnings", shot->warnings}};
     }
 
-    // That of the first frame that can be read, in square pixels; videos want even numbers.
+    // Size of the first readable frame, in square pixels; videos need even numbers.
     void choose_size(const Picture& first, double aspect) {
         const double wide = first.width() * aspect;
         const double wanted = all_.width_px        ? *all_.width_px

@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Error no(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
-// A number at the front of the text and what follows it.
+// A number at the front of the text, and the rest.
 struct Split {
     double number = 0;
     std::string rest;
@@ -55,7 +55,7 @@ double unit_in_mm(const std::string& unit) {
     return 0;
 }
 
-// "7ft6in", as feet are said; 0 if it is no such length.
+// Millimetres of "7ft6in"; 0 if the text is not a length in feet.
 double feet_and_inches_mm(const Split& feet) {
     const std::size_t digit = feet.rest.find_first_of("0123456789");
     if (digit == std::string::npos || unit_in_mm(feet.rest.substr(0, digit)) != unit_in_mm("ft")) return 0;

@@ -1,7 +1,5 @@
-// The text of flags turned into values: numbers, lengths with units, pairs, sizes, names.
-//
-// Each returns the value, or a message that completes the sentence "--flag TEXT: …" with what would be
-// accepted.
+// Parsers of flag values: numbers, lengths with units, pairs, sizes, names. Each returns the value, or a
+// message that completes the sentence "--flag TEXT: …" with the accepted values.
 #pragma once
 
 #include "petzval/lens_choice.h"
@@ -63,11 +61,11 @@ Result<std::string> parse_text(const std::string& text);  // anything but nothin
 
 Result<std::vector<std::string>> parse_words(const std::string& text);  // "a,b": none of them empty
 
-// What a value is called, in the order in which people should read it.
+// Names of values, in reading order.
 template <typename T>
 using NameTable = std::vector<std::pair<std::string, T>>;
 
-// That of a public enum.
+// Names of a public enum.
 template <typename E>
 NameTable<E> name_table() {
     NameTable<E> table;
@@ -101,7 +99,7 @@ Result<BarnDoors> parse_barn_doors(const std::string& text);
 // "far.exr" or "far.exr,near.exr".
 Result<std::vector<std::string>> parse_one_or_two_files(const std::string& text);
 
-// As a person writes it: up to `digits` significant digits, no trailing zeros, "infinity" spelled out.
+// A number for people: up to `digits` significant digits, no trailing zeros, "infinity" spelled out.
 std::string plain(double value, int digits = 6);
 
 }  // namespace petzval::cli

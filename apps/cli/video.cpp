@@ -55,7 +55,7 @@ Video::~Video() {
 Status Video::open(const std::string& path, int width, int height, double frames_per_second) {
     path_ = path;
     const fs::path place(path);
-    // As other unfinished files are called, so that one left by a crash goes with the next run.
+    // Named like other unfinished files, so that the next run removes it after a crash.
     unfinished_ = (place.parent_path() /
                    ("." + place.filename().string() + "." + std::to_string(getpid()) + "-0.unfinished"))
                       .string();

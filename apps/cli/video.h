@@ -10,7 +10,7 @@
 
 namespace petzval::cli {
 
-// By the name's extension: .mp4, .mov, .mkv or .webm.
+// True for the extensions .mp4, .mov, .mkv and .webm.
 bool is_video(const std::string& path);
 
 // The file appears complete or not at all.

@@ -1,5 +1,5 @@
-// petzval view: a window. What it shows and how is apps/view's; here are its flags, and what it needs of
-// this program: command lines, frames written as defocus writes them, OpenColorIO.
+// petzval view: a window. apps/view draws it; this file holds its flags and the services it needs: command
+// lines, frames written like those of defocus, OpenColorIO.
 #include "petzval/scene.h"
 
 #include "console.h"
@@ -46,7 +46,7 @@ Result<int> parse_port(const std::string& text) {
 
 #ifdef PETZVAL_VIEW
 
-// As a shell takes it.
+// The word quoted for a shell.
 std::string shell_word(const std::string& word) {
     if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+=:%@") ==
             std::string::npos &&
@@ -96,7 +96,7 @@ std::string command_line(const ViewFlags& flags, const view::Choice& choice, con
     return line;
 }
 
-// What that command does, by the window's session.
+// Runs the window's command with its session.
 Status save(DefocusFlags flags, Session& session, const view::Choice& choice, const std::string& output) {
     const auto kind = kind_of_output(output);
     if (!kind) return kind.error();

@@ -77,7 +77,7 @@ std::string rounded(double value) {
     return text.str();
 }
 
-// The ratios of M. Kawase (CEDEC 2008; docs/dynamic-range.md): sun to shade 10 to 100, shade to a
+// The ratios of M. Kawase (CEDEC 2008; docs/explain/dynamic-range.md): sun to shade 10 to 100, shade to a
 // room about 10.
 std::string compared(double diffuse_over_shadow) {
     const std::string times = rounded(diffuse_over_shadow) + " times the shadow";

@@ -51,7 +51,7 @@ struct Control {
 };
 
 // What drawing took, as plan and kernels tell it: what is clipped at the edges of tiles counts as if it were
-// not. docs/command-line.md ("The report") says what is counted.
+// not. docs/reference/report.md ("The report") says what is counted.
 struct Work {
     std::uint64_t bytes = 0, multiply_adds = 0;
     // Kernels of `taps` pixels in all, added to sums: RGBA weights and sums read, sums written.

@@ -1,4 +1,5 @@
-// How far a picture is from another; the measures are defined in petzval/compare.h and docs/command-line.md.
+// How far a picture is from another; the measures are defined in petzval/compare.h and
+// docs/reference/report.md.
 //
 // SSIM: Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, "Image quality assessment: from error
 // visibility to structural similarity", IEEE Transactions on Image Processing 13(4), 2004: 11 x 11 Gaussian

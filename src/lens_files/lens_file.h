@@ -2,7 +2,7 @@
 // its content.
 //
 //   own JSON        one entry of a lens list saved alone; lenses/*.json in this repository are examples;
-//                   or longitudinal aberration curves instead of surfaces (docs/lens-files.md)
+//                   or longitudinal aberration curves instead of surfaces (docs/reference/lens-files.md)
 //   Zemax .zmx      sequential, refracting, rotationally symmetric
 //   CODE V .seq     likewise
 //   pbrt .dat       radius, thickness, index, aperture diameter; stop has radius 0

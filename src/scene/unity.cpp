@@ -1,6 +1,6 @@
 // What the articles on Unity's depth of field photograph: cubes one behind the other, a green one the
 // subject, that walks; two systems of glowing balls behind it, one of white balls before it.
-// docs/published.md.
+// docs/explain/published.md.
 #include "scene/scenes.h"
 #include "scene/shading.h"
 #include "scene/textures.h"

@@ -1,5 +1,6 @@
 // The tori of wgld.org's article on depth of field, shaded as it says: a texture, a diffuse share of at least
-// 0.1, a half-vector highlight of power 50, an ambient term; from near 0.1 to far 30. docs/published.md.
+// 0.1, a half-vector highlight of power 50, an ambient term; from near 0.1 to far 30.
+// docs/explain/published.md.
 #include "scene/scenes.h"
 #include "scene/shading.h"
 #include "scene/textures.h"

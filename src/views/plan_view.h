@@ -57,7 +57,7 @@ public:
 // Level 0 at the top left, highlights right of it; below, the reduced levels side by side, and a map of which
 // level drew what at half size.
 //
-// After HexaDrive's demo of 2009 (docs/published.md), which let its vertex shader shift every
+// After HexaDrive's demo of 2009 (docs/explain/published.md), which let its vertex shader shift every
 // sprite to the part of one large buffer that belongs to its level. The accumulations are shown before they
 // are composited: light of all depths added up, alpha the lens area it takes up (above 1 where several
 // surfaces send light).

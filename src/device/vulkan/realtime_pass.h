@@ -1,4 +1,4 @@
-// The pass for real time (docs/design/realtime.md), recorded into somebody's command buffer.
+// The pass for real time (docs/explain/real-time.md), recorded into somebody's command buffer.
 #pragma once
 
 #include "device/vulkan/image.h"

@@ -9,7 +9,7 @@ namespace petzval::engine {
 Result<Output> run_gather(const EngineView& input, Spare = {});
 Result<Output> run_gather_for(const char* engine, const EngineView& input);
 
-// The front view alone, in one go, by the pass for real time (docs/design/realtime.md).
+// The front view alone, in one go, by the pass for real time (docs/explain/real-time.md).
 Result<Output> run_realtime(const EngineView& input, Spare = {});
 
 }  // namespace petzval::engine

@@ -1,4 +1,4 @@
-// The gather method step by step as it was published: docs/published.md says where from, and where we
+// The gather method step by step as it was published: docs/explain/published.md says where from, and where we
 // set units right.
 #pragma once
 

@@ -1,5 +1,5 @@
-// What the pass for real time is given (docs/design/realtime.md): a lens's shape in front of focus and behind
-// it, as a device's programs read it, and a picture.
+// What the pass for real time is given (docs/explain/real-time.md): a lens's shape in front of focus and
+// behind it, as a device's programs read it, and a picture.
 #pragma once
 
 #include "petzval/image.h"

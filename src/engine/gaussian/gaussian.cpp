@@ -1,5 +1,5 @@
 // The draft engine: light shared between Gaussian blurs, each half as wide as the next
-// (docs/published.md). Always round, whatever the lens: it has the disc's second moment, not its
+// (docs/explain/published.md). Always round, whatever the lens: it has the disc's second moment, not its
 // shape.
 #include "engine/gaussian/gaussian.h"
 

@@ -22,9 +22,10 @@ struct Highlight {
 //     factor * surroundings + white * max(least_floor, floor_at_1px * radius^1.5)
 // (scene-linear; light of coverage a is compared with a times that), white being four times the mean
 // of what the picture covers, to a power of two: highlights are a matter of contrast, not of exposure. The
-// floor rises with the radius because a wider disc hides more of what the levels blur (docs/design/scatter.md
-// gives the law). Light wider than kWidestHighlightPx is none: a kernel of it takes 4 r^2 pixels, and no one
-// sees its rim. (Light without alpha cannot stay in the base; it is drawn as wide as that.)
+// floor rises with the radius because a wider disc hides more of what the levels blur
+// (docs/explain/scatter.md gives the law). Light wider than kWidestHighlightPx is none: a kernel of it takes
+// 4 r^2 pixels, and no one sees its rim. (Light without alpha cannot stay in the base; it is drawn as wide as
+// that.)
 constexpr float kWidestHighlightPx = 1024;
 struct HighlightRule {
     float factor = 2;

@@ -1,4 +1,5 @@
-// The final-frame engine: complete, split, spread by levels, composite by lens area (docs/design/scatter.md).
+// The final-frame engine: complete, split, spread by levels, composite by lens area
+// (docs/explain/scatter.md).
 #include "engine/scatter/scatter.h"
 
 #include "base/parallel.h"
@@ -67,8 +68,9 @@ double share_at_silhouettes(const EngineView& input) {
     return double(cut) / (double(input.width()) * double(input.height()));
 }
 
-// What a flat picture takes that is done at once, as whole commands did at their peak (docs/measurements.md,
-// Fewer bytes). Of strips, and of what is more than flat, less is known and more is reckoned with.
+// What a flat picture takes that is done at once, as whole commands did at their peak
+// (docs/journal/2026-11-23-memory-and-file-writing.md, Fewer bytes). Of strips, and of what is more than
+// flat, less is known and more is reckoned with.
 std::size_t bytes_at_once(const EngineView& input, bool has_spare) {
     constexpr double kPerPixel = 50, kPerSilhouettePixel = 345, kFixed = 52 << 20, kAberrated = 28 << 20;
     const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&

@@ -1,4 +1,4 @@
-// Lights as the lens's own kernels over a cheap background (docs/published.md): the picture's bright
+// Lights as the lens's own kernels over a cheap background (docs/explain/published.md): the picture's bright
 // points, or points that are given, or both. Gather draws them by itself.
 #include "engine/sprites/sprites.h"
 

@@ -1,4 +1,4 @@
-// Draws 16 x 16 pixels of a tile, through one sector of the pupil (docs/design/vulkan.md, "Composite").
+// Draws 16 x 16 pixels of a tile, through one sector of the pupil (docs/explain/vulkan.md, "Composite").
 // The words of the plan are those that composite.cpp writes; formulas are device/cpu's.
 #version 450
 #extension GL_GOOGLE_include_directive : require

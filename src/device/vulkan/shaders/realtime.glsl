@@ -1,4 +1,4 @@
-// What the dispatches of the pass for real time share (docs/design/realtime.md).
+// What the dispatches of the pass for real time share (docs/explain/real-time.md).
 layout(push_constant) uniform Push {
     ivec2 size, tiles;          // pixels; tiles of 16 x 16 of them
     float add_px, per_depth_px;  // a signed radius is add_px + per_depth_px * depth
