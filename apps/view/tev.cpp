@@ -34,6 +34,8 @@ constexpr std::uint32_t kMostBytes = 1U << 30;  // of a packet
 constexpr std::int64_t kMostPixels = std::int64_t(1) << 26;
 constexpr int kMostChannels = 64;
 constexpr std::size_t kMostPictures = 16;
+// Pictures take at most this many times the memory that was brought for them, and this much more in all.
+constexpr std::size_t kTimesBrought = 16, kMostBytesAhead = std::size_t(512) << 20;
 
 Error nonsense(const std::string& why) {
     return {ErrorCode::InvalidFile, "what was pushed is no picture: " + why};
@@ -97,6 +99,41 @@ private:
     bool failed_ = false;
 };
 
+std::size_t TevInbox::Canvas::bytes() const {
+    return std::size_t(width) * std::size_t(height) *
+           (names.size() * sizeof(float) + sizeof(Rgba) + sizeof(float));
+}
+
+// More than what was brought for it allows.
+std::size_t TevInbox::Canvas::bytes_ahead() const {
+    return bytes() - std::min(bytes(), kTimesBrought * brought_bytes);
+}
+
+void TevInbox::Canvas::lay_out() {
+    for (const std::string& name : names)
+        channels[name].assign(std::size_t(width) * std::size_t(height), 0.0f);
+    for (const Part& part : std::exchange(waiting, {})) put(part);
+}
+
+void TevInbox::Canvas::put(const Part& part) {
+    std::vector<float>& channel = channels.at(part.channel);
+    const Rect& r = part.pixels;
+    auto from = part.values.begin();
+    for (int y = r.y0; y < r.y1; ++y, from += r.width())
+        std::copy_n(from, r.width(),
+                    channel.begin() + std::ptrdiff_t(y) * std::ptrdiff_t(width) + std::ptrdiff_t(r.x0));
+}
+
+bool TevInbox::is_laid_out(Canvas& canvas) {
+    if (!canvas.channels.empty() || canvas.names.empty()) return !canvas.names.empty();
+    std::size_t ahead = canvas.bytes_ahead();
+    for (const auto& [name, other] : canvases_)
+        if (!other.channels.empty()) ahead += other.bytes_ahead();
+    if (ahead > kMostBytesAhead) return false;
+    canvas.lay_out();
+    return true;
+}
+
 Status TevInbox::take(std::span<const std::byte> packet) {
     Fields fields(packet);
     const int kind = fields.number<std::uint8_t>();
@@ -128,12 +165,12 @@ Status TevInbox::create(Fields& fields) {
         return nonsense("not 1 to 2^26 pixels of 1 to 64 channels");
     if (canvases_.size() >= kMostPictures && !canvases_.contains(name))
         return nonsense("more than " + std::to_string(kMostPictures) + " at once");
-    Canvas canvas{width, height, {}};
+    Canvas canvas;
+    canvas.width = width, canvas.height = height;
     for (int i = 0; i < count; ++i) {
         const std::string channel = letter_of(fields.text());
         if (fields.failed()) return nonsense("a channel without a name");
-        if (std::string("RGBAZ").find(channel) != std::string::npos)
-            canvas.channels[channel].assign(std::size_t(width) * std::size_t(height), 0.0f);
+        if (std::string("RGBAZ").find(channel) != std::string::npos) canvas.names.insert(channel);
     }
     canvases_[name] = std::move(canvas);
     return Done{};
@@ -163,20 +200,27 @@ Status TevInbox::update(Fields& fields, int version) {
         offsets.push_back(version == 3 ? fields.number<std::int64_t>() : i * pixels);
     for (int i = 0; i < count; ++i) strides.push_back(version == 3 ? fields.number<std::int64_t>() : 1);
     const std::int64_t there = std::int64_t(fields.rest().size() / sizeof(float));
+    canvas.brought_bytes += fields.rest().size();
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         const bool fits = offsets[i] >= 0 && offsets[i] < there && strides[i] > 0 && strides[i] < there + 1 &&
                           (pixels - 1) <= (there - 1 - offsets[i]) / strides[i];
         if (fields.failed() || !fits) return nonsense("fewer numbers than pixels");
-        const auto to = canvas.channels.find(channels[i]);
-        if (to == canvas.channels.end()) continue;
-        for (std::int64_t p = 0; p < pixels; ++p) {
-            const std::int64_t from = offsets[i] + p * strides[i];
-            const std::int64_t at = (y + p / width) * canvas.width + x + p % width;
-            std::memcpy(&to->second[std::size_t(at)],
-                        fields.rest().data() + std::size_t(from) * sizeof(float), sizeof(float));
-        }
+        const auto later = channels.begin() + std::ptrdiff_t(i) + 1;
+        if (!canvas.names.contains(channels[i]) ||
+            std::find(later, channels.end(), channels[i]) != channels.end())  // the last of a letter counts
+            continue;
+        Part part{channels[i], {int(x), int(y), int(x + width), int(y + height)}, {}};
+        part.values.resize(std::size_t(pixels));
+        for (std::int64_t p = 0; p < pixels; ++p)
+            std::memcpy(&part.values[std::size_t(p)],
+                        fields.rest().data() + std::size_t(offsets[i] + p * strides[i]) * sizeof(float),
+                        sizeof(float));
+        if (is_laid_out(canvas))
+            canvas.put(part);
+        else
+            canvas.waiting.push_back(std::move(part));
     }
-    changed_.insert(name);
+    if (is_laid_out(canvas)) changed_.insert(name);
     return Done{};
 }
 

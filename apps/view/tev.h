@@ -44,14 +44,32 @@ public:
     std::vector<std::shared_ptr<const Pushed>> take_pictures();
 
 private:
+    // Numbers of one channel, as an update brought them.
+    struct Part {
+        std::string channel;
+        Rect pixels;
+        std::vector<float> values;
+    };
+    // A picture as it comes. A sender may announce any size: until enough has come, memory holds the parts
+    // alone.
     struct Canvas {
         int width = 0, height = 0;
-        std::map<std::string, std::vector<float>> channels;
+        std::set<std::string> names;                         // of the channels that are shown
+        std::map<std::string, std::vector<float>> channels;  // empty: too little has come
+        std::vector<Part> waiting;
+        std::size_t brought_bytes = 0;
+
+        std::size_t bytes() const;  // of all channels and of the picture that is shown
+        std::size_t bytes_ahead() const;
+        void lay_out();
+        void put(const Part& part);
     };
     class Fields;
     static std::shared_ptr<const Pushed> picture_of(const std::string& name, const Canvas& canvas);
     Status create(Fields& fields);
     Status update(Fields& fields, int version);
+    // Takes memory for the picture if it has come far enough. False: it has not.
+    bool is_laid_out(Canvas& canvas);
 
     std::map<std::string, Canvas> canvases_;
     std::string path_;

@@ -194,6 +194,24 @@ class ToolsTest(window.WindowTest):
         out, _ = self.finish(window)
         self.assertEqual(out.strip(), "40")
 
+    def test_a_picture_that_is_only_announced_takes_no_memory(self):
+        port = free_port()
+        with open(os.path.join(self.shared, "announce.txt"), "w") as file:
+            file.write("wait\nsay frame.engine\nuntil frame.width 24\nsay frame.width\n")
+        window = self.start("table.exr", "--engine", "gaussian", "--listen", str(port), "--script", "announce.txt")
+        self.assertIn("gaussian", window.stdout.readline())
+        for number in range(4):
+            name = "huge %d" % number
+            self.push(port, packet(4, b"\1", name, 8192, 8192, 5, *"RGBAZ"),
+                      packet(3, b"\0", name, "R", 8000, 8000, 1, 1, bytes(4)))
+        with open("/proc/%d/status" % window.pid) as status:
+            most = next(int(line.split()[1]) >> 10 for line in status if line.startswith("VmHWM"))
+        self.assertLess(most, 900, "MiB")
+        channels = [packet(3, b"\0", "small", name, 0, 0, 24, 6, struct.pack("<144f", *[2.0] * 144)) for name in "RGBZ"]
+        self.push(port, packet(4, b"\1", "small", 24, 6, 4, *"RGBZ"), *channels)
+        out, _ = self.finish(window)
+        self.assertEqual(out.strip(), "24")
+
     def test_without_a_file_it_waits_for_a_renderer_and_shows_what_is_pushed(self):
         port = free_port()
         with open(os.path.join(self.shared, "wait.txt"), "w") as file:
