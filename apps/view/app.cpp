@@ -359,6 +359,12 @@ void App::start_saving(const std::string& path, std::function<Status()> save) {
     });
 }
 
+void App::finish_saving() {
+    if (!saving_.valid()) return;
+    saving_.wait();
+    take_news();
+}
+
 void App::take_news() {
     Maker::News news = maker_.news();
     for (ReadShot& read : news.shots) take_shot(std::move(read));

@@ -121,6 +121,7 @@ public:
     // place for a frame number is that of the frame that is shown.
     Status may_write(const std::string& name) const;
     void save(const std::string& name);  // of a shot, #### is the frame that is shown
+    void finish_saving();                // waits for it, and takes its error
     // What is made of the left side, to a viewer that listens there.
     Status push(int port);
     // Focus, aperture and all else over the frames, as `defocus --track` has it; focus becomes keys.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -76,6 +77,10 @@ std::string why_refused(const Words& words) {
 }  // namespace
 
 Result<Script> Script::read(const std::string& path) {
+    std::error_code ignored;
+    const bool is_there = std::filesystem::exists(path, ignored);
+    if (is_there && !std::filesystem::is_regular_file(path, ignored))
+        return Error{ErrorCode::InvalidFile, path + ": is not a regular file"};
     std::ifstream file(path);
     if (!file) return Error{ErrorCode::InvalidFile, path + ": no such script"};
     Script script;
@@ -171,7 +176,9 @@ void Script::begin(App& app, const Line& line) {
         moves_ = {next, hand_};
     } else if (verb == "resize") {
         const auto width = number_of(words[1]), height = number_of(words[2]);
-        if (!width || !height) return fail("resize: not two numbers");
+        constexpr double kMost = 16384;  // of a window's side
+        const auto fits = [&](const Result<double>& side) { return side && *side >= 1 && *side <= kMost; };
+        if (!fits(width) || !fits(height)) return fail("resize needs two numbers, 1 to 16384 pixels");
         next.resize = {int(*width), int(*height)};
         moves_ = {next, hand_, hand_};
     } else if (verb == "expect" && words[1] != "screen") {

@@ -243,9 +243,12 @@ public:
         while (!glfwWindowShouldClose(window_) && !app_.quit) {
             tick();
             if (!script_) continue;
+            report_error();
             if (script_->failure()) return *script_->failure();
             if (script_->is_done()) break;
         }
+        app_.finish_saving();
+        if (script_) report_error();
         if (script_)
             std::fprintf(
                 stderr,
@@ -257,6 +260,12 @@ public:
     }
 
 private:
+    // Nobody reads the status line of a window that a script drives.
+    void report_error() {
+        if (app_.error == reported_) return;
+        reported_ = app_.error;
+        if (!reported_.empty()) std::fprintf(stderr, "petzval: %s\n", reported_.c_str());
+    }
     // Sleeps until something happens; a few ticks follow it, as widgets answer one late.
     void wait_for_events() {
         if (lively_ticks_ > 0 || script_)
@@ -309,7 +318,7 @@ private:
     GLFWwindow* window_;
     App app_;
     std::optional<Script> script_;
-    std::string clipboard_;
+    std::string clipboard_, reported_;
     int lively_ticks_ = 10, ticks_ = 0;
     std::uint64_t painted_ = 0;
 };

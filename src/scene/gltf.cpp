@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -415,8 +416,21 @@ private:
 // The first line of what a reader said.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+// A pipe would be waited for; a glTF names others.
+bool is_file(const std::string& path, void*) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+}
+bool read_file(std::vector<unsigned char>* bytes, std::string* wrong, const std::string& path, void* user) {
+    if (is_file(path, user)) return tinygltf::ReadWholeFile(bytes, wrong, path, user);
+    if (wrong) *wrong += path + " is missing, or is no regular file\n";
+    return false;
+}
+
 Status load(const std::string& path, tinygltf::Model& model, std::vector<std::string>& warnings) {
     tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(
+        {&is_file, &tinygltf::ExpandFilePath, &read_file, &tinygltf::WriteWholeFile, nullptr});
     std::string wrong, warning;
     const bool fine = path.ends_with(".glb") ? loader.LoadBinaryFromFile(&model, &wrong, &warning, path)
                                              : loader.LoadASCIIFromFile(&model, &wrong, &warning, path);

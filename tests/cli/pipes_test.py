@@ -1,4 +1,5 @@
 """Pictures through pipes: in by -, out by -.exr and -.png, and nothing else on standard output."""
+import json
 import os
 import re
 import signal
@@ -63,6 +64,17 @@ class Pipes(CommandLineTest):
             outcome = self.run_program("defocus", "in.exr", "-o", "-.exr", stdout=full)
         self.assertEqual(outcome.code, 1)
         self.assertIn("standard output", outcome.err)
+
+    def test_scenes_and_scripts_are_no_pipes(self):
+        for name in ("p.glb", "p.gltf", "p.bin", "p.txt"):
+            os.mkfifo(self.path(name))
+        for name in ("p.glb", "p.gltf"):
+            self.refuse(3, "scene", "make", name, "-o", "o.exr", says=[name, "no regular file"])
+        with open(self.path("a.gltf"), "w") as file:
+            json.dump({"asset": {"version": "2.0"}, "buffers": [{"uri": "p.bin", "byteLength": 4}]}, file)
+        self.refuse(3, "scene", "make", "a.gltf", "-o", "o.exr", says=["a.gltf"])
+        if self.run_program("view", "in.exr", "--script", "none.txt").code == 3:  # was built with a window
+            self.refuse(3, "view", "in.exr", "--script", "p.txt", says=["p.txt", "not a regular file"])
 
     def test_waiting_for_a_pipe_ends_with_a_signal(self):
         process = subprocess.Popen([PETZVAL, "inspect", "-"], cwd=self.folder, stdin=subprocess.PIPE,

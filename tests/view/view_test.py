@@ -335,8 +335,14 @@ class ViewTest(window.WindowTest):
             expect error
         """, "gone.exr", "--ui-scale", "3")
         self.do("wait\nexpect error nowhere.exr\n", "nowhere.exr")
+        for refused in ("table.exr", "missing/folder.exr"):
+            _, err = self.do("wait\nsave %s\n" % refused)  # it ends before that is written
+            self.assertIn(refused, err)
         _, err = self.do("wait\nfly away\n", code=3)
         self.assertIn("script.txt:2", err)
+        for size in ("-1 100", "0 0", "100 1e9", "nan 100"):
+            _, err = self.do("wait\nresize %s\n" % size, code=2)
+            self.assertIn("script.txt:2: resize", err)
         _, err = self.do("wait\nexpect fstop 77\n", code=2)
         self.assertIn("script.txt:2", err)
 
