@@ -3,6 +3,8 @@
 #include "files/test_exr.h"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -179,6 +181,29 @@ TEST(WriteExr, EveryOtherChannelPartAndAttributeIsKept) {
             EXPECT_EQ(b->colour(3, 3).g, 2 * a->colour(3, 3).g);
         }
     }
+}
+
+// In a file of several parts each block of rows begins with the number of its part.
+TEST(WriteExr, ADamagedPartIsTheInputsFaultNotTheOutputs) {
+    const TemporaryFolder folder;
+    QuickPart beauty = quick_rgbaz({0, 0, 8, 6}),
+              other{"matte", "", {0, 0, 8, 6}, {{"mask", Imf::HALF, [](int x, int) { return x; }}}};
+    beauty.name = "beauty";
+    other.compression = Imf::NO_COMPRESSION;
+    write_quick_exr(folder / "in.exr", kWindow, {beauty, other});
+    const Result<Frame> frame = read_frame(folder / "in.exr");
+    ASSERT_TRUE(frame);
+    constexpr int kLastBlock = 3 * 4 + 8 * 2;
+    std::fstream file(folder / "in.exr", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(-kLastBlock, std::ios::end);
+    file.write("\xfe\x01\0\0", 4);
+    file.close();
+    const Status written = write_exr(folder / "out.exr", *frame, {});
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::InvalidFile) << written.error().message;
+    EXPECT_NE(written.error().message.find("in.exr: is damaged"), std::string::npos)
+        << written.error().message;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.exr"));
 }
 
 Result<Frame> depth_named(const std::string& path, const std::string& channel) {
