@@ -284,5 +284,16 @@ TEST(BuiltInScenes, EachHoldsFiniteLightAndPositiveDepthEvenInOnePixel) {
     }
 }
 
+// Skies that change evenly with the direction, seen by surfaces that face all directions.
+TEST(BuiltInScenes, NoneHoldsNegativeLight) {
+    for (const char* name : {"tori", "table", "wgld"}) {
+        SceneSettings s;
+        s.width = 64, s.height = 36, s.samples = 4;
+        const auto r = render_scene(name, s);
+        ASSERT_TRUE(r) << name;
+        EXPECT_TRUE(is_light(r->colour)) << name;
+    }
+}
+
 }  // namespace
 }  // namespace petzval

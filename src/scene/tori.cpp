@@ -3,6 +3,8 @@
 #include "scene/scenes.h"
 #include "scene/textures.h"
 
+#include <algorithm>
+
 namespace petzval::scene {
 namespace {
 
@@ -23,7 +25,8 @@ void build(World& world, float time) {
     static const Vec3 kColours[] = {{0.80f, 0.20f, 0.12f}, {0.84f, 0.62f, 0.14f}, {0.16f, 0.46f, 0.22f},
                                     {0.10f, 0.36f, 0.62f}, {0.46f, 0.18f, 0.52f}, {0.80f, 0.46f, 0.30f}};
     world.sky = [](Vec3 d) {
-        return mix(Vec3{0.03f, 0.035f, 0.05f}, Vec3{0.10f, 0.12f, 0.17f}, 0.5f + 2 * d.y);
+        // Tori see it from every side, the camera only about the horizon.
+        return mix(Vec3{0.03f, 0.035f, 0.05f}, Vec3{0.10f, 0.12f, 0.17f}, std::max(0.0f, 0.5f + 2 * d.y));
     };
     world.ambient_above = {0.5f, 0.5f, 0.55f}, world.ambient_below = {0.2f, 0.2f, 0.25f};
     world.lights.push_back({{-0.6f, 0.7f, -0.6f}, {2.6f, 2.5f, 2.3f}, 0.03f, true});
