@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -302,6 +303,24 @@ TEST_F(EmbeddedPass, ALayerIsLaidOverWhatWasDrawn) {
               1e-5f);
     EXPECT_LE(largest_difference(Stage(host_, scene).drawn(pass.get()), laid_over(scene.layer, below)), 1e-5f)
         << "it is not blurred itself";
+}
+
+// In focus and out of it, on the picture and in the layer above.
+TEST_F(EmbeddedPass, LightWithoutEndBecomesSomeAndSpreadsNoFurther) {
+    const Pass pass = open(kSize);
+    const Scene plain = scene_of(kSize);
+    const float infinite = std::numeric_limits<float>::infinity();
+    for (const float light : {infinite, -infinite, std::numeric_limits<float>::quiet_NaN()}) {
+        Scene scene = plain;
+        scene.layer.assign(scene.colour.size(), 0);
+        const std::size_t pixels = scene.colour.size() / 4;
+        for (std::size_t i = 0; i < 7; ++i) {
+            scene.colour[4 * (i * pixels / 7) + i % 4] = light;
+            scene.layer[4 * (i * pixels / 7) + 40] = light;
+        }
+        const Floats made = Stage(host_, scene).drawn(pass.get());
+        EXPECT_TRUE(std::all_of(made.begin(), made.end(), [](float v) { return std::isfinite(v); })) << light;
+    }
 }
 
 // A frame has the lens before or the lens after, never some of each.

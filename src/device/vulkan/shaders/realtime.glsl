@@ -15,6 +15,11 @@ const int kLampLight = 4, kLampPlace = 5, kRadii = 6;
 const int kGatheredBack = 0, kGatheredNear = 1, kGatheredArea = 2;            // of what is gathered
 
 vec4 light_of(vec4 colour) { return clamp(colour, vec4(0), vec4(kMostLight)); }
+// As it is, if it is a number: what a host draws may be infinite, and from there on nothing is finite.
+vec4 finite_of(vec4 colour) {
+    const vec4 most = clamp(colour, vec4(-kMostLight), vec4(kMostLight));
+    return mix(mix(colour, most, isinf(colour)), vec4(0), isnan(colour));
+}
 float brightness(vec4 light) { return light.r + light.g + light.b; }
 float radius_of(float depth) {
     const float radius = at.add_px + at.per_depth_px * depth;

@@ -33,7 +33,7 @@ Fine fine(ivec2 pixel, vec4 sharp, float radius, float widest_px) {
             const float covers = clamp(disc + 0.5 - length(vec2(x, float(y) / at.aspect)), 0.0, 1.0);
             const float area = (1 - blurred_share(disc)) * covers / max(1.0, 3.14159 * (disc * disc + 1.0 / 12));
             if (area == 0 && (own < 0 || radius >= 0)) continue;
-            const vec4 light = texelFetch(colours, there, 0);
+            const vec4 light = finite_of(texelFetch(colours, there, 0));
             if (own < 0) sum.near += area * light, sum.area += area;
             else {
                 const float likely = 1 / (1 + brightness(light));
@@ -80,7 +80,7 @@ void main() {
     const ivec2 tile = pixel / kTile;
     const float radius = radius_at(pixel);
     const vec2 reaches = reach[tile.y * at.tiles.x + tile.x];
-    const Fine own = fine(pixel, texelFetch(colours, pixel, 0), radius, reaches.y);
+    const Fine own = fine(pixel, finite_of(texelFetch(colours, pixel, 0)), radius, reaches.y);
     vec4 near_lamps = vec4(0), back_lamps = vec4(0);
     add_all_lamps(pixel, reaches.x, near_lamps, back_lamps);
     const vec4 near = textureLod(gathered, vec3(place, kGatheredNear), 0);
@@ -98,7 +98,7 @@ void main() {
     }
     made += (1 - own.area) * back_lamps + near_lamps;
     if (at.has_layer != 0u) {
-        const vec4 layer = texelFetch(over, pixel, 0);
+        const vec4 layer = finite_of(texelFetch(over, pixel, 0));
         made = layer + (1 - layer.a) * made;
     }
     if (pixel == place_of_group) imageStore(result, pixel, made);
