@@ -141,7 +141,8 @@ Status focus_on_pixel(Shot& shot, PixelPosition pixel) {
 }
 
 Result<std::optional<double>> distance_around_m(const Shot& shot, PixelPosition pixel, int within_px) {
-    const auto depth = depth_at(shot, pixel, name_of(pixel));
+    const auto depth =
+        depth_at(shot, pixel, "pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y));
     if (!depth) return depth.error();
     std::vector<float> seen;
     for (int y = depth->y - within_px; y <= depth->y + within_px; ++y)

@@ -243,6 +243,9 @@ class Shots(CommandLineTest):
         with open(self.path("t.csv")) as file:  # 1.2 m on the left of column 15, 5 m beyond
             self.assertEqual(file.read().split(), ["frame,focus", "1,1.20000005", "2,1.20000005", "3,5", "5,5"])
         self.assertIn(b"</svg>", self.content("t.svg"))
+        outside = self.run_program("focus-track", "in.####.exr", "-o", "t2.csv", "--at", "300,-1")
+        self.assertIn("pixel 300,-1 is outside the picture", outside.err)
+        self.assertNotIn("--focus-at", outside.err)
         self.succeed("focus-track", "in.####.exr", "-o", "s.csv", "--at", "1:3,14", "5:30,14", "--frames", "1-3", "--smooth", "2")
         with open(self.path("s.csv")) as file:
             distances = [float(line.split(",")[1]) for line in file.read().split()[1:]]
