@@ -3,7 +3,9 @@
 
 #include "camera.h"
 #include "console.h"
+#include "interrupt.h"
 #include "look_flags.h"
+#include "look_rows.h"
 #include "output.h"
 #include "run_flags.h"
 #include "values.h"
@@ -28,12 +30,13 @@ struct PictureFlags {
     DevelopFlags develop;
     RunFlags run;
 
-    void add_lens_to(Verb& verb) {
+    // idle: flags that change nothing of what the verb draws.
+    void add_lens_to(Verb& verb, const LookFlags::Idle& idle = {}) {
         FlagGroup(verb, "Lens").argument("LENS", "a name of petzval lens list, or a lens file", lens_name);
-        look.add_to(verb, {"Lens", "Lens character", "Pupil"}, "--lens");
+        look.add_to(verb, {"Lens", "Lens character", "Pupil"}, "--lens", idle);
         camera.add_to(verb, "lens");
     }
-    void add_output_to(Verb& verb) {
+    void add_output_to(Verb& verb, bool with_progress) {
         FlagGroup(verb, "Output")
             .writes("-o,--output", "FILE", "EXR for the numbers, or PNG to look at", output)
             .value("--width", "PX", "width of the picture that the camera takes (default 1920)",
@@ -43,7 +46,7 @@ struct PictureFlags {
         overwrite.add_to(verb, false);
         develop.add_to(verb);
         run.add_json_to(verb);
-        run.add_log_to(verb, false);
+        run.add_log_to(verb, with_progress);
     }
     void check(const Verb& verb) {
         require_argument(verb, lens_name, "a lens, as doublet, or a lens file");
@@ -226,7 +229,12 @@ Status make_table(TableFlags& flags) {
     const auto& [mount, lens] = **mounted;
     flags.table.raw = flags.raw;
     flags.table.dense_near_focus = !flags.even;
-    auto texture = bokeh_texture(lens, mount, flags.table);
+    flags.table.cancelled = [] { return interrupted_by() != 0; };
+    auto texture = [&, &lens = lens, &mount = mount] {
+        ProgressLine progress(flags.run.progress, flags.run.quiet, "lens table");
+        flags.table.progress = [&](double share) { return progress(share); };
+        return bokeh_texture(lens, mount, flags.table);
+    }();
     if (!texture) return texture.error();
     note(texture->lens + " (" + camera_text(mount.camera) + ")");
     Json report = new_report("lens table");
@@ -252,6 +260,26 @@ Status make_table(TableFlags& flags) {
     return finish(flags, std::move(report), mount, texture->lens, watch);
 }
 
+// What shows beside the middle of the picture alone.
+bool is_off_axis(const LookRow& row) {
+    for (const char* flag : {"--cats-eye", "--lateral-colour", "--add-lateral-colour",
+                             "--add-field-curvature", "--coma", "--astigmatism", "--distortion"})
+        if (row.flag == std::string(flag)) return true;
+    return false;
+}
+bool shapes_the_pupil(const LookRow& row) {
+    const std::string heading = row.heading;
+    return heading == "Lens" || heading == "Pupil";
+}
+
+void refuse_on_axis(const PsfFlags& flags) {
+    if (flags.field.low != 0 || flags.field.high != 0) return;
+    for (const LookRow& row : look_rows())
+        if (is_off_axis(row) && flags.look.is_typed(row.field))
+            throw UsageError(std::string(row.flag) +
+                             " has no effect in the middle of the picture; give --field, as --field 0.5,0.3");
+}
+
 void add_psf(Verb& lens, Action& chosen) {
     Verb& verb = add_verb(lens, "psf", "one kernel: what a point of light becomes",
                           "petzval lens psf doublet --defocus 40 -o disc.exr\n"
@@ -265,9 +293,10 @@ void add_psf(Verb& lens, Action& chosen) {
                parse_range, flags->field)
         .value("--size", "PX", "side of the output, made odd; as large as the kernel by default",
                parse_size_px, flags->size_px);
-    flags->add_output_to(verb);
+    flags->add_output_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
+        refuse_on_axis(*flags);
         chosen = [flags] { return make_psf(*flags); };
     });
 }
@@ -278,7 +307,9 @@ void add_table(Verb& lens, Action& chosen) {
                  "petzval lens table doublet -o table.exr\n"
                  "petzval lens table uncorrected --wavelengths 3 --defocus 40 -o table.png");
     auto flags = std::make_shared<TableFlags>();
-    flags->add_lens_to(verb);
+    flags->add_lens_to(verb, {[](const LookRow& row) { return is_off_axis(row) || shapes_the_pupil(row); },
+                              "has no effect in lens table, where a column is a round disc in the middle of "
+                              "the picture; lens psf draws one disc with it"});
     FlagGroup(verb, "Table")
         .value("--defocus", "PX", "signed radii from minus this to plus this (default 64)", parse_positive,
                flags->table.largest_coc_px)
@@ -286,7 +317,7 @@ void add_table(Verb& lens, Action& chosen) {
         .value("--rows-per-pixel", "N", "rows for each pixel of radius (default 4)", parse_count,
                flags->table.rows_per_px)
         .on("--even", "even steps of the radius; by default columns are denser near focus", flags->even);
-    flags->add_output_to(verb);
+    flags->add_output_to(verb, true);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
         chosen = [flags] { return make_table(*flags); };

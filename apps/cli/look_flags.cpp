@@ -43,10 +43,12 @@ UsageError refused(const Error& error) { return UsageError(spoken(error), error.
 
 }  // namespace
 
-void LookFlags::add_to(Verb& verb, const Headings& headings, const std::string& without) {
+void LookFlags::add_to(Verb& verb, const Headings& headings, const std::string& without, const Idle& idle) {
     for (const LookRow& row : look_rows()) {
         if (!holds(headings, row.heading) || row.flag == without) continue;
-        FlagGroup group(verb, row.heading);
+        const bool is_idle = idle.holds && idle.holds(row);
+        if (is_idle) idle_[row.field] = std::string(row.flag) + " " + idle.why;
+        FlagGroup group(verb, is_idle ? "" : row.heading);
         if (row.placeholder.empty())
             group.on(row.flag, row.help, switches_[row.field]);
         else
@@ -74,6 +76,8 @@ void LookFlags::apply(const std::string& field, const std::string& json) {
 }
 
 void LookFlags::settle() {
+    for (const auto& [field, why] : idle_)
+        if (is_typed(field)) throw UsageError(why, ErrorCode::InvalidArgument, field);
     if (!file_.empty()) {
         auto read = read_look(file_);
         if (!read) throw UsageError("--look " + read.error().message, read.error().code);

@@ -6,6 +6,7 @@
 #include "flags.h"
 #include "report.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,11 +15,17 @@
 namespace petzval::cli {
 
 using Headings = std::vector<std::string>;
+struct LookRow;
 
 class LookFlags {
 public:
+    // Rows that change nothing in a verb: no help names them, and `why` ends the sentence that refuses them.
+    struct Idle {
+        std::function<bool(const LookRow&)> holds;
+        std::string why;
+    };
     // The rows under these headings; `without`, for a verb that takes one of them as an argument.
-    void add_to(Verb& verb, const Headings& headings, const std::string& without = "");
+    void add_to(Verb& verb, const Headings& headings, const std::string& without = "", const Idle& idle = {});
     void add_files_to(Verb& verb);  // --look, --save-look
 
     // Reads --look and applies the flags on top. Throws UsageError for a file that is not a look, for
@@ -45,6 +52,7 @@ private:
 
     std::map<std::string, std::optional<std::string>> texts_;  // JSON by field
     std::map<std::string, std::optional<bool>> switches_;
+    std::map<std::string, std::string> idle_;  // by field, why it is refused
     std::string file_, save_to_;
     Look look_;
     std::vector<std::string> idle_in_file_;

@@ -8,6 +8,7 @@
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,6 +61,8 @@ struct BokehTextureSettings {
     bool raw = false;
     int threads = 0;             // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
+    std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
+    std::function<bool()> cancelled = {};       // true cancels; asked often, by any thread at any time
 };
 
 // The talk's bokeh texture (M. Kawase, CEDEC 2008): each column is the radial profile of a disc, from its
@@ -72,7 +75,7 @@ struct BokehTexture {
     std::string lens;
 };
 
-// Errors: as above.
+// Errors: as above; Cancelled.
 PETZVAL_API Result<BokehTexture> bokeh_texture(const Lens& lens, const LensMount& mount,
                                                const BokehTextureSettings& settings = {});
 // Rows that hold any such texture; no kernel is made for it. Errors: as above.

@@ -2,7 +2,9 @@
 
 #include "petzval/lens_facts.h"
 
+#include "base/cancel.h"
 #include "base/parallel.h"
+#include "kernel/lenses/geometric_lens.h"
 #include "kernel/lenses/make_lens.h"
 
 #include <algorithm>
@@ -76,6 +78,37 @@ void fill(BokehTexture& texture, const std::vector<std::vector<Rgba>>& profiles)
             texture.energy(int(i), int(v)) = profiles[i][v];
             texture.view(int(i), int(v)) = (1 / brightest[i]) * profiles[i][v];
         }
+}
+
+// Of the kernel on the axis, the pixels from the source's own to the right.
+std::vector<Rgba> axial_row(const kernel::LensModel& lens, double coc_radius_px, bool raw) {
+    using kernel::RingColours;
+    if (const auto* geometric = dynamic_cast<const kernel::GeometricLens*>(&lens))
+        if (auto row = geometric->axial_row(coc_radius_px, raw ? RingColours::Raw : RingColours::InGamut))
+            return std::move(*row);
+    const kernel::PointSpread spread =
+        raw ? lens.raw_point_spread(coc_radius_px, {}) : lens.point_spread(coc_radius_px, {});
+    std::vector<Rgba> row;
+    for (int x = 0; x < spread.extent.x1; ++x)
+        row.push_back(spread.weights(x - spread.extent.x0, -spread.extent.y0));
+    return row;
+}
+
+// Errors: Cancelled.
+Status make_columns(const BokehTextureSettings& settings, const std::function<void(int)>& make_column) {
+    Progress progress(settings.progress, settings.cancelled);
+    const std::shared_ptr<Workers> own = workers_of(settings.threads, settings.workers);
+    CancellableWorkers workers(*own, progress);
+    const WorksFor these(workers);
+    try {
+        parallel_for(settings.columns, workers, [&](int i) {
+            make_column(i);
+            progress.advance(1.0 / settings.columns);
+        });
+    } catch (const Cancelled&) {
+        return Error{ErrorCode::Cancelled, "cancelled"};
+    }
+    return Done{};
 }
 
 Result<LensDisc> disc_of(const kernel::LensModel& lens, double coc_radius_px, FieldPosition field,
@@ -191,15 +224,13 @@ Result<BokehTexture> bokeh_texture(const Lens& opened, const LensMount& mount,
                                         (settings.dense_near_focus ? t * std::abs(t) : t));
     }
     std::vector<std::vector<Rgba>> profiles(texture.coc_radius_px.size());
-    parallel_for(settings.columns, *workers_of(settings.threads, settings.workers), [&](int i) {
+    const auto make_column = [&](int i) {
         const double coc = made->finer * texture.coc_radius_px[std::size_t(i)];
-        const kernel::PointSpread spread =
-            settings.raw ? made->lens->raw_point_spread(coc, {}) : made->lens->point_spread(coc, {});
-        // A pixel is finer^2 of the fine ones.
-        for (int v = 0; v < spread.extent.x1; ++v)
-            profiles[std::size_t(i)].push_back(float(made->finer * made->finer) *
-                                               spread.weights(v - spread.extent.x0, -spread.extent.y0));
-    });
+        std::vector<Rgba>& profile = profiles[std::size_t(i)];
+        profile = axial_row(*made->lens, coc, settings.raw);
+        for (Rgba& light : profile) light *= float(made->finer * made->finer);  // so many fine pixels to one
+    };
+    if (Status done = make_columns(settings, make_column); !done) return done.error();
     fill(texture, profiles);
     return texture;
 }

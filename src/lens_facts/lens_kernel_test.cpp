@@ -102,6 +102,42 @@ TEST(BokehTexture, ColumnsAreTheProfilesOfDiscsDenseNearFocus) {
         EXPECT_EQ(texture->energy(64, v), disc->weights(middle + v, middle)) << v;
 }
 
+// Drawn of rings of light, and of a mesh over the pupil.
+TEST(BokehTexture, AColumnOfATracedLensIsTheRowOfItsDisc) {
+    for (const char* name : {"tessar", "triplet-cooke", "double-gauss"})
+        for (const bool raw : {false, true}) {
+            const auto lens = Lens::open(named(name));
+            ASSERT_TRUE(lens) << name;
+            LensMount m;
+            m.camera = own_camera(*lens).value();
+            const auto texture =
+                bokeh_texture(*lens, m, {.columns = 3, .largest_coc_px = 40, .rows_per_px = 1, .raw = raw});
+            ASSERT_TRUE(texture) << texture.error().message;
+            for (const int u : {0, 2}) {
+                const auto disc = lens_point_spread(*lens, m, u == 0 ? -40 : 40, 0, 0, 0, raw);
+                const int middle = disc->weights.width() / 2;
+                double off = 0, all = 0;  // of light, summed over rings
+                for (int v = 0; v < std::min(middle, texture->energy.height()); ++v) {
+                    const Rgba there = disc->weights(middle + v, middle), d = texture->energy(u, v) - there;
+                    off += double(std::abs(d.r) + std::abs(d.g) + std::abs(d.b)) * (v + 0.5);
+                    all += double(there.r + there.g + there.b) * (v + 0.5);
+                }
+                EXPECT_LT(off / all, 0.02) << name << " column " << u << (raw ? " raw" : "");
+            }
+        }
+}
+
+TEST(BokehTexture, EndsWhenNobodyWantsIt) {
+    int asked = 0;
+    const auto ended =
+        bokeh_texture(named("doublet"), mount(),
+                      {.columns = 64, .threads = 1, .progress = [&](double) { return ++asked < 3; }});
+    ASSERT_FALSE(ended);
+    EXPECT_EQ(ended.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(asked, 3);
+    EXPECT_FALSE(bokeh_texture(named("doublet"), mount(), {.columns = 64, .cancelled = [] { return true; }}));
+}
+
 TEST(BokehTexture, TheViewBringsEveryColumnNearOne) {
     const auto texture = bokeh_texture(named("uncorrected"), mount(), {.columns = 513, .largest_coc_px = 20});
     for (int u = 0; u < 513; ++u) {

@@ -157,20 +157,52 @@ std::vector<Light> ring_energy(const std::vector<RingBand>& bands, double reach_
         RingGrid grid(bins);
         band.landings_px(areas, landed.data());
         for (double& radius : landed) radius *= bins_per_px;
-        for (std::size_t i = 0; i < zones; ++i)
-            grid.add_annulus(landed[i], landed[i + 1], 1.0 / double(zones));
+        for (std::size_t i = 0; i < zones; ++i) {
+            const double light = band.light ? band.light(0.5 * (areas[i] + areas[i + 1])) : 1;
+            grid.add_annulus(landed[i], landed[i + 1], light / double(zones));
+        }
         grid.add_to(total, band.weight);
     }
     return total;
 }
 
-PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px, RingColours colours) {
-    const int radius = int(std::ceil(reach_px - 0.5));  // pixels beyond the first that light touches
-    if (radius <= 0) return single_pixel();
+namespace {
+
+// Pixels beyond the first that light touches.
+int radius_of(double reach_px) { return int(std::ceil(reach_px - 0.5)); }
+
+std::vector<Light> fine_rings(const std::vector<RingBand>& bands, double reach_px, RingColours colours) {
     const std::size_t bins = std::size_t(std::clamp(32 * reach_px, 64.0, 8192.0));
     std::vector<Light> rings = ring_energy(bands, reach_px, bins);
     if (colours == RingColours::InGamut) map_into_gamut(rings);
-    const RadialProfile profile(rings, reach_px / double(bins));
+    return rings;
+}
+
+}  // namespace
+
+std::vector<Rgba> ring_row(const std::vector<RingBand>& bands, double reach_px, RingColours colours) {
+    const int radius = radius_of(reach_px);
+    if (radius <= 0) return {{1, 1, 1, 0}};
+    const std::vector<Light> rings = fine_rings(bands, reach_px, colours);
+    const RadialProfile profile(rings, reach_px / double(rings.size()));
+    Light all;
+    for (const Light& ring : rings) all += ring;
+    const double least = colours == RingColours::InGamut ? 0 : -std::numeric_limits<double>::infinity();
+    std::vector<Rgba> row;
+    for (int x = 0; x <= radius; ++x) {
+        const Rgb c = x == 0 ? profile.in_middle_square() : pixel_share(profile, x, 0);
+        const auto weight = [least](double light, double of) { return float(std::max(least, light / of)); };
+        row.push_back({weight(c[0], all.r), weight(c[1], all.g), weight(c[2], all.b), 0});
+        row.back().a = alpha_of(row.back());
+    }
+    return row;
+}
+
+PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px, RingColours colours) {
+    const int radius = radius_of(reach_px);
+    if (radius <= 0) return single_pixel();
+    const std::vector<Light> rings = fine_rings(bands, reach_px, colours);
+    const RadialProfile profile(rings, reach_px / double(rings.size()));
 
     const int width = 2 * radius + 1;
     PointSpread spread{{-radius, -radius, radius + 1, radius + 1}, Image<Rgba>(width, width), false};

@@ -20,6 +20,7 @@ namespace petzval::kernel {
 struct RingBand {
     Light weight;
     std::function<void(std::span<const double> areas, double* landed)> landings_px;
+    std::function<double(double area)> light = {};  // per area of the pupil; empty: 1 everywhere
 };
 
 // Landings of a function that tells one.
@@ -41,5 +42,8 @@ enum class RingColours {
 };
 PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px,
                         RingColours colours = RingColours::Raw);
+// Of the same kernel, the pixels from the source's own to the right.
+std::vector<Rgba> ring_row(const std::vector<RingBand>& bands, double reach_px,
+                           RingColours colours = RingColours::Raw);
 
 }  // namespace petzval::kernel

@@ -2,10 +2,12 @@
 // Diffraction needs it.
 #pragma once
 
+#include "kernel/draw/ring_kernel.h"
 #include "kernel/model/coverage.h"
 #include "kernel/model/lens_model.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace petzval::kernel {
@@ -20,6 +22,12 @@ public:
                                                 FieldPosition field) const = 0;
     // Share of light that passes a point of the pupil, mean over a square.
     virtual double pupil_transmission(Point pupil, double half_width) const = 0;
+    // Of the kernel on the axis, the pixels from the source's own to the right (ring_row()), where that costs
+    // less than the whole kernel. Empty: the whole kernel has to be made.
+    virtual std::optional<std::vector<Rgba>> axial_row(double coc_radius_px, RingColours colours) const {
+        (void)coc_radius_px, (void)colours;
+        return std::nullopt;
+    }
 };
 
 }  // namespace petzval::kernel

@@ -413,23 +413,51 @@ PointSpread TracedModel::raw_point_spread(double coc_radius_px, FieldPosition fi
             return pupil_.transmission(axis.from_axis(p), half_width);
         };
     std::vector<MeshBand> bands;
+    for (const auto& [weight, landing_px] : colours_of(node, fine, coc_radius_px))
+        bands.push_back({weight, [this, px = landing_px, axis](std::span<const Point> points, Point* landed) {
+                             land(px, points, landed);
+                             for (std::size_t i = 0; i < points.size(); ++i) {
+                                 const Point image = axis.from_axis(landed[i]);
+                                 landed[i] = {image.x, image.y * mount_.pixel_aspect};
+                             }
+                         }});
+    return mesh_kernel(pupil, bands);
+}
+
+std::vector<TracedModel::Colour> TracedModel::colours_of(const Node& node, const Fineness& fine,
+                                                         double coc_radius_px) const {
+    std::vector<Colour> colours;
     const int wavelengths = choice_.wavelengths > 0 ? fine.bands : kLeastWavelengths;
-    const auto groups = band_groups(fine.bands, wavelengths, choice_.light);
-    for (const BandGroup& group : groups) {
+    for (const BandGroup& group : band_groups(fine.bands, wavelengths, choice_.light)) {
         Displacement px;
         for (std::size_t i = 0; i < group.bands.size(); ++i)
             px.add(group.say[i], landing(map_at(node, group.bands[i].wavelength_nm), coc_radius_px));
-        const colour::SpectralBand& band = group.sum;
-        bands.push_back(
-            {{band.r, band.g, band.b}, [this, px, axis](std::span<const Point> points, Point* landed) {
-                 land(px, points, landed);
-                 for (std::size_t i = 0; i < points.size(); ++i) {
-                     const Point image = axis.from_axis(landed[i]);
-                     landed[i] = {image.x, image.y * mount_.pixel_aspect};
-                 }
-             }});
+        colours.push_back({{group.sum.r, group.sum.g, group.sum.b}, px});
     }
-    return mesh_kernel(pupil, bands);
+    return colours;
+}
+
+// On the axis a lens of round surfaces is the same in every direction: one ray a zone tells of all of it.
+std::optional<std::vector<Rgba>> TracedModel::axial_row(double coc_radius_px, RingColours colours) const {
+    if (!pupil_.is_disc({}) || pupil_.has_texture() || mount_.pixel_aspect != 1) return std::nullopt;
+    const Node node = at(0);
+    const std::vector<Point> outline_there = outline(node, FieldAxis({}), {}, 1e-3);
+    double rim = 0;
+    for (const Point& p : outline_there) rim += std::hypot(p.x, p.y) / double(outline_there.size());
+    const auto on_pupil = [rim](double area) { return PupilPowers({rim * std::sqrt(area), 0}); };
+    std::vector<RingBand> bands;
+    double reach_px = 0;
+    constexpr int kProbes = 256;
+    const RayMap middle = map_at(node, kMiddle_nm);
+    for (const auto& [weight, px] :
+         colours_of(node, fineness(node, outline_there, coc_radius_px), coc_radius_px)) {
+        const auto landing = [on_pupil, px = px](double area) { return px.at(on_pupil(area)).x; };
+        for (int i = 0; i <= kProbes; ++i)
+            reach_px = std::max(reach_px, std::abs(landing(double(i) / kProbes)));
+        bands.push_back({weight, at_each(landing),
+                         [on_pupil, &middle](double area) { return light_at(middle, on_pupil(area)); }});
+    }
+    return ring_row(bands, reach_px, colours);
 }
 
 PointSpread TracedModel::point_spread(double coc_radius_px, FieldPosition field) const {

@@ -43,6 +43,7 @@ public:
     double pupil_transmission(Point pupil, double half_width) const override {
         return pupil_.transmission(pupil, half_width);
     }
+    std::optional<std::vector<Rgba>> axial_row(double coc_radius_px, RingColours colours) const override;
     std::string description() const override { return description_; }
 
 private:
@@ -66,6 +67,11 @@ private:
         double path_px = 0;  // that rims travel over wavelengths that count
     };
     Fineness fineness(const Node& node, const std::vector<Point>& outline, double coc_radius_px) const;
+    struct Colour {
+        Light weight;
+        Displacement landing_px;
+    };
+    std::vector<Colour> colours_of(const Node& node, const Fineness& fine, double coc_radius_px) const;
     std::optional<Node> traced_node(const optics::TracedLens& lens, double field_rad) const;
     std::vector<Displacement> traced_per_coc(const optics::TracedLens& lens, double field_rad,
                                              const RayMapFitter& fitter,
