@@ -1,4 +1,4 @@
-// What a file held beside the colour that petzval works on. Pixels are not kept in memory: the open file is,
+// Data of a file beside the colour that petzval works on. Pixels are not kept in memory: the file stays open,
 // and write_exr() copies from it.
 #pragma once
 

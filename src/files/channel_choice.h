@@ -1,4 +1,4 @@
-// Which channels of a file are the colour and which is the depth, and why. No pixels, no OpenEXR.
+// Choice of the colour and depth channels of a file, with reasons. No pixels, no OpenEXR.
 #pragma once
 
 #include "petzval/result.h"

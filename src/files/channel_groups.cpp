@@ -29,7 +29,7 @@ bool holds(const std::vector<std::string>& list, const std::string& text) {
 }  // namespace
 
 bool is_data_name(const std::string& name) {
-    // As parts of longer names: Nworld_normal, MotionVector, worldPosition.
+    // Parts of longer names: Nworld_normal, MotionVector, worldPosition.
     for (const char* part :
          {"crypto", "depth", "normal", "position", "motion", "velocity", "disparity", "vector"})
         if (name.find(part) != std::string::npos) return true;

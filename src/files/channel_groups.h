@@ -1,4 +1,4 @@
-// The channels of a file as people speak of them: layers of a part, each with what its channels mean.
+// Channels of a file as users see them: layers of a part, with the meaning of each channel.
 #pragma once
 
 #include "files/layout.h"
@@ -10,7 +10,7 @@
 
 namespace petzval {
 
-// All channels of one layer and view in one part, by what they mean for colour.
+// All channels of one layer and view in one part, by their meaning for colour.
 struct ChannelGroup {
     std::size_t part = 0;
     std::string layer, view;
@@ -27,16 +27,16 @@ struct ChannelGroup {
 // Those of readable parts, in the file's order.
 std::vector<ChannelGroup> groups_of(const Layout& layout);
 
-// What a user may call a group: the layer, the part, or both.
+// Names a user may type for a group: the layer, the part, or both.
 std::vector<std::string> names_of(const ChannelGroup& group, const Part& part);
 bool is_called(const ChannelGroup& group, const Part& part, const std::string& wanted);
 inline constexpr const char* kUnnamed = "(unnamed)";
-// What to call each group: the first of its names that is its own, else its first, else kUnnamed.
+// Display name of each group: its first unique name, otherwise its first name, otherwise kUnnamed.
 std::vector<std::string> names_to_type(const std::vector<ChannelGroup>& groups, const Layout& layout);
 
 // The last component of its layer, or the label of its part; lower case.
 std::string name_of_layer(const ChannelGroup& group, const Part& part);
-// Whether a layer of that name holds neither light nor coverage, though it may have R, G, B: depth, normals,
+// True if a layer of that name holds neither light nor coverage, even with R, G, B: depth, normals,
 // positions, motion, texture coordinates, ids.
 bool is_data_name(const std::string& name);
 

@@ -42,7 +42,7 @@ Result<std::vector<ChannelGroup>> of_wanted_view(const std::string& path, const 
     return kept;
 }
 
-// Of a layer that is there and is none of colour: what to do with it. "" if there is none.
+// Advice for a layer that exists but holds no colour. "" if the layer does not exist.
 std::string what_of_no_colour(const Layout& layout, const std::string& layer) {
     for (const ChannelGroup& g : groups_of(layout)) {
         const auto is_channel = [&](const auto& channel) { return lower(channel.second) == lower(layer); };

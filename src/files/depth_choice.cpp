@@ -20,8 +20,8 @@ bool is_one_of(const std::string& name, std::initializer_list<const char*> names
     return std::any_of(names.begin(), names.end(), [&](const char* n) { return name == n; });
 }
 
-// What renderers call a depth channel, best first. A pattern sees the channel as a Candidate and whether it
-// lies in the layer of the colour. To teach petzval a new name, add a row.
+// Names of depth channels, best first. A pattern sees the channel as a Candidate, and if it lies in the layer
+// of the colour. To support a new name, add a row.
 struct Pattern {
     const char* why;
     bool (*matches)(const Candidate& c, bool layer_of_colour);

@@ -50,7 +50,7 @@ void copy_part(Imf::MultiPartInputFile& input, int from, Imf::MultiPartOutputFil
     }
 }
 
-// What becomes of a part that is painted anew, at least in one channel.
+// Output of a part of which at least one channel is replaced.
 struct PartOutput {
     const Frame* frame = nullptr;  // in whose window
     std::vector<Painted> painted;
@@ -255,7 +255,7 @@ Status check_subsampled(const Layout& layout, const Plan& plan) {
     return Done{};
 }
 
-// What fills the bands of such a part.
+// Fills the bands of such a part.
 class PartPainter {
 public:
     PartPainter(const ExrFile& exr, std::size_t part, const PartOutput& out, Painter& painter)

@@ -11,8 +11,8 @@
 
 namespace petzval {
 
-// Frames of one file, each with what it carries: more than one are views of it, each with its own colour.
-// Errors: those of write_exr(). Throws what OpenEXR throws.
+// Writes frames of one file, each with its carried data: several frames are views with separate colours.
+// Errors: those of write_exr(). Throws OpenEXR's exceptions.
 Status write_carried(Imf::OStream& stream, std::span<const Frame* const> frames, const WriteOptions& options,
                      Workers& workers);
 

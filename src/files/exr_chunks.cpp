@@ -73,7 +73,7 @@ std::uint64_t FlatChunks::promised_bytes(const Rect& r) const {
     return bytes;
 }
 
-// As it stands in the file.
+// Reads a chunk as it stands in the file.
 void FlatChunks::read_packed(int chunk, std::uint64_t promised, RawBytes& bytes) {
     int size = int(promised);
     bytes.resize(promised);
@@ -93,8 +93,8 @@ void FlatChunks::read_packed(int chunk, std::uint64_t promised, RawBytes& bytes)
     std::memcpy(bytes.data(), from, bytes.bytes().size());
 }
 
-// Of a file of one part OpenEXR's rawTileData reads whatever tile comes next, and tiles may stand in any
-// order. The first level's are the first of the table, row by row.
+// Seeks to a chunk: for files of one part OpenEXR's rawTileData reads the next tile, and tiles may be stored
+// in any order. Tiles of the first level come first in the table, row by row.
 void FlatChunks::seek(int chunk) {
     std::array<unsigned char, 8> entry{};
     if (!exr_.file->read_at(exr_.headers_end + entry.size() * std::uint64_t(chunk), entry.data(),
@@ -159,7 +159,7 @@ Status check_deep_chunk(const ExrFile& exr, std::size_t part, const DeepChunk& c
     std::uint64_t sample_bytes = 0;
     for (const Channel& c : exr.layout.parts[part].channels) sample_bytes += bytes_of(c.type);
     const std::uint64_t pixels = std::uint64_t(chunk.pixels.width()) * std::uint64_t(chunk.pixels.height());
-    // Of other packings OpenEXR minds what is missing, but for a chunk of nothing.
+    // OpenEXR detects missing data of other packings, except for an empty chunk.
     const auto check = [&](std::span<const unsigned char> packed, std::uint64_t promised,
                            std::uint64_t packed_from, const char* what) -> Status {
         std::optional<std::size_t> found = packed.empty() ? 0 : promised;

@@ -22,7 +22,7 @@ class FlatChunks {
 public:
     FlatChunks(const ExrFile& exr, std::size_t part);
 
-    // Whether for_pixels() can be asked; else OpenEXR must be, after check().
+    // True if for_pixels() may be called; otherwise use OpenEXR, after check().
     bool can_be_unpacked() const { return is_plain_packing(compression_) && !is_subsampled_; }
 
     // The samples of one channel in a row of a chunk, as they stand in the file.
@@ -46,14 +46,14 @@ private:
     int row(int chunk) const { return chunk / columns(); }
     Rect pixels_of(int chunk) const;
     std::uint64_t promised_bytes(const Rect& r) const;
-    // Of one chunk after the other: as it stands in the file, on its way, and its pixels.
+    // Buffers reused for every chunk: file bytes, intermediate bytes, pixels.
     struct Buffers {
         RawBytes packed, between, pixels;
     };
     void read_packed(int chunk, std::uint64_t promised, RawBytes& bytes);
     void seek(int chunk);
-    // All of a chunk's lines into buffers.pixels, of each all channels in the order of the part's; nothing of
-    // what cannot be unpacked here.
+    // Unpacks all lines of a chunk into buffers.pixels, with all channels in the order of the part; nothing
+    // if the packing is not supported here.
     Status unpack_chunk(int chunk, Buffers& buffers);
 
     const ExrFile& exr_;
@@ -73,8 +73,8 @@ struct DeepChunk {
     std::vector<unsigned char> counts, samples;  // counts: of the samples of each pixel
 };
 
-// Whether it is whole, once its counts were read: it has `samples` of them. Errors: InvalidFile, naming part
-// and rows.
+// Checks a chunk whose counts were read: it must hold `samples` of them. Errors: InvalidFile, naming part and
+// rows.
 Status check_deep_chunk(const ExrFile& exr, std::size_t part, const DeepChunk& chunk, std::uint64_t samples);
 
 }  // namespace petzval

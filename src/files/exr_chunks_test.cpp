@@ -28,7 +28,7 @@ std::string packed(Imf::Compression compression, std::size_t bytes) {
     return out;
 }
 
-// Where the last of so many chunks begins.
+// Offset of the last chunk.
 std::uint64_t last_chunk(const std::string& bytes, std::uint64_t chunks) {
     std::uint64_t first = 0, last = 0;
     for (std::size_t at = 300; at + 8 * chunks < bytes.size(); ++at) {
@@ -51,7 +51,7 @@ std::string with_last_chunk(std::string bytes, std::uint64_t chunks, std::size_t
 
 class ShortChunk : public testing::TestWithParam<Imf::Compression> {
 protected:
-    // What is said of a file with this in its last chunk.
+    // The error for a file with this data in its last chunk.
     std::string said_of(const Rect& window, int tile, std::uint64_t chunks, const std::string& data) {
         QuickPart part = quick_rgbaz(window);
         part.compression = GetParam(), part.tile = tile;

@@ -45,7 +45,7 @@ public:
     }
     // Chunks of the first level, one after the other: rows, or tiles.
     int chunks() const { return tiles_ ? tiles_->numXTiles() * tiles_->numYTiles() : window_.height(); }
-    // As it stands in the file, of so many bytes. Throws what OpenEXR throws.
+    // The chunk as it stands in the file, of that many bytes. Throws OpenEXR's exceptions.
     DeepChunk chunk(int i, std::uint64_t file_bytes) {
         DeepChunk chunk;
         chunk.pixels = Rect{window_.x0, window_.y0 + i, window_.x1, window_.y0 + i + 1};
@@ -151,7 +151,7 @@ private:
         float* (*of)(DeepSample&);
     };
 
-    // Of each chunk before its samples are looked at: OpenEXR takes what is missing from its buffers.
+    // Checks each chunk before its samples are read: OpenEXR takes missing data from its buffers.
     Status check_chunks() {
         for (int i = 0; i < part_.chunks(); ++i) {
             check_cancelled(*exr_.workers);

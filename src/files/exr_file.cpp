@@ -139,7 +139,7 @@ Status guarded(const std::string& path, const std::function<Status()>& body) {
         std::string what = printable(e.what(), 500);
         if (const std::size_t at = what.find("\"" + path + "\""); at != std::string::npos)
             what.replace(at, path.size() + 2, "it");
-        // Our own words, after what OpenEXR was doing at the time.
+        // Our message, after OpenEXR's description of the step.
         if (const std::size_t at = what.rfind("it ends too early"); at != std::string::npos)
             what.erase(0, at);
         return invalid_file(path, "is damaged or not readable: " + what);

@@ -37,9 +37,9 @@ std::string compression_name(int compression);
 // Runs `body`, turning everything OpenEXR may throw into InvalidFile for `path`. Lets Cancelled through.
 Status guarded(const std::string& path, const std::function<Status()>& body);
 
-// How many threads of OpenEXR may work on one file beside as many workers; 0: it is read or written on the
-// thread that calls. OpenEXR's pool is one per process and starts empty: it is given as many threads as the
-// widest workers have had so far, none for a width of 1, unless the program around us has set it.
+// Number of OpenEXR threads that may work on one file beside as many workers; 0: the calling thread reads or
+// writes. OpenEXR's pool is global and starts empty: it gets as many threads as the widest workers so far,
+// none for a width of 1, unless the host has set it.
 int exr_threads(const Workers& workers);
 
 }  // namespace petzval

@@ -35,7 +35,7 @@ std::optional<Imf::Compression> compression_of(const std::string& name) {
     return std::nullopt;
 }
 
-// A copy that lacks some attributes. Header::erase() of OpenEXR 3.1 forgets to free what it takes out.
+// A copy without some attributes. Header::erase() of OpenEXR 3.1 leaks the removed attribute.
 Imf::Header without(const Imf::Header& input, const std::vector<std::string>& names) {
     Imf::Header header;
     for (auto a = input.begin(); a != input.end(); ++a)

@@ -25,8 +25,8 @@ Imf::Header kept_header(const Imf::Header& input, const Frame& frame);
 // Compression, attributes and camera of `options`. Errors: InvalidArgument for an unknown compression.
 Status apply(const WriteOptions& options, const Rect& display_window, Imf::Header& header);
 
-// Whether decoding and encoding again changes samples. B44 packs every half channel, DWA those named like
-// colour; PXR24 rounds floats to 24 bits, which a second time changes nothing.
+// True if decoding and encoding again changes samples. B44 packs every half channel, DWA those named like
+// colour. PXR24 rounds floats to 24 bits, and a second rounding changes nothing.
 bool loses_again(const std::string& compression, const Channel& channel);
 
 Imath::Box2i box_of(const Rect& rect);

@@ -51,8 +51,8 @@ bool has_alpha_of(const Picture& colour, const Picture& layer) {
                       [](Rgba a, Rgba b) { return a.a == b.a; });
 }
 
-// Whether the colour may be the sum of this and of others: where it is far less, this is no light. Grain and
-// negative lobes of filters are let pass.
+// True if the colour may be the sum of this layer and others: a layer that exceeds the colour is not light.
+// Grain and negative lobes of filters are tolerated.
 bool may_be_light(const Picture& colour, const Picture& layer) {
     constexpr double kMost = 0.02;  // of the pixels that the layer has
     constexpr float kOver = 1.5f, kNothing = 1e-3f;

@@ -11,7 +11,7 @@
 
 namespace petzval {
 
-// Puts into the frame what is blurred with the colour and what is carried as it is.
+// Records in the frame the layers blurred with the colour and the copied ones.
 void describe_layers(const LayersChoice& choice, Frame& frame);
 
 // Fills frame.layers, in the data window of frame.colour, which is read already (in the file's primaries). An

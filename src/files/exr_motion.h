@@ -10,7 +10,7 @@
 
 namespace petzval {
 
-// Into frame.motion, what was taken into frame.detected; nothing where it is not wanted or the file has none.
+// Reads motion into frame.motion and the choice into frame.detected; nothing if it is not wanted or missing.
 // Errors: those of choose_motion() and of reading; OutOfMemory beyond options.max_memory_bytes.
 Status read_motion(const ExrFile& exr, const ColourChoice& colour, const ReadOptions& options, Frame& frame);
 

@@ -1,4 +1,4 @@
-// What every EXR writer here shares: the file that appears complete or not at all, and values that fit.
+// Shared by all EXR writers: files that appear complete or not at all, and values that fit the format.
 #pragma once
 
 #include "petzval/files.h"

@@ -8,9 +8,9 @@
 namespace petzval {
 namespace {
 
-// Of 99.5 MB of a 4K night: 34.0 MB in 0.15 s of one thread; libdeflate's level 1 32.5 in 0.39, zlib at
-// OpenEXR's level 32.1 in 1.36. With more room for tokens, 34.2 MB in 0.14 s: blocks get longer than what is
-// alike in them.
+// ISA-L's level 2 packs 99.5 MB of a 4K night to 34.0 MB in 0.15 s of one thread. libdeflate's level 1: 32.5
+// MB in 0.39 s; zlib at OpenEXR's level: 32.1 MB in 1.36 s. More room for tokens gives 34.2 MB in 0.14 s,
+// because blocks grow beyond similar data.
 constexpr std::uint32_t kLevel = 2, kRoom = ISAL_DEF_LVL2_SMALL;
 
 struct FreeDecompressor {
@@ -30,7 +30,7 @@ void predict(std::span<const unsigned char> from, std::span<unsigned char> to) {
     for (std::size_t i = 1; i < from.size() / 2; ++i) to[half + i] = step(2 * i + 1, 2 * i - 1);
 }
 
-// Two sums beside each other: that of the odd bytes begins with what the even ones sum to.
+// Computes two sums in parallel: the one of odd bytes begins with the sum of the even bytes.
 void undo_predictor(std::span<const unsigned char> from, std::span<unsigned char> to) {
     const auto change = [](unsigned char byte) { return static_cast<unsigned char>(byte ^ 128); };
     const std::size_t pairs = from.size() / 2;

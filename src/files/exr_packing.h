@@ -30,7 +30,7 @@ private:
     std::size_t size_ = 0, room_ = 0;
 };
 
-// Whether unpacked() knows the format.
+// True if unpacked() supports the format.
 inline bool is_plain_packing(Imf::Compression compression) { return compression <= Imf::ZIP_COMPRESSION; }
 
 // Scratch memory of one thread that packs: whatever was in it.

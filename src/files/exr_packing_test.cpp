@@ -1,5 +1,4 @@
-// What is packed unpacks to the same bytes, by us and by OpenEXR; what is damaged never writes beyond its
-// end.
+// Packed data unpacks to the same bytes, by petzval and by OpenEXR; damaged data never writes beyond its end.
 #include "files/exr_packing.h"
 
 #include <random>

@@ -22,8 +22,8 @@ inline bool made_finite(float& v) {
     return true;
 }
 
-// Where a channel's samples go: the first pixel of the part's data window, and the steps between pixels and
-// rows in floats.
+// Destination of a channel's samples: the first pixel of the part's data window, and the steps between pixels
+// and rows in floats.
 struct FloatTarget {
     std::string channel;
     float* first = nullptr;

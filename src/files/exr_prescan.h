@@ -10,9 +10,9 @@
 
 namespace petzval {
 
-// What is wrong with the file, or nothing: attributes longer than the file, data or display windows of more
-// than `max_pixels`, more pixel bytes promised than its compression could hold in a file of this size. Where
-// the headers end and the tables of chunks begin is left in `headers_end`, in bytes.
+// The fault of a file, or nothing: attributes longer than the file, data or display windows of more than
+// `max_pixels`, more promised pixel bytes than its compression could hold. `headers_end` receives the offset
+// of the chunk tables, in bytes.
 std::optional<std::string> refuse_exr(const InputFile& file, std::size_t max_pixels,
                                       std::uint64_t& headers_end);
 

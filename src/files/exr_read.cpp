@@ -128,7 +128,7 @@ struct Choices {
     std::vector<LayerChoice> layers;
 };
 
-// Finds depth in the same file where it is wanted there; a header alone may lack it.
+// Finds depth in the same file if it is wanted; a header alone may have none.
 Status choose_depth_of(const ExrFile& exr, const ReadOptions& options, bool pixels, Choices& choices,
                        Frame& frame) {
     if (!options.depth_file.empty()) return Done{};
@@ -218,7 +218,7 @@ Status read_pixels(const ExrFile& exr, const Choices& choices, const ReadOptions
     return read_motion(exr, choices.colour, options, frame);
 }
 
-// Whose picture it is, and what was done to it.
+// Reports the origin of the picture and earlier processing.
 void tell_past(const ExrFile& exr, const ColourChoice& colour, Frame& frame) {
     frame.views = exr.layout.views;
     frame.view = colour.view;
@@ -228,7 +228,7 @@ void tell_past(const ExrFile& exr, const ColourChoice& colour, Frame& frame) {
         frame.history = text->value();
 }
 
-// What of a part no picture of a camera holds.
+// Warns about properties that no camera picture has.
 void warn_of_what_is_not_said(const Imf::Header& header, Frame& frame) {
     if (header.hasTileDescription() && header.tileDescription().mode != Imf::ONE_LEVEL)
         frame.warnings.emplace_back("it has mip levels: the first is read, the others are not kept");

@@ -9,8 +9,8 @@
 
 namespace petzval {
 
-// As read_frame() and read_frame_header() promise, for a file that starts like an EXR. `pixels` false: header
-// only. Of options.threads and workers the latter alone are asked: never null from here on.
+// Implements read_frame() and read_frame_header() for EXR files. `pixels` false: header only. Only
+// options.workers counts, and it is never null here; options.threads is ignored.
 Result<Frame> read_exr_frame(const std::shared_ptr<const InputFile>& file, const ReadOptions& options,
                              bool pixels);
 

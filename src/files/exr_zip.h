@@ -14,8 +14,8 @@
 
 namespace petzval {
 
-// Whether the part is one that write_zip_file() can write: flat, in lines that follow each other downwards,
-// nothing subsampled. What is not, OpenEXR writes.
+// True if write_zip_file() can write the part: flat, lines in downward order, nothing subsampled. OpenEXR
+// writes all others.
 bool is_zip_of_lines(const Imf::Header& header, const std::vector<Channel>& channels);
 
 // Writes a file of this one part: magic number, header, table of chunks, chunks, packed on the workers.

@@ -98,7 +98,7 @@ TEST(HostileFile, EveryTruncationOfASmallFileIsAnError) {
         for (std::size_t length = 1; length < good.size(); ++length) {
             write_bytes(folder / "bad.exr", good.substr(0, length));
             const Result<Frame> frame = read_frame(folder / "bad.exr");
-            // Of the last chunk of another part only its beginning is known to be there.
+            // Only the beginning of another part's last chunk is known.
             if (frame && named.size() > 1 && length + 200 > good.size()) continue;
             ASSERT_FALSE(frame) << length << " of " << good.size();
             ASSERT_EQ(frame.error().code, ErrorCode::InvalidFile) << frame.error().message;

@@ -54,7 +54,7 @@ Reading& of(j_decompress_ptr jpeg) { return *static_cast<Reading*>(jpeg->client_
     std::longjmp(r.back, 1);
 }
 
-// What libjpeg makes up for and goes on after is damage all the same, but for what costs no pixel.
+// libjpeg repairs some damage and continues; that counts as damage, unless no pixel is affected.
 void on_message(j_common_ptr jpeg, int level) {
     const int code = jpeg->err->msg_code;
     const bool harmless = code == JWRN_EXTRANEOUS_DATA || code == JWRN_ADOBE_XFORM || code == JWRN_JFIF_MAJOR;

@@ -40,7 +40,7 @@ struct Candidate {
     std::string refused;  // why it cannot be blurred; empty: it can
 };
 
-// What stands in the way of blurring a channel.
+// The reason why a channel cannot be blurred.
 std::string refusal(const Part& part, const Channel& c) {
     if (part.deep) return "deep";
     if (!part.complete) return "incomplete";
@@ -116,7 +116,7 @@ private:
     std::set<std::pair<std::size_t, std::string>> taken_;
 };
 
-// What a list asks of candidates.
+// The request of a list of layers.
 struct Wanted {
     bool all = false;
     std::vector<std::string> names, not_these;
@@ -150,7 +150,7 @@ struct Wanted {
     }
 };
 
-// Errors: InvalidArgument for a name that no candidate has, or of what cannot be blurred.
+// Errors: InvalidArgument for a name that no candidate has, or for a layer that cannot be blurred.
 Status check_names(const std::string& path, const Wanted& wanted, const std::vector<Candidate>& all) {
     std::vector<std::string> known;
     for (const Candidate& c : all) known.push_back(c.names.front());

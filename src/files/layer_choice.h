@@ -1,4 +1,4 @@
-// Which channels beside the colour are blurred with it, which are left alone, and why. No pixels, no OpenEXR.
+// Choice of the channels that are blurred with the colour or copied, with reasons. No pixels, no OpenEXR.
 #pragma once
 
 #include "petzval/result.h"
@@ -17,8 +17,8 @@ namespace petzval {
 struct LayerChoice {
     std::vector<std::string> names;  // what people call it: one of a colour, else one for each channel
     std::size_t part = 0;
-    // What red, green, blue and alpha of the picture are in the file; empty: nothing. Of a colour, all of it;
-    // else up to three channels that share a picture and nothing else.
+    // File channels for red, green, blue and alpha; empty: none. For a colour all of them, otherwise up to
+    // three unrelated channels that share a picture.
     std::array<std::string, 4> channels;
     bool is_colour = false;
     bool is_light = false;  // as far as names tell

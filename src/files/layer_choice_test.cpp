@@ -20,7 +20,7 @@ Part part(const std::string& name, const std::vector<std::string>& channels,
     return p;
 }
 
-// What would be blurred, as "name: channels", and why all else is not.
+// Layers to blur, as "name: channels", and the reason for all others.
 struct Chosen {
     std::vector<std::string> blurred;
     std::map<std::string, std::string> carried;

@@ -1,4 +1,4 @@
-// What a file holds, as plain values: parts, layers, views, channels. Choosing what to read needs no more.
+// Contents of a file as plain values: parts, layers, views, channels. Enough to choose the channels to read.
 #pragma once
 
 #include "petzval/files.h"
@@ -49,7 +49,7 @@ struct Layout {
     std::vector<std::string> views;  // in the file's order; the first is its default
 };
 
-// Whether both describe files with the same pixels in the same places.
+// True if both layouts have the same pixels in the same places.
 bool same_pixels(const Layout& a, const Layout& b);
 
 // Splits a channel name. `views` are those the part declares for its channels (attribute multiView), default

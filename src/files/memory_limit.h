@@ -1,4 +1,4 @@
-// What the pixels of a file may take: ReadOptions::max_memory_bytes against what its header and counts say.
+// Checks ReadOptions::max_memory_bytes against the header and counts of a file.
 #pragma once
 
 #include "petzval/files.h"

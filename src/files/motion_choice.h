@@ -1,4 +1,4 @@
-// Which channels of a file are motion vectors, and what they mean. No pixels, no OpenEXR.
+// Choice of the motion vector channels of a file, and their meaning. No pixels, no OpenEXR.
 #pragma once
 
 #include "petzval/motion.h"
@@ -12,7 +12,7 @@
 
 namespace petzval {
 
-// Two channels of a part, and what makes of them a move by our signs.
+// Two channels of a part, and the factors that convert them to our signs.
 struct VectorChoice {
     std::size_t part = 0;
     std::string x, y;
@@ -24,8 +24,8 @@ struct MotionChoice {
     std::string line;                                  // for Frame::detected
 };
 
-// Of the view of `colour`. Nothing where the file has none and none was asked for by name. Errors:
-// InvalidArgument for a layer that the file does not have, or that has no two channels of the right names.
+// Motion of the view of `colour`. Nothing if the file has none and none was requested by name. Errors:
+// InvalidArgument for a layer that does not exist or has no two suitable channels.
 Result<std::optional<MotionChoice>> choose_motion(const std::string& path, const Layout& layout,
                                                   const ColourChoice& colour, const MotionReading& reading);
 

@@ -58,8 +58,8 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// Links followed, also those to what is not there yet: writing through one keeps it. A link still: it leads
-// to itself.
+// The path with links followed, also to missing targets: writing through a link keeps the link. A result that
+// is still a link leads to itself.
 std::filesystem::path followed(std::filesystem::path path) {
     constexpr int kMostLinks = 40;  // as Linux has it
     std::error_code failed;
@@ -68,7 +68,7 @@ std::filesystem::path followed(std::filesystem::path path) {
     return path;
 }
 
-// Where an output goes.
+// Destination of an output.
 struct Target {
     std::string path;  // links followed
     bool exists = false;
@@ -78,7 +78,7 @@ struct Target {
     std::string name() const { return path.substr(path.rfind('/') + 1); }
 };
 
-// Errors: OutputFailed for what no file may be written to.
+// Errors: OutputFailed for paths that cannot be written.
 Result<Target> target_of(const std::string& path) {
     if (path.empty()) return output_failed("(no name)", "an output file needs a name");
     std::error_code failed;
@@ -113,7 +113,7 @@ std::string identity(const std::string& path) {
 
 bool is_file_name(const std::string& path) { return !path.empty() && !is_standard_output(path); }
 
-// What stands in the way of writing a file there.
+// Checks that a file can be written there.
 Status check_target(const std::string& path) {
     const auto target = target_of(path);
     if (!target) return target.error();

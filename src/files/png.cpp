@@ -18,7 +18,7 @@
 namespace petzval {
 namespace {
 
-// What the callbacks see.
+// State for libpng's callbacks.
 struct PngReading {
     const InputFile* file = nullptr;
     const Workers* workers = nullptr;  // who may cancel; null: nobody

@@ -51,7 +51,7 @@ std::optional<Matrix3> xyz_from_rgb(const Chromaticities& c) {
     return primaries;
 }
 
-// From colours seen under that light to the same colours under D65.
+// Matrix from colours under that light to the same colours under D65.
 std::optional<Matrix3> adaptation(const Chromaticity& neutral) {
     const auto from = product(kBradford, xyz_of(neutral[0], neutral[1]));
     const auto to = product(kBradford, xyz_of(kRec709[6], kRec709[7]));

@@ -1,4 +1,4 @@
-// From a file's colour primaries to Rec.709 / D65 and back.
+// Conversion between a file's colour primaries and Rec.709 / D65.
 #pragma once
 
 #include "petzval/image.h"
@@ -20,10 +20,10 @@ struct PrimariesConversion {
     std::optional<Chromaticity> adapted_from;  // the neutral that became D65; nothing where none was adapted
 };
 
-// Nothing when the primaries are those of Rec.709 (to 1e-3) and neutral is D65, or when they describe no
-// colour space. What is neutral becomes D65 (Bradford adaptation): `neutral` (OpenEXR's adoptedNeutral) where
-// it is given, else the white of the primaries; but for an encoding of CIE XYZ, whose white E is no light
-// that anybody saw, and which is taken as it is.
+// Nothing if the primaries are those of Rec.709 (to 1e-3) and neutral is D65, or if they describe no colour
+// space. Neutral becomes D65 (Bradford adaptation): `neutral` (OpenEXR's adoptedNeutral) if given, otherwise
+// the white of the primaries. CIE XYZ encodings are the exception: their white E is no real light, so they
+// are used unchanged.
 std::optional<PrimariesConversion> conversion_of(const Chromaticities& primaries,
                                                  std::optional<Chromaticity> neutral = {});
 bool is_rec709(const Chromaticities& primaries);

@@ -12,7 +12,7 @@
 
 namespace petzval {
 
-// As stored, interleaved, row by row.
+// Samples as stored, interleaved, row by row.
 struct Raster {
     int width = 0, height = 0;
     int channels = 0;  // 1, 3 or 4: grey, RGB, RGBA
@@ -32,12 +32,12 @@ struct Raster {
 struct RasterFormat {
     const char *name, *type;  // "PNG", in sentences; "png", as inspect lists it
     bool (*starts_like)(const InputFile&);
-    // Header alone where `pixels` is false. Of the options: what may be read at most, and who may cancel.
-    // Errors: InvalidFile for what is damaged, too large or of a kind that is not read. Throws Cancelled.
+    // Reads the file; only the header if `pixels` is false. Uses the read limit and the cancelling of the
+    // options. Errors: InvalidFile for damaged, oversized or unsupported files. Throws Cancelled.
     Result<Raster> (*read)(const InputFile&, const ReadOptions&, bool pixels);
 };
 
-// By content; null for what is none of them.
+// The format by content; null if none matches.
 const RasterFormat* raster_format_of(const InputFile& file);
 // "PNG, JPEG, TIFF": those that were built in.
 std::string raster_formats();

@@ -23,7 +23,7 @@ struct Directory {
     }
 };
 
-// Where pixel (x, y) of the upright picture stands in one of width x height.
+// Stored position of pixel (x, y) of the upright picture of width x height.
 std::pair<int, int> stored_at(int x, int y, int width, int height, int orientation) {
     const int right = width - 1, bottom = height - 1;
     switch (orientation) {

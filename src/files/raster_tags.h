@@ -1,4 +1,4 @@
-// What cameras and programs write beside the pixels of PNG, JPEG and TIFF, as far as it changes the picture.
+// Metadata of PNG, JPEG and TIFF that changes the picture.
 #pragma once
 
 #include "files/raster.h"
@@ -21,7 +21,7 @@ Raster upright(Raster raster);
 // Rec. 709 primaries. Empty for no profile.
 std::string note_of_profile(TagBytes icc);
 
-// Of sentences.
+// Appends a sentence.
 void add_note(std::string& notes, const std::string& note);
 
 }  // namespace petzval

@@ -397,7 +397,7 @@ TEST(Tiff, AStripThatIsShortIsDamage) {
     const std::string path = folder / "a.tif";
     for (const int compression : {COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE}) {
         write_tiff(path, {.bits = 16, .compression = compression});
-        // Of the first strip's count of bytes, TIFFTAG_STRIPBYTECOUNTS, three are left.
+        // Leaves three bytes of the first strip (TIFFTAG_STRIPBYTECOUNTS).
         TIFF* tiff = TIFFOpen(path.c_str(), "r");
         const auto bytes = std::uint32_t(TIFFRawStripSize(tiff, 0));
         TIFFClose(tiff);

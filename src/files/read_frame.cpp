@@ -52,8 +52,8 @@ Plane first_channel(const Raster& r) {
 
 std::string size_of(const Rect& r) { return std::to_string(r.width()) + " x " + std::to_string(r.height()); }
 
-// Where the middles of pixels from … to - 1 fall on a line of `stored` values that is stretched over `size`
-// pixels from `origin` on: the values around each, and how far from the first to the second.
+// Positions of pixel centres from … to - 1 on a line of `stored` values that is stretched over `size` pixels
+// from `origin` on: the two values around each, and the fraction between them.
 struct Between {
     int first = -1, second = -1;  // -1: outside
     float share = 0;
@@ -97,7 +97,7 @@ Plane depth_over(const Rect& display, const Plane& depth, bool shares, const Rec
     return out;
 }
 
-// What is said of a map of another size; nothing for one that fits.
+// The note about a map of another size; empty if the size fits.
 std::string resampled(const Rect& theirs, const Rect& display, bool shares) {
     if (theirs.width() == display.width() && theirs.height() == display.height()) return "";
     const double shape =

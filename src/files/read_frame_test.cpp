@@ -141,7 +141,7 @@ TEST(ReadFrame, HeaderAloneNamesPartsChannelsAndCamera) {
     EXPECT_EQ(frame->parts[0].compression, "zip");
 }
 
-// What is said of a file that may take so much, and of one that may take a byte more.
+// The errors for a file with that memory limit, and with one byte more.
 std::string refused_for_memory(const std::string& path, std::size_t most) {
     ReadOptions options;
     options.need_depth = false;
@@ -173,7 +173,7 @@ TEST(ReadFrame, WhatTakesMoreMemoryThanAllowedIsRefusedBeforeItIsTaken) {
     grey.width = 40, grey.height = 30, grey.channels = 3, grey.bits = 8;
     grey.samples.assign(kPixels * 3, 99);
     ASSERT_TRUE(write_png(folder / "a.png", grey));
-    // As light, as codes, and as the rows that libpng unpacks.
+    // Limits as light, as codes, and as the rows that libpng unpacks.
     EXPECT_THAT(refused_for_memory(folder / "a.png", kPixels * (16 + 6 + 3) - 1),
                 testing::HasSubstr("takes 1M"));
 }

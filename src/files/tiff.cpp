@@ -73,7 +73,7 @@ std::uint16_t tag(TIFF* tiff, std::uint32_t name) {
     return value;
 }
 
-// What of a file is read, and how its samples lie in it.
+// The parts of a file that are read, and the layout of its samples.
 struct Layout {
     std::uint32_t width = 0, height = 0, block_width = 0, block_height = 0;
     std::uint64_t block_bytes = 0;

@@ -1,4 +1,4 @@
-// Files that are not finished: how they are named, whose they are, and what becomes of those left behind.
+// Unfinished files: their names, their owners, and the removal of leftovers.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How names and numbers from a file appear in one-line messages.
+// Names and numbers from a file in one-line messages.
 #pragma once
 
 #include "petzval/result.h"

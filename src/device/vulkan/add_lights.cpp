@@ -234,7 +234,7 @@ private:
     const LightsPlan& plan_;
     const PackedAtlas& atlas_;
     const LightsRule rule_;
-    // Of the batch.
+    // Words of the batch.
     std::vector<std::uint32_t> words_;
     std::vector<Rect> tiles_;
     LightsPush push_;

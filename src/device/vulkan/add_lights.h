@@ -6,7 +6,7 @@
 
 namespace petzval::device::vulkan {
 
-// How much is drawn by one submission, were there memory for it. Sums are the same up to rounding.
+// Work of one submission if memory allows it. Sums are the same up to rounding.
 struct LightsRule {
     std::size_t most_cells = std::size_t(8) << 20;  // of pupils that are covered
     std::size_t most_views = 1024;
@@ -18,7 +18,7 @@ struct LightsRule {
 Work add_planned_lights(Context& context, const engine::LightsPlan& plan, const PackedAtlas& atlas,
                         Target out, const Control& control, const LightsRule& rule = {});
 
-// What shaders/add_lights.comp is told; it says what each means.
+// Push constants of shaders/add_lights.comp, documented there.
 struct LightsPush {
     std::uint32_t tiles = 0, order = 0, lights = 0, views = 0, records = 0;
     std::uint32_t held_row = 0, held_width = 0, held_samples = 0;

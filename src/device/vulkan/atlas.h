@@ -14,7 +14,7 @@
 
 namespace petzval::device::vulkan {
 
-// What one ask stands for: a kernel, or one for each sector of the pupil.
+// The answer to one ask: a kernel, or one for each sector of the pupil.
 struct PackedSet {
     struct Kernel {
         Rect extent;  // of its light alone

@@ -1,4 +1,4 @@
-// A frame on the device, and the way of what was drawn to it.
+// A frame on the device, and its transfers.
 #pragma once
 
 #include "device/canvas.h"
@@ -16,11 +16,11 @@ class DeviceCanvas final : public Canvas {
 public:
     DeviceCanvas(Context& context, Picture memory) : Canvas(std::move(memory)), context_(context) {}
 
-    // Where its pixels are, to be written; null: they are at home, as there is no room for them here.
+    // Its pixels on the device, for writing; null: they are in host memory, because the device has no room.
     const Piece* drawn_on();
-    // Where its pixels are, sent there if they were at home; null: they are too many.
+    // Its pixels on the device, uploaded if necessary; null: they are too many.
     const Piece* sent();
-    // Where its pixels are; null: at home, or nowhere yet.
+    // Its pixels on the device; null: they are in host memory, or do not exist yet.
     const Piece* away() const { return is_home_ || pixels_.size() == 0 ? nullptr : &pixels_; }
 
 private:
@@ -40,7 +40,8 @@ public:
     Delivery(Context& context, Target out);
     bool is_away() const { return away_ != nullptr; }
 
-    // Squares of side x side pixels, one after the other, to places no larger. adds: to what is there.
+    // Copies squares of side x side pixels, one after the other, to places no larger. adds: adds to the
+    // existing pixels.
     void squares(Recording& recording, const Piece& drawn, std::span<const Rect> places, int side,
                  bool adds = false);
     // Rows y0…y1 - 1, of a piece that begins with row `first`.
@@ -52,7 +53,8 @@ private:
     Context& context_;
     const Target out_;
     const Piece* away_ = nullptr;
-    // At home, pixels lie in the recording's memory, each place's `side` to a row and `square` from the next.
+    // Pixels in the recording's memory for the host: `side` per row of a place, `square` from one place to
+    // the next.
     const Rgba* seen_ = nullptr;
     std::vector<Rect> places_;
     int side_ = 0;

@@ -26,7 +26,7 @@ constexpr std::uint32_t kGroupsPerTile = kTilePixels / laws::kGroup;
 
 static_assert(Source::kSkirtBits == 2, "as composite.comp has it");
 
-// Where the parts of a batch lie in the words of the plan (composite.comp's Push).
+// Offsets of a batch's parts in the words of the plan (composite.comp's Push).
 struct Push {
     std::uint32_t tiles = 0, layers = 0, runs = 0, arrivals = 0, shares = 0;
     std::uint32_t first_layer = 0, first_run = 0, first_arrival = 0;
@@ -46,7 +46,7 @@ public:
     Compositor(Context& context, const ScatterPlan& plan, const PackedAtlas& atlas, const BatchRule& rule)
         : context_(context), plan_(plan), atlas_(atlas), rule_(rule) {}
 
-    // All tiles. Returns the taps of what arrived.
+    // Draws all tiles. Returns the number of kernel taps.
     std::uint64_t draw_all(Target out, const Control& control) {
         const std::size_t tiles = plan_.tiles.size() - 1;
         std::uint64_t taps = 0;
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    // Of the tiles from `begin` on, as many as one submission draws.
+    // As many tiles from `begin` on as one submission draws.
     Batch batch_from(std::size_t begin) const {
         constexpr std::size_t kMostTiles = 4000;  // groups are counted up to 65535
         Batch batch{begin, begin, 0};
@@ -83,7 +83,7 @@ private:
         return batch;
     }
 
-    // Returns the taps of what arrived.
+    // Draws a batch. Returns the number of kernel taps.
     std::uint64_t draw(const Batch& batch, Target out) {
         Recording recording(context_);
         Push push;
@@ -126,7 +126,7 @@ private:
         for (std::size_t i = begin; i < end; ++i) taps += atlas_[plan_.arrivals[i].kernel].taps;
         return taps;
     }
-    // Of tiles begin…end - 1.
+    // Arrivals of tiles begin…end - 1.
     std::pair<std::size_t, std::size_t> arrivals_of(std::size_t begin, std::size_t end) const {
         const auto first = [&](std::size_t tile) {
             return plan_.runs[plan_.layers[plan_.tiles[tile].first_layer].first_run].first_arrival;
@@ -193,8 +193,8 @@ private:
         words.insert(words.end(), {layer.first_run, layer.first_empty_run, bits_of(low), bits_of(high),
                                    std::uint32_t(layer.layer)});
     }
-    // Of each level those from the first to the last that arrives. Returns by level what is to be taken off
-    // the number of a source to find it in here.
+    // Copies each level's sources from the first to the last that arrives. Returns per level the offset to
+    // subtract from a source's number.
     std::vector<std::uint32_t> take_sources(std::uint32_t first_run, std::uint32_t last_run) {
         struct Span {
             std::uint32_t begin = std::numeric_limits<std::uint32_t>::max(), end = 0;
@@ -233,7 +233,7 @@ private:
         return atlas_.uploaded(kernels, recording);
     }
 
-    // Of the rows of the batch.
+    // Holdout of the batch's rows.
     HoldoutWords holdout_for(const Batch& batch) const {
         int begin = std::numeric_limits<int>::max(), end = 0;
         for (std::size_t t = batch.begin; t < batch.end; ++t) {

@@ -8,7 +8,7 @@
 
 namespace petzval::device::vulkan {
 
-// How much of a plan is drawn by one submission. What is drawn does not depend on it.
+// Work of one submission. The picture does not depend on it.
 struct BatchRule {
     std::uint64_t most_multiply_adds = std::uint64_t(1) << 30;
     std::size_t most_partial_bytes = std::size_t(64) << 20;

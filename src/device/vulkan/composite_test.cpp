@@ -19,7 +19,7 @@ using engine::EngineView;
 
 constexpr int kWidth = 150, kHeight = 90;
 
-// A picture of two depths, and what a plan of it is made with.
+// A picture of two depths, and the inputs of its plan.
 struct Shown {
     Picture colour{kWidth, kHeight};
     Plane coc_px{kWidth, kHeight, 2.0f};

@@ -23,8 +23,8 @@ namespace petzval::device::vulkan {
 // Safe to use from many threads.
 class Context {
 public:
-    // number: place in instance->candidates(). Errors: Unsupported (what of the floor it lacks, or why it
-    // does not start).
+    // Opens a device. number: place in instance->candidates(). Errors: Unsupported (the missing part of the
+    // floor, or the reason why it does not start).
     static Result<std::shared_ptr<Context>> open(std::shared_ptr<Instance> instance, std::size_t number);
     ~Context();
     Context(const Context&) = delete;
@@ -45,16 +45,16 @@ public:
     // Multiply-adds of the next submission of these passes; how long one took.
     std::uint64_t most_work(const std::string& passes) const;
     void note_work(const std::string& passes, std::uint64_t multiply_adds, double seconds);
-    // What is drawn at once, where that many bytes or pieces were if memory had never run out.
+    // Amount drawn at once; the limit is halved each time memory runs out.
     std::size_t at_once(std::size_t most) const { return std::max<std::size_t>(1, most >> halvings_); }
-    // Memory ran out: what is kept is let go of, and half as much is drawn at once from now on, which said()
-    // tells. False: something else failed, or it is of no use any more.
+    // Handles a lack of memory: releases kept memory and halves the amount drawn at once, which said()
+    // reports. False: something else failed, or halving no longer helps.
     bool halves(const Failed& failed);
     // Lets go of memory that is only kept, where it runs out. Set before anything is drawn.
     void lets_go_by(std::function<void()> let_go) { let_go_ = std::move(let_go); }
     // A line for said(), once.
     void say(const std::string& what);
-    // What whoever asked for frames should know of how they were drawn, since this was last asked.
+    // Messages for the user about the drawing of frames, since the last call.
     std::vector<std::string> said();
 
     // Passes are timed from here on.

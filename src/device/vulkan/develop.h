@@ -9,7 +9,8 @@
 
 namespace petzval::device::vulkan {
 
-// Empty where the picture is at home, or memory runs out; it stays as it is. Throws Failed.
+// Codes of a picture; empty if the picture is in host memory, or memory runs out. The picture stays
+// unchanged. Throws Failed.
 std::vector<std::uint16_t> developed(Context& context, const colour::DevelopPlan& plan,
                                      const DeviceCanvas& picture, Workers& workers);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kWidth = 96, kHeight = 64;
 
-// Light of thirty stops in every hue, with emptiness, emission without coverage, and what is no light.
+// Light of thirty stops in every hue, with emptiness, emission without coverage, NaN and infinity.
 Picture all_sorts() {
     constexpr float kInfinity = std::numeric_limits<float>::infinity(),
                     kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -88,7 +88,7 @@ TEST(DevelopOnDevice, CodesAreTheCpusAndTwiceTheSame) {
                 }
 }
 
-// Black, white and what is no light have codes that no rounding may change.
+// Black, white and invalid light have codes that no rounding may change.
 TEST(DevelopOnDevice, BlackStaysBlackAndWhiteWhite) {
     OnDevice device;
     if (!device.context) GTEST_SKIP() << "no device of Vulkan";
@@ -128,7 +128,7 @@ TEST(DevelopOnDevice, APartIsTheCropOfTheWhole) {
     }
 }
 
-// What is at home is not sent here for its codes.
+// A picture in host memory is not uploaded for its codes.
 TEST(DevelopOnDevice, WhatIsAtHomeStaysThere) {
     OnDevice device;
     if (!device.context) GTEST_SKIP() << "no device of Vulkan";

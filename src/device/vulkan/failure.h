@@ -1,4 +1,4 @@
-// What Vulkan says of a call, as an error of ours.
+// Result codes of Vulkan as petzval errors.
 #pragma once
 
 #include "device/failure.h"

@@ -87,7 +87,7 @@ struct Functions {
 };
 #undef PETZVAL_VK_POINTER
 
-// Of an instance; of a device. Requires: vkGetInstanceProcAddr; vkGetDeviceProcAddr.
+// Loads the functions of an instance, or of a device. Requires: vkGetInstanceProcAddr; vkGetDeviceProcAddr.
 void find_functions(Functions& vk, VkInstance instance);
 void find_functions(Functions& vk, VkDevice device);
 

@@ -195,7 +195,7 @@ private:
         return words;
     }
 
-    // Of the lights in a tile itself, each once; kernels as they are in the first zone that has them.
+    // Taps of the lights in a tile itself, each once; with the kernels of the first zone that has them.
     std::uint64_t taps_of(std::size_t tile) {
         std::uint64_t& taps = taps_[tile];
         if (taps != kUnknown) return taps;
@@ -236,7 +236,7 @@ private:
         return cells;
     }
 
-    // At full resolution, row by row in parallel.
+    // Full-resolution pixels, row by row in parallel.
     Cells pixels(Cells cells) const {
         struct Row {
             std::vector<std::uint32_t> first;

@@ -72,7 +72,7 @@ public:
 
 private:
     Piece room(std::size_t pixels) { return context_.heap().allocate(Kind::OnDevice, pixels * sizeof(Rgba)); }
-    // Light by level, then from the coarsest down what is blurred on each and what comes from above it.
+    // Halves light level by level, then sums blurred light from the coarsest level down.
     void make_bloom(const Piece& picture) {
         const BloomPlan& plan = plan_.bloom_layers;
         padded_ = {std::uint32_t(plan.padded(int(size_.width))),
@@ -109,7 +109,7 @@ private:
                             {&levels_[l - 1], &levels_[l]}, sizes_[l], invocations(sizes_[l].pixels()));
     }
 
-    // Of all blurs, across and down.
+    // Weights of all blurs, horizontal and vertical.
     std::vector<float> weights() {
         std::vector<float> all;
         for (const BloomPlan::Blur& blur : plan_.bloom_layers.blurs)

@@ -107,8 +107,8 @@ void Heap::make_buffer(Block& block) {
     block.mapped = static_cast<std::byte*>(mapped);
 }
 
-// What is on the device may be seen by the host as well, where that is all of the device's memory: on
-// machines that share one memory nothing is copied twice.
+// Device memory may be host-visible only if all device memory is: machines with one memory then copy nothing
+// twice.
 std::uint32_t Heap::type_for(Kind kind, std::uint32_t allowed) const {
     VkDeviceSize largest = 0;
     for (std::uint32_t i = 0; i < memory_.memoryHeapCount; ++i)

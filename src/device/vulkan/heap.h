@@ -68,7 +68,7 @@ public:
     // At least `bytes`. Throws Failed (OutOfMemory).
     Piece allocate(Kind kind, std::size_t bytes);
     std::size_t allocated_bytes() const;  // of blocks
-    // As if the device had no more memory than this.
+    // Limits the memory as if the device had no more.
     void limit(std::size_t most_bytes);
     // Lets go of blocks that hold nothing.
     void trim();

@@ -23,17 +23,18 @@ struct DepthScale {
     double scale = 0, bias = 0;
 };
 
-// Radii of a camera over such depth. Errors: those of CircleOfConfusion; InvalidArgument: no such depth.
+// Radii of a camera over such depth. Errors: those of CircleOfConfusion; InvalidArgument for an invalid depth
+// scale.
 Result<RealtimeOptics> optics_of(const Camera& camera, int width, const DepthScale& depth, double most_px,
                                  double aspect);
 
 class HostPass {
 public:
-    // Errors: Unsupported (what the device lacks), OutOfMemory.
+    // Errors: Unsupported (the missing feature of the device), OutOfMemory.
     static Result<std::unique_ptr<HostPass>> open(const Host& host, const RealtimeSettings& settings);
     // With the lens that is mounted on that size. If it fails, nothing changed. Errors: as above.
     Status resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens);
-    // From any thread, beside pass().record(), not beside resize().
+    // Sets the lens, from any thread; may run beside pass().record(), not beside resize().
     void set_lens(const kernel::LensModel& lens);
     RealtimePass& pass() { return *pass_; }
     const RealtimeSettings& settings() const { return settings_; }

@@ -18,7 +18,7 @@ namespace {
 
 Error unsupported(const std::string& message) { return {ErrorCode::Unsupported, message}; }
 
-// What of docs/explain/vulkan.md's floor a device lacks.
+// The first requirement of docs/explain/vulkan.md that a device does not meet.
 std::string lacking(const VkPhysicalDeviceProperties& p, bool has_compute) {
     const VkPhysicalDeviceLimits& l = p.limits;
     const auto below = [](std::uint64_t has, std::uint64_t needed, const char* what) {

@@ -42,10 +42,9 @@ public:
     const Functions& functions() const { return vk_; }
     // Hardware first, then software, each in the order of the loader.
     const std::vector<Candidate>& candidates() const { return candidates_; }
-    // What the validation layer said since it was last asked; empty: nothing, or it is not on. It is on, with
-    // its checks of synchronisation, where $PETZVAL_VULKAN_VALIDATION is set: for tests. What nobody asked
-    // for when the last device has gone ends the process: it is printed, and no test that was run there
-    // passes.
+    // Messages of the validation layer since the last call; empty: none, or the layer is off.
+    // $PETZVAL_VULKAN_VALIDATION switches it on, with its checks of synchronisation, for tests. Messages
+    // nobody has read when the last device closes are printed and end the process, so the test fails.
     std::string complaints();
 
 private:

@@ -26,7 +26,7 @@ struct Push {
 };
 static_assert(sizeof(Push) == 72, "as shaders/mix.glsl has it");
 
-// As mix_extras.glsl reads it.
+// Data of a pixel in the layout of mix_extras.glsl.
 struct Extra {
     Rgba light;
     float covered = 0, coc_px = 0, lower = 0, upper_share = 0;
@@ -114,12 +114,12 @@ private:
         return std::size_t(blur.cells_across()) * std::size_t(cells_for(blur, rows).size());
     }
 
-    // What is shared down the columns of pixels, where cells are wider than these.
+    // Pixels shared down the columns, if cells are wider than pixels.
     std::size_t columns_of(const Blur& blur, Span rows) const {
         return blur.level == 0 ? 0 : std::size_t(width()) * std::size_t(cells_for(blur, rows).size());
     }
 
-    // Pixels and what they become; cells, and as much between passes.
+    // Bytes of pixels, results and cells, including those between passes.
     std::size_t bytes_of(Span rows) const {
         constexpr std::size_t kOne = sizeof(Rgba) + sizeof(float);
         std::size_t cells = 0, columns = 0;
@@ -131,7 +131,7 @@ private:
                (cells + std::max(cells, columns)) * kOne;
     }
 
-    // As mix.glsl reads them.
+    // Words of a span in the layout of mix.glsl.
     std::vector<std::uint32_t> words_of(Span rows) const {
         constexpr std::size_t kBlurWords = 12;
         std::vector<std::uint32_t> words(plan_.blurs.size() * kBlurWords);
@@ -164,7 +164,7 @@ private:
         return words;
     }
 
-    // What is seen of each pixel; what it holds beside that, as mix.glsl reads it.
+    // Uploads visible colours and further data of each pixel, in the layout of mix.glsl.
     void upload_pixels(Span rows, Recording& recording) {
         const std::size_t count = std::size_t(rows.size()) * std::size_t(width());
         std::vector<Rgba> colours;

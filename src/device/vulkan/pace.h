@@ -1,4 +1,4 @@
-// How much a device is given at once, so that no watchdog ends what it draws.
+// Limits the work of a submission, so that no watchdog ends it.
 #pragma once
 
 #include <algorithm>

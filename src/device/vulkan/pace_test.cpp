@@ -7,8 +7,8 @@
 namespace petzval::device::vulkan {
 namespace {
 
-// From one that does 10^8 multiply-adds a second, as no device that anybody draws on, to one of 10^14; parts
-// of the picture are up to five times as slow as others.
+// Devices from 10^8 multiply-adds a second, slower than any real one, to 10^14; parts of the picture are up
+// to five times slower than others.
 TEST(Pace, NoSubmissionTakesTwoSecondsOnADeviceOfAnySpeed) {
     for (double per_s = 1e8; per_s < 1e14; per_s *= 3) {
         Pace pace;

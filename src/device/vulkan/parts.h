@@ -18,8 +18,8 @@ struct Part {
     std::size_t groups() const { return std::size_t(width) * height; }
 };
 
-// From group `first` on, in the order of rows: as much as `most` allows, one group at least.
-// work_of(x, y): multiply-adds of a group. Requires: first < all.x * all.y.
+// Groups from `first` on, in the order of rows: as many as `most` allows, at least one. work_of(x, y):
+// multiply-adds of a group. Requires: first < all.x * all.y.
 template <typename WorkOf>
 Part part_from(std::size_t first, const Groups& all, std::uint64_t most, const WorkOf& work_of) {
     Part part{std::uint32_t(first % all.x), std::uint32_t(first / all.x), 0, 1, 0};
@@ -47,13 +47,13 @@ public:
         recording_.emplace(context_);
     }
     Recording& recording() { return *recording_; }
-    // What more it takes; 0: it is full.
+    // Remaining capacity; 0: the submission is full.
     std::uint64_t left() const {
         const std::uint64_t most = std::min(most_, context_.most_work(passes_));
         return work_ < most ? most - work_ : 0;
     }
     void add(std::uint64_t work) { work_ += work; }
-    // What recording() was is over, but for what is read of it.
+    // Ends the current recording(); its results can still be read.
     void run() {
         context_.note_work(passes_, work_, recording_->run());
         work_ = 0;

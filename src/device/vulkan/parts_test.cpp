@@ -35,7 +35,7 @@ TEST(Parts, HaveEveryGroupOnceAndNoMoreThanIsAllowed) {
     }
 }
 
-// Of 5 x 4 tiles the last has three lamps, which reach the six tiles around it.
+// In 5 x 4 tiles the last one has three lamps, which reach the six tiles around it.
 TEST(RealtimeWork, IsThatOfTheLampsThatReachATile) {
     RealtimeWork work(5, 4, {0, 1, 9, 1});
     std::vector<std::uint32_t> kept(80);

@@ -1,4 +1,4 @@
-// What the passes of one kind took on a device.
+// Time of the passes of one kind on a device.
 #pragma once
 
 #include <cstdint>

@@ -27,7 +27,7 @@ std::vector<T> packed(View<const T> picture, int y0, int y1) {
     return values;
 }
 
-// Where an image is at, and what was last done with it.
+// State of an image: layout, stage and access of its last use.
 struct At {
     VkImageLayout layout;
     VkPipelineStageFlags stage;
@@ -48,7 +48,7 @@ int whole_tiles(float rows) { return int(std::ceil(rows / float(kTile))) * kTile
 
 }  // namespace
 
-// What a frame of one size needs.
+// Resources of one frame size.
 class RealtimeDrawer::Frame {
 public:
     Frame(Context& context, std::uint32_t width, std::uint32_t height)
@@ -68,7 +68,7 @@ public:
         return width == width_ && height == height_;
     }
 
-    // Of a picture: rows y0…y1 - 1, with those from `first` on around them.
+    // Rows y0…y1 - 1 of a picture, with surrounding rows from `first` on.
     struct Strip {
         int first, y0, y1;
     };
@@ -119,7 +119,7 @@ private:
         return sent;
     }
 
-    // What does not fit a submission goes to the next. False: cancelled.
+    // Draws a step; work that does not fit a submission goes to the next. False: cancelled.
     bool draw_step(Step step, Submissions& submissions, const RealtimeWork& work, const Progress& progress,
                    bool plant) {
         const Groups all = pass_.groups(step);
@@ -221,7 +221,8 @@ void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, const Pr
         throw Failed{{ErrorCode::Unsupported,
                       context_.name() + " takes pictures of up to " + std::to_string(most) +
                           " pixels a row in real time; this one has " + std::to_string(width)}};
-    // What reaches a row: discs of lamps; surroundings and means, which a tile takes from the next two.
+    // Rows that influence a row: discs of lamps; surroundings and means, which a tile takes from the next
+    // two.
     const float reach = float(engine::LampKernels::kHalf) * plan.most_px * plan.pixel_aspect + 2;
     const int halo = whole_tiles(std::min(reach, float(height))) + 2 * kTile;
     for (int y = 0; y < height;) {
@@ -250,7 +251,7 @@ int RealtimeDrawer::rows_at_once(int width, int height, int halo) const {
     const auto whole = [halo](int rows) { return (rows - 2 * halo) / kTile * kTile; };
     const int wished = rows_in(rule_.most_pixels), left = rows_in(context_.at_once(rule_.most_pixels));
     const int most = std::min(wished, int(context_.candidate().limits.maxImageDimension2D));
-    // As many as their surroundings at least: more memory sooner than every pixel many times.
+    // At least as many rows as their surroundings: more memory is better than drawing every pixel many times.
     const int rows = height <= most ? height : std::max(halo, whole(most));
     const bool fits = left == wished || std::min(height, rows + 2 * halo) <= left;
     return fits ? rows : std::min(rows, std::max(kTile, whole(left)));  // one row of tiles, if need be

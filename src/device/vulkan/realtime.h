@@ -13,7 +13,8 @@
 
 namespace petzval::device::vulkan {
 
-// How much is drawn at once. More is drawn in strips of rows, each with as many around it as can matter.
+// Work drawn at once. Larger pictures are drawn in strips of rows, each with the surrounding rows that
+// influence it.
 struct RealtimeRule {
     std::size_t most_pixels = std::size_t(9) << 20;        // a little more than 4K, about 100 bytes each
     std::uint64_t most_multiply_adds = ~std::uint64_t(0);  // of a submission, besides what a Pace allows
@@ -32,7 +33,7 @@ public:
     void draw(const engine::RealtimePlan& plan, Target out, const Progress& progress = {},
               bool plant = false);
     int passes_made() const;
-    // Of what is kept for the next frame.
+    // Releases the memory kept for the next frame.
     void let_go();
 
 private:

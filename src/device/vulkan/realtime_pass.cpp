@@ -170,8 +170,8 @@ void RealtimePass::set_lens(std::shared_ptr<const engine::RealtimeLens> lens) {
     chosen_ = std::move(lens);
 }
 
-// What its images and buffers hold, each once: what is read again from caches, the lens's shapes among it,
-// and what no lamp needs is not in it.
+// Bytes of its images and buffers, each once. Cached reads (the lens's shapes) and buffers that only lamps
+// need are not included.
 std::uint64_t RealtimePass::least_bytes(Step step) const {
     const std::uint64_t pixels = std::uint64_t(settings_.width) * settings_.height,
                         tiles = std::uint64_t(tiles_x()) * tiles_y(), cells = tiles * kGroup * kGroup;

@@ -45,7 +45,7 @@ public:
     RealtimePass(const RealtimePass&) = delete;
     RealtimePass& operator=(const RealtimePass&) = delete;
 
-    // What is recorded from now on has this lens. From any thread.
+    // Sets the lens of later recordings. From any thread.
     void set_lens(std::shared_ptr<const engine::RealtimeLens> lens);
     // Allocates nothing, waits for nothing. Requires: what was recorded into this slot before has run; all
     // that is recorded runs on one queue; the inputs are visible to reads of compute shaders, and the result
@@ -61,8 +61,8 @@ public:
     // Requires: settings.is_cut. `plant` leaves out a barrier, to see that it is missed.
     void record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant = false);
     Groups groups(Step step) const;
-    // What lamps there are, once step kReach has run: of each tile, row by row, which of its cells have one
-    // (two words of four), and the first and last column and row of the tiles whose lamps reach it.
+    // Lamps after step kReach: per tile, row by row, its cells with lamps (two words of four), and the first
+    // and last column and row of the tiles whose lamps reach it.
     const Piece& lamps_kept() const { return kept_; }
     const Piece& lamp_boxes() const { return boxes_; }
     std::uint32_t tiles_x() const { return (settings_.width + 15) / 16; }

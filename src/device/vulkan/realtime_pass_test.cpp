@@ -57,7 +57,7 @@ TEST(Watched, AMissingBarrierIsCaughtAndNoneIsMissing) {
     EXPECT_NE(said_of(true).find("SYNC-HAZARD"), std::string::npos);
 }
 
-// What is complained of when nobody draws any more: here a device that goes before all that was made of it.
+// Messages after the last frame: here a device closes before its objects.
 TEST(Watched, WhatIsSaidAfterTheLastFrameEndsTheProcess) {
     if (said_of(false) == "skipped") GTEST_SKIP() << "no device of Vulkan, or no validation layer";
     testing::FLAGS_gtest_death_test_style = "threadsafe";
@@ -120,7 +120,8 @@ TEST(RealtimeDrawer, DrawsFramesSideBySide) {
     EXPECT_EQ(std::memcmp(made[0].pixels(), made[1].pixels(), made[0].size() * sizeof(Rgba)), 0);
 }
 
-// Each group of invocations in a submission of its own, a few rows of them, or as many as the pace allows.
+// Each group of invocations in a separate submission, a few rows per submission, or as many as the pace
+// allows.
 TEST(Watched, AFrameIsTheSameBitsHoweverItIsCut) {
     const auto context = watched_context();
     if (!context) GTEST_SKIP() << "no device of Vulkan";

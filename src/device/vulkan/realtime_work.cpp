@@ -13,7 +13,7 @@ constexpr std::uint64_t kInvocations = 64;  // of a group
 
 RealtimeWork::RealtimeWork(std::size_t tiles_x, std::size_t tiles_y, const RealtimeOptics& optics)
     : tiles_x_(tiles_x), tiles_y_(tiles_y), of_lamps_(tiles_x_ * tiles_y_) {
-    // As shaders/realtime_reach.comp has it.
+    // The same rule as in shaders/realtime_reach.comp.
     const auto across = [](float radius_px) {
         return 2 * std::uint64_t((float(engine::LampKernels::kHalf) * radius_px + 2) / 16 + 1) + 1;
     };
@@ -22,7 +22,7 @@ RealtimeWork::RealtimeWork(std::size_t tiles_x, std::size_t tiles_y, const Realt
 
 void RealtimeWork::take_lamps(const std::uint32_t* kept, const std::int32_t* boxes) {
     constexpr std::uint64_t kOfLamp = 600, kOfTile = 80;
-    // Of all tiles above and on the left.
+    // Sum over all tiles above and on the left.
     const std::size_t across = tiles_x_ + 1;
     std::vector<std::uint64_t> sums(across * (tiles_y_ + 1));
     for (std::size_t y = 0; y < tiles_y_; ++y)

@@ -1,4 +1,4 @@
-// What the pass for real time has to do, so that it can be cut.
+// Work of the real-time pass, so that it can be cut.
 #pragma once
 
 #include "device/vulkan/realtime_pass.h"
@@ -9,8 +9,7 @@
 
 namespace petzval::device::vulkan {
 
-// Multiply-adds that a group of each step takes, and what takes as long: estimates, to be set right by a
-// Pace.
+// Multiply-adds of a group in each step, or an equivalent time: estimates that a Pace corrects.
 class RealtimeWork {
 public:
     RealtimeWork(std::size_t tiles_x, std::size_t tiles_y, const RealtimeOptics& optics);

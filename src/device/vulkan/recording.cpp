@@ -62,7 +62,7 @@ Piece Recording::uploaded(std::span<const std::byte> bytes) {
     return piece;
 }
 
-// All that was written before is seen by what follows, and nothing is overwritten before it was read.
+// Makes all earlier writes visible to later work, and prevents overwriting before reading.
 void Recording::order(VkPipelineStageFlags to, VkAccessFlags access) {
     VkMemoryBarrier barrier = {};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;

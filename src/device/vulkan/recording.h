@@ -22,7 +22,7 @@ inline Groups groups_of(std::size_t groups) {
     constexpr std::size_t kMost = 65535;
     return {std::uint32_t(std::min(groups, kMost)), std::uint32_t((groups + kMost - 1) / kMost)};
 }
-// Of 256 each.
+// Groups of 256 invocations.
 inline Groups invocations(std::size_t count) { return groups_of((count + 255) / 256); }
 
 // Passes that follow each other see what those before them wrote. Throws Failed.
@@ -48,12 +48,12 @@ public:
     // Around what is recorded by other means and timed.
     void begin_pass(const char* name, const PassWork& work = {});
     void end_pass();
-    // From one piece to another, from so many bytes on.
+    // Copies from one piece to another, from that byte offset on.
     void copy(const Piece& from, const Piece& to, std::size_t bytes, std::size_t from_byte = 0,
               std::size_t to_byte = 0);
     // The piece's bytes once run, in memory that the host sees; lives as long as this.
     const std::byte* downloaded(const Piece& piece, std::size_t bytes);
-    // For what is recorded by other means: what was uploaded can be copied from then.
+    // The command buffer, for other recording code: uploads may be copied from here on.
     VkCommandBuffer commands() const { return commands_; }
     void wait_for_uploads() { order(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT); }
     // Starts; then waits for the end. Nothing is recorded afterwards. Returns the seconds that it took.
@@ -62,7 +62,7 @@ public:
 private:
     void pass(const char* name, const Program& program, std::initializer_list<const Piece*> buffers,
               std::span<const std::byte> push, Groups groups, const PassWork& work);
-    // What a number of passes are recorded with; as many as there are passes, 64 to each.
+    // Descriptor pools for any number of passes, 64 passes each.
     struct Pools {
         VkDescriptorPool sets = VK_NULL_HANDLE;
         VkQueryPool queries = VK_NULL_HANDLE;  // null: not timed

@@ -57,8 +57,8 @@ TEST(Recording, HoldsAnyNumberOfPasses) {
     for (const PassTime& pass : context->pass_times()) EXPECT_EQ(pass.runs, kPasses);
 }
 
-// A dispatch recorded beside the others, to what the one before it writes, is seen; among those of pass()
-// none is.
+// The layer reports a dispatch recorded beside the others that writes the previous dispatch's target, and
+// reports nothing for pass().
 TEST(Recording, NoPassOverwritesWhatAnotherIsWriting) {
     for (const bool plants : {false, true}) {
         const auto context = closely_watched_context();

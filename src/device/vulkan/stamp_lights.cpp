@@ -26,7 +26,7 @@ constexpr std::uint32_t kGroupsPerBlock = kBlockCells / laws::kGroup,
                         kGroupsPerTile = kTilePixels / laws::kGroup;
 constexpr int kBorder = laws::kStampedBorder;
 
-// Of a tile, lights begin…end - 1 of the plan's order.
+// Lights begin…end - 1 of a tile, in the plan's order.
 struct TilePart {
     std::size_t tile, begin, end;
 };
@@ -47,7 +47,7 @@ public:
     Stamper(Context& context, const LightsPlan& plan, const PackedAtlas& atlas, const StampRule& rule)
         : context_(context), plan_(plan), atlas_(atlas), rule_(rule) {}
 
-    // The next parts that are drawn together, and moves on to what follows them; empty: there are none left.
+    // The next parts to draw together; advances `place`. Empty: none are left.
     std::vector<TilePart> next(Place& place) const {
         std::vector<TilePart> parts;
         std::size_t lights = 0, bytes = 0;
@@ -117,7 +117,7 @@ private:
     const PlannedLight& light(std::size_t i) const { return plan_.lights[plan_.order[i]]; }
     int level_of(std::size_t i) const { return plan_.kernels.asks[light(i).kernel].level; }
     const PupilMask& mask(std::size_t i) const { return plan_.masks[light(i).viewpoint]; }
-    // Whether the next light is drawn as this one is, on the same spot.
+    // True if the next light has the same kernel and position.
     bool is_same_as_next(std::size_t i, std::size_t end) const {
         if (i + 1 == end || !mask(i).is_open() || !mask(i + 1).is_open()) return false;
         const PlannedLight &a = light(i), &b = light(i + 1);
@@ -200,7 +200,7 @@ private:
     const LightsPlan& plan_;
     const PackedAtlas& atlas_;
     const StampRule rule_;
-    // Of the batch.
+    // Words and lights of the batch.
     std::vector<std::uint32_t> words_, lights_;
     Blocks blocks_;
     std::uint64_t taps_ = 0;

@@ -9,8 +9,8 @@
 
 namespace petzval::device::vulkan {
 
-// How much is drawn by one submission. What is drawn does not depend on it, but for the order of sums where
-// the lights of one tile are cut.
+// Work of one submission. The picture does not depend on it, except for the order of sums where the lights of
+// one tile are cut.
 struct StampRule {
     std::size_t most_tiles = 16;
     std::size_t most_lights = std::size_t(1) << 18;  // in tiles: one that touches two counts twice

@@ -17,10 +17,10 @@ struct Size {
 // The star of a picture, all of it (as an amount of 1). Requires: plan.star > 0. Throws Failed.
 Piece drawn_star(Context& context, const glare::GlarePlan& plan, const Piece& picture, Size size);
 
-// The part of its light that stands above a threshold, at home.
+// Light above a threshold, in host memory.
 Picture highlights_at_home(Context& context, const Piece& picture, Size size, float threshold);
 
-// Of the largest piece that it takes.
+// Bytes of its largest piece of memory.
 std::size_t largest_star_bytes(const glare::GlarePlan& plan);
 
 }  // namespace petzval::device::vulkan

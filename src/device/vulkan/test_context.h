@@ -41,7 +41,7 @@ private:
     std::optional<std::string> before_;
 };
 
-// A device under the validation layer, where nobody holds one yet; null: there is none, or no such layer.
+// A device under the validation layer, if no other device is open; null: there is no device or no layer.
 inline std::shared_ptr<Context> watched_context() {
     const Setting watched("PETZVAL_VULKAN_VALIDATION", "1");
     return any_context();

@@ -25,16 +25,16 @@ Result<std::vector<VulkanChoice>> vulkan_choices();
 // Unsupported.
 Result<std::shared_ptr<const Device>> open_vulkan(std::size_t number);
 
-// What whoever asked for frames should know of how they were drawn, since this was last asked; of any device.
+// Messages for the user about the drawing of frames, since the last call; for any device.
 std::vector<std::string> said_by(const Device& device);
 
-// For benchmarks. Passes are timed by the device's own clock from here on, and what was noted is forgotten.
-// All of them require a device of open_vulkan().
+// For benchmarks: starts timing passes by the device's own clock and discards earlier times. All functions
+// here require a device of open_vulkan().
 void start_timing(const Device& device);
 std::vector<PassTime> pass_times(const Device& device);
 // The longest submission since start_timing().
 double longest_submission_s(const Device& device);
-// What its memory copies, reads and writes counted.
+// Memory bandwidth of copies, reads and writes counted.
 double copied_bytes_per_s(const Device& device);
 
 }  // namespace petzval::device

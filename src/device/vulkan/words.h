@@ -1,5 +1,4 @@
-// What the host writes for programs of the device, and reads back: shared by those that list tiles and
-// lights.
+// Words the host writes for device programs and reads back: shared by all that list tiles and lights.
 #pragma once
 
 #include "petzval/image.h"
