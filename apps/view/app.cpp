@@ -146,7 +146,7 @@ Status App::push(int port) {
     return Done{};
 }
 
-// What came by the socket: with depth it is looked at, without it is what is compared with.
+// Takes pictures from the socket: one with depth is shown, one without is compared.
 void App::take_pushed() {
     if (!listener_) return;
     TevListener::News news = listener_->news();
@@ -260,7 +260,7 @@ void App::turn_to(const Orbit& orbit) {
 
 bool App::is_coarse() const { return is_live() && coarse_ && !state.timeline.playing; }
 
-// A draft is to be there in 80 ms: it is made of as many pixels as that allows.
+// A draft must appear within 80 ms: it has as many pixels as that allows.
 int App::coarse_by() const {
     constexpr double kWanted_s = 0.080;
     constexpr int kCoarsest = 4;
@@ -385,7 +385,7 @@ void App::take_news() {
     }
 }
 
-// Of a file that moves, as is known once it was read.
+// Sets the frame count of an animated file, known once it was read.
 void App::has_frames(int count) {
     setup_.scene_frames = count;
     Timeline& line = state.timeline;

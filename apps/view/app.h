@@ -1,4 +1,4 @@
-// What is open, what is chosen, what has been made of it: everything but how it is drawn.
+// State of the window: open files, choices, finished pictures. Drawing is elsewhere.
 #pragma once
 
 #include "petzval/track.h"
@@ -22,7 +22,7 @@
 
 namespace petzval::view {
 
-// What one side has to show: all of it, and in more detail what was last looked at.
+// Pictures of one side: the whole frame, and the region last shown in detail.
 struct SideFrames {
     std::optional<Wish> wish;  // the last
     std::uint64_t number = 0;  // of it
@@ -37,14 +37,14 @@ struct SideFrames {
     MadeFrame last;                                    // without its pictures
 };
 
-// A picture on the screen: where it lies and what it is of.
+// A picture on the screen: position and content.
 struct Shown {
     Texture texture;
     Print print;  // without its codes
     std::optional<Negative> asked;
 };
 
-// Where the canvas was drawn, in pixels of the window, and how it maps to pixels of the frame.
+// Position of the canvas in window pixels, and its mapping to pixels of the frame.
 struct Mapping {
     double x0 = 0, y0 = 0, width = 0, height = 0;
     double scale_x = 1, scale_y = 1;    // window pixels per pixel of the frame
@@ -82,7 +82,7 @@ public:
 
     State state;
     Mapping mapping;  // of the last tick
-    // Said in the window; empty: nothing. Of the last command, of the frame, and what is no error.
+    // Messages in the window; empty: none. About the last command, the frame, and notices.
     std::string error, trouble, notice;
     std::string copied;  // by the command `copy`, for the clipboard
     bool quit = false;
@@ -101,7 +101,7 @@ public:
     std::optional<double> depth_near(PixelPosition pixel) const;
     std::optional<float> radius_at(PixelPosition pixel) const;
 
-    // What a tick does, in this order: what was made is taken; what is missing is asked for.
+    // Steps of a tick, in this order: take finished work, then request missing work.
     void take_news();
     void ask();
     // Something was done by hand: if a picture changes by it, it is timed from here.
@@ -117,12 +117,12 @@ public:
     void turn_to(const Orbit& orbit);  // the scene's camera
     // .exr: sharp frames with depth; .png: what is shown.
     void record(const std::string& path);
-    // Whether a file of that name may be written: it replaces nothing that this run reads. A name with a
-    // place for a frame number is that of the frame that is shown.
+    // Checks that a file of that name may be written: it must not replace an input of this run. A placeholder
+    // stands for the number of the frame shown.
     Status may_write(const std::string& name) const;
     void save(const std::string& name);  // of a shot, #### is the frame that is shown
     void finish_saving();                // waits for it, and takes its error
-    // What is made of the left side, to a viewer that listens there.
+    // Sends the left side's result to a viewer that listens there.
     Status push(int port);
     // Focus, aperture and all else over the frames, as `defocus --track` has it; focus becomes keys.
     void use_track(Track track);

@@ -1,4 +1,4 @@
-// What is missing is asked for: frames of the maker, prints of the darkroom, the lens of the bench.
+// Requests for missing work: frames from the maker, prints from the darkroom, the lens from the bench.
 #include "app.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void App::ask() {
     ask_print(kOverlayTarget, std::move(tint));
 }
 
-// Nothing more than what is seen is made, once that is a good deal less than all.
+// The visible region, if it is much smaller than the frame.
 std::optional<Rect> App::region_for(const SideFrames& frames, const Wish& wish) const {
     const Rect data = shot_->shot.place.data_window;
     const Rect seen = mapping.seen().intersected(data);
@@ -123,7 +123,7 @@ void App::ask_prints(int index, const Side& side) {
     ask_print(detail_target(index), std::move(detail));
 }
 
-// Of the picked pixel, else of the middle of the frame at the distance in focus.
+// Requests the lens at the picked pixel, otherwise in the middle of the frame at the focus distance.
 void App::ask_lens() {
     const auto numbers = camera();
     if (!numbers) return;
@@ -154,7 +154,7 @@ void App::take_lens(LensMade made) {
     lens_made_ = std::move(made);
 }
 
-// What is seen of it, and a little more, so that moving about shows no gaps; as fine as the screen.
+// Requests the visible part and a margin, so that panning shows no gaps; at screen resolution.
 void App::ask_print(int target, Negative negative) {
     Shown& shown = on_screen_[std::size_t(target)];
     if (!negative.picture && !negative.codes && !negative.plane) return clear_print(target);

@@ -24,12 +24,12 @@ struct Article {
     std::vector<ArticleBuffer> buffers;
 };
 
-// Of that scene; null: none.
+// The article of that scene; null: none.
 const Article* article_of(const std::string& scene);
 
 class App;
 void begin_article(App& app);
-// Into ImGui's current window.
+// Draws into ImGui's current window.
 void article_panel(App& app);
 
 }  // namespace petzval::view

@@ -17,7 +17,7 @@
 
 namespace petzval::view {
 
-// Of one pixel: the lens, and where its light comes from.
+// A pixel, its lens, and the origin of its light.
 struct LensWish {
     LensChoice choice;
     LensMount mount;
@@ -73,7 +73,7 @@ private:
     std::thread thread_;
 };
 
-// Of one thread, at once.
+// Computes on the calling thread.
 LensMade on_bench(const LensWish& wish);
 inline constexpr double kStripReach_px = 60;
 inline constexpr int kStripDiscs = 13;

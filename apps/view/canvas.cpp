@@ -32,7 +32,7 @@ Mapping mapping_of(const App& app, const ImVec2& min, const ImVec2& size) {
 void draw_shown(const Mapping& m, const Shown& shown, ImU32 tint) {
     const Negative& of = shown.print.of;
     if (shown.texture.empty() || (!of.picture && !of.codes && !of.plane)) return;
-    // From twice its size on one looks at pixels, below at a picture.
+    // Twice the size and more shows pixels as squares; less is smoothed.
     shown.texture.enlarge_smoothly(m.scale_y < 2 && m.scale_y != 1);
     // The last block of a reduced picture may reach beyond the part.
     const ImVec2 from = at(m, of.part.x0, of.part.y0);
@@ -147,7 +147,7 @@ std::string pixel_words(const App& app, const ImVec2& p) {
            text_of(std::floor(app.mapping.frame_y(double(p.y))) - frame.y0);
 }
 
-// Of a scene: a drag turns its camera, a click focuses.
+// In a scene a drag turns the camera, a click focuses.
 void turn_camera(App& app, bool is_wipe) {
     const ImGuiIO& io = ImGui::GetIO();
     if (is_wipe) return;

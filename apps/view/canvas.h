@@ -5,10 +5,10 @@
 
 namespace petzval::view {
 
-// Into ImGui's current window, all of it. What the mouse does there becomes commands.
+// Fills ImGui's current window. Mouse actions become commands.
 void draw_canvas(App& app);
 
-// What is shown there: "scatter", "sharp", "cpu".
+// Name of the side's content: "scatter", "sharp", "cpu".
 std::string name_of_side(const App& app, const Side& side);
 
 }  // namespace petzval::view

@@ -125,7 +125,7 @@ Status show(App& app, const Words& words) {
     return Done{};
 }
 
-// Of the article that the scene is of: a buffer by its label.
+// Shows a buffer of the scene's article, by its label.
 Status buffer(App& app, const Words& words) {
     const Article* article = article_of(app.setup().scene);
     if (!article) return invalid("this is no article; --scene hexadrive, wgld and unity are");
@@ -167,8 +167,8 @@ Status wipe(App& app, const Words& words) {
     return Done{};
 }
 
-// Zoom about the middle of what is seen, or about a pixel of the frame that stays where it is.
-// Whatever is moved, the middle of the window stays on the picture.
+// Zooms about the middle of the visible part, or about a pixel of the frame that stays in place. The middle
+// of the window always stays on the picture.
 void keep_in_sight(App& app) {
     const Rect frame = app.frame();
     State& state = app.state;

@@ -22,7 +22,7 @@ Result<BentLens> bent_lens_of(const LensChoice& choice);
 // to `only_nm`, + away from the lens; less and less towards zones a quarter of the radius away.
 void bend(BentLens& lens, double zone, double by_mm, double only_nm = 0);
 
-// As a lens file of curves (docs/reference/lens-files.md).
+// Text of a curve lens file (docs/reference/lens-files.md).
 std::string lens_file_text(const BentLens& lens);
 
 }  // namespace petzval::view

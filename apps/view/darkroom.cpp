@@ -27,7 +27,7 @@ Image<T> reduced(const Image<T>& from, const Rect& part, int by) {
     return small;
 }
 
-// Of planes the first number, as the mean of depths on both sides of an edge lies on neither.
+// Takes one value per block of a plane: a mean of depths across an edge lies on neither side.
 Plane picked(const Plane& from, const Rect& part, int by) {
     Plane small((part.width() + by - 1) / by, (part.height() + by - 1) / by);
     for (int y = 0; y < small.height(); ++y)

@@ -20,7 +20,7 @@
 
 namespace petzval::view {
 
-// How numbers of a plane are shown.
+// Display of a plane's numbers.
 enum class Numbers {
     Light,    // none: it is a picture
     Radii,    // near blue, far orange, black in focus; as far as the largest
@@ -28,7 +28,7 @@ enum class Numbers {
     Depth,    // near bright, far dark: 1/depth
 };
 
-// Codes of a display that came in place of light, three a pixel.
+// Display codes that arrived instead of light, three per pixel.
 struct DraftCodes {
     int width = 0, height = 0;
     std::vector<std::uint16_t> rgb;
@@ -69,7 +69,7 @@ public:
     Darkroom(const Darkroom&) = delete;
     Darkroom& operator=(const Darkroom&) = delete;
 
-    // In place of what was asked for this target (0…kTargets - 1) before.
+    // Requests a print; replaces the earlier request for this target (0…kTargets - 1).
     void print(int target, Negative negative);
     std::vector<Print> prints();
     bool is_idle() const;
@@ -87,7 +87,7 @@ private:
     std::thread thread_;
 };
 
-// Of one thread, at once.
+// Develops on the calling thread.
 Print developed(const Negative& negative, const Darkroom::OcioCodes& ocio_codes);
 
 }  // namespace petzval::view

@@ -1,4 +1,4 @@
-// How far away what a picture shows is.
+// Distribution of the distances in a picture.
 #pragma once
 
 #include "petzval/shot.h"
@@ -7,7 +7,7 @@
 
 namespace petzval::view {
 
-// How many pixels lie at which distance, on a logarithmic scale.
+// Number of pixels per distance, on a logarithmic scale.
 struct DepthHistogram {
     double nearest_m = 0, farthest_m = 0;  // finite ones; both 0: there is no depth in metres
     std::vector<float> counts;             // even steps of the logarithm between; share of the fullest

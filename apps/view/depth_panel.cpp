@@ -118,7 +118,7 @@ void coverage_plot(App& app, const std::string& name, std::span<const DeepSample
     draw_ticks(scale);
 }
 
-// Where the picture's pixels lie in depth; what is sharp of them is white. Drag to focus.
+// Histogram of the picture's depth; the sharp part is white. Drag to focus.
 void depth_panel(App& app) {
     const DepthHistogram& all = app.shot()->histogram;
     if (all.counts.empty()) return ImGui::TextWrapped("no depth in metres");

@@ -74,7 +74,7 @@ Field camera_number(const char* name, std::optional<double> CameraChoice::*chose
             }};
 }
 
-// The diameter, in place of the f-number.
+// The aperture's diameter instead of the f-number.
 Field aperture() {
     return {"camera.aperture_mm",
             [](const App& app) {
@@ -93,7 +93,7 @@ Field aperture() {
             }};
 }
 
-// Of a glTF scene: its name, or number from 1.
+// The camera of a glTF scene: its name, or number from 1.
 Field own_camera() {
     return {
         "scene.camera",
@@ -169,7 +169,7 @@ std::vector<Field> facts() {
     };
 }
 
-// Of scene, shot and lens, and how long they took.
+// Facts about scene, shot and lens, with times.
 std::vector<Field> more_facts() {
     return {
         fact("scene.subject_m",
@@ -359,7 +359,7 @@ Status set_field(App& app, const std::string& name, const std::string& text) {
     }
     auto changed = look_with(app.state.choice.look, path, json);
     if (!changed) return changed.error();
-    // A shift is a mode of its own.
+    // A shift implies its focus mode.
     if (path == "lens.focus_shift_mm") changed->lens.focus_mode = FocusMode::Shift;
     if (path == "lens.focus_mode") changed->lens.focus_shift_mm = 0;
     for (const Error& idle : check(*changed, {path}).idle)

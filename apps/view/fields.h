@@ -1,5 +1,4 @@
-// What can be chosen and what can be known, by name: camera.f_number, look fields, view.exposure;
-// pick.depth_m.
+// Settings and facts by name: camera.f_number, look fields, view.exposure; pick.depth_m.
 #pragma once
 
 #include "app.h"
@@ -11,7 +10,7 @@ namespace petzval::view {
 
 // "fstop" -> "camera.f_number"; other names as they are.
 std::string full_path(const std::string& name);
-// As text that set_field() takes. Errors: InvalidArgument for an unknown name.
+// The value as text for set_field(). Errors: InvalidArgument for an unknown name.
 Result<std::string> field_text(const App& app, const std::string& name);
 // Errors: InvalidArgument for an unknown name, or a text that is none of its values; nothing is changed then.
 Status set_field(App& app, const std::string& name, const std::string& text);

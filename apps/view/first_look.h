@@ -5,7 +5,7 @@
 
 namespace petzval::view {
 
-// Of every so-manieth pixel of every so-manieth row.
+// Distance of the pixels and rows that a first draft uses.
 int thinning_of(const Wish& wish);
 
 // The frame on a sensor of fewer pixels, enlarged to its own; its codes, where control wants them, as they

@@ -43,7 +43,7 @@ float draw_disc(const Box& box, const Texture& texture, const LensCodes& codes) 
     return scale;
 }
 
-// In the upper left corner, the first of the texts that fits; none: nothing is said.
+// Writes the first text that fits into the upper left corner; nothing if none fits.
 void note_in(const Box& box, std::initializer_list<std::string> texts) {
     for (const std::string& text : texts) {
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -60,7 +60,7 @@ void picked_disc(App& app, float side) {
     const LensMade& made = app.lens_made();
     const Box box = box_of("disc", {side, side});
     is_field(app, "disc");
-    // Of a pixel of the picture, on the screen.
+    // Size of a picture's pixel on the screen.
     const float scale = float(made.fine) * draw_disc(box, app.lens_pictures()[0], made.disc);
     note_in(box, {"radius " + pixels_text(made.coc_px), pixels_text(made.coc_px)});
     const ImVec2 middle = box.middle();
@@ -98,7 +98,7 @@ void draw_strip(const App& app, const Box& box) {
     ImGui::Dummy({1, ImGui::GetTextLineHeight()});
 }
 
-// Curves stand below what is said of them.
+// Height of the curves, below their caption.
 float curve_height(const Box& box) {
     return std::max(0.5f * box.height(), box.height() - 1.5f * ImGui::GetTextLineHeight());
 }
@@ -147,8 +147,7 @@ void draw_curves(App& app, const Box& box) {
     note_in(box, {"focus by zone, " + range, range});
 }
 
-// What the discs are made of, to be dragged beside them. The ideal lens has no aberrations of its own to
-// vary.
+// The lens parameters, to be dragged beside the discs. The ideal lens has no aberrations to vary.
 void draw_numbers(App& app) {
     struct Number {
         const char *path, *label;

@@ -8,9 +8,9 @@
 
 namespace petzval::view {
 
-// Into ImGui's current window, all of it.
+// Fills ImGui's current window.
 void draw_lens(App& app);
-// Of the section's rays those that land near the place that is lit.
+// Rays of the section that land near the lit position.
 std::vector<std::size_t> lit_rays(const App& app);
 
 }  // namespace petzval::view

@@ -16,7 +16,7 @@ namespace petzval::view {
 
 struct Choice;
 
-// From where a scene is seen, besides its own view: turned about the point in focus on the axis.
+// Rotation of the view about the point in focus on the axis.
 struct Orbit {
     double yaw_deg = 0, pitch_deg = 0, distance = 1;  // a factor
 
@@ -36,7 +36,7 @@ struct CameraPath {
     static Result<CameraPath> read(const std::string& path);
 };
 
-// Where the camera of a picture stood, and the point on its axis so many metres away.
+// Position of a picture's camera, and the point on its axis at that distance.
 struct Stand {
     ScenePoint at, target;
 };
@@ -79,14 +79,14 @@ struct Recorded {
 // Pictures with depth and camera numbers, as `scene make` writes them: what defocus takes. Errors: those of
 // render_scene(), OutputFailed.
 Status record(const std::vector<Recorded>& frames);
-// What the window shows of them: made by the session at the look's quality; .exr as light, .png developed.
+// Records the window's results: made by the session at the look's quality; .exr as light, .png developed.
 Status record_results(const std::vector<Recorded>& frames, const Choice& choice, bool follows_subject,
                       Session& session);
 // A shot that no file was read for, made by the session, as an image file; an .exr says in petzval:history
 // how.
 Status save_result(const Shot& shot, const FoundCamera& camera, const Choice& choice, Session& session,
                    const std::string& path);
-// How `scene make` is asked for that picture.
+// The `scene make` command for that picture.
 std::vector<std::string> scene_words(const SceneWish& wish, const std::string& output);
 
 }  // namespace petzval::view

@@ -25,13 +25,13 @@ auto numbers_of(const Camera& c) {
     return std::tuple(c.focal_length_mm, c.sensor_width_mm, c.f_number, c.focus_distance_m, c.image_scale);
 }
 
-// What gather does not take is a matte, and more layers over hidden ones.
+// True unless the shot has a holdout, or layers over hidden surfaces: `gather` supports neither.
 bool gather_draws(const Shot& shot) {
     return shot.holdout.empty() && (shot.layers.empty() || (shot.behind.empty() && shot.deep.empty()));
 }
 
-// The steps of a frame. Scatter, and the tracer that judges it, begin with what is quick: in a scene, which
-// is small, lights as sprites.
+// The look of a step. `scatter` and `reference` start with a quick engine; in a scene, which is small, with
+// lights as sprites.
 Look look_of_step(const Wish& wish, int step) {
     const Look& look = wish.look;
     Look now = look;
@@ -68,7 +68,7 @@ void complete(FoundCamera& camera) {
         if (!*number) *number = FoundNumber{1, "the window"};
 }
 
-// What a session takes: of its layers at most the one that is shown.
+// The session's job: with at most one layer, the one shown.
 DefocusJob job_of(const Wish& wish) {
     DefocusJob job = rendered(wish.shot->shot).value();
     job.camera = wish.camera;
@@ -116,7 +116,7 @@ bool is_made(const std::string& shown) {
     return !shown.starts_with(kSharpLayer);
 }
 
-// What an engine makes in place of its result.
+// True for buffers that an engine writes instead of its result.
 bool is_view(const std::string& shown) {
     return is_buffer(shown) || (shown != "result" && parse<GaussianView>(shown));
 }
@@ -192,7 +192,7 @@ bool Maker::is_idle() const {
            news_.shots.empty();
 }
 
-// What is read comes first, then the coarsest step that any side waits for.
+// Reads first, then makes the coarsest step that any side waits for.
 void Maker::work() {
     std::unique_lock lock(mutex_);
     while (!ending_) {
@@ -291,7 +291,7 @@ void Maker::watch(const Reading& reading, std::optional<std::filesystem::file_ti
     if (time) watched_.push_back({path, time});
 }
 
-// What was cancelled by something else than another reading in its place.
+// Repeats a reading that was cancelled, unless another reading has replaced it.
 void Maker::take_up_again(const Reading& reading) {
     const std::lock_guard lock(mutex_);
     for (const Reading& other : readings_)
@@ -324,7 +324,7 @@ void Maker::do_step(int side, const Order& order) {
     tell(std::move(frame));
 }
 
-// The order goes on to its next step, if nothing has taken its place.
+// The order continues with its next step, unless it was replaced.
 void Maker::tell(MadeFrame frame) {
     {
         const std::lock_guard lock(mutex_);

@@ -31,10 +31,10 @@ namespace petzval::view {
 struct OpenShot {
     Shot shot;
     DepthHistogram histogram;
-    // What the picture hides and what stays sharp, one sample over the other; null: there is none.
+    // Hidden surfaces and the holdout, samples composited over one another; null: none.
     std::shared_ptr<const Picture> hidden, holdout;
     bool is_pushed = false;  // by another program: there is no file
-    // Of a scene:
+    // Fields of a scene:
     bool is_live = false, is_moving = false;  // moving: its drafts alone are made
     int samples = 0, coarse = 1;              // rays a pixel; so many by so many pixels are one
     std::optional<double> subject_m;
@@ -54,10 +54,10 @@ struct Wish {
     bool final_quality = false;       // after standard quality
     bool on_cpu = false;              // in place of the session's device
     int coarse = 1;                   // so many by so many pixels are one in its draft
-    // How its draft is shown, if nothing but that is asked of it: it may come as codes. No wish for another.
+    // Display settings of a draft that may arrive as codes. They do not make a wish different.
     std::optional<DevelopSettings> codes = {};
 };
-// But for the region, how far it is refined, how coarse it begins and how that is shown.
+// True if the wishes differ only in region, refinement, first step and its display.
 bool same_frame(const Wish& a, const Wish& b);
 
 // One step of it, done.
@@ -112,7 +112,7 @@ public:
     Maker& operator=(const Maker&) = delete;
 
     void read(Reading reading);
-    // In place of what was wished for that side (0, 1) before; its number.
+    // Replaces the wish of that side (0, 1); returns its number.
     std::uint64_t make(int side, Wish wish);
     void forget(int side);
 
@@ -177,8 +177,8 @@ private:
     std::thread thread_;                   // last: it uses all of the above
 };
 
-// What a side may show: the result, what it is made of, buffers of engines. Besides, of the layers of a shot,
-// kLayer and kSharpLayer with name_of(layer).
+// Contents a side may show: the result, its inputs, buffers of engines. For layers of a shot also kLayer and
+// kSharpLayer with name_of(layer).
 const std::vector<std::string>& shown_names();
 inline const std::string kLayer = "layer:", kSharpLayer = "sharp-layer:";
 std::string name_of(const FrameLayer& layer);

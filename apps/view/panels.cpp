@@ -28,7 +28,7 @@ void command_button(App& app, const char* label, const std::string& line) {
     if (ImGui::Button(label)) say(app, line);
 }
 
-// Of a file that has several.
+// Cameras of a file that has several.
 void own_cameras(App& app) {
     if (!app.shot() || app.shot()->cameras.size() < 2) return;
     const std::string now = field_text(app, "scene.camera").value();
@@ -334,7 +334,7 @@ void draw_panels(App& app) {
     ImGui::PopItemWidth();
 }
 
-// What is on the screen, and how well it was made.
+// Describes the picture on the screen and its quality.
 std::string state_words(const App& app) {
     if (!app.shot()) return "nothing is open";
     const MadeFrame& made = app.side(0).last;
@@ -345,7 +345,7 @@ std::string state_words(const App& app) {
     return app.is_busy() ? words + " …" : words;
 }
 
-// Words that need more than a line take the place of what is under the pointer, too.
+// Messages longer than a line also replace the values under the pointer.
 void draw_status_line(App& app) {
     const std::string& wrong = app.error.empty() ? app.trouble : app.error;
     const std::string& said = wrong.empty() ? app.notice : wrong;

@@ -1,4 +1,4 @@
-// What stands around the picture. Every widget says a command.
+// Panels around the picture. Every widget issues a command.
 #pragma once
 
 #include "petzval/deep.h"
@@ -13,12 +13,12 @@ namespace petzval::view {
 void draw_panels(App& app);       // camera, depth, look, comparison, files
 void draw_status_line(App& app);  // what is under the pointer; what is wrong
 void draw_help(App& app);
-// Where the picture lies in depth; into the current window, as the next.
+// Histogram of the picture's depth; into the current window, like the following.
 void depth_panel(App& app);
-// How much samples of a pixel, nearest first, cover from the front, over depth; a step a sample, in its
-// colour.
+// Plot of accumulated coverage over depth for the samples of a pixel, nearest first; one step per sample, in
+// its colour.
 void coverage_plot(App& app, const std::string& name, std::span<const DeepSample> samples);
-// What a frame took, pass by pass; a line of it.
+// One line of the times of a frame's passes.
 void time_row(double seconds, const std::string& words);
 void stage_times(const MadeFrame& made);
 

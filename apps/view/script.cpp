@@ -37,7 +37,7 @@ bool is_command(const std::string& name) {
     return std::any_of(commands().begin(), commands().end(), same);
 }
 
-// Where a word begins with '#', not in names of frames as shot.####.exr.
+// Position of a word that begins with '#'; not inside file names such as shot.####.exr.
 std::size_t comment_of(const std::string& line) {
     std::size_t at = line.find('#');
     while (at != std::string::npos && at > 0 && line[at - 1] != ' ' && line[at - 1] != '\t')

@@ -25,7 +25,7 @@
 
 namespace petzval::view {
 
-// What a hand does to a window in a tick.
+// Input events of one tick.
 struct Hand {
     double x = -1, y = -1, wheel = 0;
     bool button = false;

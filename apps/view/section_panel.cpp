@@ -20,7 +20,7 @@ constexpr ImU32 kRay = IM_COL32(150, 190, 120, 110), kLit = IM_COL32(255, 220, 9
 constexpr ImU32 kLine = IM_COL32(150, 150, 150, 160), kHandle = IM_COL32(235, 235, 235, 255);
 constexpr ImU32 kRim = IM_COL32(230, 150, 90, 255);
 
-// From millimetres to the screen: all of the section, the same scale both ways.
+// Mapping from millimetres to the screen: the whole section, same scale in both directions.
 struct SectionFrame {
     double scale = 1, left = 0, middle = 0, z0 = 0;
 
@@ -66,10 +66,10 @@ void draw_glass(const SectionFrame& at, const LensSection& section) {
     }
 }
 
-// What can be grabbed.
+// Parts that can be dragged.
 enum class Part { None, Stop, Sensor, Rim };
 
-// What was grabbed, as it was then: the drawing follows the drag, a step behind.
+// The dragged part in its initial state: the drawing follows the drag, a step behind.
 struct Grab {
     Part part = Part::None;
     std::size_t rim = 0;
@@ -101,7 +101,7 @@ Grab grabbed_at(const App& app, const SectionFrame& at, const ImVec2& mouse) {
     for (std::size_t i = 0; i < grab.barrel.size(); ++i)
         if (is_near(made.pupil_z_mm - grab.barrel[i].distance_mm, grab.barrel[i].radius_mm))
             grab.part = Part::Rim, grab.rim = i;
-    // Where the sensor of a perfect lens stands, is its focus.
+    // The sensor of a perfect lens stands in its focus.
     if (lens.name != "ideal" && is_near(section.sensor_z_mm, 0)) grab.part = Part::Sensor;
     if (is_near(section.stop_z_mm, section.stop_radius_mm)) grab.part = Part::Stop;
     return grab;
@@ -226,7 +226,7 @@ void drag_blades(App& app, const Box& box, const std::string& name) {
     is_field(app, name, "drag sideways: more blades or fewer; drag the rim: they turn");
     const ImGuiIO& io = ImGui::GetIO();
     const ImVec2 middle = box.middle();
-    // From the middle, to the right and up.
+    // Offset from the middle, to the right and up.
     const auto from_middle = [&](const ImVec2& p) {
         return std::pair(double(p.x - middle.x), double(middle.y - p.y));
     };

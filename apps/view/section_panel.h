@@ -1,4 +1,4 @@
-// The lens in section, and what can be grabbed in it.
+// The lens in section, with parts that can be dragged.
 #pragma once
 
 #include "app.h"
@@ -7,7 +7,7 @@
 
 namespace petzval::view {
 
-// Of the screen.
+// A rectangle on the screen.
 struct Box {
     ImVec2 from, to;
     float width() const { return to.x - from.x; }
@@ -15,9 +15,10 @@ struct Box {
     ImVec2 middle() const { return {0.5f * (from.x + to.x), 0.5f * (from.y + to.y)}; }
 };
 
-// Into the box that was the last item. The stop, the sensor and rims of the barrel can be dragged.
+// Draws into the box of the last item. The stop, the sensor and rims of the barrel can be dragged.
 void draw_section(App& app, const Box& box);
-// Of the last item, a disc in this box: dragged sideways it gets more blades or fewer, at its rim they turn.
+// Makes the last item, a disc in this box, draggable: sideways changes the number of blades, at its rim turns
+// them.
 void drag_blades(App& app, const Box& box, const std::string& name);
 
 }  // namespace petzval::view

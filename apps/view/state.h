@@ -13,7 +13,7 @@ namespace petzval::view {
 
 enum class Channel { Colour, Red, Green, Blue, Alpha };
 
-// What one side of the window shows.
+// Content of one side of the window.
 struct Side {
     std::string shown = "result";  // one of shown_names()
     std::string engine;            // another than the look's; empty: the look's

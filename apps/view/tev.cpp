@@ -104,7 +104,7 @@ std::size_t TevInbox::Canvas::bytes() const {
            (names.size() * sizeof(float) + sizeof(Rgba) + sizeof(float));
 }
 
-// More than what was brought for it allows.
+// Memory beyond the limit of the received data.
 std::size_t TevInbox::Canvas::bytes_ahead() const {
     return bytes() - std::min(bytes(), kTimesBrought * brought_bytes);
 }

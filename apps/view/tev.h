@@ -34,12 +34,12 @@ struct Pushed {
     bool has_alpha = false;
 };
 
-// What packets build.
+// Builds pictures from packets.
 class TevInbox {
 public:
-    // Takes one packet, without its length. Errors: InvalidFile for what is none; what was there stays.
+    // Takes one packet, without its length. Errors: InvalidFile for an invalid packet; earlier pictures stay.
     Status take(std::span<const std::byte> packet);
-    // What has changed since the last call: a file to open, or a picture.
+    // Changes since the last call: a file to open, or a picture.
     std::string take_path();
     std::vector<std::shared_ptr<const Pushed>> take_pictures();
 

@@ -16,9 +16,9 @@ public:
 
     // Rows from the top, four bytes a pixel.
     void load(int width, int height, const std::vector<std::uint8_t>& rgba);
-    // How it is enlarged: as squares, at first, or smoothly.
+    // Enlargement: squares (default) or smooth.
     void enlarge_smoothly(bool smoothly) const;
-    // So many have been loaded, all together: what was drawn before one was is out of date.
+    // Number of loads of all textures: anything drawn before the last load is out of date.
     static std::uint64_t loads();
     bool empty() const { return name_ == 0; }
     unsigned name() const { return name_; }
@@ -28,7 +28,7 @@ private:
     mutable bool is_smooth_ = false;
 };
 
-// What is drawn, lower left corner first, as PNG keeps it: rows from the top, three bytes a pixel.
+// The drawn pixels, in PNG's order: rows from the top, three bytes per pixel.
 std::vector<std::uint16_t> pixels_on_screen(int width, int height);
 
 }  // namespace petzval::view

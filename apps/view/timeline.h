@@ -21,12 +21,12 @@ struct Timeline {
     bool is_shot() const { return !frames.empty(); }
     // The frame that is so many steps on from the one shown, within what is played if that has it.
     int stepped(int by) const;
-    // Between keys evenly in dioptres, or eased there; before the first and behind the last as there; late
-    // where it would move faster than focus_speed. Nothing without keys.
+    // Focus between keys: linear in dioptres, or eased; constant before the first and after the last key;
+    // delayed if faster than focus_speed. Nothing without keys.
     std::optional<double> focus_at(int at) const;
     std::map<int, double> focus_over(int from, int to) const;  // the same of many frames
-    // What `defocus --track` reads: the keys, or where they are eased or slowed every frame from the first of
-    // them to the last, of a slowed one to the last frame there is.
+    // A track for `defocus --track`: the keys; or, if they are eased or slowed, every frame from the first
+    // key to the last, of a slowed one to the last frame.
     std::string as_track() const;
 
 private:
@@ -34,7 +34,7 @@ private:
 };
 
 class App;
-// Into ImGui's current window, all of it.
+// Fills ImGui's current window.
 void draw_timeline(App& app);
 
 }  // namespace petzval::view

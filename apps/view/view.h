@@ -22,12 +22,12 @@ struct FieldRow {
     std::string heading, path;  // "Lens", "lens.blades"
     std::string flag, placeholder,
         help;  // "--blades", "N"; words with | between: one of them; empty: a switch
-    // What is typed, as JSON, and the way back. Errors complete "--blades five: …".
+    // Conversions between typed text and JSON. Errors complete "--blades five: …".
     std::function<Result<std::string>(const std::string&)> to_json;
     std::function<std::string(const std::string&)> from_json;
 };
 
-// What of a frame is chosen in the window; all else stays as the command line had it.
+// Choices made in the window; everything else keeps the command line's values.
 struct Choice {
     CameraChoice camera;
     Look look;

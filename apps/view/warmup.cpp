@@ -58,7 +58,7 @@ void Warmup::prepare(const Wish& wish, const std::vector<Look>& looks) {
         static_cast<void>(session_->take(job, look, {.cancelled = [this] { return ending_.load(); }}));
 }
 
-// What of the maker asks whether a device is warm.
+// The part of the maker that asks if a device is warm.
 
 // Engine realtime is a device's alone.
 bool Maker::is_cold(const Wish& wish) const {

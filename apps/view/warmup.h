@@ -28,8 +28,8 @@ public:
     Warmup& operator=(const Warmup&) = delete;
 
     bool is_warm(const std::string& engine) const;
-    // Draws a small picture of the wish with each look, in a thread of its own; then the wish's engine is
-    // warm, whether it could be drawn or not. Does nothing while another is being prepared.
+    // Draws a small picture of the wish with each look, in a separate thread; then the wish's engine is warm,
+    // even if drawing failed. Does nothing while another engine is being prepared.
     void begin(const Wish& wish, std::vector<Look> looks);
 
 private:

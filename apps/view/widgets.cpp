@@ -140,7 +140,7 @@ void row_widget(App& app, const FieldRow& row, const std::string& called) {
     if (!changed) return;
     if (row.placeholder == "SHARE" && *number >= 0 && *number <= 1) value = std::clamp(value, 0.0, 1.0);
     const double wanted = whole ? std::round(value) : value;
-    // Between 0 and 3 there are no blades.
+    // Numbers of blades between 0 and 3 are invalid.
     const double fitting =
         row.path == "lens.blades" && wanted > 0 && wanted < 3 ? (*number > 0 ? 0 : 3) : wanted;
     if (fitting != *number) say(app, row.path, text_of(fitting, 6));

@@ -1,4 +1,4 @@
-// Fields as widgets. What is typed or dragged is said as the command `set`.
+// Fields as widgets. Typing and dragging issue the command `set`.
 #pragma once
 
 #include "app.h"

@@ -41,8 +41,8 @@ struct KeyPress {
     bool shift = false, ctrl = false, repeated = false;
 };
 
-// Keys that went down since the last tick: one that is let go at once again would not be seen by ImGui, which
-// looks at what is held down. GLFW calls back on the window's thread alone.
+// Keys pressed since the last tick: ImGui looks at held keys and would miss one that was released at once.
+// GLFW calls back on the window's thread.
 std::vector<KeyPress>& pressed_keys() {
     static std::vector<KeyPress> keys;
     return keys;
@@ -54,14 +54,14 @@ void on_key(GLFWwindow*, int code, int, int action, int mods) {
         {code, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
 }
 
-// What was painted has been lost, as another window lay over it.
+// True if the painted pixels were lost, for example below another window.
 bool& is_exposed() {
     static bool exposed = false;
     return exposed;
 }
 void on_expose(GLFWwindow*) { is_exposed() = true; }
 
-// Of all that is to be painted: equal ones look alike.
+// Hash of everything to be painted: equal hashes look alike.
 std::uint64_t fingerprint(const ImDrawData& drawn) {
     std::uint64_t print = Texture::loads();
     const auto add = [&](const void* from, std::size_t bytes) {
@@ -162,7 +162,7 @@ private:
     bool has_glfw_ = false, has_imgui_ = false;
 };
 
-// What a script's hand does takes the place of what the real one does.
+// A script's events replace those of the mouse.
 void move_hand(GLFWwindow* window, const Hand& hand) {
     ImGuiIO& io = ImGui::GetIO();
     if (hand.resize) glfwSetWindowSize(window, hand.resize->first, hand.resize->second);
@@ -295,7 +295,7 @@ private:
         ImGui::Render();
         const double worked = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         if (++ticks_ > 3) app_.slowest.tick = std::max(app_.slowest.tick, worked);  // the first load shaders
-        // Where a processor draws the window it would take half of what the pictures need.
+        // Skips unchanged frames: drawing the window on a CPU would take half of the pictures' time.
         const std::uint64_t print = fingerprint(*ImGui::GetDrawData());
         const bool is_asked = is_exposed() || (script_ && script_->looks_at_screen());
         if (is_asked || print != painted_) paint();

@@ -38,10 +38,10 @@ Status same_frame(const Reading& reading, const Frame& other, const std::string&
 // The smallest window that holds both.
 Rect around(const Rect& a, const Rect& b);
 
-// The mask also of what `window` adds: as at its nearest pixel. Nothing for a shot without one.
+// Extends the mask to the area that `window` adds, by its nearest pixel. Nothing for a shot without a mask.
 void extend_mask(Shot& shot, const Rect& window);
 
-// What stands beside the picture in files of their own. Errors: those of read_shot().
+// Reads data beside the picture from other files. Errors: those of read_shot().
 Status merge_files(Reading& reading);
 Status read_holdout(Reading& reading);
 Status read_behind(Reading& reading);

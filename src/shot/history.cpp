@@ -15,7 +15,7 @@ std::string text_of(double value) {
     return text;
 }
 
-// How a line begins that is about the blur of this colour.
+// Beginning of a history line about the blur of this colour.
 std::string beginning(const Shot& shot) { return "defocus " + shot.colour_name + ": "; }
 
 }  // namespace

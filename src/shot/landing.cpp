@@ -12,8 +12,8 @@ namespace {
 constexpr double kShareThatFits = 0.5;  // of two pictures of the same things
 // Vectors by which so much less looks the same than by cameras are not what they are taken for.
 constexpr double kWorseByMotion = 0.05;
-// Where little stands still, so much has to look the same by vectors: of what turns and tumbles, frames
-// around see what is covered by now, and what covers it they may not know.
+// If little stands still, this share must look the same by vectors: neighbouring frames of tumbling objects
+// see surfaces that are covered now, and may not know the covering ones.
 constexpr double kShareThatIsFollowed = 0.7;
 
 Error cannot(const Shot& shot, const std::string& what) {
@@ -31,7 +31,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
     return c;
 }
 
-// Of a matrix that turns and moves (and may mirror and scale): its 3 x 3 part by Cramer's rule.
+// Inverse of a matrix that rotates and moves (and may mirror and scale): its 3 x 3 part by Cramer's rule.
 std::optional<Matrix> inverse(const Matrix& m) {
     const auto at = [&](std::size_t i, std::size_t j) { return m[4 * (i % 3) + j % 3]; };
     const auto minor = [&](std::size_t i, std::size_t j) {
@@ -48,12 +48,12 @@ std::optional<Matrix> inverse(const Matrix& m) {
     return inverted;
 }
 
-// Which way a camera's x and z point.
+// Directions of a camera's x and z.
 struct Axes {
     double x = 1, z = 1;
 };
 
-// How a camera sees: pixels of the display window per tangent, and the middle of the picture.
+// Projection of a camera: pixels of the display window per tangent, and the middle of the picture.
 struct Eye {
     Matrix camera_from_world;
     double across = 0, down = 0, middle_x = 0, middle_y = 0, unit_m = 1;
@@ -171,7 +171,7 @@ std::vector<OtherPicture> steps_of(const OtherPicture& other, std::span<const Ot
     return steps;
 }
 
-// A pixel on its way along the vectors. Where a frame between hides its surface, it goes on as it went.
+// Follows a pixel along the vectors. If an intermediate frame hides its surface, the last motion continues.
 Landing carried(const std::vector<OtherPicture>& steps, int x, int y, const Rect& to) {
     const bool back = steps.front().frames_later > 0;
     const Rect& from = steps.front().shot->place.data_window;

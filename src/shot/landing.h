@@ -1,4 +1,5 @@
-// Where what one picture shows lies in another of the same things: by cameras and depth, by motion vectors.
+// Positions of one picture's surfaces in another picture of the same objects: by cameras and depth, or by
+// motion vectors.
 #pragma once
 
 #include "petzval/result.h"
@@ -26,17 +27,18 @@ struct Landing {
     float x = 0, y = 0, depth_m = 0;
 };
 
-// Between which depths a pixel's own surface lies: inside a surface those around it, at a silhouette its own.
+// Depth range of a pixel's own surface: that of its neighbours inside a surface, its own depth at a
+// silhouette.
 struct Bounds {
     Plane nearest, farthest;
 };
 Bounds bounds_of(View<const float> depth, Workers& workers);
 
-// JustBehind: hidden by what is so near that it may be the same thing, moved by itself.
+// JustBehind: hidden by something so near that it may be the same object, moving.
 enum class Verdict : std::uint8_t { Unknown, Agrees, InFront, JustBehind, Hidden };
 Verdict verdict_of(const Landing& at, const Bounds& bounds);
 
-// Whether a pixel has the colour of where it lands. Requires: it lands within the shot.
+// True if a pixel has the colour of its landing position. Requires: it lands within the shot.
 bool look_alike(const Shot& other, int x, int y, const Shot& shot, const Landing& at);
 
 struct Landings {
@@ -44,9 +46,9 @@ struct Landings {
     bool by_motion = false;
     std::string warning;  // of motion vectors that were not used; else empty
 };
-// Of the pixels of `other` in `shot`. Its motion vectors go from frame to frame, by those of `all` that lie
-// between where their surface is seen there; without them, and for misses, cameras and depth decide. Errors:
-// InvalidArgument where the picture cannot be used, and why.
+// Landing positions in `shot` of the pixels of `other`. Motion vectors lead from frame to frame through the
+// frames of `all` in between, as long as they see the surface; without vectors, and for missing depth,
+// cameras and depth decide. Errors: InvalidArgument with the reason if the picture cannot be used.
 Result<Landings> landings_of(const OtherPicture& other, std::span<const OtherPicture> all, const Shot& shot,
                              const Bounds& bounds, Workers& workers);
 

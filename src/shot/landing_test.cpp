@@ -1,4 +1,4 @@
-// What motion vectors add to what cameras say: see seen_elsewhere_test.cpp for these.
+// Gains of motion vectors over cameras; seen_elsewhere_test.cpp tests cameras.
 #include "shot/landing.h"
 
 #include <cmath>
@@ -48,7 +48,7 @@ Shot shot_of(const Passing& p, int frame) {
     return shot;
 }
 
-// What is found behind the post in frame 0, with two frames on each side.
+// Surfaces found behind the post in frame 0, with two frames on each side.
 SeenElsewhere around(const Passing& p) {
     std::vector<Shot> shots;
     for (int frame = -2; frame <= 2; ++frame) shots.push_back(shot_of(p, frame));

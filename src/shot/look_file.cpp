@@ -24,7 +24,7 @@ fs::path folder_of(const std::string& path) {
     return folder.empty() ? fs::path(".") : folder;
 }
 
-// Whether a lens of that name is a file and none of those that ship, seen from a folder.
+// True if a lens of that name is a file, seen from a folder, and not a built-in lens.
 bool is_lens_file(const std::string& name, const fs::path& folder) {
     std::error_code ignored;
     return name.find('/') != std::string::npos ||

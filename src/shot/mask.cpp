@@ -1,4 +1,4 @@
-// Where the effect is wanted: a mask in a file of its own.
+// A mask from a separate file, which limits the effect.
 #include "files/exr_read.h"
 #include "shot/file_of_shot.h"
 
@@ -35,7 +35,7 @@ Plane plane_of(const Picture& colour, const Of& of) {
     return plane;
 }
 
-// What a mask is, where no channel was named.
+// The mask's values if no channel was named.
 Values usual_values(const Frame& frame) {
     const Picture& colour = frame.colour;
     const bool uses_alpha = frame.has_alpha && std::any_of(colour.pixels(), colour.pixels() + colour.size(),
@@ -64,7 +64,7 @@ Result<Values> one_colour(const Frame& frame, const FileChannel& from) {
     return Values{plane_of(frame.colour, value), frame.place.data_window, from.channel};
 }
 
-// One channel of an EXR, whatever else it holds, as depth is read from a file of its own: over the frame.
+// One channel of an EXR over the frame, read like depth from a separate file.
 Result<Values> one_channel(const FileChannel& from, ReadOptions options, const Place& place) {
     options.depth_file = from.file, options.depth_channel = from.channel;
     Frame frame;

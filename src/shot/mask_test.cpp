@@ -29,7 +29,7 @@ protected:
         EXPECT_TRUE(shot) << shot.error().message;
         return shot ? std::move(*shot) : Shot{};
     }
-    // At a pixel of the frame.
+    // The mask's value at a pixel of the frame.
     static float at(const Shot& shot, int x, int y) {
         return shot.mask(x - shot.mask_window.x0, y - shot.mask_window.y0);
     }

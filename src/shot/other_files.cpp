@@ -1,4 +1,4 @@
-// What stands beside a picture in files of its own: more pictures of the shot, a matte, hidden layers.
+// Data beside a picture in separate files: more pictures of the shot, a holdout, hidden layers.
 #include "shot/file_of_shot.h"
 #include "shot/wording.h"
 
@@ -8,7 +8,7 @@
 namespace petzval::shot {
 namespace {
 
-// What has been read already.
+// Bytes of the data read so far.
 std::size_t held_bytes(const Reading& r) {
     std::size_t bytes = r.shot.colour.size() * sizeof(Rgba) + r.plane.size() * sizeof(float);
     for (const DeepPicture* deep : {&r.shot.deep, &r.shot.behind, &r.shot.holdout}) bytes += deep->bytes();

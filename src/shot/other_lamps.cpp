@@ -17,8 +17,8 @@ bool alike(Rgba a, Rgba b) {
     return both > 0 && both * both >= kAlike * dot(a, a) * dot(b, b);
 }
 
-// Whether the light of a pixel is that of a small lamp whose depth it has: all of its surface nearby is lit,
-// most of all else is dark.
+// True if a pixel's light is that of a small lamp with the pixel's depth: its whole surface nearby is lit,
+// most of everything else is dark.
 bool is_lamp(const Shot& shot, View<const float> depth, int x, int y) {
     constexpr int kAround = 2, kLeastOthers = 17;  // px
     constexpr float kStandsOut = 8;                // times the light around

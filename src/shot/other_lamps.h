@@ -12,9 +12,9 @@
 
 namespace petzval::shot {
 
-// A renderer filters light over a pixel, but the depth of a pixel is that of one point. A lamp narrower than
-// a pixel, or half behind an edge, has the depth of what is around it in one frame and its own in the next,
-// and would be blurred unlike.
+// Finds lamps in neighbouring frames. A renderer filters light over a pixel, but depth is that of one point.
+// A lamp narrower than a pixel, or half behind an edge, has the depth of its surroundings in one frame and
+// its own depth in the next, and its blur would change.
 class OtherLamps {
 public:
     explicit OtherLamps(const Shot& shot) : shot_(shot) {}
@@ -23,10 +23,9 @@ public:
     // pictures said stays. share: of its light, that one has here which nothing shows. 0…1.
     void add(const Shot& other, const Image<Landing>& landings, float share, Workers& workers);
 
-    // Of pixels that one lights, in its colour, where nothing has its depth.
+    // Lamps for lit pixels in which nothing has the lamp's depth, in the pixel's colour.
     std::vector<SeenElsewhere::Lamp> depths() const;
-    // Those that are hidden, before what is known to lie farther behind: a sample of each of the shot's
-    // pixels.
+    // Adds hidden lamps in front of known farther surfaces: one sample per pixel of the shot.
     void hide(std::vector<DeepSample>& known) const;
 
 private:

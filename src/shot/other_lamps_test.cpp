@@ -84,7 +84,7 @@ TEST(OtherLamps, WhatIsKnownOrIsNoLampStays) {
 }
 
 TEST(OtherLamps, AHiddenLampFadesInBeforeItComesOut) {
-    // At 0.4 m it is 8 px to the right of the middle, behind the card; from 0.2 m beside the card ends 4 px
+    // The lamp at 0.4 m is 8 px right of the middle, behind the card; from 0.2 m beside, the card ends 4 px
     // to its left.
     const Scene here{.card = true, .lamp_x = 0.4}, beside{.camera_x = 0.2, .card = true, .lamp_x = 0.4};
     const Shot shot = shot_of(here), other = shot_of(beside);

@@ -11,8 +11,8 @@
 namespace petzval {
 namespace {
 
-// Colour is emptiness outside of the old window, depth goes on: a silhouette there would be taken for a real
-// one.
+// Colour is empty outside the old window, but depth continues: a depth edge there would count as a
+// silhouette.
 template <typename T>
 Image<T> grown(const Image<T>& old, const Rect& window, const Rect& wider, bool repeat) {
     Image<T> result(wider.width(), wider.height());

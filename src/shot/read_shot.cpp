@@ -85,7 +85,7 @@ Status check_meaning(const ShotSource& source, const Frame& frame) {
         "depth.kind"};
 }
 
-// Where depth that was taken for metres looks like none.
+// Advises if depth read as metres is implausible.
 void advise_on_depth(const ShotSource& source, Shot& shot) {
     constexpr float kShare = 1, kFar = 200;
     const DepthReport& depth = shot.depth_report;

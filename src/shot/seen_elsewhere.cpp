@@ -42,7 +42,7 @@ public:
 
     bool usable(int x, int y) const { return usable_(x, y) != 0; }
     std::uint32_t of(int x, int y) { return root(index(x, y)); }
-    // Whether the square to the right and below of a pixel lies on one surface.
+    // True if the square right of and below a pixel lies on one surface.
     bool is_whole(int x, int y) const {
         return touch(x, y, x + 1, y) && touch(x, y, x, y + 1) && touch(x + 1, y + 1, x + 1, y) &&
                touch(x + 1, y + 1, x, y + 1);
@@ -126,7 +126,7 @@ public:
         find_what_stands();
     }
 
-    // The nearest of what is hidden, for pixels that know nothing yet.
+    // Adds the nearest hidden surface of pixels that have none yet.
     void add_to(std::vector<DeepSample>& known) const {
         std::vector<std::uint64_t> nearest(known.size(), kNobody);
         for_rows(depth_.height() - 1, workers_, [&](int y) {
@@ -176,8 +176,8 @@ private:
             }
     }
 
-    // What moves may come nearer or go away too: where the depths of most of a surface do not agree, by the
-    // middle of their ratios.
+    // Corrects for motion in depth: if the depths of most of a surface disagree, by the median of their
+    // ratios.
     void follow_depths() {
         struct Ratios {
             std::vector<float> all;
@@ -269,8 +269,8 @@ private:
     Image<std::uint8_t> stands_;
 };
 
-// A side of a square that a thing has to fill for what it hides to be worth telling: a thread is taken apart
-// by what shows on both of its sides, and knowing it behind some of its pixels only makes it flicker.
+// Size of the square that an occluder must fill before its background is used. The background of a thread
+// shows on both sides; knowing it behind some of its pixels only adds flicker.
 constexpr int kThick = 3;  // px
 
 void drop_behind_thin_things(View<const float> depth, Workers& workers, std::vector<DeepSample>& known) {
@@ -294,8 +294,8 @@ void drop_behind_thin_things(View<const float> depth, Workers& workers, std::vec
     });
 }
 
-// Of a hidden lamp's light: all of it if it is seen at the same moment, none beyond the frames that are
-// asked.
+// Share of a hidden lamp's light: all of it if seen at the same moment, falling to none beyond the requested
+// frames.
 float share_of_hidden(const OtherPicture& other, std::span<const OtherPicture> all) {
     int farthest = 0;
     for (const OtherPicture& o : all) farthest = std::max(farthest, std::abs(o.frames_later));

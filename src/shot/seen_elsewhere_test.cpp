@@ -53,7 +53,7 @@ SeenElsewhere seen(const Shot& shot, const std::vector<const Shot*>& others) {
     return found ? std::move(*found) : SeenElsewhere{};
 }
 
-// Of what was found: how far the colours and depths are from those of the wall.
+// Differences of the found colours and depths from those of the wall.
 void expect_wall(const SeenElsewhere& found, const Scene& scene) {
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)
@@ -74,8 +74,8 @@ TEST(SeenElsewhere, ACameraBesideSeesWhatTheCardHides) {
     const Shot shot = shot_of(here), other = shot_of(right);
     const SeenElsewhere found = seen(shot, {&other});
     expect_wall(found, here);
-    // From 0.2 m beside the card moves by 10 px and the wall by 2: 8 columns of the card's 20, but for the
-    // one beside its edge, whose light is mixed.
+    // Seen from 0.2 m beside, the card moves by 10 px and the wall by 2: 8 columns of the card's 20, except
+    // for the one beside its edge, whose light is mixed.
     EXPECT_NEAR(double(found.pixels), 8.0 * kHeight, 1.6 * kHeight);
     EXPECT_TRUE(found.left_out.empty());
 }

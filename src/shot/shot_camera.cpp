@@ -1,4 +1,4 @@
-// Which camera number wins, what follows from others, and where the shot is focused.
+// Priority of camera numbers, derived numbers, and the focus of the shot.
 #include "petzval/shot.h"
 
 #include "files/wording.h"

@@ -1,4 +1,4 @@
-// How this room says sizes.
+// Texts for sizes in this room.
 #pragma once
 
 #include "petzval/image.h"

@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    // As many tiles from `begin` on as one submission draws.
+    // Chooses the tiles from `begin` on that one submission draws.
     Batch batch_from(std::size_t begin) const {
         constexpr std::size_t kMostTiles = 4000;  // groups are counted up to 65535
         Batch batch{begin, begin, 0};

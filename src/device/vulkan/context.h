@@ -47,7 +47,7 @@ public:
     void note_work(const std::string& passes, std::uint64_t multiply_adds, double seconds);
     // Amount drawn at once; the limit is halved each time memory runs out.
     std::size_t at_once(std::size_t most) const { return std::max<std::size_t>(1, most >> halvings_); }
-    // Handles a lack of memory: releases kept memory and halves the amount drawn at once, which said()
+    // Handles exhausted memory: releases kept memory and halves the amount drawn at once, which said()
     // reports. False: something else failed, or halving no longer helps.
     bool halves(const Failed& failed);
     // Lets go of memory that is only kept, where it runs out. Set before anything is drawn.
