@@ -7,7 +7,7 @@ set(PETZVAL_BATCH 8 CACHE STRING "Sources compiled at once; 1: each alone, which
 # (SIMD files are, too: they include themselves.)
 set(petzval_alone
     "src/optics/ray_trace"
-    "src/lens_files/(read.*|text|expected_values|lens_file_test|saved_files_test)"
+    "src/lens_files/(read.*|text|expected_values|lens_file_test|saved_files_test|table_test)"
     "src/kernel/draw/(ray_map|sector_kernel_test|transmission)"
     "src/kernel/lenses/(third_order.*|traced_model|lens_test|ideal_lens_test|disc_character_test|make_lens)"
     "src/kernel/keep/kernel_store.*"

@@ -53,10 +53,12 @@ Result<LensFile> read_any(const std::string& text) {
         return read_zmx(text);
     if (starts_with_keyword(lines, {"RDM", "LEN", "SO", "TIT", "TITLE", "EPD", "DIM", "WL", "S"}, 12))
         return read_seq(text);
+    const std::string table = table_text(text);
+    if (is_table(split_lines(table))) return read_table(table);
     if (begins_with_numbers(lines)) return read_pbrt(text);
     return Error{ErrorCode::InvalidFile,
-                 "line 1: not a lens file; JSON, Zemax .zmx, CODE V .seq, pbrt .dat and "
-                 "Optical Bench text are read"};
+                 "line 1: not a lens file; JSON, Zemax .zmx, CODE V .seq, pbrt .dat, "
+                 "Optical Bench text and tables of surfaces are read"};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 //   CODE V .seq     likewise
 //   pbrt .dat       radius, thickness, index, aperture diameter; stop has radius 0
 //   Optical Bench   the tab-separated text of photonstophotos.net
+//   table           radius, thickness, glass or nd and Vd, diameter, as patents print them
 //
 // What changes the light's path and is not understood (mirrors, tilts, unknown surface types or glass) is an
 // error that names the line; what does not is listed in the warnings.

@@ -22,6 +22,13 @@ Result<LensFile> read_zmx(const std::string& text);
 Result<LensFile> read_seq(const std::string& text);
 Result<LensFile> read_pbrt(const std::string& text);
 Result<LensFile> read_optical_bench(const std::string& text);
+// The text without comments, with typographer's signs and separators replaced by plain ones: what is_table()
+// and read_table() take.
+std::string table_text(const std::string& text);
+// True if these lines are rows of surfaces as patents print them, and no pbrt lens.
+bool is_table(const std::vector<Line>& lines);
+// Requires: is_table() of its lines.
+Result<LensFile> read_table(const std::string& text);
 
 inline Error at_line(int line, const std::string& what) {
     return {ErrorCode::InvalidFile, "line " + std::to_string(line) + ": " + what};

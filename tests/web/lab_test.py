@@ -170,6 +170,14 @@ class Lab(Page):
         packed = sum(len(gzip.compress(path.read_bytes(), 9)) for path in SITE.iterdir() if path.is_file())
         self.assertLessEqual(packed, 400_000)
 
+    def test_a_patents_table_becomes_a_lens(self):
+        self.open()
+        table = "f = 50  F/3\n1  50  4  1.5168  64.2  20\n2  −50  1  20\n3  stop ∞ 1\n4  60  4  N-BK7  20\n5  -60  30  20\n"
+        self.browser.execute_script('document.getElementById("paste").value = arguments[0]; document.getElementById("use-paste").click()', table)
+        WebDriverWait(self.browser, SECONDS).until(lambda b: "Focal length" in self.text("paste-notes"))
+        self.assertRegex(self.text("paste-notes"), r"the table prints a focal length of 50 mm; these surfaces have \d")
+        self.assertEqual(self.text("problem"), "")
+
     def test_a_damaged_lens_file_is_told_in_a_sentence(self):
         self.open()
         for text in ("no lens at all", "{", '{"surfaces": []}', "\0" * 100):

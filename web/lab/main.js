@@ -78,7 +78,8 @@ async function askFacts() {
   $("about").textContent = [told.title, told.year, facts?.efl_mm ? `${facts.efl_mm.toPrecision(3)} mm` : null,
     facts?.f_number ? `f/${facts.f_number.toPrecision(2)}` : null].filter(Boolean).join(", ") + (told.history ? `. ${told.history}` : ".");
   drawCurves($("curves"), facts?.longitudinal_aberration_mm);
-  notes(facts?.warnings ?? []);
+  const length = state.lens.text && facts?.efl_mm ? [`Focal length ${facts.efl_mm.toFixed(2)} mm.`] : [];
+  notes([...(facts?.warnings ?? []), ...length]);
 }
 
 function askSection() {
@@ -152,9 +153,8 @@ function notes(sentences) {
 async function useText(text, name) {
   const lens = { name, text, look: {} };
   try {
-    const { result } = await kernel.ask("facts", { lens });
+    await kernel.ask("facts", { lens }); // a text that is no lens changes nothing
     use(lens);
-    notes([...result.warnings, result.efl_mm ? `Focal length ${result.efl_mm.toFixed(2)} mm.` : ""].filter(Boolean));
   } catch (error) {
     notes([error.message]);
     complain(error.message);

@@ -1,0 +1,240 @@
+// A table of surfaces as patents and books print it, pasted as text: one row per surface from the front.
+//
+//   [number] radius thickness [glass | nd [Vd]] [clear DIAMETER] [stop]
+//
+// Columns are parted by tabs, commas, semicolons, bars or blanks; ∞, "inf", "plano" and 0 are flat; "air", 1
+// or nothing is air. The heading may state "f = 50" and "F/2". Every guess is a warning.
+#include "lens_files/readers.h"
+#include "optics/paraxial.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace petzval::lens_files {
+namespace {
+
+struct Row {
+    int line = 0;
+    std::vector<std::string_view> words;  // without the mark of the stop
+    bool is_stop = false;
+};
+
+bool is_word_of(std::string_view word, std::initializer_list<std::string_view> list) {
+    const std::string upper = upper_case(word);
+    return std::find(list.begin(), list.end(), upper) != list.end();
+}
+
+bool marks_stop(std::string_view word) {
+    return is_word_of(word, {"STOP", "STO", "(STOP)", "DIAPHRAGM", "APERTURE", "*"});
+}
+
+bool is_flat(std::string_view word) { return is_word_of(word, {"PLANO", "PLAN", "PLANE", "FLAT"}); }
+
+std::optional<double> radius_of(std::string_view word) {
+    return is_flat(word) ? std::optional<double>(0) : parse_number(word);
+}
+
+// The row of a line that begins with a radius and a thickness, or is a stop; none for headings and notes.
+std::optional<Row> row_of(const Line& line) {
+    Row row{line.number, {}, false};
+    for (const std::string_view word : split_words(line.text))
+        if (marks_stop(word))
+            row.is_stop = true;
+        else
+            row.words.push_back(word);
+    const auto& words = row.words;
+    const bool is_surface = words.size() >= 2 && radius_of(words[0]) && radius_of(words[1]);
+    const bool is_bare_stop = row.is_stop && !words.empty() && parse_number(words[0]);
+    return is_surface || is_bare_stop ? std::optional(row) : std::nullopt;
+}
+
+std::vector<Row> rows_of(const std::vector<Line>& lines) {
+    std::vector<Row> rows;
+    for (const Line& line : lines)
+        if (auto row = row_of(line)) rows.push_back(std::move(*row));
+    return rows;
+}
+
+// Numbers of surfaces in front, 1, 2, 3, …, are taken away.
+void drop_numbers(std::vector<Row>& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].words.size() < 2 || parse_number(rows[i].words[0]) != double(i + 1)) return;
+    for (Row& row : rows) row.words.erase(row.words.begin());
+}
+
+// The number behind the first of these marks in the heading, as "f = 50" or "F/2"; 0 if there is none.
+double stated(const std::vector<Line>& lines, int first_row, std::initializer_list<std::string_view> marks) {
+    for (const Line& line : lines) {
+        if (line.number >= first_row) break;
+        std::string joined;  // "f = 50" as "f=50"
+        for (const char c : line.text)
+            if (c != ' ' || joined.empty() || (joined.back() != '=' && joined.back() != '/')) joined += c;
+        for (std::size_t at = joined.find(" ="); at != std::string::npos; at = joined.find(" ="))
+            joined.erase(at, 1);
+        for (const std::string_view word : split_words(joined))
+            for (const std::string_view mark : marks)
+                if (word.starts_with(mark))
+                    if (const auto number = parse_number(word.substr(mark.size())); number && *number > 0)
+                        return *number;
+    }
+    return 0;
+}
+
+class TableReader {
+public:
+    explicit TableReader(LensFile& file) : file_(file) {}
+
+    Status add(const Row& row) {
+        if (file_.lens.surfaces.size() >= std::size_t(optics::kMostSurfaces))
+            return at_line(row.line, "more than " + std::to_string(optics::kMostSurfaces) + " surfaces");
+        optics::Surface surface;
+        std::size_t at = 0;
+        if (row.words.size() == 1) {  // a stop with the distance behind it
+            surface.thickness_mm = *parse_number(row.words[at++]);
+        } else {
+            const double radius = *radius_of(row.words[at++]);
+            surface.curvature_per_mm = radius == 0 ? 0 : 1 / radius;
+            surface.thickness_mm = *radius_of(row.words[at++]);
+        }
+        if (!std::isfinite(surface.thickness_mm)) return at_line(row.line, "the thickness is not finite");
+        if (const Status glass = take_medium(row, at, surface); !glass) return glass;
+        if (at < row.words.size()) {
+            const auto diameter = parse_number(row.words[at]);
+            if (!diameter || !(*diameter > 0))
+                return at_line(row.line, quoted(row.words[at]) + " is neither a glass nor a diameter");
+            surface.clear_radius_mm = *diameter / 2;
+            ++at;
+        }
+        if (at < row.words.size()) return at_line(row.line, quoted(row.words[at]) + " was not expected");
+        if (row.is_stop && has_stop_) return at_line(row.line, "a second stop");
+        if (row.is_stop) file_.lens.stop = int(file_.lens.surfaces.size()), has_stop_ = true;
+        file_.lens.surfaces.push_back(surface);
+        return Done{};
+    }
+
+    // A stop that no row marks stands in the middle of the widest gap of air.
+    void guess_stop() {
+        if (has_stop_) return;
+        auto& surfaces = file_.lens.surfaces;
+        std::size_t widest = surfaces.size();
+        for (std::size_t i = 0; i + 1 < surfaces.size(); ++i)
+            if (surfaces[i].after.is_air() && surfaces[i].thickness_mm > 0 &&
+                (widest == surfaces.size() || surfaces[i].thickness_mm > surfaces[widest].thickness_mm))
+                widest = i;
+        if (widest == surfaces.size()) {
+            file_.lens.stop = 0;
+            file_.warnings.emplace_back("no row is marked as the stop; the first surface is taken");
+            return;
+        }
+        optics::Surface stop;
+        stop.thickness_mm = surfaces[widest].thickness_mm /= 2;
+        surfaces.insert(surfaces.begin() + std::ptrdiff_t(widest) + 1, stop);
+        file_.lens.stop = int(widest) + 1;
+        file_.warnings.push_back(
+            "no row is marked as the stop; it is put into the middle of the widest air gap, behind surface " +
+            std::to_string(widest + 1));
+    }
+
+    void report() const { glasses_.report(file_.warnings); }
+
+private:
+    Status take_medium(const Row& row, std::size_t& at, optics::Surface& surface) {
+        if (at == row.words.size()) return Done{};
+        const auto index = parse_number(row.words[at]);
+        if (!index) {
+            const std::string_view name = row.words[at++];
+            if (upper_case(name) == "AIR") return Done{};
+            auto glass = glasses_.find({std::string(name), "", std::nullopt, std::nullopt, row.line});
+            if (!glass) return glass.error();
+            surface.after = *glass;
+        } else if (*index >= 1 && *index < 2.2) {
+            ++at;
+            const auto abbe = at < row.words.size() ? parse_number(row.words[at]) : std::nullopt;
+            const bool has_abbe = *index > 1.001 && abbe && *abbe >= 10 && *abbe <= 100;
+            if (has_abbe) ++at;
+            if (*index > 1.001)
+                surface.after =
+                    has_abbe ? optics::abbe_glass("", *index, *abbe) : optics::constant_glass("", *index);
+        }
+        return Done{};
+    }
+
+    LensFile& file_;
+    GlassFinder glasses_;
+    bool has_stop_ = false;
+};
+
+Status set_aperture(optics::Prescription& lens, double f_number) {
+    const double stop_radius = lens.surfaces[std::size_t(lens.stop)].clear_radius_mm;
+    if (!(f_number > 0) && !std::isfinite(stop_radius))
+        return Error{ErrorCode::InvalidFile,
+                     "the table states neither an f-number nor the stop's diameter; put \"F/2.8\" above it"};
+    lens.aperture_kind = f_number > 0 ? optics::ApertureKind::FNumber : optics::ApertureKind::StopRadius;
+    lens.aperture = f_number > 0 ? f_number : stop_radius;
+    return Done{};
+}
+
+void compare_focal_length(LensFile& file, double printed) {
+    const auto first = optics::first_order(file.lens, file.lens.primary_um);
+    if (!first || printed == 0 || std::abs(first->focal_length_mm / printed - 1) < 0.01) return;
+    std::array<char, 120> text{};
+    std::snprintf(text.data(), text.size(),
+                  "the table prints a focal length of %g mm; these surfaces have %.4g mm", printed,
+                  first->focal_length_mm);
+    file.warnings.emplace_back(text.data());
+}
+
+}  // namespace
+
+// A table needs words: those of an f-number or of the stop. A pbrt lens is numbers alone.
+bool is_table(const std::vector<Line>& lines) {
+    const auto is_number = [](std::string_view word) { return parse_number(word).has_value(); };
+    bool has_words = false;
+    for (const Line& line : lines) {
+        const auto words = split_words(line.text);
+        has_words = has_words || !std::all_of(words.begin(), words.end(), is_number);
+    }
+    return has_words && rows_of(lines).size() > 1;
+}
+
+std::string table_text(const std::string& text) {
+    const std::array<std::array<std::string_view, 2>, 3> signs{
+        {{"\xE2\x88\x9E", " inf "}, {"\xE2\x88\x92", "-"}, {"\xC2\xA0", " "}}};
+    std::string plain = text;
+    for (const auto& [sign, word] : signs)
+        for (std::size_t at = plain.find(sign); at != std::string::npos;
+             at = plain.find(sign, at + word.size()))
+            plain.replace(at, sign.size(), word);
+    bool in_comment = false;
+    for (char& c : plain) {
+        in_comment = c != '\n' && c != '\r' && (in_comment || c == '#');
+        if (in_comment || c == ',' || c == ';' || c == '|' || c == '\t') c = ' ';
+    }
+    return plain;
+}
+
+Result<LensFile> read_table(const std::string& text) {
+    LensFile file;
+    file.format = "table of surfaces";
+    const std::vector<Line> lines = split_lines(text);
+    std::vector<Row> rows = rows_of(lines);
+    const int first_row = rows.front().line;
+    drop_numbers(rows);
+    TableReader reader(file);
+    for (const Row& row : rows)
+        if (const Status added = reader.add(row); !added) return added.error();
+    reader.guess_stop();
+    if (const Status aperture = set_aperture(
+            file.lens, stated(lines, first_row, {"F/", "f/", "F=", "FNO=", "Fno=", "F-number="}));
+        !aperture)
+        return aperture.error();
+    reader.report();
+    warn_of_models(file);
+    assume_field(file);
+    compare_focal_length(file, stated(lines, first_row, {"f=", "EFL=", "efl="}));
+    return file;
+}
+
+}  // namespace petzval::lens_files

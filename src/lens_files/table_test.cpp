@@ -1,0 +1,98 @@
+#include "lens_files/lens_file.h"
+#include "lens_files/shelf.h"
+#include "optics/paraxial.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace petzval::lens_files {
+namespace {
+
+LensFile read(const std::string& text) {
+    auto file = read_lens(text, "pasted");
+    EXPECT_TRUE(file) << (file ? "" : file.error().message);
+    return file ? *file : LensFile{};
+}
+
+std::string refusal(const std::string& text) {
+    const auto file = read_lens(text, "pasted");
+    return file ? "accepted" : file.error().message;
+}
+
+double focal_length(const LensFile& file) {
+    return optics::first_order(file.lens, file.lens.primary_um)->focal_length_mm;
+}
+
+// US 2,673,491 as a patent prints it; the same numbers ship as double-gauss.
+constexpr const char* kTronnier = R"(Double Gauss  f = 50  F/2
+No  R        d      nd     V     diameter
+1   29.475   3.76   1.67   47.1  25.2
+2   84.83    0.12                25.2
+3   19.275   4.025  1.67   47.1  23
+4   40.77    3.275  1.699  30.1  23
+5   12.75    5.705               18
+6   stop  ∞  4.5                 17.1
+7   −14.495  1.18   1.603  38.0  17
+8   40.77    6.065  1.658  57.3  20
+9   −20.385  0.19                20
+10  437.065  3.22   1.717  48.0  20
+11  −39.73   36.1                20
+)";
+
+TEST(Table, APatentsTableIsTheLensThatShips) {
+    const LensFile file = read(kTronnier);
+    EXPECT_EQ(file.format, "table of surfaces");
+    const auto shipped = find_lens("double-gauss");
+    ASSERT_TRUE(shipped);
+    ASSERT_EQ(file.lens.surfaces.size(), shipped->lens.surfaces.size());
+    EXPECT_EQ(file.lens.stop, shipped->lens.stop);
+    for (std::size_t i = 0; i < file.lens.surfaces.size(); ++i) {
+        SCOPED_TRACE(i + 1);
+        EXPECT_DOUBLE_EQ(file.lens.surfaces[i].curvature_per_mm, shipped->lens.surfaces[i].curvature_per_mm);
+        EXPECT_DOUBLE_EQ(file.lens.surfaces[i].clear_radius_mm, shipped->lens.surfaces[i].clear_radius_mm);
+        EXPECT_NEAR(file.lens.surfaces[i].after.index(0.5875618),
+                    shipped->lens.surfaces[i].after.index(0.5875618), 1e-9);
+    }
+    EXPECT_NEAR(focal_length(file), 50.36, 0.01);
+}
+
+TEST(Table, ColumnsMayBePartedByTabsCommasOrBars) {
+    const double expected = focal_length(read(kTronnier));
+    for (const char separator : {',', ';', '|', '\t'}) {
+        std::string text = kTronnier;
+        const std::size_t rows = text.find("\n1 ");
+        for (std::size_t at = rows; at < text.size(); ++at)
+            if (text[at] == ' ') text[at] = separator;
+        EXPECT_DOUBLE_EQ(focal_length(read(text)), expected) << separator;
+    }
+}
+
+TEST(Table, AStopThatNoRowMarksIsPutIntoTheWidestGapAndReported) {
+    const LensFile file = read("F/3\n50 4 N-BK7\n-50 12\n60 4 N-BK7\n-60 30\n");
+    ASSERT_EQ(file.lens.surfaces.size(), 5u);
+    EXPECT_EQ(file.lens.stop, 2);
+    EXPECT_DOUBLE_EQ(file.lens.surfaces[1].thickness_mm, 6);
+    ASSERT_FALSE(file.warnings.empty());
+    EXPECT_NE(file.warnings[0].find("behind surface 2"), std::string::npos) << file.warnings[0];
+}
+
+TEST(Table, APrintedFocalLengthThatDiffersIsReported) {
+    std::string text = kTronnier;
+    text.replace(text.find("f = 50"), 6, "f = 75");
+    const auto warnings = read(text).warnings;
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) {
+        return w.find("prints a focal length of 75 mm") != std::string::npos;
+    }));
+}
+
+TEST(Table, RefusalsNameTheLine) {
+    EXPECT_NE(refusal("F/2\n50 4 N-BK77777\n-50 40\n").find("line 2: glass \"N-BK77777\""),
+              std::string::npos);
+    EXPECT_NE(refusal("F/2\n50 4 1.5 60 20 9\n-50 40\n").find("line 2: \"9\" was not expected"),
+              std::string::npos);
+    EXPECT_NE(refusal("50 4 N-BK7\n-50 40\n").find("put \"F/2.8\" above it"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace petzval::lens_files
