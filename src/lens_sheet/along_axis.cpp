@@ -1,4 +1,4 @@
-// What happens on the axis: focus by zone and wavelength, and the rays near it.
+// Figures of the axis: focus by zone and wavelength, and the rays near it.
 #include "lens_sheet/figures.h"
 #include "lens_sheet/plot.h"
 

@@ -17,10 +17,10 @@ constexpr double kWidth = 1100, kHeight = 300, kMiddle = 148;
 constexpr double kFocus = 3, kPoint = 5.2, kLens = 1.05, kSharp = 0.1;
 
 double image_of(double distance) { return distance / (distance - 1); }
-// What is imaged there.
+// Distance of the object that is imaged there.
 double seen_at(double image) { return image / (image - 1); }
 
-// From focal lengths along the axis and upwards to the drawing.
+// Maps focal lengths along the axis and upwards to the drawing.
 Point place(double z, double y) { return {(z + kPoint + 0.25) * 149, kMiddle - y * 104}; }
 
 // A length between two places, with its letters.
@@ -43,7 +43,7 @@ void draw_lens(Svg& svg) {
     svg.path(outline, "glass", true);
 }
 
-// Where points still count as sharp before the lens, and where the film may stand behind it.
+// Draws the depth of field in front of the lens, and the depth of focus behind it.
 void draw_depths(Svg& svg, double film) {
     const double image[] = {film / (1 - kSharp), film / (1 + kSharp)};
     const auto band = [&](double from, double to, double high, const char* word) {

@@ -22,7 +22,7 @@ std::vector<Point> circle(Point middle, double radius) {
     return points;
 }
 
-// Where the zone of the pupil lands.
+// Landing positions of a zone of the pupil.
 std::vector<Point> landed_zone(const kernel::GeometricLens& lens, double zone, double coc_um) {
     const auto landing = lens.landing(546.074, coc_um, {0, 1});
     std::vector<Point> points = circle({}, zone);

@@ -1,4 +1,4 @@
-// What the defocus-control ring does to this lens.
+// Effect of the defocus-control ring on this lens.
 #include "base/parallel.h"
 #include "lens_sheet/figures.h"
 

@@ -26,7 +26,7 @@ struct Layout {
     std::vector<Bundle> bundles;
 };
 
-// Where a ray meets each surface, then the sensor; from where it comes, `lead_mm` before the first.
+// Points of a ray on each surface, then the sensor; it starts `lead_mm` before the first surface.
 std::vector<Point> path_of(const Layout& layout, optics::Ray ray) {
     std::vector<Point> path;
     const optics::Ray entering = ray;
@@ -157,7 +157,7 @@ void draw_words(Svg& svg, const Frame& frame, const Layout& layout, double heigh
     svg.text({right - bar * frame.scale - 6, y + 4}, significant(bar) + " mm", "label", Anchor::End);
 }
 
-// Where the pupils, principal and focal planes stand, on a line of their own below the glass.
+// Draws the pupils, principal and focal planes on a separate line below the glass.
 void draw_cardinal_points(Svg& svg, const Frame& frame, const Layout& layout, const LensFacts& f, double y) {
     const double last = layout.vertex_mm.back();
     const struct {

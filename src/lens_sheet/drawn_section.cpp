@@ -1,5 +1,5 @@
-// The diagram of a lens that is known by what it does and not by its glass: elements as its kind has them,
-// rays that bend once, at the principal plane, and meet where the curves say.
+// Diagram of a lens without known glass: elements typical for its kind, rays that bend once at the principal
+// plane and meet as the curves say.
 #include "lens_sheet/frame.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ struct Element {
 };
 using Elements = std::vector<Element>;
 
-// As lenses of this description are built; not to scale. Empty: nobody knows.
+// Typical elements of lenses of this description; not to scale. Empty: unknown.
 const Elements& elements_of(const std::string& name) {
     static const Elements doublet = {{{-0.34, 0.20}, {0.08, -0.18}}, {{0.08, -0.18}, {0.22, -0.03}, true}};
     static const std::pair<const char*, Elements> known[] = {
@@ -75,8 +75,7 @@ double focus_at(const std::vector<Point>& foci, double height) {
     return shift;
 }
 
-// How often larger than life differences of focus are drawn, so that the longest spans a tenth of the focal
-// length.
+// Magnification of focus differences in the drawing: the longest spans a tenth of the focal length.
 double exaggeration(const Subject& subject) {
     double longest = 1e-9;
     for (const SpectralLine& line : spectral_lines())

@@ -26,7 +26,7 @@ struct FieldCurves {
     FieldCurve tangential, sagittal, distortion, colour_um, light;
 };
 
-// Of the stop's area: smoother than field_point()'s share of light, which counts rays on a grid.
+// Open share of the stop's area: smoother than field_point()'s share of light, which counts rays on a grid.
 double open_share(const optics::Beam& beam) {
     const kernel::OpenStop open = kernel::OpenStop::of(beam, kCorners);
     if (open.corners.empty()) return 0;

@@ -20,7 +20,7 @@ kernel::FieldPosition place_of(int column, int row) {
     return {x / half_diagonal, y * 2 / 3 / half_diagonal};
 }
 
-// How far the light of any disc of the frame lands from its middle, in micrometres.
+// Largest distance of light from the middle of any disc of the frame, in micrometres.
 double reach_um(const kernel::GeometricLens& lens, double coc_um) {
     double reach = 0;
     for (const double field : {0.0, 0.3, 0.6, 0.85}) {
@@ -53,7 +53,7 @@ Canvas frame_of(const kernel::LensModel& lens, double coc_px, Workers& workers) 
     return canvas;
 }
 
-// Frames in front of and behind the focus, each to a scale of its own.
+// Frames in front of and behind focus, each at a separate scale.
 std::optional<Figure> pair_of(const Subject& subject, const std::string& title, const LensChoice& character,
                               double blurs, const std::string& caption) {
     constexpr double kWide = kColumns * kCellCss, kHigh = kRows * kCellCss, kGap = 30, kTop = 26;
@@ -102,7 +102,7 @@ std::vector<Figure> drawn_fields(const Subject& subject) {
     constexpr double kBlurs = 3;
     LensChoice barrel, coma, astigmatism, curvature, colour;
     barrel.cats_eye = 0.8, coma.coma = 1, astigmatism.astigmatism = 2;
-    // At the corner, as far as the disc's own radius, and a fifth of it for each colour.
+    // Size at the corner: the disc's own radius, and a fifth of it for each colour.
     const double corner_um =
         1000 * subject.focal_length_mm() * std::tan(subject.corner_deg() * std::numbers::pi / 180);
     const double radius_um = kBlurs * subject.blur_um();

@@ -24,7 +24,7 @@ std::string html_page(const std::string& title, const std::string& header,
                       const std::vector<Section>& sections);
 // For drawings that stand alone: the style sheet as an SVG <style> element.
 std::string svg_style();
-// An SVG with the style inside and a background, as a file of its own.
+// An SVG file with the style and a background.
 std::string standalone(const std::string& svg);
 
 }  // namespace petzval::lens_sheet

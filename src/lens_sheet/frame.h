@@ -7,7 +7,7 @@ namespace petzval::lens_sheet {
 
 inline constexpr double kWidth = 1100, kMargin = 26;
 
-// From millimetres (z along the axis, y up) to the drawing.
+// Maps millimetres (z along the axis, y up) to the drawing.
 struct Frame {
     double scale = 1, left_mm = 0, middle = 0;
     Point operator()(double z_mm, double y_mm) const {

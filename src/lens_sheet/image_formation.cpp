@@ -1,4 +1,4 @@
-// How images form: magnification by distance, and what the stop does to points out of focus.
+// How images form: magnification by distance, and the effect of the stop on points out of focus.
 #include "base/parallel.h"
 #include "lens_sheet/figures.h"
 

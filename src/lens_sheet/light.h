@@ -12,7 +12,7 @@
 
 namespace petzval::lens_sheet {
 
-// The lines by which glass is known. Their class gives each a colour and a dash of its own.
+// Spectral lines used for glass. Their class gives each a colour and a dash pattern.
 struct SpectralLine {
     double wavelength_nm;
     const char* name;
@@ -20,10 +20,10 @@ struct SpectralLine {
 };
 std::span<const SpectralLine> spectral_lines();  // g, F, e, d, C
 
-// So many slices of the visible spectrum; 3: red, green and blue, where the primaries of Rec.709 lie in it.
+// That many slices of the visible spectrum; 3: red, green and blue, at the primaries of Rec.709.
 std::vector<colour::SpectralBand> slices(int count);
 
-// Of a slice of the spectrum, on black: "rgb(255,120,0)". r, g, b: as colour::SpectralBand has them.
+// Colour of a slice of the spectrum on black: "rgb(255,120,0)". r, g, b: as in colour::SpectralBand.
 std::string slice_colour(double r, double g, double b);
 
 // Light of 1 is a well exposed disc; what is brighter rolls off towards white, hue kept.

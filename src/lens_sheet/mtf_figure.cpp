@@ -24,7 +24,7 @@ struct Mtf {
     std::vector<Point> tangential, sagittal;  // (line pairs per mm, contrast)
 };
 
-// Of a perfect lens with a round aperture; `share` of its highest frequency.
+// MTF of a perfect lens with a round aperture; `share` of its highest frequency.
 double diffraction_limit(double share) {
     if (share >= 1) return 0;
     return 2 / std::numbers::pi * (std::acos(share) - share * std::sqrt(1 - share * share));
@@ -75,7 +75,7 @@ Mtf mtf_of(const kernel::GeometricLens& lens, double f_number, double field, dou
 std::vector<Figure> mtf_figures(const Subject& subject) {
     const bool has_field = subject.prescription() && subject.facts().field_deg > 0.05;
     const std::array<double, 3> fields{0, 0.6, 0.9};
-    // Up to what 1/1500 of the frame's width resolves: 42 line pairs per mm on 36 mm.
+    // The highest frequency drawn resolves 1/1500 of the frame's width: 42 line pairs per mm on 36 mm.
     const double most_lp_mm = 1500 / subject.sensor_width_mm();
     std::vector<Figure> figures;
     for (const double stops : {0.0, 2.0}) {

@@ -24,7 +24,7 @@ Subject subject_of(const std::string& name) {
     return std::move(*subject);
 }
 
-// What no drawing may hold, outside of pictures.
+// The first fault of a drawing, outside of pictures.
 std::string fault_of(const Figure& figure) {
     for (const char* word : {"nan", "inf", "\"\"", "e+", "e-"}) {
         const std::string& text = figure.drawing;
@@ -67,7 +67,7 @@ TEST(Axial, TableAgreesWithTheLens) {
     const AxialBands bands = subject.axis().bands(1);
     const auto exact = subject.axis().height_um(559.0, 0);
     EXPECT_NEAR(bands[0].height_um(0, 100), 0, 1e-9);
-    // Between its points, and linear in the defocus.
+    // Checks between its points, and that it is linear in the defocus.
     for (const double rho : {0.123, 0.5, 0.987})
         EXPECT_NEAR(bands[0].height_um(rho, 200) - bands[0].height_um(rho, 0), 200 * rho, 0.05);
     EXPECT_NEAR(std::abs(bands[0].height_um(0.987, 0)), std::abs(exact(0.987)), 12);

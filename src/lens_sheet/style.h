@@ -1,5 +1,5 @@
-// How the pages look: classes of the drawings, then the page around them. Plain CSS, light and dark by the
-// reader's own setting, paper always light. The five spectral lines differ in dash as well as in colour.
+// Style of the pages: classes of the drawings, then the page around them. Plain CSS, light and dark by the
+// reader's setting, paper always light. The five spectral lines differ in dash as well as in colour.
 #pragma once
 
 #include <string_view>

@@ -148,11 +148,11 @@ std::vector<Point> Subject::zone_foci(double wavelength_nm) const {
         for (int i = 0; i <= kZones; ++i) zones.push_back(double(i) / kZones);
         const double um[] = {wavelength_nm / 1000, kPrimary_nm / 1000};
         const auto lsa = optics::longitudinal_aberration(*lens, *first, um, zones);
-        // From the paraxial focus at d, whatever the lens's own primary wavelength is.
+        // Measured from the paraxial focus at d, for any primary wavelength of the lens.
         for (std::size_t i = 0; i < zones.size(); ++i)
             points.push_back({lsa.shift_mm[0][i] - lsa.shift_mm[1][0], zones[i]});
     } else if (facts_.summary.model == LensModelKind::Curves) {
-        // By similar triangles, from where rays meet the sensor: what the kernels are made of.
+        // Computed by similar triangles from the sensor positions of rays, like the kernels.
         const auto height = axis_->height_um(wavelength_nm, 0);
         for (int i = 0; i <= kZones; ++i) {
             const double zone = std::max(double(i), 0.1) / kZones;

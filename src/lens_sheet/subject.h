@@ -25,7 +25,7 @@ using RayLens = std::shared_ptr<const kernel::GeometricLens>;
 // the source's radius, in front of the focus at infinity and beyond it.
 struct AxialBand {
     kernel::Light weight;
-    // At even steps of the height, from the middle to the rim.
+    // Values at even steps of the height, from the middle to the rim.
     std::vector<double> at_focus_um, per_um_near, per_um_far;
 
     double height_um(double rho, double coc_um) const;
@@ -37,14 +37,14 @@ class Axial {
 public:
     explicit Axial(RayLens lens_in_um);
 
-    // Signed height on the sensor of light through pupil radius rho (0…1 of what is open), for a source of
+    // Signed height on the sensor of light through pupil radius rho (0…1 of the open part), for a source of
     // that signed CoC radius.
     std::function<double(double rho)> height_um(double wavelength_nm, double coc_um) const;
-    // How far from the axis light of 440 to 660 nm lands.
+    // Largest distance from the axis of light of 440 to 660 nm.
     double reach_um(double coc_um) const;
-    // So many slices of the spectrum.
+    // That many slices of the spectrum.
     AxialBands bands(int count) const;
-    // Of all colours, in pixels of um_per_px.
+    // The disc of all colours, in pixels of um_per_px.
     kernel::PointSpread disc(double coc_um, double um_per_px) const;
 
 private:
@@ -83,10 +83,10 @@ public:
 
     const RayLens& open() const { return open_; }
     const Axial& axis() const { return *axis_; }
-    // How far aberrations throw the light of an axial point at best focus, wide open; a small length for a
-    // perfect lens. The measure of "near focus" on the page.
+    // Spread by aberrations of an axial point at best focus, wide open; a small length for a perfect lens.
+    // The measure of "near focus" on the page.
     double blur_um() const { return blur_um_; }
-    // Where the sensor stands, from the paraxial focus at 587.56 nm, + away from the lens.
+    // Position of the sensor from the paraxial focus at 587.56 nm, + away from the lens.
     double best_focus_mm() const { return best_focus_mm_; }
     // Focus of the zones of the pupil from that paraxial focus: (mm, zone 0…1). Empty for the ideal lens.
     std::vector<Point> zone_foci(double wavelength_nm) const;

@@ -51,7 +51,7 @@ void add(Canvas& canvas, const LitPoint& point, const kernel::PointSpread& disc,
                     times * (point.light * disc.weights(u - e.x0, v - e.y0));
 }
 
-// So much of the moon, brighter in turn: all light is the same.
+// A panel with that share of the moon, brightened so that all panels have the same light.
 std::string panel(const kernel::PointSpread& disc, double share) {
     Canvas canvas(kWide, kHigh);
     for (const LitPoint& lamp : lamps()) add(canvas, lamp, disc, 1);

@@ -15,7 +15,7 @@ namespace petzval::lens_sheet {
 
 using kernel::Point;
 
-// With so many decimals, trailing zeros and "-0" removed; "–" for what is not finite.
+// A number with that many decimals, without trailing zeros and "-0"; "–" if it is not finite.
 std::string number(double value, int decimals);
 // With so many significant digits, as people write them: 0.0123, 45.7, 1230.
 std::string significant(double value, int digits = 3);
@@ -49,7 +49,7 @@ public:
     Svg& close_light();
     // Another drawing, its corner here.
     Svg& place(Point corner, const std::string& drawing);
-    // A line of a colour of its own, "rgb(…)", inside open_light().
+    // A line with a separate colour, "rgb(…)", inside open_light().
     Svg& ray(Point from, Point to, const std::string& colour, double width, double opacity);
 
     std::string str() const { return text_ + "</svg>\n"; }

@@ -1,4 +1,4 @@
-// The wavefront, and what diffraction makes of a point of light.
+// The wavefront, and the diffraction image of a point of light.
 #include "petzval/develop.h"
 
 #include "base/parallel.h"

@@ -33,7 +33,7 @@ void add_lamps(World& world) {
     const float half = 0.5f * 36 / 85 * kLampDepth;
     const Vec3 colours[] = {
         {1, 0.62f, 0.25f}, {0.55f, 0.75f, 1}, {1, 0.12f, 0.10f}, {0.25f, 1, 0.45f}, {1, 0.9f, 0.75f}};
-    // Along the edges of near and focused bars, and a few in the open.
+    // Lamps along the edges of near and focused bars, and a few in the open.
     for (int i = 0; i < 34; ++i) {
         const float x = -0.93f + 1.86f * cell_value(i, 0, 5);
         const float y = -0.5f + cell_value(i, 1, 5);

@@ -5,8 +5,8 @@
 
 namespace petzval::scene {
 
-// Where the bicycle stands: the point of the ground under its rear hub, and the horizontal unit vector
-// towards its front.
+// Position of the bicycle: the point of the ground under its rear hub, and the horizontal unit vector towards
+// its front.
 struct Stand {
     Vec3 rear, forward;
     // A point given by metres ahead of the rear hub, above the ground, and to the left-hand side.

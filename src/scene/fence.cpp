@@ -137,7 +137,7 @@ Matter yard(const SurfacePoint& p) {
     return {grit * mix(Vec3{0.20f, 0.20f, 0.21f}, Vec3{0.72f, 0.70f, 0.64f}, std::min(1.0f, line)), {}};
 }
 
-// Beyond the end of the wall: trees and a house in the sun.
+// Trees and a house in the sun, beyond the end of the wall.
 void add_distance(World& world) {
     world.add(
         patch({-2, 0, 22}, {20, 0, 0}, {0, 9, 0}, 10, 6),

@@ -50,7 +50,7 @@ struct Matrix {
             }
         return product;
     }
-    // Into the world of petzval: z away.
+    // Converts to petzval's world, where z points away.
     Vec3 point(double x, double y, double z) const { return turned(x, y, z, 1); }
     Vec3 direction(double x, double y, double z) const { return turned(x, y, z, 0); }
     // A normal: by the matrix of cofactors, which is right for any scale.
@@ -413,7 +413,7 @@ private:
     std::size_t triangles_ = 0, visited_ = 0;
 };
 
-// The first line of what a reader said.
+// The first line of a reader's message.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // A pipe would be waited for; a glTF names others.

@@ -11,7 +11,7 @@
 
 namespace petzval::scene {
 
-// Whether a scene of that name is a file of this kind.
+// True if a scene of that name is a glTF file.
 bool is_gltf(const std::string& name);
 
 constexpr double kGltfFramesPerSecond = 24;

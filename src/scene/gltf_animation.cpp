@@ -33,7 +33,7 @@ void normalise(std::vector<double>& q) {
     for (double& x : q) x /= std::sqrt(length);
 }
 
-// Along the shorter arc of unit quaternions.
+// Interpolates unit quaternions along the shorter arc.
 std::vector<double> on_arc(const Track& of, std::size_t key, double share) {
     double cosine = 0;
     for (std::size_t k = 0; k < 4; ++k) cosine += of.value(key, k) * of.value(key + 1, k);
@@ -95,7 +95,7 @@ Result<Track> track_of(const tinygltf::Model& model, const tinygltf::AnimationSa
     return track;
 }
 
-// Where a node keeps what a channel moves; null: nothing that is read.
+// The node's property that a channel moves; null: not supported.
 std::vector<double>* moved_by(const tinygltf::AnimationChannel& channel, tinygltf::Node& node) {
     return channel.target_path == "translation" ? &node.translation
            : channel.target_path == "rotation"  ? &node.rotation

@@ -1,4 +1,4 @@
-// What lights the scene of a glTF file: its own lights, or a day's.
+// Lights of a glTF scene: its own, or daylight.
 #pragma once
 
 #include "scene/shading.h"
@@ -15,7 +15,7 @@ struct PunctualLight {
     Vec3 axis;                             // along which a spot shines
     float cos_inner = -1, cos_outer = -2;  // of the cones' half angles; everywhere: no spot
 
-    // As the extension has it, of light towards a place.
+    // Share of light towards a place, as the extension defines it.
     float share_at(Vec3 place) const {
         if (cos_outer < -1) return 1;
         const float cosine = dot(axis, normalised(place - light.position));
@@ -28,10 +28,10 @@ struct Lighting {
     Daylight day;
     std::vector<PunctualLight> lights;
 
-    // Once all lights are known: what the day and the world's sky are worth beside them, and how bright all
-    // is in the scene's middle. Returns the factor for what glows, with a warning where it is not 1.
+    // Called once all lights are known: sets daylight and sky relative to them, by the brightness in the
+    // scene's middle. Returns the factor for glowing surfaces, with a warning if it is not 1.
     float settle(World& world, Vec3 middle, const std::string& path, std::vector<std::string>& warnings);
-    // What a matt surface throws back. Requires: as matt().
+    // Light reflected by a matt surface. Requires: as matt().
     Vec3 on(const World& world, const SurfacePoint& at, Vec3 albedo) const;
 };
 

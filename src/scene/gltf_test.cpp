@@ -62,7 +62,7 @@ protected:
         std::ofstream(path_) << text;
         return StandingScene::build(path_, settings_);
     }
-    // Of a text in which something else stands.
+    // The error for the text with one part replaced.
     std::string refusal(const std::string& what, const std::string& instead) {
         std::string text = two_squares();
         EXPECT_NE(text.find(what), std::string::npos) << what;

@@ -18,7 +18,7 @@ float either(int i, int what) { return 2 * share(i, what) - 1; }
 
 Vec3 hair_colour(Vec3 p) {
     const float tint = 0.5f + 0.5f * noise({70 * p.x + 9 * p.y, 5 * p.y, 60 * p.z});
-    // Where hair bends over the head it shines.
+    // Hair shines where it bends over the head.
     const float across =
         (p.y - kSkull.y - 0.048f + 0.35f * (p.x - kSkull.x) * (p.x - kSkull.x) / 0.1f) / 0.022f;
     const float sheen = std::exp(-across * across);
@@ -56,7 +56,7 @@ std::vector<Vec3> flow(const Strand& strand) {
     return through;
 }
 
-// Where a strand leaves the head; azimuth 0 is towards the viewer, polar 0 upwards.
+// The root of a strand on the head; azimuth 0 is towards the viewer, polar 0 upwards.
 Strand rooted(float azimuth, float polar) {
     const Vec3 out{std::sin(azimuth) * std::sin(polar), std::cos(polar),
                    -std::cos(azimuth) * std::sin(polar)};

@@ -1,6 +1,6 @@
-// What HexaDrive's demo of 2009 was for: many bright lights at many depths out to the corners of a wide view,
-// mirrors among them, a very shallow focus. A wheel of lamps turns through it, so that their pentagons turn
-// over before one's eyes. docs/explain/published.md.
+// The subject of HexaDrive's demo of 2009: many bright lights at many depths out to the corners of a wide
+// view, mirrors among them, a very shallow focus. A wheel of lamps turns through it, so that their pentagons
+// turn over. docs/explain/published.md.
 #include "scene/lamps.h"
 #include "scene/scenes.h"
 #include "scene/shading.h"

@@ -18,8 +18,8 @@ inline Vec3 lamp_colour(int i) {
     return kColours[std::size_t(i) % kColours.size()];
 }
 
-// Whose disc shows about `glow`, through an aperture `blur_tangent` times the focus distance in radius,
-// focused on `focus_m`. The camera stands at the origin.
+// Adds a lamp whose disc shows about `glow`, through an aperture `blur_tangent` times the focus distance in
+// radius, focused on `focus_m`. The camera stands at the origin.
 inline void add_disc(World& world, Vec3 at, float radius_m, Vec3 colour, float glow, float blur_tangent,
                      float focus_m) {
     // Tangents of the lamp's own radius and of its circle of confusion.

@@ -32,7 +32,7 @@ void add_far_lamps(World& world) {
         }
 }
 
-// Along the bottom, close before the lens; each on a thin stalk.
+// Lamps along the bottom, close to the lens, each on a thin stalk.
 void add_near_lamps(World& world) {
     Tubes stalks;
     for (int i = 0; i < 8; ++i) {

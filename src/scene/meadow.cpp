@@ -13,7 +13,7 @@ constexpr float kEyeHeight = 0.30f, kFocus = 1.25f, kHalfWidth = 18.0f / 50;
 
 float share(int i, int what, std::uint32_t seed) { return cell_value(i, what, seed); }
 
-// Where plant `i` of a band stands: spread over the band as seen from the first frame.
+// Position of plant `i` of a band, spread over the band as seen from the first frame.
 Vec3 place(int i, float near, float far, std::uint32_t seed) {
     const float z = near * std::pow(far / near, share(i, 0, seed));
     return {1.25f * kHalfWidth * z * (2 * share(i, 1, seed) - 1), 0, z};
@@ -64,7 +64,7 @@ void add_grass(World& world) {
     world.add(std::move(grass), blade_paint);
 }
 
-// What flowers are made of, all of a kind in one mesh.
+// Parts of flowers, all of a kind in one mesh.
 struct Flowers {
     Mesh poppies, daisies, cornflowers, hearts;
     Tubes stems, ears;

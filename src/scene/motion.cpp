@@ -1,4 +1,4 @@
-// Where what a pinhole sees stands a frame before and after.
+// Positions of visible surfaces a frame earlier and later.
 #include "base/parallel.h"
 #include "scene/tracing.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-// Of what lies at the pixel's centre; the sky turns with the camera and does not move.
+// Motion of the surface at the pixel's centre; the sky turns with the camera and does not move.
 PixelMove move_of(const Pass& pass, const World& other, const World::Hit& hit, float x, float y) {
     const auto moved = pass.world.moved_in(other, hit);
     if (!moved) return {kUnknown, kUnknown};

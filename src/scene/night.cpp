@@ -37,7 +37,7 @@ public:
     }
     float random(int what) { return cell_value(count_++, what, 2027); }
 
-    // Where on the wet ground, seen from the first frame, lamps glitter; see ground_glow().
+    // A place on the wet ground where lamps glitter, seen from the first frame; see ground_glow().
     struct Reflection {
         Vec3 lamp, power;  // power: radiance times solid angle, small-angle units
     };

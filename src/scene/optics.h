@@ -41,7 +41,7 @@ struct LensRays {
         const Vec3 straight{(x - centre_x) * pixel, (centre_y - y) * pixel, 1};
         return {on_lens, straight - inverse_focus_per_m * on_lens};
     }
-    // Where the pinhole sees a point of camera space, in pixels.
+    // Image position of a point of camera space, in pixels.
     float image_x(Vec3 p) const { return centre_x + p.x / p.z / pixel; }
     float image_y(Vec3 p) const { return centre_y - p.y / p.z / pixel; }
     // Signed radius of the circle of confusion at a depth: + behind the focus plane.

@@ -1,4 +1,4 @@
-// The picture a pinhole takes, with depth, and what hides behind what it sees.
+// The pinhole picture with depth, and its hidden surfaces.
 #include "base/parallel.h"
 #include "scene/lamp_light.h"
 #include "scene/tracing.h"
@@ -22,7 +22,7 @@ struct PeeledHit {
     Vec3 radiance;
 };
 
-// What all rows share.
+// Data shared by all rows.
 struct Tools {
     SobolPoints points;
     LampLight light;
@@ -72,7 +72,7 @@ private:
     };
 
     int rays() const { return tools_.points.count(); }
-    // So many pixels fill a packet where each has few rays, and no layers are collected.
+    // Number of pixels in a packet: several if each has few rays and no layers are collected.
     int together() const { return layers_ > 1 ? 1 : std::max(1, kPacket / rays()); }
     std::uint32_t pixel_seed(int x) const {
         return hash(hash(pass_.seed, std::uint32_t(x)), std::uint32_t(y_));
@@ -89,8 +89,8 @@ private:
     const Tools& tools_;
     int y_, layers_;
     std::vector<const LampImage*> lamps_;
-    // Of the pixels that are traced together, their rays numbered one pixel after the other: every surface
-    // that each ray meets, and the first thing that it meets, lamps (black) included.
+    // Hits of the pixels traced together, rays numbered one pixel after the other: every surface a ray meets,
+    // and the first hit, (black) lamps included.
     std::vector<PeeledHit> hits_, first_hits_;
 };
 
@@ -129,7 +129,7 @@ void Row::follow(Packet& packet, int first_ray, int lanes) {
     }
 }
 
-// False for what cannot be seen: solids from inside.
+// False for invisible hits: solids from inside.
 bool Row::note_hit(const Packet& packet, int lane, int ray, bool is_first) {
     const World::Hit hit = packet.hit(lane);
     if (pass_.world.is_inside(hit)) return false;
@@ -171,7 +171,7 @@ std::vector<Row::Group> Row::groups() {
 
 void Row::collect_surfaces() {
     const std::vector<Group> found = groups();
-    // Where one surface alone shows, the visible picture says it all; what follows it closely would only be
+    // If only one surface shows, the visible picture is complete; a surface closely behind it would be
     // mistaken for it.
     double behind_m = 0;
     for (const Group& group : found)

@@ -29,7 +29,7 @@ struct PointView {
         const LightPoint at = light(p, {});
         return at.x >= 0 && at.y >= 0 && at.x < float(width) && at.y < float(height);
     }
-    // What a light of this intensity (1: one unit in a picture of 1000 px focal length, from 1 m) adds.
+    // Light point of this intensity (1: one unit in a picture of 1000 px focal length, from 1 m).
     LightPoint light(Vec3 p, Vec3 intensity) const {
         const float per_pixel = focal_px * 1e-3f / p.z;
         const Vec3 light = per_pixel * per_pixel * intensity;

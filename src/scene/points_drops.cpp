@@ -1,5 +1,5 @@
-// Drops of rain and specks on the front glass: a hand's breadth before the pupil, far out of focus, each a
-// small lens that holds some of the light of what lies before it.
+// Rain drops and specks on the front glass: a hand's breadth in front of the pupil, far out of focus, each a
+// small lens that holds some of the light in front of it.
 #include "scene/point_sets.h"
 
 namespace petzval::scene {
@@ -13,7 +13,7 @@ std::vector<LightPoint> make(const PointView& view, int count, std::uint64_t see
     Dice dice(seed, 4);
     for (int i = 0; i < count; ++i) {
         LightPoint drop;
-        // Beyond the frame as well: half of a disc may reach into it.
+        // Drops extend beyond the frame: half of a disc may reach into it.
         drop.x = float(view.width) * dice.between(-0.15f, 1.15f);
         drop.y = float(view.height) * dice.between(-0.15f, 1.15f);
         drop.depth_m = dice.between(0.06f, 0.11f);

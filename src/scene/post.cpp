@@ -20,7 +20,7 @@ Paint plain(Vec3 albedo) {
     return [=](const SurfacePoint&) { return Matter{albedo, {}}; };
 }
 
-// Zinc with what people have stuck on it.
+// Zinc with stickers on it.
 Matter post_paint(const SurfacePoint& p) {
     const float around = std::atan2(p.normal.x, -p.normal.z), up = p.position.y;
     const float streak = 0.8f + 0.35f * noise({26 * around, 4 * up, 3});

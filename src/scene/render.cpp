@@ -1,4 +1,4 @@
-// From the name of a scene to its pictures.
+// Pictures of a scene, by its name.
 #include "petzval/scene.h"
 
 #include "base/parallel.h"
@@ -216,7 +216,7 @@ Status StandingScene::Contents::fill(const std::string& name, const SceneSetting
     return Done{};
 }
 
-// Of the first and the last frame also what would lie beyond, so that each has its vectors both ways.
+// The first and the last frame also need the worlds beyond them, so that each has vectors in both directions.
 Result<scene::WorldsAround> StandingScene::Contents::around(const SceneSettings& settings) const {
     scene::WorldsAround worlds;
     if (!settings.want_motion) return worlds;

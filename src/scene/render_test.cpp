@@ -56,7 +56,7 @@ Spot spot(const Picture& p) {
     return s;
 }
 
-// What programs made that took codes for light: each thing has its own code, and codes are added.
+// Scenes of programs that treated codes as light: each object has its own code, and codes are added.
 TEST(LightInCodes, IsTheCodeOfEveryThingAndLightsAddAsCodes) {
     const auto code = [](float light) { return std::pow(light, 1 / 2.2f); };
     for (const int lights : {1, 2}) {

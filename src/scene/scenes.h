@@ -16,7 +16,7 @@ struct BuiltInScene {
     SceneSummary summary;
     // Fills an empty world as it stands at `time`, 0 at the first frame and 1 at the last.
     std::function<void(World& world, float time)> build = nullptr;
-    // Where what it is about stands then; null: it is about nothing in particular.
+    // Position of the scene's subject at a time; null: no particular subject.
     Vec3 (*subject)(float time) = nullptr;
 };
 
@@ -34,7 +34,7 @@ BuiltInScene tori();
 BuiltInScene cubes();
 BuiltInScene rows();
 BuiltInScene cutouts();
-// Of three articles, shaded as shaders do: built within milliseconds, for a window.
+// Scenes of three articles, shaded like their shaders: built within milliseconds, for a window.
 BuiltInScene hexadrive();
 BuiltInScene wgld();
 BuiltInScene unity();

@@ -5,7 +5,7 @@
 
 namespace petzval::scene {
 
-// A light infinitely far away, and what comes from everywhere.
+// A light infinitely far away, and ambient light.
 struct Daylight {
     Vec3 towards;                            // it, unit length
     Vec3 sun, ambient_above, ambient_below;  // irradiance
@@ -21,8 +21,8 @@ Vec3 irradiance_from(const World& world, const Light& light, const SurfacePoint&
 // normalised to keep its light.
 Vec3 gloss(const World& world, const SurfacePoint& at, float exponent);
 
-// What a mirror shows, by Schlick's share of reflection (1994): `facing` where it is looked at from in front.
-// Black in another mirror.
+// Reflection of a mirror, by Schlick's approximation (1994): `facing` for a view from the front. Black in
+// another mirror.
 Vec3 mirrored(const World& world, const SurfacePoint& at, Vec3 facing);
 
 }  // namespace petzval::scene

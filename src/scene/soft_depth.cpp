@@ -19,7 +19,7 @@ std::vector<float> gaussian(double deviation_px) {
     return shares;
 }
 
-// Along rows (dx = 1) or columns (dy = 1); beyond the border its last value goes on.
+// Blurs along rows (dx = 1) or columns (dy = 1); beyond the border the last value continues.
 Plane blurred(const Plane& in, const std::vector<float>& weights, int dx, int dy) {
     Plane out(in.width(), in.height());
     const auto at = [&](int x, int y) {

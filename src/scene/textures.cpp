@@ -11,7 +11,7 @@ int cell(float x) {
     return i - (x < float(i));
 }
 
-// The hash is a short one: noise is most of what a scene costs.
+// A short hash: noise is most of a scene's cost.
 float lattice(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     std::uint32_t h = i * 0x8da6b343u ^ j * 0xd8163841u ^ k * 0xcb1ab31fu;
     h = (h ^ h >> 15) * 0x9e3779b1u;

@@ -22,14 +22,14 @@ public:
     void set(int lane, const LensRays::Ray& ray, float far = std::numeric_limits<float>::infinity());
     // Finds the nearest hit of each set lane beyond where it stands.
     void intersect();
-    // Afterwards blocked(lane) tells whether anything lies between a lane's start and its far end.
+    // Afterwards blocked(lane) is true if anything lies between a lane's start and its far end.
     void test_occlusion();
     bool blocked(int lane) const { return packet_.ray.tfar[lane] < 0; }
 
     float depth(int lane) const { return packet_.ray.tfar[lane]; }  // +infinity for a miss
     World::Hit hit(int lane) const;
     bool missed(int lane) const { return packet_.hit.geomID[lane] == World::kSky; }
-    // Lets a lane go on behind its hit, or rest.
+    // Lets a lane continue behind its hit, or rest.
     void step_behind(int lane);
     void retire(int lane);
 
@@ -41,7 +41,7 @@ private:
 
 inline Rgba opaque(Vec3 c) { return {c.x, c.y, c.z, 1}; }
 
-// What every pass needs to know. Passes return false when they were cancelled.
+// Inputs of every pass. Passes return false if they were cancelled.
 struct Pass {
     const World& world;
     LensRays lens;
@@ -56,8 +56,7 @@ struct Pass {
 // Pinhole colour and depth, and the layers (see RenderedScene) when `layers` is not null.
 bool render_pinhole(const Pass& pass, Picture& colour, Plane& depth_m, DeepPicture* layers);
 bool render_truth(const Pass& pass, Picture& truth);
-// From where what is seen lies to where it lies in `other`: the same things at another time, seen by its
-// view.
+// Motion of visible surfaces to their place in `other`: the same objects at another time, seen by its view.
 Image<PixelMove> render_motion(const Pass& pass, const World& other);
 
 }  // namespace petzval::scene

@@ -50,7 +50,7 @@ Vec3 surface_sum(const Pass& pass, const SobolPoints& points, int x, int y, int 
     return sum;
 }
 
-// How far the means of two runs differ, in a measure that an HDR pixel does not dominate.
+// Difference between the means of two runs, in a measure that an HDR pixel does not dominate.
 float disagreement(Vec3 a, Vec3 b) {
     const auto one = [](float p, float q) {
         const float d = (p - q) / (1 + std::max(p, q));

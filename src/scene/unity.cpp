@@ -1,5 +1,5 @@
-// What the articles on Unity's depth of field photograph: cubes one behind the other, a green one the
-// subject, that walks; two systems of glowing balls behind it, one of white balls before it.
+// The scene of the articles on Unity's depth of field: cubes one behind the other, a green one the subject,
+// that walks; two systems of glowing balls behind it, one of white balls in front of it.
 // docs/explain/published.md.
 #include "scene/scenes.h"
 #include "scene/shading.h"
@@ -12,7 +12,7 @@ constexpr float kFocus = 2.4f;
 const Daylight kDay{
     normalised({-0.6f, 0.9f, -0.5f}), {2.3f, 2.2f, 2.0f}, {0.7f, 0.75f, 0.85f}, {0.3f, 0.28f, 0.26f}};
 
-// From 2 m to 2.8 m and back.
+// Moves between 2 m and 2.8 m.
 float subject_z(float time) { return kFocus - 0.4f * std::cos(2 * kPi * time); }
 
 Paint lit(const World& world, std::function<Vec3(const SurfacePoint&)> albedo) {

@@ -49,7 +49,7 @@ Vec3 code(Vec3 light) {
     return {of(light.x), of(light.y), of(light.z)};
 }
 
-// Of a white sheet with this irradiance, whose radiance is 1 / pi of it.
+// Code of a white sheet with this irradiance, whose radiance is 1 / pi of it.
 Vec3 irradiance_for_code(Vec3 irradiance) { return kPi * code(irradiance / kPi); }
 
 }  // namespace
@@ -260,7 +260,7 @@ Vec3 World::direct_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) co
     return sum / float(kBakeRays);
 }
 
-// From the sky and from what the direct light already fell on.
+// Irradiance from the sky and from surfaces in direct light.
 Vec3 World::indirect_irradiance(Vec3 position, Vec3 normal, std::uint32_t seed) const {
     const Vec3 from = position + 1e-3f * normal;
     RTCIntersectContext context{};
@@ -322,7 +322,7 @@ bool World::is_inside(const Hit& hit) const {
     const Object& object = *objects_[hit.object];
     if (object.sides != Sides::Solid) return false;
     if (object.mesh.triangles.empty()) return dot(hit.normal, hit.direction) > 0;
-    // By the vertex normals, which point outwards whatever way round a triangle is listed.
+    // Uses the vertex normals, which point outwards for any winding of the triangle.
     const auto& t = object.mesh.triangles[hit.primitive];
     const auto& p = object.mesh.positions;
     const auto& n = object.mesh.normals;

@@ -34,7 +34,7 @@ struct Matter {
 };
 using Paint = std::function<Matter(const SurfacePoint&)>;
 
-// Whether a mesh has matter at its texture coordinates; holes are seen through and cast no shadow.
+// True if a mesh has matter at its texture coordinates; holes are transparent and cast no shadow.
 using Cutout = std::function<bool(float u, float v)>;
 
 enum class Sides {
@@ -93,8 +93,8 @@ public:
     Viewpoint view;
     std::function<Vec3(Vec3 direction)> sky = [](Vec3) { return Vec3{}; };  // radiance towards a direction
     Vec3 ambient_above, ambient_below;  // irradiance that tubes get besides the lights
-    // What baking takes at most from one ray: a bright spot that few rays find would bake to blotches. Where
-    // it matters (a window), a Light stands for it.
+    // Maximum of one ray in baking: a bright spot that few rays find would bake to blotches. Where it matters
+    // (a window), a Light represents it.
     float brightest_bounce = 20;
     // False: paints say all light as emission, by SurfacePoint::direction if they like; nothing is baked.
     bool is_baked = true;
@@ -110,7 +110,7 @@ public:
 
     // Builds the ray tracing structure and bakes light. Errors: OutOfMemory.
     Status commit(Workers& workers);
-    // From elsewhere, before or after commit(): lamps face whoever looks. Errors: as commit().
+    // Changes the viewpoint, before or after commit(): lamps face the viewer. Errors: as commit().
     Status look_from(const Viewpoint& from);
 
     // Looking, after commit(); thread-safe.
@@ -124,14 +124,14 @@ public:
     RTCScene rays() const { return rays_; }
     const std::vector<Lamp>& lamps() const { return lamps_; }
     bool is_lamp(std::uint32_t object) const { return object == lamp_object_ && object != kSky; }
-    // How far that point of a surface stands in another world of the same things; empty where that has other
-    // ones.
+    // Position of that surface point in another world of the same objects; empty if that world has other
+    // objects.
     std::optional<Vec3> moved_in(const World& other, const Hit& hit) const;
     // A surface that can never be seen from this side.
     bool is_inside(const Hit& hit) const;
     Vec3 radiance(const Hit& hit) const;
-    // What a mirror at `from` shows in that direction, lamps left out; whether anything stands in the way of
-    // a light, which is infinitely far where `is_distant`.
+    // Reflection of a mirror at `from` in that direction, without lamps; and occlusion towards a light, which
+    // is infinitely far if `is_distant`.
     Vec3 seen(Vec3 from, Vec3 direction) const;
     bool is_shaded(Vec3 from, Vec3 towards, bool is_distant) const;
 

@@ -28,7 +28,7 @@ std::unique_ptr<const PupilShadow> shadow_of(const LightsPlan& plan, const Viewp
     return shadow;
 }
 
-// A light with what its place in the plan stands for.
+// A light with the data its plan entry refers to.
 struct Sent {
     const Highlight& light;
     const PointSpread& kernel;

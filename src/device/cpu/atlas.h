@@ -14,7 +14,7 @@
 
 namespace petzval::device {
 
-// What one ask stands for in stamping: a kernel, or one for each sector of the pupil.
+// The kernels of one ask: one, or one for each sector of the pupil.
 struct StampSet {
     std::vector<engine::StampKernel> kernels;
     std::size_t taps = 0, bytes = 0;  // of all of them; taps count the padding

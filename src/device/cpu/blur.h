@@ -56,7 +56,7 @@ public:
     }
     bool empty() const { return pixels_.empty(); }
     std::size_t size() const { return light_.size() - 2; }  // in cells
-    // What went beyond the ends goes to the last cells. Call it before add_to().
+    // Adds light beyond the ends to the last cells. Call it before add_to().
     void fold_ends();
     // Adds `share` of it to a row of cells.
     void add_to(Rgba* light, float* covered, LitCells& lit, float share) const;
@@ -84,10 +84,10 @@ public:
           covered_(light_.size()) {}
     explicit BlurReader(const BlurTile& tile) : tile_(&tile) {}
 
-    // Whether anything of it may be seen in those columns of pixels of that row.
+    // Selects a row; false if nothing in those columns of pixels can be visible.
     bool go_to_row(int y, LitCells pixels);
     bool is_lit(int x) const { return x >= lit_begin_ && x < lit_end_; }
-    // Of lit pixels.
+    // Light of lit pixels.
     Rgba light(int x) const {
         if (!tile_) return read(light_, x);
         const float* const at = tile_->at(x, y_);

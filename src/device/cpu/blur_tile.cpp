@@ -61,7 +61,7 @@ void BlurTile::blur(BlurScratch& scratch) {
     scale();
 }
 
-// To what lies inside the picture.
+// Normalises by the part inside the picture.
 void BlurTile::scale() {
     for (int y = reached_.y0; y < reached_.y1; ++y)
         for (int x = reached_.x0; x < reached_.x1; ++x) {

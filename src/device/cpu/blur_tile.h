@@ -28,11 +28,11 @@ public:
     void go_to(const Rect& tile);
     // The pixels that are seen in the tile.
     Rect window() const { return window_; }
-    // Of a pixel in the window, in any order.
+    // Adds a pixel of the window, in any order.
     void add(int x, int y, Rgba light, float covered);
     void blur(BlurScratch& scratch);
 
-    // Where anything is lit, once it is blurred; and what is.
+    // The lit rectangle after blurring, and its light.
     const Rect& reached() const { return reached_; }
     const float* at(int x, int y) const { return row(y) + in_row(x); }
 

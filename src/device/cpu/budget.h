@@ -10,23 +10,23 @@
 
 namespace petzval::engine {
 
-// What one sector of the pupil, or all of it, has given to each pixel of a tile so far.
+// Lens area given to each pixel of a tile so far, by one sector of the pupil or all of it.
 class Budget {
 public:
-    // Of a tile that was given nothing yet. Keeps its memory. another_surface: of LensLeft.
+    // Starts an empty tile. Keeps its memory. another_surface: of LensLeft.
     void start(int width, int height, int another_surface);
 
-    // What a layer gives to row y: light in proportion to what it may take of the lens area it arrives with
+    // Adds a layer to row y: light in proportion to the lens area it may take of the area it arrives with
     // (its a, and that of the emptiness at its depth; null: none).
     void take(int y, const Rgba* light, const Rgba* emptiness, int layer) {
         take(y, light, emptiness, layer, sum_.row(y), more_.row(y));
     }
-    // The same into other sums: of what was taken, and of what might be taken more.
+    // The same into other sums: the area taken, and the further area that might be taken.
     void take(int y, const Rgba* light, const Rgba* emptiness, int layer, Rgba* sum, Rgba* more);
     Rgba* sum(int y) { return sum_.row(y); }
     Rgba* more(int y) { return more_.row(y); }
 
-    // Whether every pixel has less lens area left.
+    // True if every pixel has less lens area left.
     bool is_spent(float least) const;
     // Adds what row y was given to `light`, and the lens area that was taken for it to `taken`, which has
     // room for whole registers.

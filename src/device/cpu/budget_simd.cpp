@@ -71,7 +71,7 @@ HWY_INLINE void AddShare(const Rgba& light, float share, Rgba& sum) {
                    out + k);
 }
 
-// Of the first n pixels; 0 of others.
+// Alphas of the first n pixels; 0 for others.
 HWY_INLINE V AlphasOf(Floats d, const Rgba* HWY_RESTRICT pixels, int n) {
     if (n == int(hn::Lanes(d))) {
         V r, g, b, a;

@@ -49,7 +49,7 @@ struct Interval {
     float low = 1e30f, high = -1e30f;
 };
 
-// Adds what the holdout lets through of what a layer gave to row y of the tile.
+// Adds a layer's light to row y of the tile, multiplied by the holdout's transparency.
 void add_held(CocSamplesView holdout, const Interval& radii, const Rect& tile, int y,
               std::span<const Rgba> row, Rgba* sum) {
     for (int x = 0; x < tile.width(); ++x)
@@ -77,7 +77,7 @@ public:
             w.budgets[std::size_t(c)].start(tile_.width(), tile_.height(), plan.rule.another_surface);
         w.coarse.resize(plan.levels.size());
     }
-    // Returns the taps of what was stamped.
+    // Returns the number of stamped taps.
     std::size_t run(View<Rgba> out) {
         for (std::size_t layer = first_layer_; layer < last_layer_ && !is_spent(); ++layer) add_layer(layer);
         write(out);
@@ -96,7 +96,7 @@ private:
         if (partly_empty) accumulate(emptiness, w_.emptiness);
         for (int c = 0; c < sectors_; ++c) take(std::size_t(c), partly_empty, layer.layer, radii);
     }
-    // Whether no pixel has any lens area left for what is yet to come.
+    // True if no pixel has lens area left for later layers.
     bool is_spent() const {
         return std::all_of(w_.budgets.begin(), w_.budgets.begin() + sectors_,
                            [](const Budget& b) { return b.is_spent(laws::kSpent); });
@@ -140,7 +140,7 @@ private:
             taps_ += set.taps;
         }
     }
-    // From what arrived through one sector of the pupil.
+    // Takes the light that arrived through one sector of the pupil.
     void take(std::size_t sector, bool partly_empty, int layer, const Interval& radii) {
         Budget& budget = w_.budgets[sector];
         const Accumulator &light = w_.light[sector], &emptiness = w_.emptiness[sector];

@@ -6,8 +6,8 @@
 
 namespace petzval::device {
 
-// Writes the pixels of the plan's rows. Where there is a holdout, what a layer adds to a pixel is dimmed by
-// what lies in front of it there; the lens area that it takes from farther layers stays.
+// Writes the pixels of the plan's rows. With a holdout, a layer's light in a pixel is dimmed by the holdout
+// in front of it; the lens area that the layer takes from farther layers stays.
 Work composite_tiles(const engine::ScatterPlan& plan, const StampAtlas& atlas, View<Rgba> out,
                      const Control& control);
 

@@ -27,8 +27,7 @@ struct Profile {
     }
     float begin() const { return middle - outer; }
     float end() const { return middle + outer; }
-    // How much of it lies before each place: of the trapezoid from -outer to outer with its top from -inner
-    // to inner.
+    // Area before each place of the trapezoid from -outer to outer with its top from -inner to inner.
     template <bool kBlurred, class D>
     HWY_INLINE hn::Vec<D> Before(D d, hn::Vec<D> place) const {
         const auto none = hn::Zero(d), t = hn::Sub(place, hn::Set(d, middle));
@@ -56,7 +55,7 @@ struct Range {
     static int Limited(float at, int cells) { return int(std::clamp(at, 0.0f, float(cells))); }
 };
 
-// Beyond its end a profile covers nothing: whole registers may be added.
+// A profile covers nothing beyond its end, so whole registers may be added.
 template <bool kBlurred>
 HWY_INLINE void CoverBox(const CoveredCells& cells, const Profile& across, const Profile& down,
                          float coverage) {

@@ -1,5 +1,5 @@
-// What a kernel of a light that is partly hidden is multiplied by: the share of the pupil's grid seen at the
-// place each of its weights comes from.
+// Factors for the kernel of a partly hidden light: the visible share of the pupil's grid at the origin of
+// each weight.
 #pragma once
 
 #include "device/cpu/stamp.h"

@@ -72,7 +72,7 @@ void add_scaled(int n, const float* scale, const float* light, float* sum) {
     for (int x = 0; x < n; ++x) sum[x] += scale[x] * light[x];
 }
 
-// What has been combined so far, per cell: light, and the part of the lens that is still free.
+// Result combined so far, per cell: light, and the free part of the lens.
 struct Combined {
     Planes planes;  // red, green, blue, alpha, free
     static constexpr int kSumAlpha = 3, kFree = 4, kCount = 5;
@@ -137,7 +137,7 @@ private:
         if (level > 0 && !lit.empty()) enlarge(level, lit);
     }
 
-    // What goes on beyond the picture is spread as the border that it repeats.
+    // Light beyond the picture is spread like the border that it repeats.
     void find_zones(int level) {
         const bool pixels = level == 0;
         const int width = pixels ? plan_.strip.width() : plan_.levels[std::size_t(level - 1)].width();
@@ -166,7 +166,8 @@ private:
         w_.arrivals[std::size_t(turn)].push_back({x, y, zone, colour, covered, beyond});
     }
 
-    // Whether what lies outside at (x, y) goes on as the nearest cell inside; else there is emptiness.
+    // True if the picture continues at an outside position (x, y) as its nearest inside cell; otherwise there
+    // is emptiness.
     bool goes_on(int x, int y, int width, int height) const {
         const OpenEdges& open = plan_.strip.window.open_edges;
         return (x >= 0 || open.left) && (x < width || open.right) && (y >= 0 || open.top) &&
@@ -245,8 +246,7 @@ private:
         }
     }
 
-    // What arrives from one zone; returns where in the target it lands, outside of which `into` holds
-    // nothing.
+    // Gathers the light of one zone; returns its rectangle in the target, outside of which `into` is empty.
     Rect gather_zone(const std::vector<Arrival>& arrivals, int ring, int zone, Planes& into) {
         const TapKernel& kernel = atlas_[plan_.kernel(ring, zone)];
         w_.window.shape(kPlanes, window_.width(), window_.height() + kGatherRows);
@@ -263,7 +263,7 @@ private:
             lit = {std::min(lit.x0, a.x), std::min(lit.y0, a.y), std::max(lit.x1, a.x + 1),
                    std::max(lit.y1, a.y + 1)};
         }
-        // Where it lands, in cells of the target.
+        // Position in cells of the target.
         const int shift_x = window_.x0 - target_.x0, shift_y = window_.y0 - target_.y0;
         const Rect reached = Rect{lit.x0 + shift_x + kernel.extent.x0, lit.y0 + shift_y + kernel.extent.y0,
                                   lit.x1 + shift_x + kernel.extent.x1, lit.y1 + shift_y + kernel.extent.y1}
@@ -296,7 +296,7 @@ private:
         }
     }
 
-    // Of each cell's lens, the area that the turn's light arrives with, or what is left.
+    // Each cell gives the turn's light the lens area that it arrives with, or the rest.
     void take(Combined& into) {
         const int n = reached_.width();
         w_.lines.shape(2, n, 1);
@@ -317,7 +317,7 @@ private:
         reached_ = {};
     }
 
-    // What a coarse group combined to takes its part of the tile's pixels, where cells around these are lit.
+    // Gives the tile's pixels the combined result of a coarse group, if cells around them are lit.
     void enlarge(int level, const Rect& lit) {
         const float per_cell = 1 / float(1 << level);
         w_.cell_of.clear(), w_.right_of.clear();

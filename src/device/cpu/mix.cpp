@@ -18,7 +18,7 @@ namespace {
 
 using laws::kLeastBlurred;
 
-// What a band of rows puts into the cells of a layer above and below its own.
+// Light that a band of rows adds to the cells of a layer above and below its own.
 struct Rim {
     int row = -1;
     std::vector<Rgba> light;
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    // What a worker keeps from tile to tile.
+    // Memory that a worker keeps between tiles.
     struct Workspace {
         std::vector<BlurTile> narrow;
         BlurScratch scratch;
@@ -225,7 +225,7 @@ private:
         return free < 1 - kLeastBlurred ? sum * (1 / (1 - free)) : plan_.colour(x, y);
     }
 
-    // Between the pictures by the pixel's weights; or one of them.
+    // Mixes two pictures by the pixel's weights, or takes one of them.
     Rgba mixed(const std::vector<BlurReader>& blurs, int x, int y) const {
         const Rgba sharp = plan_.colour(x, y);
         switch (plan_.view) {

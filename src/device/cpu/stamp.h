@@ -73,8 +73,8 @@ private:
 void stamp(std::span<const StampKernel> kernels, int x, int y, Rgba light, float tilt_x, float tilt_y,
            std::span<Accumulator> into);
 
-// What dims a row of a kernel: shares of 0…1, each four times (once for every channel), for whole groups from
-// the kernel's left on; `between` of the way from `first` to `second`. Null: nothing of the row is seen.
+// Dimming of a kernel's row: shares of 0…1, each four times (once per channel), for whole groups from the
+// kernel's left on; `between` of the way from `first` to `second`. Null: the row is invisible.
 struct DimmedRow {
     const float *first = nullptr, *second = nullptr;
     float between = 0;

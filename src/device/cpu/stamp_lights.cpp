@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kBorder = laws::kStampedBorder;
 
-// Between the cells of coarser levels bilinear, which keeps their light.
+// Adds cells of coarser levels to pixels bilinearly, which keeps their light.
 void add_cells(const Accumulator& cells, int level, const LightsPlan& plan, const Rect& tile,
                View<Rgba> out) {
     const float per_cell = 1 / float(1 << level);
@@ -59,7 +59,7 @@ public:
         order_ = std::span(plan.order).subspan(begin, end - begin);
     }
 
-    // Returns the taps of what was stamped.
+    // Returns the number of stamped taps.
     std::size_t run(View<Rgba> out) {
         for (std::size_t i = 0; i < order_.size();) {
             const int level = level_of(i);
@@ -74,7 +74,7 @@ private:
     const PlannedLight& light(std::size_t i) const { return plan_.lights[order_[i]]; }
     int level_of(std::size_t i) const { return plan_.kernels.asks[light(i).kernel].level; }
     const PupilMask& mask(std::size_t i) const { return plan_.masks[light(i).viewpoint]; }
-    // Whether the next light is drawn as this one is, on the same spot.
+    // True if the next light has the same kernel and position.
     bool is_same_as_next(std::size_t i) const {
         if (i + 1 == order_.size() || !mask(i).is_open() || !mask(i + 1).is_open()) return false;
         const PlannedLight &a = light(i), &b = light(i + 1);

@@ -1,4 +1,4 @@
-// Lights with masks: stamped level by level in tiles, dimmed by what is seen of the pupil.
+// Lights with masks: stamped level by level in tiles, dimmed by the visible part of the pupil.
 #pragma once
 
 #include "device/cpu/atlas.h"

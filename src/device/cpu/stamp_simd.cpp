@@ -79,7 +79,7 @@ void StampTilted(const StampKernel& kernel, int x, int y, const Rgba& light, flo
                  Accumulator& into) {
     const Floats d;
     const int lanes = int(hn::Lanes(d));
-    // What the weight changes by from pixel to pixel of a group; and from group to group.
+    // Change of the weight from pixel to pixel of a group, and from group to group.
     alignas(64) static constexpr float kPixels[kGroupFloats] = {0, 0, 0, 0, 1, 1, 1, 1,
                                                                 2, 2, 2, 2, 3, 3, 3, 3};
     const auto slope = hn::Set(d, tilt_x);

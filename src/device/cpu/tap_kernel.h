@@ -11,7 +11,7 @@
 
 namespace petzval::device {
 
-// Which cells it reads for a few rows of output at once, and the weight each has in them.
+// Cells that it reads for a few rows of output at once, with their weights.
 struct TapKernel {
     struct Step {
         int dx, dy;  // from the first of the rows to what is read, cells

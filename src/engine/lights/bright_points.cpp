@@ -15,7 +15,7 @@ constexpr float kWithinPixelPx = 0.5f;  // light that is out of focus by less ne
 
 Rgba with_light(Rgba light, float alpha) { return {light.r, light.g, light.b, alpha}; }
 
-// Of light at this place and radius, what is no bright point.
+// Share of the light at this place and radius that is no bright point.
 float share_that_stays(const HighlightSplit& split, int x, int y, float coc_px, Rgba light) {
     const float brightness = luminance(light);
     if (std::abs(coc_px) <= kWithinPixelPx || brightness <= 0 || split.is_dim(brightness, light.a)) return 1;
@@ -60,8 +60,9 @@ BrightPoints::Row BrightPoints::row(const HighlightSplit& split, int y) const {
     return row;
 }
 
-// Of each sample what shows; of what is hidden all that the background would draw of it. (The rest of what
-// shows in part lies behind an edge within its pixel, which is too fine for the shadows of sprites.)
+// Takes the visible part of each sample, and of hidden samples all light that the background would draw. (The
+// rest of a partly visible sample lies behind an edge within its pixel, which is too fine for the shadows of
+// sprites.)
 void BrightPoints::find_in_samples(const HighlightSplit& split, int x, int y, Row& row) const {
     Rgba drawn;
     const auto add = [&](Rgba light, float, float, bool) { drawn += light; };

@@ -13,11 +13,11 @@ namespace petzval::engine {
 class HighlightSplit;
 
 // Light above `sprites.bright_factor` times its surroundings and above white, out of focus. Layers of a
-// picture give the shares of their light that the picture gives of its own (Samples::judged()).
+// picture give the same shares of their light as the picture (Samples::judged()).
 class BrightPoints {
 public:
-    // Of a frame, which outlives this; none unless sprites.find says so. Pictures whose samples dim each
-    // other have none, since what dims a light in its own pixel is not looked for.
+    // Bright points of a frame, which outlives this; none unless sprites.find is set. Pictures whose samples
+    // dim each other have none, because dimming within a light's own pixel is not searched.
     explicit BrightPoints(const EngineView& frame);
 
     static bool are_looked_for(const EngineView& frame) {
@@ -26,7 +26,7 @@ public:
     bool empty() const { return sprites_.empty(); }
     std::span<const Sprite> sprites() const { return sprites_; }
     std::size_t count() const { return sprites_.size(); }
-    // That they take, and a rest of so many rows.
+    // Bytes of the points, and of a rest of that many rows.
     std::size_t bytes_beside(int rows) const;
 
     // Rows of the frame without them. Their light is in Samples::lit.

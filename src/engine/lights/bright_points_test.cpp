@@ -1,4 +1,4 @@
-// What is taken out of a picture to be drawn as sprites, and what is left.
+// The light taken out of a picture to be drawn as sprites, and the rest.
 #include "engine/lights/bright_points.h"
 
 #include "base/progress.h"

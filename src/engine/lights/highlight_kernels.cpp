@@ -60,7 +60,7 @@ HighlightKernels::HighlightKernels(const EngineView& input)
                                       .max_bytes = std::size_t(64) << 20};
     kernel::BankOptions fine = options;
     fine.relative_step = 0.001, fine.least_step_px = 0.02;
-    // Of bright discs; final quality gives each the kernel of its own place.
+    // Bright discs: final quality gives each the kernel of its own place.
     fine.largest_rim_step_px = input.options.quality == Quality::Final ? 0.01 : 0.1;
     for (const int size : kSizes) {
         lenses_.push_back(std::make_unique<const SquareLens>(input.lens.level(0), size));

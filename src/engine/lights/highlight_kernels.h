@@ -14,14 +14,14 @@ namespace petzval::engine {
 
 class SquareLens;
 
-// An ask's piece says how large the square is and how finely radius and place are told; step and zone are
-// those of the bank that this names.
+// Kernels of highlights. An ask's piece holds the size of the square and the precision of radius and place;
+// step and zone are those of the named bank.
 class HighlightKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
     explicit HighlightKernels(const EngineView& input);
     ~HighlightKernels() override;
 
-    // fine: radius and place of the kernel as near to the highlight's as anybody can tell.
+    // fine: radius and place of the kernel as close to the highlight's as is visible.
     device::KernelAsk ask(const Highlight& h, kernel::FieldPosition field, bool fine) const;
     std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
     std::size_t bytes() const override;

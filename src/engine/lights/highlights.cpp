@@ -100,7 +100,7 @@ void HighlightSplit::find_contested(View<const float> coc_px, Workers& workers) 
 float HighlightSplit::floor_at(int x, int y, float coc_px) const {
     const float radius = std::abs(coc_px);
     const float open = std::max(rule_.least_floor, rule_.floor_at_1px * radius * std::sqrt(radius));
-    // The base goes on beyond the frame, highlights do not: near its edge only true ones count.
+    // The base continues beyond the frame, highlights do not: near its edge only true ones count.
     const int to_edge = std::min(std::min(x, width_ - 1 - x), std::min(y, height_ - 1 - y));
     const bool contested =
         !contested_.empty() && coc_px > contested_(x / kBlock, y / kBlock) && float(to_edge) >= radius + 1;
@@ -115,7 +115,7 @@ Rgba HighlightSplit::dim(int x, int y, Rgba light) const {
     const float around = light.a * surroundings_(x / kCell, y / kCell);
     const float bound = least + rule_.lamp_factor * around;
     if (brightness <= bound) return light;
-    // The brighter, the more surely it says nothing of the surface: from the bound down to what is around.
+    // Brighter light says less about the surface: it is reduced from the bound down to its surroundings.
     const Rgba scaled = light * (std::max(around, bound * (bound / brightness)) / brightness);
     return {scaled.r, scaled.g, scaled.b, light.a};
 }
@@ -142,21 +142,20 @@ Rgba HighlightSplit::base(int x, int y, float coc_px, Rgba light) const {
 
 namespace {
 
-// Squares to a radius, at least: a wide square in a small disc would smear the shadows that nearer things
-// throw into it. In what is no brighter than white, as a sky behind leaves, that shows less: for there are
-// many.
+// Minimum number of squares per radius: a wide square in a small disc would smear the shadows of occluders.
+// In light no brighter than white, such as a sky behind leaves, that is less visible, and there is much of
+// it.
 constexpr float kSquaresPerRadius = 4, kDimSquaresPerRadius = 3;
 constexpr float kSameRadius = 0.01f;  // pixels of a square differ by less than this share of their radius
 
-// What was taken from one sample.
+// Light taken from one sample.
 struct Taken {
     Rgba colour;
     std::size_t sample = 0;
     float leaves = 1;  // share of it that leaves the pixel
 };
 
-// The front-most bright samples of a block of kLargestSquare pixels on a side, to be taken apart into
-// squares.
+// The front-most bright samples of a block of kLargestSquare pixels on a side, to be divided into squares.
 class Block {
 public:
     // The block's first pixel; rows count from first_row of the picture.
@@ -188,7 +187,7 @@ public:
                 out.push_back({x_ + x, y_ + y, size, coc, leaves * common});
             }
     }
-    // What is left: pixel by pixel, or back to the base.
+    // Assigns the rest: pixel by pixel, or back to the base.
     void finish(const HighlightSplit& split, CocSamples& samples, std::vector<Highlight>& out) {
         for (int y = 0; y < kLargestSquare; ++y)
             for (int x = 0; x < kLargestSquare; ++x) {
@@ -218,8 +217,8 @@ private:
     Cell cells_[kLargestSquare * kLargestSquare];
 };
 
-// What the samples in front of the last of these, nearest first, let through of its light before it leaves
-// the pixel.
+// Share of the last sample's light that the nearer samples (nearest first) let through before it leaves the
+// pixel.
 float share_that_leaves(std::span<const CocSample> samples, float same_pixel_px) {
     float open = 1;
     const float own = samples.back().coc_px;

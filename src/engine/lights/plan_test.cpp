@@ -1,4 +1,4 @@
-// What is planned of lights, told from the plan alone: nothing is drawn here.
+// Plans of lights, checked without drawing.
 #include "engine/lights/plan.h"
 
 #include "kernel/lenses/make_lens.h"

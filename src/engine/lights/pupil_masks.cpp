@@ -117,8 +117,8 @@ PupilMasks::Behind PupilMasks::behind(const Light& light, int level, int x, int 
         const bool narrow = level == 0 || (node.farthest - node.nearest) * close <= kNarrow;
         if (narrow || node.is_whole) {
             found.all = square.anywhere(close, far);
-            // Of one surface every ray is stopped that stays within the square from its farthest to its
-            // nearest radius.
+            // One surface stops every ray that stays within the square from its farthest to its nearest
+            // radius.
             if (found.all) found.surely = narrow ? found.all : square.throughout(close, far);
             return found;
         }
@@ -151,7 +151,7 @@ void PupilMasks::hide(const Light& light, int level, int x, int y, std::uint64_t
 }
 
 void PupilMasks::hide_four(const Light& light, int level, const Rect& squares, std::uint64_t& seen) const {
-    // Where the light is first: what stands close behind others hides most, and ends the search.
+    // Searches at the light first: occluders close to its path hide most, and end the search.
     const float size = float(1 << level);
     const bool right = light.x >= float(squares.x1) * size, down = light.y >= float(squares.y1) * size;
     for (int j = 0; j <= squares.height() && seen; ++j)

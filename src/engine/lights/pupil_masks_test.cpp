@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSide = 128;
 
-// A wall far away, and what is put in front of it.
+// A wall far away, and objects in front of it.
 class Scene {
 public:
     void put(const Rect& pixels, float coc_px) {
@@ -43,7 +43,7 @@ TEST(PupilMasks, AWallHidesALightBehindIt) {
     EXPECT_TRUE(scene.mask(64, 64, 20).is_closed());
 }
 
-// From s = 64 at c = 20, what is in focus right of q hides u > (q - s) / 20.
+// Seen from s = 64 at c = 20, an occluder in focus right of q hides u > (q - s) / 20.
 TEST(PupilMasks, AnEdgeInFocusHidesThePupilOnItsSide) {
     for (const int edge : {54, 64, 69}) {
         Scene scene;

@@ -17,7 +17,7 @@ public:
     BlockCasters(CocSamplesView samples, const Rect& block, std::vector<Caster>& out)
         : samples_(samples), block_(block), out_(out) {}
 
-    // As many as a pixel of the block has samples.
+    // Largest number of samples in a pixel of the block.
     std::size_t ranks() const {
         std::size_t most = 0;
         for (int y = block_.y0; y < block_.y1; ++y)

@@ -27,7 +27,7 @@ CocSamples twigs() {
     return all;
 }
 
-// What squares of a view up to a radius cover, in pixels.
+// Area covered by squares of a view up to a radius, in pixels.
 double covered(const ShadowCasters& casters, int view, float up_to_px) {
     double sum = 0;
     for (int by = 0; by * ShadowCasters::kBlock < kHeight; ++by)

@@ -47,7 +47,7 @@ public:
 
 private:
     const ShadowCasters& casters() const { return *plan_.casters; }
-    // How far from the light a caster of this radius can lie.
+    // Largest distance from the light of a caster of this radius.
     float reach_of(float c) const { return (view_.coc_px - c) * plan_.stretch + 1 + float(view_.size); }
 
     void add_block(int bx, int by) {

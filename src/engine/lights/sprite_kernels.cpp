@@ -39,7 +39,7 @@ kernel::PointSpread moved(kernel::PointSpread spread, float right, float down) {
     return result;
 }
 
-// What a kernel gains in variance per axis, cells^2, by being moved: t (1 - t), the mean of both axes.
+// Variance per axis that moving adds to a kernel, cells^2: t (1 - t), the mean of both axes.
 double moving_blur(float right, float down) { return 0.5 * double(right * (1 - right) + down * (1 - down)); }
 
 // Enlarging from cells s wide blurs by (s^2 - 1)/4 px^2 per axis more than a pixel does (gather_rings.cpp),
@@ -98,7 +98,7 @@ std::size_t SpriteGrid::count() const {
     return std::size_t(columns_ * rows_) * std::size_t(2 * steps_) * std::size_t(phases_ * phases_);
 }
 
-// Of the kernels that the lights take, with what finds them.
+// Bytes of the lights' kernels, with their index.
 std::size_t SpriteGrid::bytes_for(const EngineView& input, std::span<const Sprite> sprites) const {
     std::vector<bool> seen(count());
     std::size_t bytes = count() * sizeof(void*);

@@ -11,8 +11,7 @@
 namespace petzval::engine {
 namespace {
 
-// A light with a size is an evenly lit disc: points that fill it, closer than what the lens makes of each
-// shows.
+// A light with a size is an evenly lit disc: points that fill it, closer than the lens resolves.
 class AreaOfLight {
 public:
     explicit AreaOfLight(const LightPoint& p) : radius_(p.diameter_px / 2) {
@@ -42,7 +41,7 @@ public:
 private:
     static constexpr float kMostAcross = 256, kKernelSteps = 12;
 
-    // Of the cell: 1 inside the disc, falling to 0 over one cell at its rim.
+    // Coverage of the cell: 1 inside the disc, falling to 0 over one cell at its rim.
     float covered(int i, int j) const {
         return std::clamp(radius_ / step_ + 0.5f - std::hypot(float(i), float(j)), 0.0f, 1.0f);
     }
@@ -51,7 +50,8 @@ private:
     int cells_ = 0;
 };
 
-// of_frame: of the whole frame where `input` is a part of it. They decide how finely the lens is told apart.
+// of_frame: lights of the whole frame, if `input` is a part of it. They decide the resolution of the lens
+// zones.
 device::Work add_sprites(const EngineView& input, std::span<const Sprite> sprites,
                          std::span<const Sprite> of_frame, device::Target out,
                          const std::string& light = {}) {
@@ -78,7 +78,7 @@ std::vector<Sprite> sprites_of(std::span<const LightPoint> points, LightSpectrum
     return sprites;
 }
 
-// Those of the picture's own light, with what was found in it.
+// Sprites with the picture's own spectrum, found lights included.
 std::vector<Sprite> sprites_of_daylight(const EngineView& input, std::span<const Sprite> found) {
     const auto is_of_lamp = [&](const LightPoint& p) {
         return std::any_of(input.lens.lamps.begin(), input.lens.lamps.end(),
@@ -90,7 +90,7 @@ std::vector<Sprite> sprites_of_daylight(const EngineView& input, std::span<const
     return sprites;
 }
 
-// What is found in all of the frame, where a part of it must know.
+// Lights found in the whole frame, if a part of it must know them.
 std::vector<Sprite> sprites_of_frame(const EngineView& input) {
     if (!input.window.whole || !input.lens.level(0).varies_over_field()) return {};
     return sprites_of_daylight(*input.window.whole, BrightPoints(*input.window.whole).sprites());
@@ -113,8 +113,7 @@ device::Work draw_sprites(const EngineView& input, std::span<const Sprite> found
 }
 
 std::size_t sprites_bytes(const EngineView& input, std::size_t found) {
-    // The quad-tree of what may stand in their way; for every light: itself, its copy in a tile, its place in
-    // lists.
+    // Bytes of the quad-tree of occluders; bytes of each light: itself, its copy in a tile, its list entries.
     constexpr std::size_t kBytesPerPixel = 8, kBytesPerPoint = 200;
     std::size_t count = found;
     for (const LightPoint& p : input.samples.points) count += AreaOfLight(p).count();

@@ -140,7 +140,7 @@ private:
         each([&](std::size_t& n, std::size_t i) { plan_.order[n++] = std::uint32_t(i); });
     }
 
-    // So that each kernel is at hand while it is used; then row by row.
+    // Sorts by kernel, so that each is used while cached; then by row.
     void sort_by_kernel(int tile) {
         struct Key {
             std::uint32_t kernel;

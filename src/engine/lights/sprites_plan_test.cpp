@@ -1,4 +1,4 @@
-// What is planned of many lights, told from the plan alone: nothing is drawn here.
+// Plans of many lights, checked without drawing.
 #include "engine/lights/sprites_plan.h"
 
 #include "base/progress.h"
