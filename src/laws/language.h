@@ -1,4 +1,4 @@
-// What lets one file of laws be read by C++ and by GLSL.
+// Macros that let C++ and GLSL read one file of laws.
 #ifndef PETZVAL_LAWS_LANGUAGE
 #define PETZVAL_LAWS_LANGUAGE
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-// Sizes of what is drawn at once, as plans, the CPU and the GPU's programs use them. C++ and GLSL both read
-// this file. A program that took another size than its plan would write beyond its buffers.
+// Sizes of tiles and batches, shared by plans, the CPU and the GPU's programs. C++ and GLSL both read this
+// file. A program with another size than its plan would write beyond its buffers.
 #ifndef PETZVAL_LAWS_TILES
 #define PETZVAL_LAWS_TILES
 #include "laws/language.h"

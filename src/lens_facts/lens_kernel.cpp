@@ -80,7 +80,7 @@ void fill(BokehTexture& texture, const std::vector<std::vector<Rgba>>& profiles)
         }
 }
 
-// Of the kernel on the axis, the pixels from the source's own to the right.
+// Pixels of the kernel on the axis, from the source's own to the right.
 std::vector<Rgba> axial_row(const kernel::LensModel& lens, double coc_radius_px, bool raw) {
     using kernel::RingColours;
     if (const auto* geometric = dynamic_cast<const kernel::GeometricLens*>(&lens))

@@ -41,7 +41,7 @@ std::vector<SectionRay> landed_rays(const kernel::GeometricLens& lens, double co
     std::vector<SectionRay> rays;
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < across; ++i) {
-            // Of the field's direction and across it, so that one row lies in the drawing.
+            // Grid along the field's direction and across it, so that one row lies in the drawing.
             const Point p = axis.from_axis({2.0 * i / (across - 1) - 1, 2.0 * j / (across - 1) - 1});
             if (!is_inside(outline, {0.999 * p.x, 0.999 * p.y})) continue;
             const Point lands = landing(p);
@@ -75,7 +75,7 @@ public:
         section.image_y_mm = beam->ray(0, 0).y_mm;
         for (SectionRay& ray : rays) {
             const Point p = axis.to_axis({ray.pupil_x, ray.pupil_y});
-            // Along the field's direction is down in the lens, where light goes up (kernel/draw/ray_map.cpp).
+            // The field's direction is down in the lens, where light goes up (kernel/draw/ray_map.cpp).
             if (const auto entering = beam->entering(p.y, -p.x)) ray.path = path_of(*entering, lead_mm);
             if (!ray.path.empty()) section.rays.push_back(std::move(ray));
         }
@@ -113,7 +113,7 @@ private:
         return path;
     }
 
-    // As wide as stated, else as the rays need; no wider than the surface reaches.
+    // The stated radius, otherwise the radius that the rays need; at most the surface's extent.
     double radius_of(std::size_t surface, const LensSection& section) const {
         const auto& s = at_.surfaces[surface];
         double needed = 0.02 * lens_.first_order().focal_length_mm;
@@ -148,7 +148,7 @@ private:
     std::vector<double> vertices_;
 };
 
-// Of a lens that is known by what it does and not by its glass: rays bend once.
+// Section of a lens of curves, without glass: rays bend once.
 LensSection thin_section(std::vector<SectionRay> rays, const LensMount& mount, double slope, double depth_mm,
                          double lead_mm, const kernel::FieldAxis& axis) {
     const Camera& camera = mount.camera;

@@ -25,7 +25,7 @@ double metres(double dioptres) {
 
 std::string rounded(double value, double step) { return number_text(std::round(value / step) * step); }
 
-// From frames and dioptres to the drawing, y down.
+// Maps frames and dioptres to the drawing, y down.
 class PlotFrame {
 public:
     explicit PlotFrame(std::span<const FocusKey> keys) {

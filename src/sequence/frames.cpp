@@ -69,7 +69,7 @@ Result<Range> parse_range(std::string_view text, std::string_view all) {
     return range;
 }
 
-// Where the run of frames that begins at `begin` ends, if all are evenly apart.
+// End of the run of evenly spaced frames that begins at `begin`.
 std::size_t end_of_run(std::span<const int> frames, std::size_t begin) {
     if (begin + 1 >= frames.size()) return frames.size();
     const std::int64_t step = std::int64_t(frames[begin + 1]) - frames[begin];
@@ -163,7 +163,7 @@ Result<std::optional<FramePattern>> FramePattern::find(std::string_view path) {
 
 std::string FramePattern::path(int frame) const {
     std::string number = std::to_string(std::abs(std::int64_t(frame)));
-    // As printf counts: the sign is one of the digits.
+    // Width as printf counts it: the sign is one of the digits.
     const std::size_t width = std::size_t(digits_) - (frame < 0 ? 1 : 0);
     if (number.size() < width) number.insert(0, width - number.size(), '0');
     return folder_ + before_ + (frame < 0 ? "-" : "") + number + after_;

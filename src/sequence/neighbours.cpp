@@ -22,7 +22,7 @@ std::size_t bytes_of(const Shot& shot) {
 
 }  // namespace
 
-// Of two that are as near the earlier comes first.
+// The earlier of two equally near frames comes first.
 std::vector<int> frames_around(std::span<const int> frames, int frame, int each_side) {
     const auto next = std::upper_bound(frames.begin(), frames.end(), frame);
     const auto own = std::lower_bound(frames.begin(), frames.end(), frame);

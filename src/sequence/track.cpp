@@ -95,7 +95,7 @@ std::optional<int> frame_number(std::string_view text) {
     return frame;
 }
 
-// As the value is written in a track and given to look_with(): shortest text that reads back the same.
+// The value as written in a track and given to look_with(): shortest text that reads back the same.
 std::string text_of(double value) {
     char text[32];
     const auto [end, wrong] = std::to_chars(text, text + sizeof text, value);
@@ -267,7 +267,7 @@ private:
         return std::move(track_);
     }
 
-    // Distances and pixels may take turns, each at frames of their own; points of the world stand alone.
+    // Distances and pixels may alternate, each at separate frames; world points exclude both.
     std::optional<int> says_focus_twice() const {
         const Track::Column *metres = track_.find("focus"), *pixel = track_.find("focus_x"),
                             *point = track_.find("point_x");
@@ -406,7 +406,7 @@ void Track::limit_focus_speed(double dioptres_per_frame) {
     if (focus == columns_.end() || focus->numbers.empty()) return;
     std::map<int, double> slow;
     double at = focus->numbers.begin()->second;
-    // Where the focus lags behind its last key it goes on after it.
+    // A focus that lags behind its last key continues after it.
     const double goal = focus->numbers.rbegin()->second;
     const int last_key = focus->numbers.rbegin()->first;
     constexpr std::size_t kMostFrames = 1'000'000;

@@ -7,7 +7,7 @@
 namespace petzval {
 namespace {
 
-// Of the files of a shot those that say how far away things are.
+// The files of a shot that hold depth.
 ShotSource depth_alone(ShotSource source) {
     source.behind.clear(), source.holdout.clear(), source.mask.clear(), source.lights.clear();
     source.read.layers.clear();

@@ -101,7 +101,7 @@ Rgba sampled(const Picture& picture, const Neighbours& around) {
             std::clamp(sum.b, least.b, most.b), std::clamp(sum.a, least.a, most.a)};
 }
 
-// How far sampled() went from the straight towards the cubic mean, 0…1 by channel.
+// Weight of the cubic mean against the linear one in sampled(), 0…1 by channel.
 Rgba share_of_cubic(const Picture& picture, const Neighbours& around) {
     const auto near = around.nearest(picture);
     const Rgba cubic = around.cubic(picture), straight = around.straight(near), least = least_of(near),
@@ -114,7 +114,7 @@ Rgba share_of_cubic(const Picture& picture, const Neighbours& around) {
             share(cubic.b, straight.b, least.b, most.b), share(cubic.a, straight.a, least.a, most.a)};
 }
 
-// Where what is seen at (x, y) comes from, in pixels; nothing where nothing is seen.
+// Source position of the image at (x, y), in pixels; nothing if nothing is visible there.
 struct Origin {
     double x = 0, y = 0;
 };

@@ -82,7 +82,7 @@ Picture lamp_at_the_edge() {
 
 TEST(Distorted, ALampAtTheEdgeIsDrawnOutToNoBar) {
     const Picture moved = distorted(lamp_at_the_edge(), -0.1, frame_of(200, 120));
-    // Its mirror image doubles it, and the lens makes it smaller; before, it went on to the frame's edge.
+    // Its mirror image doubles it, and the lens makes it smaller; earlier it continued to the frame's edge.
     int wide = 0;
     for (int x = 0; x < 200; ++x) wide += moved(x, 60).g > 25;
     EXPECT_GE(wide, 4);
@@ -106,7 +106,7 @@ TEST(Distorted, OverscanTakesThePlaceOfTheMirrorImage) {
     EXPECT_GT(missing_beyond_px(bare, -0.1), 5);
     EXPECT_EQ(missing_beyond_px(bare.grown(reach), -0.1), 0);
     EXPECT_EQ(missing_beyond_px(bare, 0.1), 0);
-    // By hand: r (1 - 0.1 r^2) = 1 at r = 1.1535, and the half diagonal is 116.6 px.
+    // Worked out by hand: r (1 - 0.1 r^2) = 1 at r = 1.1535, and the half diagonal is 116.6 px.
     EXPECT_EQ(reach, 18);
 }
 

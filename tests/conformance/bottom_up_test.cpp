@@ -1,4 +1,4 @@
-// Pictures held bottom row first, by what follows the blur.
+// Steps after the blur, on pictures stored bottom row first.
 #include "bottom_up.h"
 
 #include "petzval/develop.h"

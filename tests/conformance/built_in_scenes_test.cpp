@@ -1,4 +1,4 @@
-// What is known must help: the built-in scenes with hidden layers and without.
+// Hidden layers must help: the built-in scenes with and without them.
 #include "petzval/scene.h"
 
 #include "shots.h"

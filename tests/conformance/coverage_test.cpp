@@ -66,7 +66,7 @@ private:
     Plane coc_px_;
 };
 
-// So many samples, and one that is what they come to.
+// Many samples, and one sample with their sum.
 TEST_P(CoverageLaw, AnyNumberOfSamplesIsWhatTheyComeTo) {
     constexpr float kFront = -6, kThick = 0.01f;  // px of radius
     const int width = traces() ? 32 : 80, height = traces() ? 24 : 60;

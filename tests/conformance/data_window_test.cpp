@@ -1,4 +1,4 @@
-// Where the data window begins changes nothing but its border: an autocropped sequence does not flicker.
+// The start of the data window changes nothing except its border: an autocropped sequence does not flicker.
 #include "drawers.h"
 
 namespace petzval::conformance {

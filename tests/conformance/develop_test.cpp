@@ -1,4 +1,4 @@
-// Codes of a display in place of light: those of the light that a session would have given, on every device.
+// Display codes instead of light: the codes of the light that a session would have given, on every device.
 #include "petzval/develop.h"
 
 #include "petzval/session.h"

@@ -1,4 +1,4 @@
-// What is added behind edges, and how to be without it.
+// Background estimated behind edges, and the options that limit it.
 #include "petzval/look_check.h"
 
 #include "shots.h"

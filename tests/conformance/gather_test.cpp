@@ -1,4 +1,4 @@
-// What gather does beyond the laws of every engine; the published stages against what they state.
+// Gather beyond the laws of every engine; the published stages against their publication.
 #include "shots.h"
 
 namespace petzval::conformance {

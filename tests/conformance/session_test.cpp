@@ -1,4 +1,4 @@
-// What outlives a frame never shows in one: sessions against frames made alone, for every engine.
+// Data kept between frames never shows: sessions against frames made alone, for every engine.
 #include "drawers.h"
 
 #include <atomic>

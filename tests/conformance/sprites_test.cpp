@@ -108,7 +108,7 @@ TEST(Sprites, ALampIsDrawnInItsOwnLight) {
     }
     const Picture drawn = through(together.job(), LightSpectrum::Daylight);
     for (const auto& [x, spectrum] : lamps) {
-        // As wide a picture, so that the lens is the same one in pixels.
+        // The picture is as wide, so that the lens is the same in pixels.
         Shot wide = flat(301, 101, {0, 0, 0, 1}, 18);
         wide.colour(int(x), 50) = {1000, 1000, 1000, 1};
         const Picture truth = through(wide.job("reference"), spectrum.value_or(LightSpectrum::Daylight));
@@ -180,7 +180,7 @@ TEST(Sprites, ALightWithASizeHasAnEdgeAsSoftAsItIsWide) {
         lights.add(100.5f, 100.5f, coc, 3000, 16);
         const Picture image = rendered(lights.job());
         EXPECT_NEAR(landed(image).sum, 3000, 3);
-        // From the whole disc at 20 - 8 px to nothing at 20 + 8, half about the middle.
+        // Light falls from the whole disc at 20 - 8 px to nothing at 20 + 8, half about the middle.
         EXPECT_NEAR(level(image, 10, 20, 3000), 1, 0.04);
         EXPECT_NEAR(level(image, 20, 20, 3000), 0.45, 0.08);
         EXPECT_NEAR(level(image, 30, 20, 3000), 0, 1e-6);
@@ -218,7 +218,7 @@ TEST(Sprites, BrightPointsOfThePictureAreFoundAndKeepTheirLight) {
     }
 }
 
-// As rings alone would not: with the lens's own kernel.
+// Rings alone would differ: the lens's own kernel is drawn.
 TEST(Sprites, BrightPointsAreFoundAlsoWhereHiddenLayersAreGiven) {
     Shot shot = flat(96, 96, {0.02f, 0.02f, 0.02f, 1}, 12);
     shot.colour(48, 48) = {400, 300, 200, 1};
@@ -347,7 +347,8 @@ TEST(Sprites, ManyLightsAddUp) {
     EXPECT_NEAR(landed(rendered(lights.job())).sum, total, 1e-3 * total);
 }
 
-// As many as a particle system throws: their light arrives whole, and evenly where they lie evenly.
+// Ten million lights, as a particle system makes them, arrive completely, and evenly if they are evenly
+// spread.
 TEST(Sprites, TenMillionLightsAddUp) {
     constexpr int kSize = 200, kRim = 20, kAcross = 1000, kRadii = 10;
     constexpr float kApart = float(kSize - 2 * kRim) / kAcross;

@@ -161,7 +161,7 @@ PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& ban
     }
 
     PointSpread spread{extent, Image<Rgba>::uninitialised(extent.width(), extent.height()), false};
-    // What rounding leaves where nothing landed, against light of a few units in all.
+    // Clears rounding errors where nothing landed, against light of a few units in all.
     const auto cleared = [](double light) { return std::abs(light) < 1e-13 ? 0.0f : float(light); };
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const Light& l = sum.pixels()[i];

@@ -105,7 +105,7 @@ std::vector<Point> aperture_outline(const ApertureShape& shape, double tolerance
 }
 
 std::vector<Point> clipped(const std::vector<Point>& outline, const Circle& circle, double tolerance) {
-    // What is kept of the outline, in order; after a point that leaves the circle an arc follows.
+    // Points of the outline that are kept, in order; an arc follows a point that leaves the circle.
     struct Kept {
         Point at;
         bool leaves = false;

@@ -64,7 +64,7 @@ std::vector<Point> Pupil::outline(FieldPosition field, double tolerance) const {
     const Point direction{field.x, -field.y};
     const auto cut = [&](const Circle& circle) {
         std::vector<Point> rest = clipped(outline, circle, tolerance);
-        // Where nothing would be left, a sliver on the rim's side is.
+        // Leaves a sliver on the rim's side if nothing else would remain.
         if (rest.size() >= 3 && area(rest) > 1e-4) outline = std::move(rest);
     };
     // Light towards field position F passes a rim in front of the pupil that it sees displaced by -distance

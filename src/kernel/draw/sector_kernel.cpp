@@ -121,7 +121,7 @@ private:
     int first_, last_ = -1;
 };
 
-// How much of the pupil each of many even directions sees.
+// Open part of the pupil in each of many even directions.
 class Directions {
 public:
     Directions(const std::vector<Point>& outline, const RingSweep& sweep)

@@ -18,7 +18,7 @@ constexpr int kLadder[] = {1, 7, 15, 31, 62, 124, 248};
 constexpr double kBandStepPx = 0.7;
 // Bands that all land within this are one.
 constexpr double kNoColourPx = 0.02;
-// How far chords of the outline may be off their arcs.
+// Largest distance of an outline's chords from their arcs.
 constexpr double kChordPx = 0.04;
 // Light outside carries under 1 % of the luminance; it does not decide how many bands are needed.
 // Rays see the pupil's texture through a window of this half width, pupil radii.

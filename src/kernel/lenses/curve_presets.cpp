@@ -11,7 +11,7 @@ namespace {
 double axis(double um) { return 1 / (um * um); }
 const double kC = axis(0.6562725), kD = axis(0.5875618), kF = axis(0.4861327);
 
-// How the paraxial focus moves with wavelength.
+// Shift of the paraxial focus with wavelength.
 struct AxialColour {
     // A single glass of Abbe number V: blue is nearer by 1/V of the focal length than red, n = A + B/w^2.
     double one_over_v = 0;

@@ -53,7 +53,7 @@ PointSpread IdealLens::point_spread(double coc_radius_px, FieldPosition field) c
     return spread;
 }
 
-// By the texture's mean over each pixel.
+// Dims by the texture's mean over each pixel.
 void IdealLens::dim(PointSpread& spread, double coc_radius_px) const {
     const double half = 0.5 / std::abs(coc_radius_px);
     for (int y = spread.extent.y0; y < spread.extent.y1; ++y) {

@@ -1,4 +1,4 @@
-// From what a user says of a lens to what it is: the registry.
+// The registry of lenses: from a user's words to an opened lens.
 #include "petzval/lens.h"
 
 #include "base/build_id.h"
@@ -60,7 +60,7 @@ Status check_residuals(const LensChoice& choice) {
     return Done{};
 }
 
-// What lenses of this kind cannot have.
+// Checks for options that this kind of lens does not have.
 Status check_kind(const LensChoice& c, LensModelKind kind) {
     if (kind != LensModelKind::Prescription && c.lateral_colour != 1)
         return refuse("lens.lateral_colour is a factor on what a lens traced from its surfaces has; \"" +

@@ -46,7 +46,7 @@ vec4 weight_at(ivec2 offset, uint corner, uint size, uint where) {
     return weight(d, wide, where);
 }
 
-// What hit number k sends to a cell.
+// Light that hit number k sends to a cell.
 vec4 sent(uint k, ivec2 cell) {
     const vec4 shape = hit_shape[k];
     const ivec2 d = cell - ivec2(hit_x[k], hit_y[k]);

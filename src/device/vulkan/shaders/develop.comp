@@ -17,7 +17,7 @@ layout(push_constant) uniform Push {
 const uint kReinhard = 1u, kFilmic = 2u;
 const float kMidGrey = 0.18, kPalingHalf = 16, kBrightest = 1e9;
 
-// NaN and what is negative are 0.
+// NaN and negative values are 0.
 float positive(float x) { return floatBitsToUint(x) > 0x7f800000u ? 0 : min(x, kBrightest); }
 vec3 positive(vec3 c) { return vec3(positive(c.r), positive(c.g), positive(c.b)); }
 float largest_of(vec3 c) { return max(c.r, max(c.g, c.b)); }
