@@ -46,24 +46,34 @@ def stage_pages():
     """Copies docs/ and every file outside that a page links to; the links lead to the copies."""
     shutil.rmtree(STAGE, ignore_errors=True)
     shutil.copytree(DOCS, STAGE)
-    for page in STAGE.rglob("*.md"):
-        home = DOCS / page.relative_to(STAGE)
+    pages = [(page, DOCS / page.relative_to(STAGE)) for page in STAGE.rglob("*.md")]
+    for page, home in pages:  # grows while it is walked
 
         def moved(match, page=page, home=home):
             target = (home.parent / match[2]).resolve()
-            if re.match(r"[a-z]+:", match[2]) or target.is_relative_to(DOCS):
+            if re.match(r"[a-z]+:", match[2]) or not target.exists():
                 return match[0]
-            copy = STAGE / "source" / target.relative_to(ROOT)
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            if target.is_dir():  # a folder becomes a list of its files
-                copy = copy.with_suffix(".txt")
-                copy.write_text("\n".join(sorted(p.name for p in target.iterdir())) + "\n")
-            else:  # code is shown by browsers as text
-                copy = copy.with_name(copy.name + ".txt")
-                shutil.copy(target, copy)
+            copy = STAGE / target.relative_to(DOCS) if target.is_relative_to(DOCS) else copied(target, pages)
             return match[1] + os.path.relpath(copy, page.parent)
 
         page.write_text(BARS.sub(as_code, LINK.sub(moved, page.read_text())))
+
+
+def copied(target, pages):
+    """The copy of a file outside docs/: a page, a list of a folder's files, or text."""
+    copy = STAGE / "source" / target.relative_to(ROOT)
+    copy.parent.mkdir(parents=True, exist_ok=True)
+    if target.is_dir():
+        copy = copy.with_suffix(".txt")
+        copy.write_text("\n".join(sorted(p.name for p in target.iterdir())) + "\n")
+    elif target.suffix == ".md":
+        if not copy.exists():
+            shutil.copy(target, copy)
+            pages.append((copy, target))
+    else:  # browsers show code as text
+        copy = copy.with_name(copy.name + ".txt")
+        shutil.copy(target, copy)
+    return copy
 
 
 def as_code(match):
