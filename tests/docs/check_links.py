@@ -50,6 +50,17 @@ def wrong_links(root, page, tests):
                 yield f"`{path}` is not in the repository"
 
 
+def unlisted(root, pages):
+    """Pages of docs/ that the start page does not link to; a journal has a list of its own."""
+    start = root / "docs/README.md"
+    if not start.exists():
+        return
+    listed = {(start.parent / target.partition("#")[0]).resolve() for target in LINK.findall(start.read_text())}
+    for page in pages:
+        if page.is_relative_to(start.parent) and page not in listed | {start} and page.parent.name != "journal":
+            yield f"docs/README.md: no link to {page.relative_to(start.parent)}"
+
+
 def pages_of(root):
     listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "*.md"], stdout=subprocess.PIPE, text=True)
     names = listed.stdout.split("\0") if listed.returncode == 0 else []
@@ -61,6 +72,7 @@ def main(folder=None):
     root = pathlib.Path(folder or pathlib.Path(__file__).parents[2]).resolve()
     pages, tests = pages_of(root), tests_of(root)
     found = [f"{page.relative_to(root)}: {what}" for page in pages for what in wrong_links(root, page, tests)]
+    found += unlisted(root, pages)
     print("\n".join(found) or f"docs: every link of {len(pages)} pages leads somewhere")
     sys.exit(bool(found))
 
