@@ -2,7 +2,8 @@
 """Reads the C headers as one table, and writes from it the reference page and the declarations for Python.
 
 Usage: tools/c_api.py                      writes docs/reference/c-api.md and python/petzval/_declared.py
-       tools/c_api.py --check LIBPETZVAL   fails if these, or the exported names, differ from the headers
+       tools/c_api.py --check LIBPETZVAL [LIBPETZVAL_FILES]
+                                           fails if these, or the exported names, differ from the headers
        tools/c_api.py --layout             prints a C program that prints sizes and offsets of all structs
 
 docs/explain/c-api.md says which form the headers keep.
@@ -16,7 +17,7 @@ import c_api_written
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADERS = ROOT / "include/petzval"
-NAMES = ["petzval_c.h", "petzval_lens_c.h", "petzval_frame_c.h"]
+NAMES = ["petzval_c.h", "petzval_lens_c.h", "petzval_frame_c.h", "petzval_files_c.h"]
 OPTIONAL = "vulkan.h"  # exported all or not at all
 PAGE = ROOT / "docs/reference/c-api.md"
 DECLARED = ROOT / "python/petzval/_declared.py"
@@ -33,17 +34,22 @@ def exported(library):
     return {name for name in names if not name.startswith("PETZVAL_")}
 
 
-def differences(api, library):
+def differences(api, library, files=None):
     """One sentence for each thing that differs from the headers."""
     made = {PAGE: c_api_written.page(api), DECLARED: c_api_written.declarations(api)}
     for path, text in made.items():
         if not path.exists() or path.read_text() != text:
             yield f"{path.relative_to(ROOT)} is not what the headers say; run tools/c_api.py"
-    wanted = {function.name for function in api.functions}
+    wanted = {function.name for function in api.functions if not c_api_written.is_of_files(function)}
     optional = {f.name for f in c_api_table.read([HEADERS / OPTIONAL]).functions}
     found = exported(library)
-    if optional & found:
-        wanted |= optional
+    yield from unlike(wanted | optional if optional & found else wanted, found)
+    if files:
+        yield from unlike({f.name for f in api.functions if c_api_written.is_of_files(f)}, exported(files))
+
+
+def unlike(wanted, found):
+    """One sentence for each name that is declared and not exported, or the other way round."""
     yield from (f"{name} is declared and not exported" for name in sorted(wanted - found))
     yield from (f"{name} is exported and not declared" for name in sorted(found - wanted))
 
@@ -51,9 +57,9 @@ def differences(api, library):
 def main(*words):
     api = table()
     if words == ("--layout",):
-        print(c_api_written.layout_program(api, NAMES[0]), end="")
-    elif words[:1] == ("--check",) and len(words) == 2:
-        found = list(differences(api, words[1]))
+        print(c_api_written.layout_program(api, NAMES[-1]), end="")
+    elif words[:1] == ("--check",) and len(words) in (2, 3):
+        found = list(differences(api, *words[1:]))
         print("\n".join(found) or f"c api: ok ({len(api.functions)} functions, {len(api.structs)} structs)")
         return bool(found)
     elif not words:

@@ -149,10 +149,20 @@ def declarations(api):
                   for f in struct.fields]
         lines += ["    ]"]
     lines += ["", "", "# Name: type of the result, types of the arguments.", "PROTOTYPES = {"]
-    for function in api.functions:
-        head = f'    "{function.name}": ({_ctype(function.returns, api)}, ['
-        lines.append(_wrapped(head, [_ctype(a.type, api) for a in function.arguments], "]),"))
+    lines += [_prototype(function, api) for function in api.functions if not is_of_files(function)]
+    lines += ["}", "# The same of libpetzval-files.so.", "FILES_PROTOTYPES = {"]
+    lines += [_prototype(function, api) for function in api.functions if is_of_files(function)]
     return "\n".join([*lines, "}"]) + "\n"
+
+
+def is_of_files(function):
+    """True for functions of libpetzval-files.so."""
+    return function.name.startswith("petzval_files_")
+
+
+def _prototype(function, api):
+    head = f'    "{function.name}": ({_ctype(function.returns, api)}, ['
+    return _wrapped(head, [_ctype(a.type, api) for a in function.arguments], "]),")
 
 
 # --- Layouts

@@ -47,6 +47,7 @@ ALLOWED = {
     "sequence": PIXELS | {"optics", "names", "look", "session", "shot", "files"},
     "lens_facts": LENS,
     "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session"},
+    "c/files": PIXELS | {"c", "names", "scene", "session", "sequence", "shot", "files"},
     "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "depth", "views", "look", "glare"},
 }
 # What tests beside the code may see as well.
@@ -97,6 +98,7 @@ PUBLIC = {
     "petzval_c": "c",
     "petzval_lens_c": "c",
     "petzval_frame_c": "c",
+    "petzval_files_c": "c/files",
     "pixel_view": "image",
     "result": "base",
     "scene": "scene",

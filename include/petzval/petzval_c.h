@@ -177,7 +177,7 @@ typedef struct petzval_light {
     float x, y, r, g, b, depth_m, radius_px, diameter_px;
 } petzval_light;
 
-/* Another picture of what the shot's colour shows, of its size, blurred by the same weights. For the engine
+/* Another picture of the same view, of the size of the shot's colour, blurred by the same weights. For engine
  * "scatter". */
 typedef struct petzval_layer {
     size_t size;

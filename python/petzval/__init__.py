@@ -10,14 +10,15 @@ from .camera import Camera
 from .comparison import compare
 from .errors import (Cancelled, Error, Internal, InvalidArgument, InvalidFile, OutOfMemory, OutputFailed,
                      Unsupported)
+from .files import FileShot, make_scene, read_shot
 from .lens import Lens, lens_list, lens_names
 from .look import Look
 from .session import Codes, Frame, Session, defocus, device_names, engine_names
 from .shot import Deep, Layer, Light, Shot
 
-__all__ = ["Array", "Camera", "Cancelled", "Codes", "Deep", "Error", "Frame", "Internal", "InvalidArgument", "InvalidFile",
+__all__ = ["Array", "Camera", "Cancelled", "Codes", "Deep", "Error", "FileShot", "Frame", "Internal", "InvalidArgument", "InvalidFile",
            "Layer", "Lens", "Light", "Look", "OutOfMemory", "OutputFailed", "Session", "Shot", "Unsupported", "compare", "defocus",
-           "device_names", "engine_names", "lens_list", "lens_names", "version"]
+           "device_names", "engine_names", "lens_list", "lens_names", "make_scene", "read_shot", "version"]
 
 
 def version() -> str:

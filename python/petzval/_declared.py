@@ -36,6 +36,10 @@ class petzval_lens(Structure):
     """A handle."""
 
 
+class petzval_shot_file(Structure):
+    """A handle."""
+
+
 class petzval_workers(Structure):
     _fields_ = [
         ("size", c_size_t),
@@ -246,6 +250,28 @@ class petzval_codes(Structure):
     ]
 
 
+class petzval_shot_source(Structure):
+    _fields_ = [
+        ("size", c_size_t),
+        ("path", c_char_p),
+        ("layer", c_char_p),
+        ("view_name", c_char_p),
+        ("depth_file", c_char_p),
+        ("depth_channel", c_char_p),
+        ("depth_kind", c_char_p),
+        ("depth_unit_m", c_double),
+        ("behind", c_char_p),
+        ("holdout", c_char_p),
+        ("mask", c_char_p),
+        ("lights", c_char_p),
+        ("layers", POINTER(c_char_p)),
+        ("layer_count", c_uint64),
+        ("camera", POINTER(petzval_camera)),
+        ("threads", c_int),
+        ("max_memory_bytes", c_uint64),
+    ]
+
+
 # Name: type of the result, types of the arguments.
 PROTOTYPES = {
     "petzval_error_text": (c_char_p, []),
@@ -298,4 +324,17 @@ PROTOTYPES = {
         POINTER(petzval_control), POINTER(petzval_codes), POINTER(POINTER(petzval_report))]),
     "petzval_compare": (c_int, [POINTER(petzval_pixels), POINTER(petzval_pixels), POINTER(petzval_plane),
         c_double, POINTER(POINTER(petzval_text))]),
+}
+# The same of libpetzval-files.so.
+FILES_PROTOTYPES = {
+    "petzval_files_error_text": (c_char_p, []),
+    "petzval_files_read_shot": (c_int, [POINTER(petzval_shot_source), POINTER(POINTER(petzval_shot_file))]),
+    "petzval_files_make_scene": (c_int, [c_char_p, c_int, c_int, c_uint64, c_int,
+        POINTER(POINTER(petzval_shot_file))]),
+    "petzval_files_shot": (POINTER(petzval_shot), [POINTER(petzval_shot_file)]),
+    "petzval_files_truth": (POINTER(petzval_pixels), [POINTER(petzval_shot_file)]),
+    "petzval_files_json": (c_char_p, [POINTER(petzval_shot_file)]),
+    "petzval_files_write_like": (c_int, [POINTER(petzval_shot_file), POINTER(petzval_pixels),
+        POINTER(POINTER(petzval_pixels)), c_uint64, c_char_p]),
+    "petzval_files_close": (None, [POINTER(petzval_shot_file)]),
 }

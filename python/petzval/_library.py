@@ -9,26 +9,47 @@ import pathlib
 
 from . import _declared, errors
 
-SONAME = "libpetzval.so.0"
+SONAME, FILES_SONAME = "libpetzval.so.0", "libpetzval-files.so.0"
 
 
-def _path() -> str:
-    """PETZVAL_LIBRARY, else the library inside this package, else the system's."""
-    asked = os.environ.get("PETZVAL_LIBRARY")
+def _path(soname: str, variable: str) -> str:
+    """The path in an environment variable, else the library inside this package, else the system's."""
+    asked = os.environ.get(variable)
     if asked:
         return asked
-    own = pathlib.Path(__file__).parent / SONAME
-    return str(own) if own.exists() else SONAME
+    own = pathlib.Path(__file__).parent / soname
+    return str(own) if own.exists() else soname
+
+
+def _loaded(path: str, prototypes: dict) -> ctypes.CDLL:
+    loaded = ctypes.CDLL(path)
+    for name, (result, arguments) in prototypes.items():
+        function = getattr(loaded, name)
+        function.restype, function.argtypes = result, arguments
+    return loaded
 
 
 @functools.lru_cache(maxsize=None)
 def library() -> ctypes.CDLL:
     """The loaded library. Raises OSError with the reason where it cannot be loaded."""
-    loaded = ctypes.CDLL(_path())
-    for name, (result, arguments) in _declared.PROTOTYPES.items():
-        function = getattr(loaded, name)
-        function.restype, function.argtypes = result, arguments
-    return loaded
+    return _loaded(_path(SONAME, "PETZVAL_LIBRARY"), _declared.PROTOTYPES)
+
+
+@functools.lru_cache(maxsize=None)
+def files_library() -> ctypes.CDLL:
+    """libpetzval-files.so, which the wheel does not hold. Raises Unsupported where it cannot be loaded."""
+    try:
+        return _loaded(_path(FILES_SONAME, "PETZVAL_FILES_LIBRARY"), _declared.FILES_PROTOTYPES)
+    except OSError as why:
+        raise errors.Unsupported(f"files need libpetzval-files.so (PETZVAL_FILES_LIBRARY names it): {why}") from None
+
+
+def call_files(name: str, *arguments):
+    """As call(), of libpetzval-files.so."""
+    status = getattr(files_library(), name)(*arguments)
+    if status:
+        text = files_library().petzval_files_error_text().decode("utf-8", "replace")
+        raise errors.BY_STATUS.get(status, errors.Internal)(text)
 
 
 def call(name: str, *arguments):
