@@ -14,7 +14,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kMissFrom = 1e10f;       // Blender and others write 1e10 where a ray hit nothing
 constexpr float kHalfMaximum = 65504.f;  // what 1e10 or infinity becomes in a half-float channel
 
-// Whether values are 0…1 between the ends of a range.
+// True if values are 0…1 between the ends of a range.
 bool is_ranged(const DepthSettings& s) {
     return s.kind == DepthKind::Normalized || s.kind == DepthKind::Device || s.kind == DepthKind::Mist ||
            (s.kind == DepthKind::Inverse && s.range_near && s.range_far);
@@ -123,7 +123,7 @@ private:
     double tan_per_px_x_ = 0, tan_per_px_y_ = 0, axis_x_ = 0, axis_y_ = 0;
 };
 
-// What a row of values holds; rows are counted apart and then added, so threads cannot change the result.
+// Counts of a row's values; rows are counted separately and then added, so threads cannot change the result.
 struct Tally {
     std::size_t non_finite = 0, negative = 0, positive = 0, misses = 0;
     float nearest = kInfinity, farthest = 0;

@@ -92,7 +92,7 @@ std::vector<float> edges_of(const Line& line, float least) {
 
 float square(float v) { return v * v; }
 
-// Squared difference of two lights, relative to what there is.
+// Squared difference of two lights, relative to their brightness.
 float unlike(Rgba a, Rgba b) {
     const float difference = square(a.r - b.r) + square(a.g - b.g) + square(a.b - b.b) + square(a.a - b.a);
     const float size = square(a.r + b.r) + square(a.g + b.g) + square(a.b + b.b);
@@ -184,7 +184,7 @@ private:
         });
         return out;
     }
-    // That of flat pixels alone; sign -1: the smallest. Where there is none, less than any.
+    // Extreme value of flat pixels; sign -1: the smallest. Without flat pixels it is below any value.
     Plane flat_around(float sign) const {
         Plane some(values_.width(), values_.height());
         parallel_for(some.height(), workers_, [&](int y) {
@@ -282,11 +282,11 @@ private:
         for (std::size_t i = 0; i < ramps_.size(); ++i) side_(ramps_[i].x, ramps_[i].y) = votes[i];
     }
 
-    // Whether nothing around shows all of the side that it went to.
+    // True if no pixel around shows the whole side that it was assigned to.
     bool is_thin(const Ramp& ramp) const {
         return !(side_(ramp.x, ramp.y) > 0 ? ramp.high_is_plateau : ramp.low_is_plateau);
     }
-    // What blur leaves of the pixel's own side there.
+    // Share of the pixel's own side that blur leaves there.
     float own_share(const Ramp& ramp) const {
         const bool high = side_(ramp.x, ramp.y) > 0;
         float own = 0, all = 0;
@@ -297,8 +297,8 @@ private:
         });
         return own / all;
     }
-    // Something thin is blurred to less than its step: the step is that which, blurred like the sides, comes
-    // closest to the values around (least squares).
+    // Thin objects are blurred to less than their step: the step is the one which, blurred like the sides,
+    // comes closest to the values around (least squares).
     void raise_thin_ones() {
         constexpr float kMost = 4;
         std::vector<float> shares(ramps_.size());

@@ -7,7 +7,7 @@
 
 namespace petzval {
 
-// How soft the silhouettes of a picture's depth are.
+// Softness of the silhouettes of a picture's depth.
 struct EdgeSoftness {
     int edges = 0;           // places, along rows and columns, where one plateau steps or slopes to another
     float deviation_px = 0;  // standard deviation of what blurred them; steps have 0
@@ -16,8 +16,8 @@ struct EdgeSoftness {
     bool is_soft() const;
 };
 
-// Of values that are linear in 1/depth, as that is or a radius: so a plane's change by the same amount from
-// pixel to pixel. Steps of less than a twentieth of the range do not count.
+// Softness of values that are linear in 1/depth, like a radius: a plane changes by the same amount from pixel
+// to pixel. Steps of less than a twentieth of the range do not count.
 EdgeSoftness edge_softness(View<const float> values, Workers& workers);
 
 // Gives each pixel in a ramp between two plateaus to the nearer or the farther one, by its colour and by its

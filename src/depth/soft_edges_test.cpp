@@ -33,7 +33,7 @@ Plane blurred(const Plane& in, float deviation_px) {
     });
 }
 
-// What is nearer is orange, what is behind it grey-blue, each with some texture.
+// A picture in which near parts are orange and far ones grey-blue, each with some texture.
 Picture painted(const Plane& depth) {
     Picture picture(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y)

@@ -25,7 +25,7 @@ struct StarShape {
     bool operator==(const StarShape&) const = default;
 };
 
-// Used by any number of threads at once; nothing that is drawn depends on what is kept.
+// Star kernels kept between frames. Any number of threads may use it; no picture depends on its contents.
 class KeptStars {
 public:
     // The star for pictures of this size: that of a frame before, or a new one. radius_px and diffraction_px:

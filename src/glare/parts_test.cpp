@@ -107,8 +107,8 @@ TEST(Ghosts, AGhostIsMirroredWithItsLight) {
 }
 
 TEST(Ghosts, TwoReflectionsInAPlaneWindowFallOnTheImageItself) {
-    // Between parallel planes of a thin window the light comes out as it went in: a ghost of a window in
-    // front of a lens lies on the picture, sharp. The same matrices, taken from a lens file written here.
+    // Light leaves the parallel planes of a thin window as it came in: a ghost of a window in front of a lens
+    // lies on the picture, sharp. The same matrices, from a lens file written here.
     const std::string path = ::testing::TempDir() + "petzval_window.json";
     std::FILE* file = std::fopen(path.c_str(), "w");
     ASSERT_NE(file, nullptr);

@@ -1,4 +1,4 @@
-// Glare as a device draws it: what is taken, and what is thrown where.
+// Glare as a device draws it: light taken, and light thrown.
 #pragma once
 
 #include "petzval/image.h"
@@ -18,11 +18,11 @@ struct BloomPlan {
         int level = 0;                    // pixels 2^level wide
         std::vector<float> across, down;  // weights around the middle, an odd count that sums to 1
     };
-    // Of equal light, the widest first: on no finer a level than the next.
+    // Blurs of equal light, the widest first: on no finer a level than the next.
     std::vector<Blur> blurs;
     int coarsest = 0;  // level; the finest is the picture, its sides grown to whole pixels of this one
     float share() const { return 1 / float(blurs.size()); }
-    // Of a side of the finest level.
+    // Size of a side of the finest level.
     int padded(int pixels) const {
         const int unit = 1 << coarsest;
         return (pixels + unit - 1) / unit * unit;
@@ -56,7 +56,7 @@ struct Filter {
 struct GlarePlan {
     float bloom = 0, star = 0, ghosts = 0, veil = 0;
     float threshold = 1, bloom_threshold = 0;
-    // What the parts take together, and bloom of its highlights; where its threshold is 0 that is in of_all.
+    // Sum of the parts' amounts, and bloom of its highlights; with threshold 0 that is in of_all.
     float of_all = 0, of_highlights = 0, of_bloom_light = 0;
     BloomPlan bloom_layers;                // where bloom > 0
     std::vector<Streak> streaks;           // where star > 0, either these, by reduction,

@@ -106,8 +106,8 @@ private:
     GhostPath path_;
 };
 
-// What of the entering wavefront passes the stop and all rims, mm; the stop's outline at its first passage,
-// a circle at later ones.
+// Part of the entering wavefront that passes the stop and all rims, mm; the stop's outline at its first
+// passage, a circle at later ones.
 std::vector<Point> entering(const GhostPath& path, const std::vector<Point>& unit_stop, Point slope) {
     std::vector<Point> outline;
     const auto seen = [&](const Rim& rim) { return -rim.height.of_u / rim.height.of_y * slope; };

@@ -148,7 +148,8 @@ TEST(StarKernel, EachChannelSumsToOneNoneIsNegativeAndItIsSymmetric) {
             const Rgba c = star.weights(x, y);
             r += double(c.r), g += double(c.g), b += double(c.b);
             ASSERT_GE(std::min({c.r, c.g, c.b}), 0);
-            // To rounding: what colours no screen has lack is taken from around them, in one order.
+            // Equal to rounding: colours outside the screen's gamut are balanced from around them, in one
+            // order.
             ASSERT_NEAR(c.r, star.weights(w - 1 - x, h - 1 - y).r, 1e-12f);
         }
     EXPECT_NEAR(r, 1, 1e-5);

@@ -47,7 +47,7 @@ void pass_weights(double stride, double radius, Rgba weights[kSamples]) {
     }
 }
 
-// From one cell beside the light on: what stays in its own has not moved.
+// Passes from one cell beside the light on: light in its own cell has not moved.
 std::vector<std::vector<StarTap>> passes_of(kernel::Point direction, double radius) {
     std::vector<std::vector<StarTap>> passes;
     for (double stride = 1; stride == 1 || stride < radius; stride *= kSamples) {

@@ -1,4 +1,4 @@
-// Whatever the bytes: an answer, soon, in bounded memory. Mutations are seeded, so a failure repeats.
+// Any bytes get an answer, soon, in bounded memory. Mutations are seeded, so a failure repeats.
 #include "lens_files/lens_file.h"
 #include "lens_files/sample_texts.h"
 #include "lens_files/shelf.h"

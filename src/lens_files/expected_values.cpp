@@ -22,7 +22,7 @@ constexpr double kFloor = 1e-12;
 // own indices and rounded radii are not known to more.
 constexpr double kUnstated = 2e-6;
 
-// What every quantity may ask of the lens.
+// Lens data that any quantity may use.
 struct Subject {
     const optics::Prescription& lens;
     optics::FirstOrder first;

@@ -33,7 +33,7 @@ bool warns(const LensFile& file, const std::string& part) {
                        [&](const std::string& w) { return w.find(part) != std::string::npos; });
 }
 
-// Glass by name, aspheres, a conic, a stop of its own, clear apertures.
+// A lens with named glass, aspheres, a conic, a separate stop, clear apertures.
 Prescription rich_lens() {
     Prescription lens = find_lens("double-gauss-sample-f2")->lens;
     lens.surfaces[0].conic = -0.3;

@@ -75,7 +75,7 @@ public:
     }
 
 private:
-    // What the curves were drawn for, and in which unit.
+    // Reads the intended use of the curves, and their unit.
     Status use() {
         const struct {
             const char* key;

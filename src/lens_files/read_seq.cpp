@@ -37,7 +37,7 @@ public:
     Result<LensFile> read(const std::string& text);
 
 private:
-    // What a keyword does; words[0] is the keyword.
+    // Handler of a keyword; words[0] is the keyword.
     using Handler = Status (Reader::*)(const Command& c);
     static const std::map<std::string, Handler>& general_words();
     static const std::map<std::string, Handler>& surface_words();
@@ -110,7 +110,7 @@ void add_commands(const std::string& text, int line, std::vector<Command>& comma
     }
 }
 
-// The text as commands; a line that ends in '&' goes on in the next one.
+// The text as commands; a line that ends in '&' continues in the next one.
 std::vector<Command> commands_of(const std::string& text) {
     std::vector<Command> commands;
     std::string pending;
@@ -421,7 +421,7 @@ Status Reader::command(const Command& c) {
         zoom_ = true;
         return Done{};
     }
-    // What follows the image are solves, weights and commands.
+    // Solves, weights and commands follow the image.
     if (!kHarmless.contains(word) && !seen_image_)
         return at_line(c.line, quoted(word) + " is not understood or not supported");
     ignored_.add(word.substr(0, 20));

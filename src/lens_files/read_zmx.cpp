@@ -39,7 +39,7 @@ public:
     Result<LensFile> read(const std::string& text);
 
 private:
-    // What a keyword does; words[0] is the keyword.
+    // Handler of a keyword; words[0] is the keyword.
     using Handler = Status (*)(Reader& reader, const Words& words, const Line& line);
     template <auto member>
     static Status call(Reader& reader, const Words& words, const Line& line) {
@@ -187,7 +187,7 @@ Status Reader::primary(const Words& words, const Line& line) {
     return Done{};
 }
 
-// What follows are the values of each configuration; those of the current one are in the surfaces.
+// Values of each configuration follow; those of the current one are in the surfaces.
 Status Reader::configurations(const Words& words, const Line& line) {
     const auto count = number(words, 1, line);
     if (!count) return count.error();

@@ -1,4 +1,4 @@
-// What the readers of this room share; one reader per format.
+// Shared parts of this room's readers; one reader per format.
 #pragma once
 
 #include "lens_files/glass_catalogue.h"
@@ -16,7 +16,7 @@ namespace petzval::lens_files {
 // Each returns errors "line N: …"; read_lens puts the file's name in front.
 Result<LensFile> read_json_lens(const std::string& text);
 Result<LensFile> read_json_lens(const Json& root);
-// Of an object with "curves"; `lens` is left empty.
+// Reads an object with "curves"; `lens` is left empty.
 Result<LensFile> read_json_curves(const Json& root);
 Result<LensFile> read_zmx(const std::string& text);
 Result<LensFile> read_seq(const std::string& text);

@@ -68,7 +68,8 @@ inline std::string as_seq(const optics::Prescription& lens) {
     return text + "SI 0.0 0.0\nGO\n";
 }
 
-// Loses dispersion, by the format. Requires: an air stop that is a plane of its own, spheres only.
+// The lens as pbrt text, without dispersion, which the format cannot hold. Requires: an air stop on a
+// separate plane, spheres only.
 inline std::string as_pbrt(const optics::Prescription& lens) {
     std::string text = "# " + lens.name + "\n# radius\tsep\tn\taperture\n";
     int index = 0;

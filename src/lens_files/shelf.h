@@ -16,7 +16,7 @@ struct ShelfItem {
     std::string_view name;  // the file's name without .json
     std::string_view text;  // its content
 };
-// By name, in alphabetical order.
+// The shelf in alphabetical order of names.
 std::span<const ShelfItem> shelf();
 
 // The content of lenses/glasses.json.

@@ -30,7 +30,7 @@ Ray Beam::launch(Point at) const {
     return {through, normalised(through - object_position_)};
 }
 
-// Where the launched ray crosses the stop's surface, in stop radii.
+// Crossing of the launched ray with the stop's surface, in stop radii.
 std::optional<Beam::Point> Beam::stop_from_launch(Point at) const {
     TracedRay traced = trace(*lens_, launch(at), 0, lens_->stop);
     if (traced.fate != RayFate::Passed) return std::nullopt;

@@ -62,7 +62,7 @@ private:
         int i = 0, j = 0;
         double coefficient = 0;
     };
-    // Where to launch for a stop point, with derivatives by stop x and y.
+    // Launch position for a stop point, with derivatives by stop x and y.
     struct Guess {
         Point at, by_x, by_y;
     };

@@ -1,4 +1,4 @@
-// The paraxial trace and what follows from it: focal length, pupils, f-number, magnification.
+// The paraxial trace and its results: focal length, pupils, f-number, magnification.
 //
 // Per surface of power K = (n' - n) c:   n' u' = n u - y K;   y+ = y + u' t   (u = slope, + away from the
 // axis).

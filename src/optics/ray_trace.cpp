@@ -28,7 +28,7 @@ Polynomial evaluate(const std::vector<double>& coefficients, double r) {
 // The ray's crossing of the conic where it goes from the side before the surface to the side behind it.
 std::optional<Vec3> intersect_conic(double c, double conic, const Ray& ray) {
     const Vec3& d = ray.direction;
-    // From the point nearest the vertex: far starting points would cost digits.
+    // Starts at the point nearest the vertex: far starting points would cost digits.
     const Vec3 o = ray.position - dot(ray.position, d) * d;
     // F(p) = c (x^2 + y^2 + (1 + conic) z^2) - 2 z is positive before, negative behind; along the ray it is
     // a t^2 + 2 b t + f, and falls where b + a t < 0.
@@ -53,7 +53,7 @@ std::optional<Vec3> intersect_conic(double c, double conic, const Ray& ray) {
     return p;
 }
 
-// From a first guess on the ray, the point where sag(r) = z.
+// The point where sag(r) = z, from a first guess on the ray.
 std::optional<Vec3> refine_on_asphere(const RefractingSurface& surface, const Ray& ray, Vec3 guess) {
     const Vec3& d = ray.direction;
     Vec3 p = guess;

@@ -58,7 +58,7 @@ struct LensAtWavelength {
 // The medium in front is air. Requires: check(lens) succeeded.
 LensAtWavelength at_wavelength(const Prescription& lens, double wavelength_um);
 
-// Where the ray meets the surface, both in the surface's frame; nothing if it does not.
+// Intersection of the ray with the surface, both in the surface's frame; nothing if they do not meet.
 std::optional<Vec3> intersect(const RefractingSurface& surface, const Ray& ray) noexcept;
 
 enum class RayFate { Passed, Missed, TotalReflection };

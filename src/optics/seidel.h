@@ -32,7 +32,7 @@ struct SeidelTable {
     ParaxialTrace marginal, chief;
 };
 
-// At the primary wavelength, colour between short and long. `field_deg` below 90.
+// Sums at the primary wavelength, colour between short and long. `field_deg` below 90.
 SeidelTable seidel(const Prescription& lens, const FirstOrder& first, double field_deg);
 
 // The field that third-order sums of this lens mean by default: paraxial_field_deg, else its field; 20

@@ -19,7 +19,7 @@ namespace petzval::optics {
 
 struct LensSetting {
     double f_number = 0;  // for an object at infinity, >= that of the open lens; 0: open
-    // Of the plane in focus, along the axis from the paraxial entrance pupil; infinity allowed.
+    // Distance of the plane in focus, along the axis from the paraxial entrance pupil; infinity allowed.
     double focus_distance_mm = std::numeric_limits<double>::infinity();
     double sensor_shift_mm = 0;  // added to the paraxial image distance, + away from the lens
 };
@@ -31,7 +31,7 @@ public:
     // distance at or inside the front focal point, where there is no real image.
     static Result<TracedLens> make(Prescription lens, const LensSetting& setting);
 
-    // At the primary wavelength.
+    // First order at the primary wavelength.
     const FirstOrder& first_order() const { return first_; }
     const Prescription& prescription() const { return lens_; }
     double f_number() const { return f_number_; }              // as set, for an object at infinity

@@ -15,7 +15,7 @@ TracedLens traced(const Prescription& lens, const LensSetting& setting = {}) {
     return TracedLens::make(lens, setting).value();
 }
 
-// Where a ray entered by `beam` really crosses the stop, in stop radii.
+// True crossing of the stop by a ray that `beam` launched, in stop radii.
 Vec3 stop_crossing(const Prescription& lens, const Beam& beam, double x, double y) {
     const auto at = at_wavelength(lens, beam.wavelength_um());
     const auto enters = beam.entering(x, y);

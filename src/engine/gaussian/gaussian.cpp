@@ -13,8 +13,8 @@
 namespace petzval::engine {
 namespace {
 
-// The result, the layers, what blurring copies of one at a time, and what was guessed; for every worker a
-// tile of each narrow blur.
+// Bytes of the result, the layers, copies for the blur of one layer at a time, and the estimated background;
+// per worker a tile of each narrow blur.
 std::size_t working_bytes(const GaussianPlan& plan, const EngineView& input) {
     constexpr std::size_t kOfCell = sizeof(Rgba) + sizeof(float), kTilePixels = 288 * 96;
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());

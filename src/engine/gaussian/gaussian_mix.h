@@ -1,4 +1,4 @@
-// How much of the sharp picture, of the smaller blur and of the larger blur a pixel is made of.
+// Shares of the sharp picture, of the smaller blur and of the larger blur in a pixel.
 #pragma once
 
 #include "engine/waist/engine.h"
@@ -22,7 +22,7 @@ struct MixWeights {
 class BlurStack {
 public:
     BlurStack() = default;  // all is sharp
-    // What is within the band is held sharp; the largest radius stays what it is.
+    // Radii within the band stay sharp; the largest radius does not change.
     BlurStack(float largest_px, float band_px);
     int count() const { return int(radii_px_.size()) - 1; }  // of blurs; numbered from the narrowest, 1
     float radius_px(int blur) const { return radii_px_[std::size_t(blur)]; }  // 0: sharp, within its pixel
@@ -31,7 +31,7 @@ public:
         float upper_share = 0;
     };
     Mix operator()(float radius_px) const;
-    // What it is made of, for devices: shaders/mix.glsl evaluates it. Band, stretch, largest radius, count.
+    // Its parameters for devices: shaders/mix.glsl evaluates them. Band, stretch, largest radius, count.
     std::array<float, 4> numbers() const { return {band_px_, stretch_, radii_px_.back(), float(count())}; }
     // 1 within the band and the pixel, 0 at the largest radius.
     float sharpness(float radius_px) const;

@@ -39,7 +39,7 @@ std::vector<float> gaussian_weights(double sigma) {
     return {weights.begin(), weights.end()};
 }
 
-// How much of a kernel at each cell lies inside the picture; cells at its ends may lie inside in part.
+// Share of a kernel inside the picture at each cell; cells at the ends may lie inside in part.
 std::vector<float> share_inside(const std::vector<float>& weights, int level, int cells, int pixels) {
     const int radius = int(weights.size() / 2);
     const CellSplines splines(level, cells);

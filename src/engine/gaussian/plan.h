@@ -31,7 +31,8 @@ struct Blur {
     BlurAxis x, y;
     int cells_across() const { return int(x.inside.size()); }
     int cells_down() const { return int(y.inside.size()); }
-    // Of pixels, and they come from so near that it may be made where it is read, tile by tile.
+    // True for a blur of pixels whose sources are so near that it may be computed while reading, tile by
+    // tile.
     bool is_narrow() const { return level == 0 && std::max(x.radius(), y.radius()) <= kNarrowPx; }
     static constexpr int kNarrowPx = 16;
 };
@@ -86,7 +87,7 @@ struct GaussianPlan {
         if (!fill) return;
         LayeredSample hidden{LayeredSample::Hidden, fill->colour, 1, fill->coc_px, mix(fill->coc_px)};
         if (hidden.coc_px < 0) {
-            // In a layer of what hides it, it would be seen through that.
+            // Skipped: in the layer of its occluder it would be visible through it.
             if (hidden.mix.lower >= seen.mix.lower) return;
             if (hidden.mix.lower + 1 == seen.mix.lower) hidden.mix.upper_share = 0;
         }

@@ -1,4 +1,4 @@
-// What is planned of a draft, told from the plan alone: nothing is drawn here.
+// The plan of a draft, checked without drawing.
 #include "engine/gaussian/plan.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ double sum_of(const std::vector<float>& weights) {
     return sum;
 }
 
-// Of the whole blur in pixels^2: sharing between cells, the kernel, reading from cells.
+// Variance of the whole blur in pixels^2: sharing between cells, the kernel, reading from cells.
 double variance_px(const BlurAxis& axis, int level) {
     double moment = 0;
     for (int k = -axis.radius(); k <= axis.radius(); ++k)

@@ -34,7 +34,7 @@ private:
     std::vector<double> shift_;
 };
 
-// How a photographer uses the curves.
+// A photographer's settings for the curves.
 struct CurveUse {
     double f_number = 2;      // > 0
     double spherical = 1;     // factor on what varies with height

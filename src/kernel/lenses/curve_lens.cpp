@@ -240,7 +240,7 @@ std::vector<PupilRay> CurveLens::rays(int count, FieldPosition field, std::uint6
     return spread_rays(pupil_.outline(field, 1e-5), spectrum, count, seed,
                        [&](std::size_t band, Point pupil) {
                            const Point offset = landing_px(bands[band], 0, axis, pupil);
-                           // What the radius alone does: the landing place is linear in it.
+                           // Effect of the radius alone: the landing place is linear in it.
                            return RayLanding{landing_px(bands[band], 1, axis, pupil) - offset, offset,
                                              pupil_.transmission(pupil, kRayWidth)};
                        });

@@ -27,8 +27,7 @@ AberrationCurves third_order(double marginal_shift) {
         "third order", "", 50, 2, 36, {587.56}, {0, 0.125, 0.25}, {{0, marginal_shift / 4, marginal_shift}}};
 }
 
-// How steeply light ends at the rim: the share of the rim's brightness lost within 1 px, from the last bright
-// ring.
+// Steepness of the rim: the share of the rim's brightness lost within 1 px, from the last bright ring.
 double edge_to_middle(const PointSpread& s, double coc_radius_px) {
     const std::vector<Rgba> profile = radial_profile(s, coc_radius_px);
     float rim = 0;
@@ -140,7 +139,7 @@ TEST(CurveLens, StoppingDownConvergesToTheIdealLens) {
 }
 
 TEST(CurveLens, LargeDefocusFlattensTheDisc) {
-    // Of a doublet: how far the core stands out from half of the radius.
+    // Contrast of a doublet's core against half of the radius.
     const auto unevenness = [](double radius) {
         const auto profile = radial_profile(lens_named("doublet", 2.8)->point_spread(radius, {}), radius);
         return std::abs(double(profile[0].a / profile[profile.size() / 2].a) - 1);

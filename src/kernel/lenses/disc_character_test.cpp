@@ -222,7 +222,7 @@ TEST(DiscCharacter, TheUncorrectedLensSplitsALineInFront) {
 
 // The talk: corrected for a small stop a doublet keeps its character; stopped down it loses it.
 TEST(DiscCharacter, ADoubletCorrectedForF4IsAFlatterDoublet) {
-    // Of the rim, from where the sensor stands for this colour.
+    // Landing of the rim, measured from the sensor's position for this colour.
     const auto rim = [](const char* name, double f_number) {
         const CurveSampler sampler(*curve_preset(name), {.f_number = f_number, .axial_colour = 0});
         return sampler.at(587.56).samples().back() - sampler.best_focus();

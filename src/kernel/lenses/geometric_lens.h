@@ -1,5 +1,5 @@
-// What every lens of rays can tell of itself, beyond its kernels: the pupil and where its points land.
-// Diffraction needs it.
+// Properties of a lens of rays beyond its kernels: the pupil and the landing of its points. Diffraction needs
+// them.
 #pragma once
 
 #include "kernel/draw/ring_kernel.h"
@@ -16,14 +16,14 @@ class GeometricLens : public LensModel {
 public:
     // The outline that passes light, seen from `field`; pixel orientation, pupil radii, before pixel aspect.
     virtual std::vector<Point> pupil_outline(FieldPosition field, double tolerance) const = 0;
-    // Where points of the pupil land in pixels, pixel aspect included. Requires: the lens outlives the
+    // Landing of points of the pupil in pixels, pixel aspect included. Requires: the lens outlives the
     // function.
     virtual std::function<Point(Point)> landing(double wavelength_nm, double coc_radius_px,
                                                 FieldPosition field) const = 0;
     // Share of light that passes a point of the pupil, mean over a square.
     virtual double pupil_transmission(Point pupil, double half_width) const = 0;
-    // Of the kernel on the axis, the pixels from the source's own to the right (ring_row()), where that costs
-    // less than the whole kernel. Empty: the whole kernel has to be made.
+    // Pixels of the kernel on the axis, from the source's own to the right (ring_row()), if that costs less
+    // than the whole kernel. Empty: the whole kernel has to be made.
     virtual std::optional<std::vector<Rgba>> axial_row(double coc_radius_px, RingColours colours) const {
         (void)coc_radius_px, (void)colours;
         return std::nullopt;

@@ -15,7 +15,8 @@ public:
     ImageLens(const LensChoice& choice, const Mount& mount);
 
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
-    // Of the far picture on both sides: rays are linear in the radius, so they cannot change the picture.
+    // Rays of the far picture on both sides: they are linear in the radius, so they cannot change the
+    // picture.
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override;
     double reach_px(double coc_radius_px) const override;
     bool varies_over_field() const override { return pupil_.varies_over_field(); }

@@ -1,4 +1,4 @@
-// What tests of kernels measure: sums, moments, radial profiles, differences.
+// Measures of kernels for tests: sums, moments, radial profiles, differences.
 #pragma once
 
 #include "kernel/lenses/make_lens.h"
@@ -42,7 +42,8 @@ inline Sums sums(const PointSpread& s) {
     return t;
 }
 
-// Of the luminance: centre and mean squares about the source, all light of a pixel counted at its centre.
+// Moments of the luminance: centre and mean squares about the source, all light of a pixel counted at its
+// centre.
 struct Moments {
     double x = 0, y = 0, xx = 0, yy = 0;
 };

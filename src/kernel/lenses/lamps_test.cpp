@@ -17,7 +17,7 @@ LensChoice lit(const std::string& name, LightSpectrum light) {
     return choice;
 }
 
-// Of a channel, about the middle.
+// Mean square of a channel, about the middle.
 double mean_square(const PointSpread& s, float Rgba::*channel) {
     double sum = 0;
     for (int y = s.extent.y0; y < s.extent.y1; ++y)
@@ -26,7 +26,7 @@ double mean_square(const PointSpread& s, float Rgba::*channel) {
     return sum;
 }
 
-// Of one wavelength on the axis, by rays: the mean over the pupil's area.
+// Mean square of one wavelength on the axis, by rays: the mean over the pupil's area.
 double mean_square_of_rays(const LensModel& lens, double nm, double coc_px) {
     const auto landing = dynamic_cast<const GeometricLens&>(lens).landing(nm, coc_px, {});
     double sum = 0;

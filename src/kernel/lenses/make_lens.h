@@ -13,7 +13,7 @@ namespace petzval::kernel {
 // Errors: InvalidArgument naming a camera number that the lens needs, an aperture it does not have, or a
 // focus too near for it.
 Result<std::unique_ptr<const LensModel>> make_lens(const Lens& lens, const Mount& mount);
-// Of a lens that is used once. Errors: also those of Lens::open().
+// The model of a lens that is used once. Errors: also those of Lens::open().
 Result<std::unique_ptr<const LensModel>> make_lens(const LensChoice& choice, const Mount& mount);
 
 // The lens on the picture's pixels, and on pixels 2, 4, … times as wide, `count` in all. Errors: as above.

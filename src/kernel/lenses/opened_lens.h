@@ -1,4 +1,4 @@
-// What a Lens holds.
+// Contents of a Lens.
 #pragma once
 
 #include "petzval/lens.h"

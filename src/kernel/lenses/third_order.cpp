@@ -11,7 +11,7 @@ constexpr double kPrimary_nm = 587.56;
 constexpr double kComaUnit = 0.02, kAstigmatismUnit = 0.01;
 constexpr double kFarthest = 0.1;  // focal lengths
 
-// Of the light that is seen.
+// Mean colour of visible light.
 double mean_colour() {
     static const double mean = [] {
         double sum = 0;

@@ -16,17 +16,17 @@
 
 namespace petzval::kernel {
 
-// Where a wavelength lies in the spectrum of glass: over 1/wavelength^2 (Cauchy), 0 at 587.56 nm, and line F
+// Position of a wavelength in the spectrum of glass: over 1/wavelength^2 (Cauchy), 0 at 587.56 nm, and line F
 // (486.13 nm) 1 more than line C (656.27 nm).
 double colour_place(double wavelength_nm);
 inline constexpr double kFarthestColour = 1.8;  // of 400 to 700 nm
 
-// How far rays of the pupil's rim land outward, at the corner of the picture, in the unit of the focal
+// Outward shifts of rays through the pupil's rim, at the corner of the picture, in the unit of the focal
 // length.
 struct ThirdOrder {
     double spherical = 0, coma = 0, astigmatism = 0, curvature = 0;
     double axial_colour = 0, lateral_colour = 0;  // per colour_place()
-    // What the sensor of FocusMode::Best, least mean square blur in all colours, takes back: on the rim.
+    // Shift at the rim that the sensor of FocusMode::Best (least mean square blur in all colours) takes back.
     double refocus = 0;
 
     // Sizes are in the unit of `focal_length`. Requires: camera numbers > 0.
@@ -36,10 +36,10 @@ struct ThirdOrder {
     bool any() const {
         return has_colour() || spherical != 0 || coma != 0 || astigmatism != 0 || curvature != 0;
     }
-    // Whether discs off the axis lose their symmetry about their own middle.
+    // True if discs off the axis lose their symmetry about their own middle.
     bool is_lopsided() const { return coma != 0 || astigmatism != 0 || lateral_colour != 0; }
-    // Where pupil point p (along, across) lands if all of the pupil lands at `scale` times its place but for
-    // what an aberration draws sidewards.
+    // Landing of pupil point p (along, across) if the whole pupil lands at `scale` times its place, except
+    // for sideways shifts by aberrations.
     Point landed(double scale, Point p, double field, double colour) const {
         const double side = coma * field, bend = astigmatism * field * field;
         return {(scale - bend) * p.x + side * (3 * p.x * p.x + p.y * p.y) + lateral_colour * field * colour,

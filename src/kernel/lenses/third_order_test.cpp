@@ -1,4 +1,4 @@
-// What is added to lenses: by hand, by rays of our own, by waves, and the same on every kind of lens.
+// Added aberrations: by hand, by independent rays, by waves, and the same on every kind of lens.
 #include "kernel/lenses/third_order.h"
 
 #include "kernel/lenses/geometric_lens.h"

@@ -47,7 +47,7 @@ struct Parabola {
                                                         std::abs(wavelengths_nm[first] - wavelength_nm))
             ++first;
         const auto axis = [](double nm) { return 1e6 / (nm * nm); };
-        // Beyond the traced range, as at its end.
+        // Values beyond the traced range are those of its end.
         const double x = axis(std::clamp(wavelength_nm, wavelengths_nm.front(), wavelengths_nm.back()));
         for (std::size_t i = 0; i < 3; ++i) {
             weight[i] = 1;
@@ -65,7 +65,7 @@ double light_at(const RayMap& map, const PupilPowers& powers) {
     return std::max(0.0, light);
 }
 
-// Where the middle of the light lands, along the field's direction.
+// Middle of the light, along the field's direction.
 struct Middle {
     double offset_mm = 0, slope = 0, per_coc = 0;
 };
@@ -91,7 +91,7 @@ Middle middle_of(const RayMap& map, const OpenStop& open) {
     return sum;
 }
 
-// Of the visible spectrum, the luminance in the 10 nm around a wavelength.
+// Luminance of the visible spectrum in the 10 nm around a wavelength.
 double luminance_at(double wavelength_nm) {
     double sum = 0;
     for (const colour::SpectralBand& band : colour::spectral_bands(60))
@@ -149,7 +149,7 @@ Status TracedModel::trace(const optics::Prescription& lens) {
                                 camera.focus_distance_m > 0 ? camera.focus_distance_m * 1000
                                                             : std::numeric_limits<double>::infinity(),
                                 0};
-    // At the open aperture the numbers of a lens are often rounded: half a percent is the lens itself.
+    // The open aperture of a lens is often a rounded number: half a percent counts as the lens itself.
     const auto first = optics::first_order(lens, lens.primary_um);
     if (!first) return first.error();
     if (setting.f_number < first->f_number && setting.f_number > 0.99 * first->f_number)
@@ -251,7 +251,8 @@ std::optional<TracedModel::Node> TracedModel::traced_node(const optics::TracedLe
     return node;
 }
 
-// Of the primary wavelength and of those traced. It hardly changes with colour: three are enough.
+// Displacements of the primary wavelength and of the traced ones. They hardly change with colour: three are
+// enough.
 std::vector<Displacement> TracedModel::traced_per_coc(const optics::TracedLens& lens, double field_rad,
                                                       const RayMapFitter& fitter,
                                                       const std::vector<RayMap>& maps) const {
@@ -437,7 +438,7 @@ std::vector<TracedModel::Colour> TracedModel::colours_of(const Node& node, const
     return colours;
 }
 
-// On the axis a lens of round surfaces is the same in every direction: one ray a zone tells of all of it.
+// A lens of round surfaces is rotationally symmetric on the axis: one ray per zone is enough.
 std::optional<std::vector<Rgba>> TracedModel::axial_row(double coc_radius_px, RingColours colours) const {
     if (!pupil_.is_disc({}) || pupil_.has_texture() || mount_.pixel_aspect != 1) return std::nullopt;
     const Node node = at(0);

@@ -78,7 +78,7 @@ TEST(TracedModel, PolynomialsStandForTheRays) {
     }
 }
 
-// Where a ray of an object out of focus lands, by its own trace: px on full_frame(), upright.
+// A ray of an object out of focus lands at this place by a separate trace: px on full_frame(), upright.
 TEST(TracedModel, NearDiscsAreThoseTracedFromTheObject) {
     for (const std::string name :
          {"takumar", "double-gauss", "petzval-portrait", "triplet-cooke", "singlet"}) {
@@ -213,8 +213,7 @@ TEST(TracedModel, OnTheAxisItIsTheLensOfItsOwnAberrationCurves) {
         for (const double radius : {-20.0, 12.0}) {
             const Moments a = moments(drawn.point_spread(radius, {})),
                           b = moments(real->point_spread(radius, {}));
-            // Wide open, tangents of real rays are 6 % larger than what the curves' first order takes them
-            // for.
+            // Tangents of real rays wide open are 6 % larger than the curves' first order.
             EXPECT_NEAR(a.xx, b.xx, (f_number < 3 ? 0.07 : 0.03) * b.xx) << f_number << " " << radius;
             const float core_a = weight_at(drawn.point_spread(radius, {}), 0, 0).a;
             const float core_b = weight_at(real->point_spread(radius, {}), 0, 0).a;
@@ -320,7 +319,7 @@ TEST(TracedModel, BladesAndWavelengthsAndFocusChangeTheKernel) {
 }
 
 TEST(TracedModel, LateralColourScalesThroughNoneToReversed) {
-    // Where the middle of each channel lands, along the field's direction.
+    // Middle of each channel, along the field's direction.
     const auto red_against_blue = [](double factor, FieldPosition field) {
         LensChoice choice;
         choice.name = "retrofocus", choice.lateral_colour = factor;

@@ -21,9 +21,9 @@ constexpr double kShortest_nm = 400, kLongest_nm = 700;
 // Diffraction is followed this many wavelength x N beyond the rays: 99 % of the light of a round focus.
 constexpr double kTail = 20, kLongestTailPx = 48;
 
-// What the wavefront has beyond that of pure defocus, on a grid over the square around the pupil, in pixels x
-// pupil radii. Few nodes are integrated; cubic lines (E. Catmull, R. Rom, 1974) through them give a grid so
-// fine that straight lines do between its nodes.
+// The wavefront without pure defocus, on a grid over the square around the pupil, in pixels x pupil radii.
+// Few nodes are integrated; cubic lines (E. Catmull, R. Rom, 1974) through them give a grid fine enough for
+// linear interpolation.
 class Wavefront {
 public:
     Wavefront(const std::function<Point(Point)>& landing, double coc_radius_px, double pixel_aspect) {
@@ -109,7 +109,7 @@ int power_of_two_at_least(double n) {
     return side;
 }
 
-// How much of each sample lies in a pixel: samples are 1 wide, pixels `width` wide, both centred on 0.
+// Share of each sample in a pixel: samples are 1 wide, pixels `width` wide, both centred on 0.
 struct Share {
     int sample = 0;
     float part = 1;
@@ -216,7 +216,7 @@ PointSpread WaveLens::transformed(double wavelength_nm, FieldPosition field, con
                                   const std::function<double(Point)>& waves) const {
     const int per_pixel = samples_per_pixel();
     const int side = std::min(kLargestGrid, power_of_two_at_least(double(per_pixel) * extent.width()));
-    // x u/(2 N wavelength) is to be m i/side, for x = m pixel/per_pixel and u = i step.
+    // x u/(2 N wavelength) must be m i/side, for x = m pixel/per_pixel and u = i step.
     const double step = 2 * f_number_ * wavelength_nm * 1e-6 * per_pixel / (side * pixel_mm_);
     // Coverage smooths the rim; the axis is entry (0, 0) of the transform.
     const int half = std::min(side / 2 - 2, int(std::ceil(1.02 / step)) + 1);

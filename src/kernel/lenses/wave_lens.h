@@ -30,7 +30,7 @@ public:
 
     PointSpread point_spread(double coc_radius_px, FieldPosition field) const override;
     PointSpread raw_point_spread(double coc_radius_px, FieldPosition field) const override;
-    // Of the lens without diffraction: rays do not bend at rims.
+    // Rays of the lens without diffraction: rays do not bend at rims.
     std::vector<PupilRay> rays(int count, FieldPosition field, std::uint64_t seed) const override {
         return lens_->rays(count, field, seed);
     }
@@ -51,7 +51,7 @@ private:
     Rect extent_at(double coc_radius_px) const;
     double tail_px() const;
     int samples_per_pixel() const;
-    // Of a pupil whose wavefront is `waves`, in wavelengths.
+    // Kernel of a pupil whose wavefront is `waves`, in wavelengths.
     PointSpread transformed(double wavelength_nm, FieldPosition field, const Rect& extent,
                             const std::function<double(Point)>& waves) const;
     PointSpread sum_of_bands(const Rect& extent, const std::function<PointSpread(double)>& one_band) const;

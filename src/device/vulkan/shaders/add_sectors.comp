@@ -1,5 +1,5 @@
-// What sectors of the pupil gave to each pixel of a tile, as one. Discrete sources leave a little of the lens
-// free; it goes to those that did arrive.
+// Combines the sectors of the pupil for each pixel of a tile. Discrete sources leave a little of the lens
+// free; it goes to those that arrived.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "laws/tiles.h"

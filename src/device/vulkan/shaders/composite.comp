@@ -69,13 +69,13 @@ vec4 sent(uint k, ivec2 cell) {
     return sum * hit_light[k];
 }
 
-// 8 x 4 pixels of the group's, one for each of 32 invocations that follow each other: as small a part as most
-// devices run in step looks at what touches it alone.
+// Corner of a block of 8 x 4 of the group's pixels, one for each of 32 consecutive invocations: the smallest
+// part that most devices run in step reads only the arrivals that touch it.
 ivec2 corner_of_block(uint block) { return ivec2(block % 2u, block / 2u) * ivec2(8, 4); }
 
 bool meet(Box a, Box b) { return all(lessThan(a.low, b.high)) && all(greaterThan(a.high, b.low)); }
 
-// Where an arrival lands; neighbours of its cell may send as well.
+// Landing of an arrival; neighbours of its cell may send as well.
 Box reach(ivec2 place, vec4 shape, uint record) {
     const ivec2 corner = place + halves(kernels[record]), size = halves(kernels[record + 1u]);
     const vec2 to = sign(shape.zw);
@@ -141,8 +141,8 @@ uint next_of_block(uint k, uint hits) {
     return hits;
 }
 
-// What a run sends to a cell: from every arrival whose number among the hits is `slice` of `slices`, or,
-// by_block, from all that touch the block of this invocation, which the cell lies in.
+// Light that a run sends to a cell: from every arrival whose number among the hits is `slice` of `slices`,
+// or, by_block, from all that touch the block of this invocation, which the cell lies in.
 vec4 gathered(uint run, uint sector, Box box, ivec2 cell, bool wanted, bool by_block, uint slice,
               uint slices) {
     const uint word = at.runs + kRunWords * (run - at.first_run);
@@ -186,7 +186,7 @@ vec4 enlarged(ivec2 pixel, int level, Box cells) {
     return interpolated(rows[0], rows[1], rows[2], rows[3], wy);
 }
 
-// What a run sends to a pixel, through one sector.
+// Light that a run sends to a pixel, through one sector.
 vec4 arrived(uint run, uint sector, Box box, ivec2 pixel, bool inside) {
     const uint own = gl_LocalInvocationIndex;
     const int level = int(plan[at.runs + kRunWords * (run - at.first_run) + 1u]);
@@ -250,7 +250,7 @@ struct LensLeft {
     int layer;
 };
 float free(LensLeft left) { return law_free(left.before, left.own); }
-// The lens area taken, and what side by side would be taken more.
+// The lens area taken, and the further area that side-by-side composition would take.
 vec2 take(inout LensLeft left, float arrives, int layer) {
     law_meet(left.before, left.own, float(uint(layer) - uint(left.layer)), float(at.another_surface));
     left.layer = layer;

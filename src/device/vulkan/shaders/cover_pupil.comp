@@ -1,4 +1,4 @@
-// How much of each cell of a viewpoint's pupil nearer things cover: 16 x 16 cells a group. The formulas are
+// Coverage by nearer occluders of each cell of a viewpoint's pupil: 16 x 16 cells a group. The formulas are
 // device/cpu/pupil_shadow.cpp's.
 #version 450
 layout(local_size_x = 256) in;
@@ -23,7 +23,7 @@ float integral(float x, float middle, float outer, float inner, float peak, floa
     return peak * ((up * up - down * down) * per_ramp + flat_part + down);
 }
 
-// How much of a cell a box around `middle` covers, its edges blurred by another box.
+// Coverage of a cell by a box around `middle`, its edges blurred by another box.
 float share(int cell, float middle, float side, float blur) {
     const float outer = 0.5 * (side + blur), inner = 0.5 * abs(side - blur), ramp = outer - inner;
     const float peak = blur > side ? side / blur : 1.0, per_ramp = ramp > 1e-6 ? 0.5 / ramp : 0.0;

@@ -40,7 +40,8 @@ float number(uint word) { return uintBitsToFloat(words[word]); }
 
 #include "kernels.glsl"
 
-// Which lights of a turn, of those of cell number `index` of the window, touch the box; returns how many.
+// Finds the lights of a turn, among those of cell number `index` of the window, that touch the box; returns
+// their number.
 uint find_hits(uint turn, uint level, Box window, Box box, int index) {
     const uint own = gl_LocalInvocationIndex;
     if (own < kChunk / 32) hit_words[own] = 0u;
@@ -81,7 +82,7 @@ uint find_hits(uint turn, uint level, Box window, Box box, int index) {
     if (hits) {
         vec4 colour = vec4(number(light), number(light + 1u), number(light + 2u), number(light + 3u));
         vec2 area = vec2(number(light + 4u), number(light + 5u));
-        // What goes on beyond the picture covers, in a colour that is not known; else there is emptiness.
+        // The continued picture beyond the border covers, in an unknown colour; otherwise there is emptiness.
         if (place != cell) {
             const bool goes_on = (place.x >= 0 || (at.open_edges & 1u) != 0u) &&
                                  (place.y >= 0 || (at.open_edges & 2u) != 0u) &&
@@ -99,7 +100,7 @@ uint find_hits(uint turn, uint level, Box window, Box box, int index) {
     return all_hits;
 }
 
-// What arrives at a cell in one turn: from every hit whose number is `slice` of `slices`.
+// Light that arrives at a cell in one turn: from every hit whose number is `slice` of `slices`.
 Sums gathered(uint turn, uint level, Box box, ivec2 cell, bool wanted, uint slice, uint slices) {
     const int reach = int(words[turn + 3u]);
     const Box window = Box(box.low - reach, box.high + reach);
@@ -121,7 +122,7 @@ Sums gathered(uint turn, uint level, Box box, ivec2 cell, bool wanted, uint slic
     return sums;
 }
 
-// Of the lens, the area that a turn arrives with, or what is left.
+// Takes the lens area that a turn arrives with, or the rest.
 void take(Sums ring, inout vec4 sum, inout float free) {
     const bool covers = ring.area.x > kLeastGathered;
     const float taken = covers ? min(ring.area.x + ring.area.y, free) : 0.0;

@@ -1,4 +1,5 @@
-// What glare leaves of a pixel, and what it throws there; alpha stays. In place.
+// Subtracts the light that glare takes from a pixel and adds the light it throws there; alpha stays. In
+// place.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;

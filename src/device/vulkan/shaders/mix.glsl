@@ -1,4 +1,4 @@
-// What the three passes of a draft share: mix.cpp beside this folder writes these words.
+// Shared by the three passes of a draft: mix.cpp beside this folder writes these words.
 
 // For each blur: level, cells across and down, the first row of cells that is here and how many, its first cell;
 // then weights, radius and shares inside along x, and along y.
@@ -22,12 +22,12 @@ float number(uint word) { return uintBitsToFloat(words[word]); }
 struct Span {
     int begin, end;
 };
-// That have a share in a cell, along an axis of so many pixels.
+// Pixels that have a share in a cell, along an axis of that many pixels.
 Span pixels_of(int cell, int level, int pixels) {
     if (level == 0) return Span(cell, cell + 1);
     return Span(max(0, (cell - 1) << level), min((cell + 2) << level, pixels));
 }
-// Of a pixel, in the cell before its own, in its own and in that after.
+// Shares of a pixel in the cell before its own, in its own and in the one after.
 vec3 spline_shares(int pixel, int level) {
     const int size = 1 << level;
     const float from_middle = (float(pixel & (size - 1)) + 0.5) / float(size) - 0.5;
@@ -68,11 +68,11 @@ float sharp_share(Mix mixed) { return mixed.lower == 0 ? 1 - mixed.upper_share :
 // Places of the layers, and how many.
 uint near_count() { return uint(at.near[3]); }
 uint layer_count() { return near_count() + uint(at.far[3]); }
-// Of light of this sign, that numbered k from 1.
+// Layer of light of this sign, number k from 1.
 uint layer(int k, bool near) { return near ? near_count() - uint(k) : near_count() + uint(k) - 1u; }
 
-// What a pixel holds beside what is seen: part of something nearer, then what is hidden. Its word in `extra_of`
-// says where in `extras` these are: the first number times 4, and a bit for each.
+// Further surfaces of a pixel: part of a nearer one, then hidden ones. Its word in `extra_of` gives their
+// position in `extras`: the first number times 4, and a bit for each.
 struct Extra {
     vec4 light;
     float covered;

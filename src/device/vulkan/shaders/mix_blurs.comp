@@ -78,7 +78,7 @@ vec4 blurred(uint blur, uvec2 pixel) {
     return light;
 }
 
-// Of the whole picture, as far as the law goes by radius; 0: the sharp one.
+// A blur of the whole picture, if the law goes by radius; 0: the sharp one.
 vec4 of_stack(int blur, uvec2 pixel, vec4 colour) { return blur == 0 ? colour : blurred(uint(blur - 1), pixel); }
 
 float focus_index(float value) {
@@ -87,7 +87,7 @@ float focus_index(float value) {
     return at.far[3] == 0 || r <= kWithin ? 1 : clamp((largest - r) / (largest - kWithin), 0.0, 1.0);
 }
 
-// By depth the value is the share of the sharp picture.
+// The value of a depth law is the share of the sharp picture.
 vec4 mixed(uvec2 pixel, vec4 colour, float value) {
     if (at.view == kViewIndex) return vec4(vec3(focus_index(value)), 1);
     if (at.view == kViewSmall) return blurred(kSmall, pixel);

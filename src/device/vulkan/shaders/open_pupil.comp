@@ -12,7 +12,7 @@ const uint kViewWords = 7;  // cover_pupil.comp
 void main() {
     const uint view = at.views + kViewWords * gl_WorkGroupID.y, tap = gl_GlobalInvocationID.x;
     const uint taps = words[view + 2u], parts = words[view + 3u], wide = taps * parts;
-    // What nothing stands before has no cells and no taps of its own.
+    // A view without occluders has no cells and no separate taps.
     if (words[view + 1u] == 0u || tap >= taps * taps) return;
     const uint first = words[view + 5u];
     const float per_radius = uintBitsToFloat(words[view + 4u]) * float(parts);
@@ -28,7 +28,7 @@ void main() {
                 inside_count += 1;
             }
         }
-    // Of a disc with few taps a tap is the part that the pupil's circle leaves of it.
+    // A tap of a disc with few taps is the part inside the pupil's circle.
     visible[words[view + 6u] + tap] =
         parts > 1u && inside_count > 0 ? inside / inside_count : all / float(parts * parts);
 }

@@ -1,4 +1,4 @@
-// What the dispatches of the pass for real time share (docs/explain/real-time.md).
+// Shared by the dispatches of the real-time pass (docs/explain/real-time.md).
 layout(push_constant) uniform Push {
     ivec2 size, tiles;          // pixels; tiles of 16 x 16 of them
     float add_px, per_depth_px;  // a signed radius is add_px + per_depth_px * depth
@@ -9,13 +9,13 @@ layout(push_constant) uniform Push {
 const float kMostLight = 60000;  // that cells hold
 const int kTile = 16;            // pixels
 const int kLayers = 4, kBackLight = 0, kBack = 1, kNearLight = 2, kNear = 3;  // of cells
-// Of the finest alone: a lamp's light, but for a factor; its place from the cell's corner, signed radius, that factor; signed
-// radii of the cell's four pixels.
+// Stored for the finest level only: a lamp's light without a factor; its place from the cell's corner, signed
+// radius, that factor; signed radii of the cell's four pixels.
 const int kLampLight = 4, kLampPlace = 5, kRadii = 6;
 const int kGatheredBack = 0, kGatheredNear = 1, kGatheredArea = 2;            // of what is gathered
 
 vec4 light_of(vec4 colour) { return clamp(colour, vec4(0), vec4(kMostLight)); }
-// As it is, if it is a number: what a host draws may be infinite, and from there on nothing is finite.
+// The colour if it is finite: a host's picture may hold infinity, which would spread.
 vec4 finite_of(vec4 colour) {
     const vec4 most = clamp(colour, vec4(-kMostLight), vec4(kMostLight));
     return mix(mix(colour, most, isinf(colour)), vec4(0), isnan(colour));
@@ -28,6 +28,6 @@ float radius_of(float depth) {
 // The share of something at a radius that cells draw; the rest is blurred pixel by pixel.
 const float kWholePx = 3.5;  // from there on they draw all
 float blurred_share(float radius_px) { return smoothstep(1.5, kWholePx, radius_px); }
-// The radius that cells gather over, so that with what cells themselves blur (boxes and tents of two pixels) a disc is as
-// wide, by its second moment, as it should be.
+// The radius that cells gather over: with the blur of the cells themselves (boxes and tents of two pixels)
+// the disc has the right second moment.
 float gathered_radius(float radius_px) { return sqrt(max(radius_px * radius_px - 4, 1.0)); }

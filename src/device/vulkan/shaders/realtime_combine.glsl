@@ -14,8 +14,8 @@ float radius_at(ivec2 pixel) {
 }
 #include "realtime_sprites.glsl"
 
-// What cells of two pixels are too coarse for: a pixel and those around it, each over a disc of its own. What lies behind
-// the pixel is seen through the pixel's disc.
+// Sums blurs too fine for cells of two pixels: a pixel and those around it, each over a disc of its radius.
+// Background is seen through the pixel's own disc.
 struct Fine {
     vec4 back, near;
     float area;  // of what is in front of focus
@@ -41,7 +41,7 @@ Fine fine(ivec2 pixel, vec4 sharp, float radius, float widest_px) {
                 guess += likely * light, guess_area += likely;
             }
         }
-    // What something near hides is guessed from what is around it, or goes on as that.
+    // Background behind a near surface is estimated from its surroundings, or continues them.
     if (back_area > 1e-3) sum.back = back / back_area;
     else if (guess_area > 0) sum.back = guess / guess_area;
     else if (sum.area > 0) sum.back = sum.near / sum.area;
@@ -50,7 +50,7 @@ Fine fine(ivec2 pixel, vec4 sharp, float radius, float widest_px) {
     return sum;
 }
 
-// Between the four cells around it, near focus those that are as blurred as the pixel before others.
+// Interpolates between the four cells around it; near focus, cells as blurred as the pixel count first.
 vec4 back_at(ivec2 pixel, float radius, out float is_known) {
     const vec2 place = (vec2(pixel) + 0.5) * 0.5 - 0.5;
     const ivec2 low = ivec2(floor(place)), last = 8 * at.tiles - 1;
@@ -63,7 +63,7 @@ vec4 back_at(ivec2 pixel, float radius, out float is_known) {
         const vec2 near_it = mix(1 - share, share, vec2(d));
         const float own = gathered_radius(radius);
         float alike = radius > 0 ? exp2(-4 * abs(area.y - own) / (1 + 0.5 * radius)) : 1.0;
-        // Where neither is nearly sharp, both know what is seen between them.
+        // If neither is nearly sharp, both know the light between them.
         alike = mix(alike, 1.0, smoothstep(1.0, 2.5, min(own, area.y)));
         const float w = near_it.x * near_it.y * area.z * max(alike, 1e-4);
         sum += w * texelFetch(gathered, ivec3(cell, kGatheredBack), 0);
@@ -87,7 +87,7 @@ void main() {
     float area = textureLod(gathered, vec3(place, kGatheredArea), 0).x, is_known;
     const vec4 back = back_at(pixel, radius, is_known);
     const float hidden = blurred_share(-radius);
-    // A pixel that is wholly near has nothing sharp; of what it hides something may be known.
+    // A completely near pixel has no sharp part; some of its background may be known.
     vec4 base = mix(own.back, back, is_known * blurred_share(abs(radius)));
     base = own.near + (1 - own.area) * base;
     vec4 made = base;

@@ -30,7 +30,7 @@ vec2 norm(float share) {
     const int i = min(int(place), kNorms - 2);
     return mix(lens[kFirstNorm + i].xy, lens[kFirstNorm + i + 1].xy, place - float(i));
 }
-// Where a tap over a disc of this radius reads.
+// Read position of a tap over a disc of this radius.
 vec3 place_of(vec2 middle, vec2 tap, float radius_px, int layer) {
     return vec3((middle + 0.5 * radius_px * vec2(tap.x, tap.y * at.aspect)) / vec2(8 * at.tiles), layer);
 }
@@ -42,8 +42,8 @@ void guess(vec4 there, float there_area, float weight, inout vec4 light, inout f
     light += likely * there, area += likely * there_area;
 }
 
-// What a cell that is wholly in front of focus hides: the mean of what is behind focus around it, and of what is in front
-// as well but far less blurred; of the nearest of these.
+// Background of a cell completely in front of focus: the mean of the light behind focus around it, and of far
+// less blurred near light; of the nearest of these.
 vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     vec4 light = vec4(0);
     float area = 0;
@@ -67,11 +67,11 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     return area > 1e-6 ? light / area : vec4(0);
 }
 
-// The mean radius of what is behind focus in a cell.
+// Mean radius of the light behind focus in a cell.
 float back_radius(vec4 back) { return back.y / max(back.w, 1e-7); }
 
-// What taps over a disc say of what is about as blurred as a cell of `own_px`, or else of what is far less blurred; the
-// largest radius of that.
+// Sums taps over a disc: light about as blurred as a cell of `own_px`, or else far less blurred light; and
+// the largest radius of the latter.
 const float kLessBlurred = 0.4, kAsBlurred = 0.7;  // of the cell's radius
 vec4 back_over(vec2 middle, float radius, float own_px, bool is_less, out float less_px, out float area) {
     const float level = level_of(radius);
@@ -91,8 +91,8 @@ vec4 back_over(vec2 middle, float radius, float own_px, bool is_less, out float 
     }
     return light;
 }
-// Of a cell with something in it: what lies behind is seen through this cell's own disc. What is far less blurred has but
-// a few taps of that in its own disc: it is gathered again, over as much as it reaches, and lies on top.
+// Blurs a cell with content: background is seen through this cell's own disc. Far less blurred light has only
+// a few taps in that disc: it is gathered again, over its own reach, and lies on top.
 vec4 back_of(vec2 middle, vec4 own_light, vec4 own) {
     const float own_px = back_radius(own), radius = max(own_px, 1.0);
     if (own_px < 0.5) return own_light / own.x;

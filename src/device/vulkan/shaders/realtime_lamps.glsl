@@ -1,7 +1,7 @@
-// Which light is that of a lamp: as much of a pixel's as stands out of its surroundings.
+// Separates the light of lamps: the part of a pixel's light that stands out of its surroundings.
 layout(std430, binding = 7) readonly buffer Surroundings { vec2 surroundings[]; };  // by tile: realtime_measure.comp
 
-// Between the four tiles around a pixel, so that no border of tiles shows.
+// Interpolates between the four tiles around a pixel, so that no border of tiles shows.
 vec2 surroundings_at(ivec2 pixel) {
     const vec2 place = (vec2(pixel) + 0.5) / float(kTile) - 0.5, share = place - floor(place);
     const ivec2 low = clamp(ivec2(floor(place)), ivec2(0), at.tiles - 1), high = clamp(ivec2(floor(place)) + 1, ivec2(0), at.tiles - 1);
@@ -22,8 +22,8 @@ float radius_of_brightest(ivec2 low, int side, out float most) {
     return radius;
 }
 
-// What taps alone show well stays: light a few times as bright as what is around it, the more the wider its disc. So no
-// pixel is reached by many more lamps than can be told apart.
+// Light that taps alone show well stays: a few times as bright as its surroundings, more for wider discs. So
+// no pixel is reached by many more lamps than are distinguishable.
 vec4 lamp_of(ivec2 pixel, vec4 light) {
     const vec2 around = surroundings_at(pixel);
     const float own = brightness(light);

@@ -1,4 +1,4 @@
-// How bright the surroundings of a lamp are: means over a tile of 16 x 16 pixels; a group is a tile.
+// Measures the brightness of a lamp's surroundings: means over a tile of 16 x 16 pixels; a group is a tile.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -22,7 +22,7 @@ void main() {
         barrier();
         if (own < half_way) sums[own] += sums[own + half_way];
     }
-    // Of roots, squared: lamps hardly raise it, surfaces do.
+    // Squared mean of roots: lamps hardly raise it, surfaces do.
     if (own == 0u) {
         const vec2 mean = sums[0] / 256;
         surroundings[gl_WorkGroupID.y * uint(at.tiles.x) + gl_WorkGroupID.x] = vec2(mean.x * mean.x, mean.y);

@@ -59,7 +59,8 @@ uvec2 merge(ivec2 tile, uvec2 mask, int side) {
     return left;
 }
 
-// So many that, were all tiles around like this one, no more than kMostLamps were left: one on each side of focus at least.
+// Number of lamps such that no more than kMostLamps would be left if all tiles around were like this one: at
+// least one on each side of focus.
 uvec2 thinned(ivec2 tile, uvec2 mask, uint all) {
     const uint own = uint(bitCount(mask.x) + bitCount(mask.y)), most = max(1u, own * kMostLamps / max(all, 1u));
     if (own <= most) return mask;
@@ -91,7 +92,7 @@ void main() {
         for (int x = low.x; x <= high.x; ++x) {
             const vec2 range = tiles[y * at.tiles.x + x];
             const float radius = -range.x;
-            // Between the nearest pixels of both.
+            // Distance between the nearest pixels of both.
             vec2 gap = float(kTile) * vec2(max(abs(ivec2(x, y) - tile) - 1, ivec2(0)));
             gap.y /= at.aspect;
             if (radius > most && dot(gap, gap) <= (radius + 1) * (radius + 1)) most = radius;

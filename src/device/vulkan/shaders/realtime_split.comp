@@ -1,4 +1,5 @@
-// Parts the light of 2 x 2 pixels into what lies in front of focus and all else, and takes means; a group is a tile.
+// Divides the light of 2 x 2 pixels into near (in front of focus) and everything else, and takes means; a
+// group is a tile.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -59,8 +60,8 @@ void keep_lamp(ivec2 cell, vec4 light, vec2 place) {
     }
 }
 
-// The signed radius of a pixel. At a silhouette a pixel shows something near and what is behind, and its depth may be that of
-// what is behind: where the near one gives most of its light, it has the radius of that.
+// The signed radius of a pixel. A silhouette pixel shows a near surface and its background, and may have the
+// background's depth: if the near surface gives most of its light, the pixel gets its radius.
 float own_radius(ivec2 pixel, vec4 light) {
     const float kAlike = 0.97;
     const float kApart = 1.5;  // pixels: less is blurred alike
@@ -96,7 +97,7 @@ void main() {
     vec2 range = vec2(1e9, -1e9), lamp_place = vec2(0);
     vec4 lamp = vec4(0), own_radii;
     for (int i = 0; i < 4; ++i) {
-        // Beyond the picture its border goes on.
+        // Continues the border beyond the picture.
         const ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(2 * cell + corner, at.size - 1);
         vec4 light = light_of(texelFetch(colours, pixel, 0));
         const float radius = own_radius(pixel, light);
@@ -110,10 +111,11 @@ void main() {
         range = vec2(min(range.x, radius), max(range.y, radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
         near_light += near * light, near_area += near, near_radius += near * gathered_radius(radius);
-        // What is in focus is hardly in it, or it would be gathered where a tap falls between two cells.
+        // Light in focus hardly counts, or a tap between two cells would gather it.
         const float weight = back * mix(1e-3, 1.0, smoothstep(0.5, 1.5, radius));
         back_light += weight * light, back_area += back, back_weight += weight;
-        // Emptiness has the radius of what is beside it, or that would be blurred by the radius of emptiness.
+        // Emptiness has the radius of the surface beside it, or that surface would be blurred by the radius
+        // of emptiness.
         const float counts = weight * clamp(light.a, 1e-3, 1.0);
         back_counts += counts, back_radius += counts * (radius > 0.5 ? gathered_radius(radius) : 0.0);
     }

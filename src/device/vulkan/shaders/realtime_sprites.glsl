@@ -22,8 +22,8 @@ vec4 kernel_at(vec2 offset, float radius_px) {
            mix(mix(lens[first], lens[first + 1], share.x), mix(lens[first + side], lens[first + side + 1], share.x), share.y);
 }
 
-// What of a lamp behind focus is seen from a pixel: on its way to (x, y) light has its radius at `from` and none at
-// `to`; where something nearer has just the radius that is left, it stops there.
+// Visible share of a lamp behind focus from a pixel: on its way to (x, y) light has its radius at `from` and
+// none at `to`; an occluder with the remaining radius stops it there.
 float seen(vec2 from, vec2 to, float radius) {
     const int kSteps = 8;
     float hidden = 0;
@@ -79,7 +79,7 @@ void add_lamps(ivec2 tile, uvec2 mask, vec2 pixel, float near_px, inout vec4 nea
 shared uvec3 heads[64];  // which cells of a tile have lamps, and where the tile is
 shared uint head_words[2];
 
-// Whether lamps of a tile, this wide at most, may reach a pixel of the group.
+// True if lamps of a tile, at most this wide, may reach a pixel of the group.
 bool reaches_group(ivec2 tile, float radius_px) {
     const float wide = 1.25 * radius_px + 2 + radius_px / 16;  // what a kernel covers, and its rim
     const ivec2 group = 8 * ivec2(gl_WorkGroupID.xy), gap = max(kTile * tile - group - 7, group - kTile * tile - kTile + 1);

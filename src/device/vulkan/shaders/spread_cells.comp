@@ -1,4 +1,4 @@
-// What spread_columns.comp made of columns of pixels, shared along the rows between the cells of one blur.
+// Shares the columns made by spread_columns.comp along the rows between the cells of one blur.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;

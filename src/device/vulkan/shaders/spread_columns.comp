@@ -14,7 +14,7 @@ layout(std430, binding = 6) writeonly buffer Covered { float covered_of[]; };
 #include "mix.glsl"
 #include "mix_extras.glsl"
 
-// Of light, in this blur.
+// Share of the light in this blur.
 float share(Mix mixed, bool near) {
     const uint lower = mixed.lower > 0 ? layer(mixed.lower, near) : layer_count();
     if (at.blur == lower) return 1 - mixed.upper_share;

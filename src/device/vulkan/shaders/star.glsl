@@ -1,5 +1,5 @@
-// What programs of the final star share: a tile of the picture in the middle of a square of `side` points, room for
-// what it throws around it.
+// Shared by programs of the final star: a tile of the picture in the middle of a square of `side` points,
+// which has room for the light it throws.
 layout(push_constant) uniform Push {
     uint width, height;  // of the picture
     uint side, reach;

@@ -1,4 +1,4 @@
-// What a tile throws, added to the star's light where the picture is. Light is not negative.
+// Adds the light of a tile to the star's light inside the picture. Light is not negative.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;
