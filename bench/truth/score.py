@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Scores a program on this data set: pictures with depth in, pictures through a lens out.
 
-    score.py add NAME [--keep DIR] COMMAND…    run a command for every frame, score what it writes, add its column
+    score.py add [--keep DIR] NAME COMMAND…    run a command for every frame, score what it writes, add its column
     score.py table                             all columns as one table, in Markdown
 
 Words of COMMAND in braces are replaced: {sharp} the EXR with R, G, B, A and planar depth Z in metres, {radius} an EXR with the
