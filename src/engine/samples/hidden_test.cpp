@@ -85,6 +85,26 @@ TEST(Hidden, PartsOfAMixedPixelMakeThePixel) {
     EXPECT_GT(mixed, 100);
 }
 
+// A post hides a bright box but for a sliver of two pixels, beside which a dark wall shows: the clean pixels
+// nearby are the wall's.
+TEST(Hidden, ASliverKeepsItsColourBesideAThirdSurface) {
+    constexpr float kEdge = 20.4f, kBoxPx = 1, kWallPx = 5;
+    Picture colour(kWidth, kHeight);
+    Plane coc(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const float post = std::clamp(kEdge - float(x), 0.0f, 1.0f);
+            colour(x, y) = post * grey(0.1f) + (1 - post) * grey(x < 22 ? 0.8f : 0.02f);
+            coc(x, y) = post > 0.5f ? kNearPx : x < 22 ? kBoxPx : kWallPx;
+        }
+    const Image<unsigned char> connected = connections(coc, one_thread());
+    const Mixtures mixtures = unmix_silhouettes({colour, {}}, coc, connected, one_thread());
+    const Mixture* m = mixtures.at(20, kHeight / 2);
+    ASSERT_TRUE(m);
+    EXPECT_TRUE(m->shows_far);
+    EXPECT_GT(m->far_colour.g, 0.5f);  // 0.02 where the clean pixels of the wall count, too
+}
+
 TEST(Hidden, LinesRunOnBehindAWire) {
     // Mortar between bricks, two pixels wide, every ten: 0.06 where it ends at the wire.
     const Paint bricks = [](int, int y) { return grey(y % 10 < 2 ? 0.5f : 0.2f); };

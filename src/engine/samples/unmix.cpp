@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -63,14 +64,25 @@ struct Sides {
     float near_share_by_shape = 0;
 };
 
+// The radius from which on a pixel nearby shows a third surface, behind the two that meet in a pixel. A pixel
+// that shows the farther of these, at `own`, lies one half of their step behind the threshold. A quarter of
+// the step leaves room for the slope of that surface.
+float behind_both(float own, float threshold) {
+    constexpr float kOfHalfStep = 0.5f;
+    if (own <= threshold) return std::numeric_limits<float>::infinity();
+    return own + kOfHalfStep * (own - threshold);
+}
+
 Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
                   int y, float threshold, const UnmixRule& rule) {
     Sides s;
     const int reach = rule.clean_within_px;
     const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
     const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + kDark;
+    const float third = behind_both(coc(x, y), threshold);
     for (int v = window.y0; v < window.y1; ++v)
         for (int u = window.x0; u < window.x1; ++u) {
+            if (coc(u, v) > third) continue;
             const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
             const bool near = coc(u, v) <= threshold;
             const Rgba colour = picture.dim(u, v);
