@@ -3,6 +3,7 @@
 Tables, in Markdown, on stdout:
   main      built-in night and table, 4K and 1080p, largest radius 16, 32, 64, 128 px: wall and CPU seconds without
             the making of kernels, the slowest radius against the fastest, peak memory, and the stages of each
+  engines   every engine with a lens at the smallest and the largest radius, beside scatter
   pixels    the same content from 0.23 to 33 Mpx, largest radius 32 px
   threads   one thread against two
   command   whole `petzval defocus` commands at 1080p and 4K, ZIP half EXR in and out, GEGL's lens-blur beside
@@ -30,6 +31,7 @@ THREADS = len(os.sched_getaffinity(0))
 DOUBLET = "doublet"
 # engine, quality, of every line of the main table; reference is asked for few points and small pictures alone
 WAYS = [("scatter", "standard"), ("scatter", "draft")]
+ENGINES = ["scatter", "gather", "sprites", "gaussian"]
 LIMITS = {(3840, "standard"): 1.5, (1920, "standard"): 0.4}  # seconds asked of wall
 
 
@@ -91,6 +93,28 @@ def main_table(given):
     print("\n### Wall seconds of each stage\n")
     print_table(["picture", "engine, lens", "radius px", *names],
                 [[*row, *[seconds(run["stages"][name]["seconds"]) if name in run["stages"] else "" for name in names]] for *row, run in stages])
+
+
+def engines_table(given):
+    """A lens spreads light wider than the radius says: what that costs, whichever engine draws it."""
+    least, most = min(given.radii), max(given.radii)
+    width, lens = min(given.widths), given.lenses[-1]
+    body = []
+    for scene in given.scenes:
+        runs = {(engine, radius): measure(picture(scene, width), given, engine=engine, quality="standard", lens=lens,
+                                          radius=radius)
+                for engine in ENGINES for radius in (least, most)}
+        for engine in ENGINES:
+            small, large = runs[engine, least], runs[engine, most]
+            beside = [run["cpu_s"] / other["cpu_s"] if run and other else None
+                      for run, other in ((small, runs["scatter", least]), (large, runs["scatter", most]))]
+            body.append([scene, engine, *[seconds(run["cpu_s"]) if run else f"> {given.limit:g}" for run in (small, large)],
+                         ratio([run and run["cpu_s"] for run in (small, large)]),
+                         *["-" if share is None else f"{share:.2f}" for share in beside]])
+    print(f"\n### CPU seconds of every engine: {width} px wide, {lens}, standard\n")
+    print_table(["picture", "engine", f"{least} px", f"{most} px", "slower / faster", f"of scatter, {least} px",
+                 f"of scatter, {most} px"], body)
+    print("\nAsked of `gather`: 0.25 of scatter, slower / faster 1.5.")
 
 
 def pixels_table(given):
@@ -197,8 +221,8 @@ def ceilings_table(given):
           "\nstamp are held against stamping within the first cache, those of others against copying in memory.")
 
 
-TABLES = {"main": main_table, "pixels": pixels_table, "threads": threads_table, "command": command_table,
-          "ceilings": ceilings_table}
+TABLES = {"main": main_table, "engines": engines_table, "pixels": pixels_table, "threads": threads_table,
+          "command": command_table, "ceilings": ceilings_table}
 
 
 def main():

@@ -46,11 +46,12 @@ public:
           atlas_(atlas),
           workers_(workers),
           taps_(plan.tiles.size(), kUnknown) {
-        for (const auto& turn : plan.sizes.turns()) {
+        for (int entry = 0; entry < plan.sizes.entries(); ++entry) {
             std::uint64_t taps = 0;
             int reach = 0;
             for (int zone = 0; zone < plan.zones.count(); ++zone) {
-                const std::uint32_t kernel = plan.kernel(turn.ring, zone);
+                const std::uint32_t kernel =
+                    plan.kernel(plan.sizes.ring_of_entry(entry), zone, plan.sizes.is_skirt(entry));
                 if (kernel >= atlas.size()) continue;
                 if (taps == 0) taps = atlas[kernel].taps;
                 for (const PackedSet::Kernel& k : atlas[kernel].kernels) {
@@ -58,7 +59,7 @@ public:
                     reach = std::max({reach, -e.x0, -e.y0, e.x1 - 1, e.y1 - 1});
                 }
             }
-            taps_of_turn_.push_back(taps), reach_of_turn_.push_back(reach);
+            taps_of_entry_.push_back(taps), reach_of_entry_.push_back(reach);
         }
         upload_kernels();
     }
@@ -142,12 +143,12 @@ private:
         for (const Rect& r : tiles)
             words.insert(words.end(), {std::uint32_t(r.x0), std::uint32_t(r.y0), std::uint32_t(r.x1),
                                        std::uint32_t(r.y1)});
-        push.places = here(), push.ring_count = std::uint32_t(plan_.sizes.count());
+        push.places = here(), push.ring_count = 2 * std::uint32_t(plan_.sizes.count());
         words.insert(words.end(), plan_.places.begin(), plan_.places.end());
         push.levels = here();
         constexpr std::size_t kLevelWords = 9;
         words.resize(words.size() + std::size_t(plan_.sizes.levels()) * kLevelWords);
-        std::vector<bool> has_light(plan_.sizes.turns().size());
+        std::vector<bool> has_light(std::size_t(plan_.sizes.entries()));
         for (int level = 0; level < plan_.sizes.levels(); ++level) {
             const Cells cells = cells_for(tiles, level);
             const std::uint32_t first = here();
@@ -156,8 +157,8 @@ private:
             for (const CellLight& l : cells.lights) {
                 words.insert(words.end(), {bits_of(l.colour.r), bits_of(l.colour.g), bits_of(l.colour.b),
                                            bits_of(l.colour.a), bits_of(l.covered), bits_of(l.beyond),
-                                           std::uint32_t(l.turn)});
-                has_light[std::size_t(l.turn)] = true;
+                                           std::uint32_t(l.entry)});
+                has_light[std::size_t(l.entry)] = true;
             }
             const auto middle = [&](int cell) { return std::ldexp(cell + 0.5, level) - 0.5; };
             const std::uint32_t columns = here();
@@ -179,13 +180,14 @@ private:
                       words.begin() + std::ptrdiff_t(push.levels + std::size_t(level) * kLevelWords));
         }
         push.turns = here();
-        for (std::uint32_t turn = 0; turn < has_light.size(); ++turn) {
-            const auto [ring, hidden] = plan_.sizes.turns()[turn];
-            if (hidden && !has_light[turn]) continue;
-            const int level = plan_.sizes.level(ring);
-            const int reach = std::min(reach_of_turn_[turn], plan_.reach[std::size_t(level)]);
-            words.insert(words.end(),
-                         {turn, std::uint32_t(ring), std::uint32_t(level), std::uint32_t(reach)});
+        for (int turn = 0; turn < int(plan_.sizes.turns().size()); ++turn) {
+            const auto [ring, hidden] = plan_.sizes.turns()[std::size_t(turn)];
+            const int skirt = plan_.sizes.skirt_entry(turn);
+            const bool has_skirt = has_light[std::size_t(skirt)];
+            if (hidden && !has_light[std::size_t(turn)] && !has_skirt) continue;
+            add_entry(turn, ring, plan_.sizes.level(ring), words);
+            add_entry(skirt, plan_.sizes.count() + ring, has_skirt ? plan_.sizes.skirt_level(ring) : 0,
+                      words);
             ++push.turn_count;
         }
         const engine::OpenEdges& open = plan_.strip.window.open_edges;
@@ -193,6 +195,12 @@ private:
             (open.left ? 1u : 0u) | (open.top ? 2u : 0u) | (open.right ? 4u : 0u) | (open.bottom ? 8u : 0u);
         push.is_opaque = plan_.opaque ? 1 : 0;
         return words;
+    }
+
+    void add_entry(int entry, int place, int level, std::vector<std::uint32_t>& words) const {
+        const int reach = std::min(reach_of_entry_[std::size_t(entry)], plan_.reach[std::size_t(level)]);
+        words.insert(words.end(), {std::uint32_t(entry), std::uint32_t(place), std::uint32_t(level),
+                                   std::uint32_t(reach)});
     }
 
     // Taps of the lights in a tile itself, each once; with the kernels of the first zone that has them.
@@ -203,7 +211,7 @@ private:
         for (int level = 0; level < plan_.sizes.levels(); ++level)
             for (const CellLight& light :
                  cells_in(engine::cells_of(plan_.tiles[tile].pixels, level, 0), level).lights)
-                taps += taps_of_turn_[std::size_t(light.turn)];
+                taps += taps_of_entry_[std::size_t(light.entry)];
         return taps;
     }
 
@@ -267,8 +275,8 @@ private:
                 plan_.sizes.hand_out(coc_px, hidden, [&](int turn, float share) {
                     if (plan_.sizes.level_of_turn(turn) != 0) return;
                     auto known = std::find_if(lights.begin() + std::ptrdiff_t(begin), lights.end(),
-                                              [turn](const CellLight& l) { return l.turn == turn; });
-                    if (known == lights.end()) known = lights.insert(known, CellLight()), known->turn = turn;
+                                              [turn](const CellLight& l) { return l.entry == turn; });
+                    if (known == lights.end()) known = lights.insert(known, CellLight()), known->entry = turn;
                     known->colour += share * colour, known->covered += share * covered;
                 });
             });
@@ -278,8 +286,8 @@ private:
     const GatherPlan& plan_;
     const PackedAtlas& atlas_;
     Workers& workers_;
-    std::vector<int> reach_of_turn_;
-    std::vector<std::uint64_t> taps_of_turn_, taps_;  // by tile, as far as they are known
+    std::vector<int> reach_of_entry_;
+    std::vector<std::uint64_t> taps_of_entry_, taps_;  // by tile, as far as they are known
     KernelsOnDevice kernels_;
 };
 

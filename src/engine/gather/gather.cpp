@@ -55,7 +55,7 @@ Strips plan_strips(const EngineView& input, const RingSizes& sizes, const Bright
 
 RingSizes ring_sizes(const EngineView& input) {
     return RingSizes(input.samples.nearest_coc_px, input.samples.farthest_coc_px,
-                     ring_rule(input.options.quality));
+                     ring_rule(input.options.quality), input.lens);
 }
 
 class Gather {

@@ -8,11 +8,11 @@
 namespace petzval::engine {
 namespace {
 
-CellLight& of_turn(std::vector<CellLight>& lights, std::size_t begin, int turn) {
+CellLight& of_entry(std::vector<CellLight>& lights, std::size_t begin, int entry) {
     for (std::size_t i = begin; i < lights.size(); ++i)
-        if (lights[i].turn == turn) return lights[i];
+        if (lights[i].entry == entry) return lights[i];
     lights.push_back({});
-    lights.back().turn = turn;
+    lights.back().entry = entry;
     return lights.back();
 }
 
@@ -38,7 +38,7 @@ public:
             for (int x = across_.begin(cx); x < across_.end(cx); ++x) {
                 const float share = across_.share(x, cx);
                 for (std::size_t i = first_[std::size_t(x)]; i < first_[std::size_t(x) + 1]; ++i) {
-                    CellLight& light = of_turn(lights, begin, lights_[i].turn);
+                    CellLight& light = of_entry(lights, begin, lights_[i].entry);
                     light.colour += share * lights_[i].colour;
                     light.covered += share * lights_[i].covered, light.beyond += share * lights_[i].beyond;
                 }
@@ -90,8 +90,9 @@ private:
         for_each_sample(input_, guessed_, u, v, [&](Rgba colour, float coc_px, float covered, bool hidden) {
             if (!may_hold_.contains(coc_px)) return;
             sizes_.hand_out(coc_px, hidden, [&](int turn, float share) {
-                if (sizes_.level_of_turn(turn) != across_.level()) return;
-                CellLight& light = of_turn(lights_, begin, turn);
+                const int entry = sizes_.entry_at(turn, across_.level());
+                if (entry < 0) return;
+                CellLight& light = of_entry(lights_, begin, entry);
                 if (!outside) light.colour += share * weight * colour;
                 (outside && open ? light.beyond : light.covered) += share * weight * covered;
             });

@@ -20,13 +20,13 @@
 
 namespace petzval::engine {
 
-// Light of one turn in one cell: sums over its pixels' shares, divided by the cell's size.
+// Light of one entry in one cell: sums over its pixels' shares, divided by the cell's size.
 struct CellLight {
     Rgba colour;
     float covered = 0;  // share of the cell's lens area it takes up
     float beyond = 0;   // the same for the part of the cell outside the picture: the surface goes on, its
                         // colour is not known
-    int turn = 0;       // of RingSizes::turns()
+    int entry = 0;      // of RingSizes: a turn, or the skirts of one
 };
 
 // Of a deep pixel, each sample dimmed by what is in front of it: a translucent one always, an opaque one

@@ -1,6 +1,7 @@
 #include "engine/gather/gather_rings.h"
 
 #include "base/bits.h"
+#include "kernel/model/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,21 +31,46 @@ double radius_in_cells(double radius_px, int level) {
     return std::copysign(std::sqrt(std::max(0.0, squared)) / s, radius_px);
 }
 
+// The largest offset of any weight of a ring's kernel, in cells of a level.
+double reach_in_cells(const LensOnPicture& lens, float radius_px, int level) {
+    return lens.level(level).reach_px(std::abs(radius_in_cells(double(radius_px), level))) + 0.5;
+}
+
+// The size that decides how coarse a ring's cells are: its radius, or more where aberrations spread its light
+// wider. Light that they spread much wider is skirt.
+float size_of(const LensOnPicture& lens, float radius_px) {
+    constexpr float kWidest = 1.5f;  // times the radius
+    const float radius = std::abs(radius_px), reach = float(lens.level(0).reach_px(double(radius)));
+    constexpr float kOwnPx = 1;  // lenses without aberrations reach so far beyond it
+    return std::clamp(reach - kOwnPx, radius, kWidest * radius);
+}
+
+// The level on which the skirt of a kernel is gathered; 0: it has none.
+int skirt_level_of(const LensOnPicture& lens, const RingRule& rule, float radius_px, int level) {
+    if (reach_in_cells(lens, radius_px, level) <= double(rule.core_end(level)) + 1) return 0;
+    const int coarsest = int(lens.levels.size()) - 1;
+    int coarser = level + 1;
+    while (coarser < coarsest && reach_in_cells(lens, radius_px, coarser) > double(rule.core_end(coarser)))
+        ++coarser;
+    return coarser <= coarsest ? coarser : 0;
+}
+
 }  // namespace
 
 RingRule ring_rule(Quality quality) {
     switch (quality) {
         case Quality::Draft:
-            return {.ratio = 1.3f, .full_res_px = 4, .largest_cells = 8};
+            return {.ratio = 1.3f, .full_res_px = 4, .largest_cells = 8, .full_res_core = 6};
         case Quality::Standard:
             return {};
         case Quality::Final:
-            return {.ratio = 1.07f, .full_res_px = 12, .largest_cells = 24};
+            return {.ratio = 1.07f, .full_res_px = 12, .largest_cells = 24, .full_res_core = 16};
     }
     return {};
 }
 
-RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) {
+RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens)
+    : rule_(rule) {
     for (const float r : steps_down_from(-nearest_px, rule.ratio)) radii_px_.push_back(-r);
     const int zero_of_rings = count();
     radii_px_.push_back(0);
@@ -54,8 +80,10 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule) 
         const float r = std::abs(radius);
         int level = 0;
         if (r > rule.full_res_px)
-            level = std::max(1, int(std::ceil(std::log2(r / rule.largest_cells) - 1e-4f)));
+            level =
+                std::max(1, int(std::ceil(std::log2(size_of(lens, radius) / rule.largest_cells) - 1e-4f)));
         levels_.push_back(level);
+        skirt_levels_.push_back(skirt_level_of(lens, rule, radius, level));
     }
     put_in_order();
     const auto squared = [&](int ring) {
@@ -95,12 +123,15 @@ void RingSizes::put_in_order() {
     }
 }
 
-int RingSizes::levels() const { return 1 + *std::max_element(levels_.begin(), levels_.end()); }
+int RingSizes::levels() const {
+    return 1 + std::max(*std::max_element(levels_.begin(), levels_.end()),
+                        *std::max_element(skirt_levels_.begin(), skirt_levels_.end()));
+}
 
 RingSizes::Sizes RingSizes::light_of(int level) const {
     Sizes sizes{std::numeric_limits<float>::infinity(), 0};
     for (int ring = 0; ring < count(); ++ring) {
-        if (this->level(ring) != level) continue;
+        if (this->level(ring) != level && (level == 0 || skirt_level(ring) != level)) continue;
         // As far as the rings beside it, or without end.
         for (const int beside : {ring - 1, ring + 1}) {
             const float r = beside < 0 || beside == count() ? std::numeric_limits<float>::infinity()
@@ -119,27 +150,54 @@ RingKernels::RingKernels(const LensOnPicture& lens, const RingSizes& sizes)
     zones_.frame = lens_.frame;
     if (lens.level(0).varies_over_field()) zones_.columns = kZonesX, zones_.rows = kZonesY;
     for (int ring = 0; ring < sizes.count(); ++ring) {
-        const int level = sizes.level(ring);
-        const double reach =
-            lens.level(level).reach_px(std::abs(radius_in_cells(double(sizes.radius_px(ring)), level)));
-        int& cells = reach_[std::size_t(level)];
-        cells = std::max(cells, int(std::ceil(reach + 0.5)));
+        const int level = sizes.level(ring), coarser = sizes.skirt_level(ring);
+        const auto note = [&](int of_level, double most) {
+            const double reach = std::min(most, reach_in_cells(lens, sizes.radius_px(ring), of_level));
+            int& cells = reach_[std::size_t(of_level)];
+            cells = std::max(cells, int(std::ceil(reach)));
+        };
+        note(level, coarser > 0 ? double(sizes.rule().core_end(level)) : 1e9);
+        if (coarser > 0) note(coarser, 1e9);
     }
 }
 
-device::KernelAsk RingKernels::ask(int ring, int zone) const {
-    return {.level = sizes_.level(ring), .zone = zone, .step = bits_as<int>(sizes_.radius_px(ring))};
+device::KernelAsk RingKernels::ask(int ring, int zone, bool skirt) const {
+    const int own = sizes_.level(ring), level = skirt ? sizes_.skirt_level(ring) : own;
+    return {.level = level, .zone = zone, .step = bits_as<int>(sizes_.radius_px(ring)), .piece = level - own};
+}
+
+kernel::PointSpread RingKernels::whole(int level, int zone, float radius_px) const {
+    const int column = zone % zones_.columns, row = zone / zones_.columns;
+    const double x = (column + 0.5) * lens_.frame.width() / zones_.columns - 0.5;
+    const double y = (row + 0.5) * lens_.frame.height() / zones_.rows - 0.5;
+    return lens_.level(level).point_spread(radius_in_cells(double(radius_px), level), lens_.field_at(x, y));
+}
+
+kernel::PointSpread RingKernels::core(int level, int zone, float radius_px) const {
+    kernel::PointSpread all = whole(level, zone, radius_px);
+    const RingRule& rule = sizes_.rule();
+    if (skirt_level_of(lens_, rule, radius_px, level) == 0) return all;
+    const float begin = rule.core_begin(level), end = rule.core_end(level);
+    return kernel::cut(all, int(end), [&](float distance) { return kernel::fade(distance, begin, end); });
 }
 
 std::vector<device::KernelSource::Made> RingKernels::make(std::span<const device::KernelAsk> asks) const {
     std::vector<Made> made;
     for (const device::KernelAsk& ask : asks) {
-        const int column = ask.zone % zones_.columns, row = ask.zone / zones_.columns;
-        const double x = (column + 0.5) * lens_.frame.width() / zones_.columns - 0.5;
-        const double y = (row + 0.5) * lens_.frame.height() / zones_.rows - 0.5;
-        const double radius = radius_in_cells(double(bits_as<float>(ask.step)), ask.level);
-        made.push_back({std::make_shared<const kernel::PointSpread>(
-            lens_.level(ask.level).point_spread(radius, lens_.field_at(x, y)))});
+        const float radius_px = bits_as<float>(ask.step);
+        kernel::PointSpread piece;
+        if (ask.piece == 0) {
+            piece = core(ask.level, ask.zone, radius_px);
+        } else {
+            const int own = ask.level - ask.piece;
+            const float share = 1 / float(1 << ask.piece), begin = share * sizes_.rule().core_begin(own),
+                        end = share * sizes_.rule().core_end(own);
+            constexpr int kAll = 1 << 20;
+            piece = kernel::cut(whole(ask.level, ask.zone, radius_px), kAll,
+                                [&](float distance) { return 1 - kernel::fade(distance, begin, end); });
+            kernel::scale_to_rest(piece, kernel::sum_of(core(own, ask.zone, radius_px)));
+        }
+        made.push_back({std::make_shared<const kernel::PointSpread>(std::move(piece))});
     }
     return made;
 }

@@ -21,6 +21,12 @@ struct RingRule {
     float full_res_px = 6;  // rings up to this radius are gathered at full resolution
     float largest_cells =
         16;  // rings beyond, at the finest of 1/2, 1/4, … where they are not wider than this
+    // Aberrations spread light wider than its ring's radius says. A kernel that does not end within
+    // core_end() is gathered in two pieces: its core on the ring's level, its skirt on a coarser one where it
+    // is as small.
+    float full_res_core = 6;  // cells up to which a core is whole at full resolution; elsewhere largest_cells
+    float core_begin(int level) const { return level == 0 ? full_res_core : largest_cells; }
+    float core_end(int level) const { return 1.5f * core_begin(level); }
 };
 RingRule ring_rule(Quality quality);
 
@@ -28,12 +34,14 @@ RingRule ring_rule(Quality quality);
 // at infinity has a ring of its own. Numbered from the nearest (most negative) to the farthest.
 class RingSizes {
 public:
-    RingSizes(float nearest_px, float farthest_px, const RingRule& rule);
+    RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens);
 
+    const RingRule& rule() const { return rule_; }
     int count() const { return int(radii_px_.size()); }
     float radius_px(int ring) const { return radii_px_[std::size_t(ring)]; }
     int level(int ring) const { return levels_[std::size_t(ring)]; }  // cells are 2^level pixels wide
-    int levels() const;
+    int skirt_level(int ring) const { return skirt_levels_[std::size_t(ring)]; }  // 0: all is core
+    int levels() const;                                                           // skirts included
 
     // Light of other sizes, in front of focus or behind it, is no part of a level.
     struct Sizes {
@@ -67,6 +75,19 @@ public:
     std::span<const Turn> turns() const { return turns_; }
     int level_of_turn(int turn) const { return level(turns_[std::size_t(turn)].ring); }
 
+    // Cells hold their light by entry: turns, and after all of these, once more, turns whose skirts are
+    // gathered.
+    int entries() const { return 2 * int(turns_.size()); }
+    int skirt_entry(int turn) const { return turn + int(turns_.size()); }
+    bool is_skirt(int entry) const { return entry >= int(turns_.size()); }
+    int ring_of_entry(int entry) const { return turns_[std::size_t(entry) % turns_.size()].ring; }
+    // The entry of a turn's light on a level; -1: the level has none of it.
+    int entry_at(int turn, int level) const {
+        if (level_of_turn(turn) == level) return turn;
+        const int skirt = skirt_level(turns_[std::size_t(turn)].ring);
+        return skirt > 0 && skirt == level ? skirt_entry(turn) : -1;
+    }
+
     // What a source hands to rings, as emit(turn, share). Hidden light between two levels goes to the farther
     // ring alone, since it cannot wait for that.
     template <typename Emit>
@@ -90,7 +111,8 @@ private:
         float low, scale;
     };
     std::vector<float> radii_px_;
-    std::vector<int> levels_;
+    RingRule rule_;
+    std::vector<int> levels_, skirt_levels_;
     std::vector<Turn> turns_;
     std::vector<int> turn_of_;         // visible and hidden, ring by ring
     std::vector<Interval> intervals_;  // [i]: up to radii_px_[i]; the last: beyond all
@@ -123,12 +145,15 @@ public:
 
     // In a picture with this display window.
     Zones zones(const Rect& frame) const { return {zones_.columns, zones_.rows, frame}; }
-    device::KernelAsk ask(int ring, int zone) const;
+    device::KernelAsk ask(int ring, int zone, bool skirt) const;
     std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
     // Cells by which any kernel of a level reaches.
     int reach(int level) const { return reach_[std::size_t(level)]; }
 
 private:
+    kernel::PointSpread whole(int level, int zone, float radius_px) const;
+    kernel::PointSpread core(int level, int zone, float radius_px) const;
+
     const LensOnPicture lens_;  // of a picture that begins with the display window
     RingSizes sizes_;
     Zones zones_;  // in that picture

@@ -52,11 +52,13 @@ bool is_reached(const EngineView& input, const std::vector<Rect>& tiles, const s
 // that have light in a zone.
 void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
     const int rings = plan.sizes.count();
-    std::vector<bool> asked(std::size_t(rings * plan.zones.count()));
-    const auto ask = [&](int ring, int zone) { asked[std::size_t(zone * rings + ring)] = true; };
+    std::vector<bool> asked(std::size_t(2 * rings * plan.zones.count()));
+    const auto ask = [&](int ring, int zone, bool skirt) {
+        asked[std::size_t(plan.place_of(ring, zone, skirt))] = true;
+    };
     for (int ring = 0; ring < rings; ++ring)
         for (int zone = 0; zone < plan.zones.count(); ++zone)
-            if (plan.sizes.level(ring) == 0) ask(ring, zone);
+            if (plan.sizes.level(ring) == 0) ask(ring, zone, false);
     for (std::size_t l = 0; l < plan.levels.size(); ++l) {
         const CellLevel& cells = plan.levels[l];
         const ZonesOfCells zones(plan.zones, cells.width(), cells.height(), int(l) + 1);
@@ -64,7 +66,7 @@ void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
             if (!cells.has_any(y)) continue;
             for (int x = 0; x < cells.width(); ++x)
                 for (const CellLight& light : cells.at(x, y))
-                    ask(plan.sizes.turns()[std::size_t(light.turn)].ring, zones(x, y));
+                    ask(plan.sizes.ring_of_entry(light.entry), zones(x, y), plan.sizes.is_skirt(light.entry));
         }
     }
     struct Asked {
@@ -73,9 +75,10 @@ void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
     };
     std::vector<Asked> asks;
     for (int zone = 0; zone < plan.zones.count(); ++zone)
-        for (int ring = 0; ring < rings; ++ring)
-            if (const auto number = std::size_t(zone * rings + ring); asked[number])
-                asks.push_back({kernels.ask(ring, zone), number});
+        for (const bool skirt : {false, true})
+            for (int ring = 0; ring < rings; ++ring)
+                if (const auto number = std::size_t(plan.place_of(ring, zone, skirt)); asked[number])
+                    asks.push_back({kernels.ask(ring, zone, skirt), number});
     std::sort(asks.begin(), asks.end(), [](const Asked& a, const Asked& b) { return a.ask < b.ask; });
     plan.places.assign(asked.size(), std::numeric_limits<std::uint32_t>::max());
     for (const Asked& a : asks) {

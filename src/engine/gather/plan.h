@@ -43,10 +43,14 @@ struct GatherPlan {
     std::vector<Tile> tiles;
     device::KernelSet kernels;
     Zones zones;  // of the picture: light is spread by the kernels of the zone that it comes from
-    // The place of a ring's kernel in `kernels`, by zone; of rings that have light in the zone.
+    // The place of a ring's kernel, or core, in `kernels`, by zone, and after those of all rings their
+    // skirts'; of rings that have light in the zone.
     std::vector<std::uint32_t> places;
-    std::uint32_t kernel(int ring, int zone) const {
-        return places[std::size_t(zone * sizes.count() + ring)];
+    int place_of(int ring, int zone, bool skirt) const {
+        return (2 * zone + (skirt ? 1 : 0)) * sizes.count() + ring;
+    }
+    std::uint32_t kernel(int ring, int zone, bool skirt = false) const {
+        return places[std::size_t(place_of(ring, zone, skirt))];
     }
 };
 

@@ -2,6 +2,7 @@
 #include "engine/gather/plan.h"
 
 #include "kernel/lenses/make_lens.h"
+#include "kernel/model/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +19,9 @@ constexpr int kWidth = 640, kHeight = 384;  // 5 x 3 tiles
 
 class Planned {
 public:
-    explicit Planned(const LensChoice& choice = {}) {
+    explicit Planned(const LensChoice& choice = {}, double f_number = 1.4) {
         for (int level = 0; level < 6; ++level) {
-            const kernel::Mount mount{{50, 36, 1.4, 2}, kWidth >> level, kHeight >> level};
+            const kernel::Mount mount{{50, 36, f_number, 2}, kWidth >> level, kHeight >> level};
             lenses_.push_back(std::move(kernel::make_lens(choice, mount)).value());
         }
         input_.lens.levels = lenses_;
@@ -34,12 +35,14 @@ public:
         input_.samples.nearest_coc_px = std::min(input_.samples.nearest_coc_px, coc_px);
         input_.samples.farthest_coc_px = std::max(input_.samples.farthest_coc_px, coc_px);
     }
+    RingSizes sizes() const {
+        return {input_.samples.nearest_coc_px, input_.samples.farthest_coc_px, ring_rule(Quality::Standard),
+                input_.lens};
+    }
+    RingKernels kernels() const { return {input_.lens, sizes()}; }
     GatherPlan plan() {
         input_.samples.colour = colour_, input_.samples.coc_px = coc_px_;
-        const RingSizes sizes(input_.samples.nearest_coc_px, input_.samples.farthest_coc_px,
-                              ring_rule(Quality::Standard));
-        const RingKernels kernels(input_.lens, sizes);
-        return plan_gather(input_, colour_.rect(), 0, sizes, kernels);
+        return plan_gather(input_, colour_.rect(), 0, sizes(), kernels());
     }
 
 private:
@@ -82,6 +85,53 @@ TEST(GatherPlan, RingsHaveTheirKernelsInTheZonesThatTheyLightAndNowhereElse) {
         }
     EXPECT_GT(with, 0);
     EXPECT_TRUE(std::is_sorted(plan.kernels.asks.begin(), plan.kernels.asks.end()));
+}
+
+// Wide open, this lens spreads light of what is in focus over 60 px and more.
+LensChoice wide_open() {
+    LensChoice lens;
+    lens.name = "doublet";
+    return lens;
+}
+
+TEST(GatherPlan, NoKernelHasMoreThanSoManyTapsHoweverWideItIs) {
+    Planned shot(wide_open(), 0.7);
+    shot.put({0, 0, 640, 384}, 0.2f);
+    shot.put({100, 100, 300, 300}, 40);
+    shot.put({300, 100, 400, 300}, -9);
+    const GatherPlan plan = shot.plan();
+    const RingKernels kernels = shot.kernels();
+    const RingRule rule = ring_rule(Quality::Standard);
+    int skirts = 0;
+    for (const device::KernelAsk& ask : plan.kernels.asks) {
+        const kernel::PointSpread& piece = *kernels.make({&ask, 1}).front().front();
+        const float most = rule.core_end(ask.level) + 1;
+        EXPECT_LE(float(std::max({-piece.extent.x0, -piece.extent.y0, piece.extent.x1, piece.extent.y1})),
+                  most + 1)
+            << "level " << ask.level << ", piece " << ask.piece;
+        skirts += ask.piece > 0;
+    }
+    EXPECT_GT(skirts, 0);
+}
+
+TEST(GatherPlan, ACoreAndItsSkirtHoldAllOfTheLight) {
+    Planned shot(wide_open(), 0.7);
+    shot.put({0, 0, 640, 384}, 12);
+    const GatherPlan plan = shot.plan();
+    const RingKernels kernels = shot.kernels();
+    int with_skirt = 0;
+    for (int ring = 0; ring < plan.sizes.count(); ++ring) {
+        if (plan.sizes.skirt_level(ring) == 0) continue;
+        ++with_skirt;
+        Rgba sum;
+        for (const bool skirt : {false, true}) {
+            const device::KernelAsk ask = kernels.ask(ring, 0, skirt);
+            sum += kernel::sum_of(*kernels.make({&ask, 1}).front().front());
+        }
+        for (const float channel : {sum.r, sum.g, sum.b, sum.a})
+            EXPECT_NEAR(channel, 1, 1e-4) << plan.sizes.radius_px(ring);
+    }
+    EXPECT_GT(with_skirt, 0);
 }
 
 TEST(GatherPlan, RingsOfOneRadiusShareAKernelWhateverLiesBeside) {

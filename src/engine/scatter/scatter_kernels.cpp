@@ -1,6 +1,7 @@
 #include "engine/scatter/scatter_kernels.h"
 
 #include "engine/scatter/sectors.h"
+#include "kernel/model/pieces.h"
 #include "kernel/model/spread.h"
 
 #include <algorithm>
@@ -53,40 +54,6 @@ int radius_but_for(const std::vector<float>& beyond, float share) {
     int radius = int(beyond.size());
     while (radius > 0 && beyond[std::size_t(radius - 1)] <= share * beyond[0]) --radius;
     return radius;
-}
-
-// 1 up to `begin`, 0 from `end` on: smoothstep.
-float fade(float distance, float begin, float end) {
-    const float t = std::clamp((end - distance) / (end - begin), 0.0f, 1.0f);
-    return t * t * (3 - 2 * t);
-}
-
-// The part of a kernel within `radius` of its middle, each weight times factor(distance).
-template <typename Factor>
-kernel::PointSpread cut(const kernel::PointSpread& spread, int radius, const Factor& factor) {
-    const Rect from = spread.extent, e = from.intersected({-radius, -radius, radius + 1, radius + 1});
-    kernel::PointSpread piece{e, Picture(e.width(), e.height()), spread.neutral};
-    for (int y = e.y0; y < e.y1; ++y)
-        for (int x = e.x0; x < e.x1; ++x) {
-            const float distance = float(std::hypot(x, y));
-            if (distance <= float(radius))
-                piece.weights(x - e.x0, y - e.y0) =
-                    spread.weights(x - from.x0, y - from.y0) * factor(distance);
-        }
-    return piece;
-}
-
-Rgba sum_of(const kernel::PointSpread& spread) {
-    Rgba sum;
-    for (std::size_t i = 0; i < spread.weights.size(); ++i) sum += spread.weights.pixels()[i];
-    return sum;
-}
-
-void scale(kernel::PointSpread& spread, Rgba by) {
-    for (std::size_t i = 0; i < spread.weights.size(); ++i) {
-        Rgba& w = spread.weights.pixels()[i];
-        w = {w.r * by.r, w.g * by.g, w.b * by.b, w.a * by.a};
-    }
 }
 
 }  // namespace
@@ -204,11 +171,12 @@ kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
 kernel::PointSpread ScatterKernels::core(const kernel::PointSpread& whole, const Place& place) const {
     const int longest = int(std::ceil(core_end_));
     if (skirt_levels(place.level, radius_of(place)) > 0)
-        return cut(whole, longest, [&](float distance) { return fade(distance, core_begin_, core_end_); });
+        return kernel::cut(whole, longest,
+                           [&](float distance) { return kernel::fade(distance, core_begin_, core_end_); });
     // What little is cut away is made up for.
-    kernel::PointSpread rest = cut(whole, longest, [](float) { return 1.0f; });
-    const Rgba sum = sum_of(rest);
-    scale(rest, {1 / sum.r, 1 / sum.g, 1 / sum.b, 1 / sum.a});
+    kernel::PointSpread rest = kernel::cut(whole, longest, [](float) { return 1.0f; });
+    const Rgba sum = kernel::sum_of(rest);
+    kernel::scale(rest, {1 / sum.r, 1 / sum.g, 1 / sum.b, 1 / sum.a});
     return rest;
 }
 
@@ -218,7 +186,7 @@ Rgba ScatterKernels::light_of_core(const Place& place) const {
         if (const auto known = light_of_core_.find(place); known != light_of_core_.end())
             return known->second;
     }
-    const Rgba sum = sum_of(core(whole(place), place));
+    const Rgba sum = kernel::sum_of(core(whole(place), place));
     const std::lock_guard lock(mutex_);
     return light_of_core_[place] = sum;
 }
@@ -227,18 +195,12 @@ Rgba ScatterKernels::light_of_core(const Place& place) const {
 kernel::PointSpread ScatterKernels::skirt(const kernel::PointSpread& whole, const Place& place,
                                           int skirt_of) const {
     const float share = 1 / float(1 << skirt_of);
-    kernel::PointSpread cut_out = cut(whole, int(std::ceil(core_end_)), [&](float distance) {
-        return 1 - fade(distance, core_begin_ * share, core_end_ * share);
+    kernel::PointSpread cut_out = kernel::cut(whole, int(std::ceil(core_end_)), [&](float distance) {
+        return 1 - kernel::fade(distance, core_begin_ * share, core_end_ * share);
     });
     const int finer = place.level - skirt_of;
     const float radius = radius_in_cells(radius_in_pixels(radius_of(place), place.level), finer);
-    const Rgba in_core = light_of_core({finer, place.zone, ask(finer, 0, radius, 0, false).step});
-    const Rgba sum = sum_of(cut_out);
-    const auto factor = [](float has, float asked) {
-        return has > 0 ? std::max(0.0f, 1 - asked) / has : 0.0f;
-    };
-    scale(cut_out, {factor(sum.r, in_core.r), factor(sum.g, in_core.g), factor(sum.b, in_core.b),
-                    factor(sum.a, in_core.a)});
+    kernel::scale_to_rest(cut_out, light_of_core({finer, place.zone, ask(finer, 0, radius, 0, false).step}));
     return cut_out;
 }
 
@@ -256,7 +218,7 @@ std::vector<device::KernelSource::Made> ScatterKernels::make(std::span<const dev
             piece = {all.extent, all.weights.clone(), all.neutral};
         if (ask.piece == 0 && has_skirts_) {
             const std::lock_guard lock(mutex_);
-            light_of_core_.try_emplace(place, sum_of(piece));
+            light_of_core_.try_emplace(place, kernel::sum_of(piece));
         }
         made.emplace_back();
         const auto keep = [&](kernel::PointSpread spread) {

@@ -19,8 +19,9 @@ layout(push_constant) uniform Push {
 
 // A tile: its rectangle. A level: cells across and down, the first column and row that are here and how many of a
 // row, where the first lights of its cells, the lights, and zones of columns and of rows that are here begin. A light: colour,
-// covered, beyond, turn. A turn: its number, ring and level, and how far its kernels reach. Places: kernels by zone and ring.
-const uint kTileWords = 4, kLevelWords = 9, kLightWords = 7, kTurnWords = 4, kNowhere = 0xffffffffu;
+// covered, beyond, turn. A turn: its number, place among the kernels of a zone and level, and how far its kernels
+// reach; then the same of its skirt, whose level is 0 where it has none. Places: kernels by zone and ring.
+const uint kTileWords = 4, kLevelWords = 9, kLightWords = 7, kTurnWords = 8, kEntryWords = 4, kNowhere = 0xffffffffu;
 const int kChunk = kGroup;
 const uint kTile = kGatherTile, kAcross = kTile / kGroupSide, kGroupsOfTile = kAcross * kAcross;
 
@@ -131,6 +132,58 @@ void take(Sums ring, inout vec4 sum, inout float free) {
     free -= taken;
 }
 
+// The cells of a level that these pixels need, as GatherPlan::cells_of().
+Box cells_of(Box pixels, uint level) {
+    return Box((pixels.low >> int(level)) - kGatherBorder, ((pixels.high - 1) >> int(level)) + 1 + kGatherBorder);
+}
+
+// Light that arrives at the cells of a box, row by row, one for each of the first invocations.
+Sums gathered_in(uint entry, Box cells) {
+    const uint own = gl_LocalInvocationIndex;
+    const ivec2 size = cells.high - cells.low;
+    const uint count = uint(size.x * size.y), slices = uint(kChunk) / count;
+    const ivec2 cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
+    const Sums slice = gathered(entry, at.levels + kLevelWords * words[entry + 2u], cells, cell,
+                                own < slices * count, own / count, slices);
+    hit_colour[own] = slice.colour, hit_area[own] = slice.area;
+    barrier();
+    Sums whole = Sums(vec4(0), vec2(0));
+    if (own < count)
+        for (uint s = 0u; s < slices; ++s) {
+            whole.colour += hit_colour[own + s * count];
+            whole.area += hit_area[own + s * count];
+        }
+    barrier();
+    return whole;
+}
+
+// Light of a turn's skirt at a place, in pixels: gathered on the skirt's level and enlarged.
+Sums skirt_at(uint entry, Box pixels, vec2 place) {
+    const uint own = gl_LocalInvocationIndex, level = words[entry + 2u];
+    const Box cells = cells_of(pixels, level);
+    const Sums whole = gathered_in(entry, cells);
+    hit_colour[own] = whole.colour, hit_area[own] = whole.area;
+    barrier();
+    const ivec2 size = cells.high - cells.low;
+    const vec2 from_low = place / float(1 << int(level)) - 0.5 - vec2(cells.low);
+    const ivec2 low = clamp(ivec2(from_low), ivec2(0), size - 2);
+    const vec2 t = from_low - vec2(low);
+    const int i = low.y * size.x + low.x;
+    const Sums sums = Sums(mix(mix(hit_colour[i], hit_colour[i + size.x], t.y),
+                               mix(hit_colour[i + 1], hit_colour[i + size.x + 1], t.y), t.x),
+                           mix(mix(hit_area[i], hit_area[i + size.x], t.y),
+                               mix(hit_area[i + 1], hit_area[i + size.x + 1], t.y), t.x));
+    barrier();
+    return sums;
+}
+
+Sums with_skirt(Sums core, uint turn, Box pixels, vec2 place) {
+    const uint skirt = turn + kEntryWords;
+    if (words[skirt + 2u] == 0u) return core;
+    const Sums more = skirt_at(skirt, pixels, place);
+    return Sums(core.colour + more.colour, core.area + more.area);
+}
+
 void main() {
     const uint own = gl_LocalInvocationIndex, part = gl_WorkGroupID.x % kGroupsOfTile;
     const uint tile = at.tiles + kTileWords * (gl_WorkGroupID.x / kGroupsOfTile);
@@ -147,32 +200,24 @@ void main() {
     float free = 1;
     const uint last = at.turns + kTurnWords * at.turn_count;
     for (uint turn = at.turns; turn < last;) {
-        const uint number_of_level = words[turn + 2u], level = at.levels + kLevelWords * number_of_level;
+        const uint number_of_level = words[turn + 2u];
         if (number_of_level == 0u) {
-            take(gathered(turn, level, box, pixel, inside, 0u, 1u), sum, free);
+            const Sums core = gathered(turn, at.levels, box, pixel, inside, 0u, 1u);
+            take(with_skirt(core, turn, box, vec2(pixel) + 0.5), sum, free);
             turn += kTurnWords;
             continue;
         }
         // Rings of one level are combined on its grid and enlarged together.
-        const Box cells = Box((box.low >> int(number_of_level)) - kGatherBorder,
-                              ((box.high - 1) >> int(number_of_level)) + 1 + kGatherBorder);
+        const Box cells = cells_of(box, number_of_level);
         const ivec2 size = cells.high - cells.low;
-        const uint count = uint(size.x * size.y), slices = uint(kChunk) / count;
-        const ivec2 cell = cells.low + ivec2(int(own % count) % size.x, int(own % count) / size.x);
+        const uint count = uint(size.x * size.y);
+        const vec2 middle = vec2(cells.low + ivec2(int(own) % size.x, int(own) / size.x)) + 0.5;
         vec4 cell_sum = vec4(0);
         float cell_free = 1;
         for (; turn < last && words[turn + 2u] == number_of_level; turn += kTurnWords) {
-            const Sums slice = gathered(turn, level, cells, cell, own < slices * count, own / count, slices);
-            hit_colour[own] = slice.colour, hit_area[own] = slice.area;
-            barrier();
-            Sums whole = Sums(vec4(0), vec2(0));
-            if (own < count)
-                for (uint s = 0u; s < slices; ++s) {
-                    whole.colour += hit_colour[own + s * count];
-                    whole.area += hit_area[own + s * count];
-                }
-            take(whole, cell_sum, cell_free);
-            barrier();
+            const Sums core = gathered_in(turn, cells);
+            const Sums all = with_skirt(core, turn, box, middle * float(1 << int(number_of_level)));
+            if (own < count) take(all, cell_sum, cell_free);
         }
         hit_colour[own] = cell_sum, hit_area[own] = vec2(cell_free, 0);
         barrier();
