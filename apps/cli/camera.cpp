@@ -32,15 +32,6 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner) {
                parse_breathing, image_scale);
 }
 
-void CameraFlags::add_to(MadeWith& made) const {
-    made.add("camera.focal_length_mm", focal_length_mm);
-    made.add("camera.sensor_width_mm", sensor_width_mm);
-    made.add("camera.f_number", f_number);
-    made.add("camera.focus_distance_m", focus_distance_m);
-    made.add("camera.aperture_diameter_mm", aperture_diameter_mm);
-    if (image_scale) made.add("camera.image_scale", name_of(*image_scale));
-}
-
 std::vector<std::string> CameraFlags::given() const {
     std::vector<std::string> names;
     if (focal_length_mm) names.emplace_back("--focal-length");
@@ -94,18 +85,6 @@ std::string camera_example(const FoundCamera& found, const std::string& input, c
     if (!found.f_number) example += " --fstop 2.8";
     if (!found.focus_distance_m) example += " --focus 3m";
     return example;
-}
-
-std::string camera_line(const FoundCamera& camera, ImageScale image_scale) {
-    const auto number = [](const char* before, const std::optional<FoundNumber>& n, const char* after) {
-        return n ? before + plain(n->value) + after + " (" + n->origin + ")"
-                 : std::string("no") + before + "number";
-    };
-    std::string line = "camera: " + number("", camera.focal_length_mm, " mm") + ", " +
-                       number("sensor ", camera.sensor_width_mm, " mm") + ", " +
-                       number("f/", camera.f_number, "") + ", " +
-                       number("focus ", camera.focus_distance_m, " m");
-    return line + (image_scale == ImageScale::ThinLens ? ", thin-lens image scale" : "");
 }
 
 }  // namespace petzval::cli

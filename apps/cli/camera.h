@@ -3,7 +3,6 @@
 
 #include "petzval/camera.h"
 #include "petzval/files.h"
-#include "petzval/made_with.h"
 #include "petzval/shot.h"
 
 #include "flags.h"
@@ -22,7 +21,6 @@ struct CameraFlags {
 
     // `owner` is what holds the numbers that are not given: "file" or "scene".
     void add_to(Verb& verb, const std::string& owner);
-    void add_to(MadeWith& made) const;
     // True if any was given.
     bool any() const;
     // Names of those given, for messages.
@@ -45,8 +43,5 @@ struct FocusFlags {
 
 // Text to append to a message about missing camera numbers: ", for example: petzval defocus … --fstop 2.8".
 std::string camera_example(const FoundCamera& found, const std::string& input, const std::string& output);
-
-// "camera: 85 mm (file: focalLength), sensor 36 mm (--sensor-width), f/4 (--fstop), focus 4 m (--focus)"
-std::string camera_line(const FoundCamera& camera, ImageScale image_scale);
 
 }  // namespace petzval::cli

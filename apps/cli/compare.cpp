@@ -199,14 +199,14 @@ Status compare_frames(const CompareFlags& all) {
         if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
         return files;
     };
-    work.make = [&](int frame, bool) -> Result<Json> {
+    work.make = [&](int frame, bool) -> Result<FrameRecord> {
         const CompareFlags flags = of_frame(frame);
         auto compared = compare_files(flags);
         if (!compared) return compared.error();
         rows.add(frame, compared->comparison);
         if (!flags.run.json.empty())
             if (Status done = write_report(compared->report, flags.run.json); !done) return done.error();
-        return std::move(compared->report);
+        return record_of(compared->report);
     };
     work.finish = [&] { return all.frames.report == "-" ? Status(Done{}) : write_text("-", rows.text()); };
     return make_frames(all.frames, all.run, work);

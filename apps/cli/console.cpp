@@ -58,6 +58,19 @@ void failure(const std::string& line, Words words) {
     line_to_stderr("petzval: ", "\x1b[1;31m", words == Words::Flags ? in_flags(line) : line);
 }
 
+void say(Say how, const std::string& line) {
+    switch (how) {
+        case Say::Detail:
+            return detail(line);
+        case Say::Note:
+            return note(line);
+        case Say::Warning:
+            return warning(line);
+        case Say::Failure:
+            return failure(line);
+    }
+}
+
 std::string printable(const std::string& text) {
     std::string safe;
     for (std::size_t i = 0; i < text.size();) {

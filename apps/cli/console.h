@@ -1,6 +1,8 @@
 // Messages for people: one line at a time on standard error. Standard output is for results.
 #pragma once
 
+#include "petzval/frame_loop.h"
+
 #include <string>
 #include <vector>
 
@@ -17,7 +19,9 @@ bool colour_wanted();
 void note(const std::string& line);     // unless -q
 void detail(const std::string& line);   // with -v
 void warning(const std::string& line);  // unless -q; "petzval: warning: …"
-// Prints "petzval: …". Fields appear as their flags, or as they stand in a file.
+// Any of these, and failure().
+void say(Say how, const std::string& line);
+// Always; "petzval: …". Fields are spoken of by their flags, or as they stand in a file.
 enum class Words { Flags, Fields };
 void failure(const std::string& line, Words words = Words::Flags);
 

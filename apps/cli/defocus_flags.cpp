@@ -10,43 +10,11 @@ namespace petzval::cli {
 namespace {
 
 Result<int> parse_overscan(const std::string& text) {
-    if (text == "auto") return kAutomatic;
-    if (text == "fit") return kWithinFrame;
-    if (text == "off") return kNoOverscan;
+    if (text == "auto") return kOverscanAutomatic;
+    if (text == "fit") return kOverscanWithinFrame;
+    if (text == "off") return kOverscanOff;
     if (const auto count = parse_size_px(text)) return count;
     return Error{ErrorCode::InvalidArgument, "not off, fit, auto or a number of pixels, 1 to 65536"};
-}
-
-std::optional<GaussianView> gaussian_view(ViewKind view) {
-    switch (view) {
-        case ViewKind::Sharp:
-            return GaussianView::Sharp;
-        case ViewKind::BlurSmall:
-            return GaussianView::BlurSmall;
-        case ViewKind::BlurLarge:
-            return GaussianView::BlurLarge;
-        case ViewKind::BlurRows:
-            return GaussianView::BlurRows;
-        case ViewKind::FocusIndex:
-            return GaussianView::FocusIndex;
-        default:
-            return std::nullopt;
-    }
-}
-
-ScatterView scatter_view(ViewKind view) {
-    switch (view) {
-        case ViewKind::Layers:
-            return ScatterView::Layers;
-        case ViewKind::Levels:
-            return ScatterView::Levels;
-        case ViewKind::Highlights:
-            return ScatterView::Highlights;
-        case ViewKind::Hidden:
-            return ScatterView::Hidden;
-        default:
-            return ScatterView::Result;
-    }
 }
 
 }  // namespace
@@ -74,7 +42,7 @@ void DefocusFlags::add_output_to(Verb& verb) {
                 "buffer to write: beauty, the picture (default); coc, signed blur radius; focus, map of "
                 "sharp, near and far; depth; alpha; hidden, all surfaces as deep EXR; of scatter: layers, "
                 "levels, highlights; of gaussian: sharp, blur-small, blur-large, blur-rows, focus-index",
-                view_names(), view)
+                shot_views(), view)
         .value("--overscan", "PX",
                "room for light that leaves a data window inside the frame: fit, within the frame (default); "
                "auto, as far as the blur reaches; off; or a number of pixels",
@@ -136,7 +104,7 @@ void DefocusFlags::check_coc_input() const {
     std::vector<std::string> idle = camera.given();
     for (const auto& more : {focus.given(), look.given({"Focus"})})
         idle.insert(idle.end(), more.begin(), more.end());
-    if (view == ViewKind::Depth) idle.emplace_back("--view depth");
+    if (view == ShotView::Depth) idle.emplace_back("--view depth");
     if (!idle.empty())
         throw UsageError(listed(idle) +
                          " cannot be used with --depth-kind coc-px: blur radii are given, not depth");
@@ -169,7 +137,7 @@ void DefocusFlags::check(const Verb& verb) {
     require_argument(verb, output, "-o OUT");
     overwrite.check();
     check_choices();
-    if (focus.permissible_radius_px && view != ViewKind::Focus && run.json.empty())
+    if (focus.permissible_radius_px && view != ShotView::Focus && run.json.empty())
         throw UsageError("--permissible-radius has no effect without --view focus or --json");
     check_view();
     check_display();
@@ -185,13 +153,13 @@ void DefocusFlags::check_view() const {
     if (scatter_view(view) != ScatterView::Result && engine != "scatter")
         throw UsageError(std::string("--view ") + name_of(view) + " shows what --engine scatter does, not " +
                          engine);
-    const bool computes = view == ViewKind::Beauty || view == ViewKind::Alpha;
+    const bool computes = view == ShotView::Beauty || view == ShotView::Alpha;
     const std::string here = " has no effect on --view " + std::string(name_of(view));
     if (!input.holdout.empty() && !computes) throw UsageError("--holdout" + here);
     if (overscan_px && !computes) throw UsageError("--overscan" + here);
     if (!input.mask.empty() && !computes) throw UsageError("--mask" + here);
-    if (!input.read.layers.empty() && view != ViewKind::Beauty) throw UsageError("--layers" + here);
-    if (view == ViewKind::Beauty) return;
+    if (!input.read.layers.empty() && view != ShotView::Beauty) throw UsageError("--layers" + here);
+    if (view == ShotView::Beauty) return;
     if (look.is_typed("plate.expand_highlights"))
         throw UsageError("--expand-highlights is part of --view beauty only");
     if (const auto given = look.given({"Glare"}); !given.empty())
@@ -201,9 +169,9 @@ void DefocusFlags::check_view() const {
 // Flags of display pictures.
 void DefocusFlags::check_display() const {
     const auto kind = kind_of_output(output);
-    if (!kind) throw UsageError(kind.error().message);
+    if (!kind) throw UsageError("-o " + kind.error().message);
     if (input.read.view_name == kAllViews) {
-        if (*kind != FileKind::Exr || view != ViewKind::Beauty)
+        if (*kind != FileKind::Exr || view != ShotView::Beauty)
             throw UsageError("--view-name all writes the picture of every view to one EXR");
         if (!input.behind.empty() || !input.holdout.empty() || !input.merge.empty() || !input.mask.empty() ||
             !points.empty())
@@ -212,12 +180,12 @@ void DefocusFlags::check_display() const {
                 "which "
                 "are of one view");
     }
-    if (view == ViewKind::Hidden && *kind != FileKind::Exr)
+    if (view == ShotView::Hidden && *kind != FileKind::Exr)
         throw UsageError("--view hidden is a deep EXR; -o " + output + " is none");
     if (!input.read.layers.empty() && *kind != FileKind::Exr)
         throw UsageError("--layers are written to an EXR; -o " + output + " is none");
     ocio.check(develop, input.transfer);
-    if (ocio.is_on() && (*kind != FileKind::Png || view != ViewKind::Beauty))
+    if (ocio.is_on() && (*kind != FileKind::Png || view != ShotView::Beauty))
         throw UsageError("--ocio is for display pictures: --view beauty with -o FILE.png");
     if (*kind == FileKind::Png && is_developed(view)) return;
     for (const auto& [name, given] : {std::pair{"--exposure", develop.exposure_stops.has_value()},
@@ -226,44 +194,6 @@ void DefocusFlags::check_display() const {
         if (given)
             throw UsageError(std::string(name) +
                              " is for display pictures: --view beauty or focus with -o FILE.png");
-}
-
-MadeWith DefocusFlags::made_with() const {
-    MadeWith made;
-    made.add(look.look());
-    made.add_files(pictures());  // files of the look are among its fields
-    camera.add_to(made);
-    input.add_to(made);
-    if (view != ViewKind::Beauty) made.add("job.view", name_of(view));
-    if (focus.focus_at)
-        made.add("focus.at", std::to_string(focus.focus_at->x) + "," + std::to_string(focus.focus_at->y));
-    if (const auto& point = focus.focus_point)
-        made.add("focus.point", plain(point->x, 9) + "," + plain(point->y, 9) + "," + plain(point->z, 9));
-    if (view == ViewKind::Focus) made.add("focus.permissible_radius_px", focus.permissible_radius_px);
-    if (overscan_px) made.add("shot.overscan_px", double(*overscan_px));
-    if (track.temporal > 0) {
-        made.add("shot.temporal", double(track.temporal));
-        if (!track.motion.empty()) made.add("read.motion.layer", track.motion);
-        if (track.motion_scale)
-            made.add("read.motion.scale",
-                     plain(track.motion_scale->x, 9) + "," + plain(track.motion_scale->y, 9));
-    }
-    if (const auto kind = kind_of_output(output); kind && *kind == FileKind::Png) develop.add_to(made);
-    ocio.add_to(made);
-    return made;
-}
-
-std::vector<std::string> DefocusFlags::input_files() const {
-    std::vector<std::string> files = pictures();
-    for (std::string& file : look.input_files()) files.push_back(std::move(file));
-    return files;
-}
-
-std::vector<std::string> DefocusFlags::pictures() const {
-    std::vector<std::string> files = input.files();
-    if (!points.empty()) files.push_back(points);
-    files.insert(files.end(), neighbours.begin(), neighbours.end());
-    return files;
 }
 
 // $PETZVAL_KERNEL_CACHE; else where the XDG base directory specification puts caches.
@@ -279,48 +209,44 @@ std::string DefocusFlags::default_kernel_cache() {
     return home.empty() ? "off" : home + "/.cache/petzval/kernels";
 }
 
+std::string DefocusFlags::kernel_cache_folder() const {
+    const std::string folder = kernel_cache.value_or(default_kernel_cache());
+    return folder == "off" ? "" : folder;
+}
+
 SessionSettings DefocusFlags::session() const {
-    const DefocusJob bare = job({});
-    return {bare.threads, bare.max_memory_bytes, bare.kernel_cache_folder, bare.kernel_cache_bytes, nullptr,
-            device};
+    SessionSettings settings;
+    settings.threads = run.threads;
+    settings.max_memory_bytes = max_memory_bytes;
+    settings.kernel_cache_folder = kernel_cache_folder();
+    settings.device = device;
+    return settings;
 }
 
-DefocusJob DefocusFlags::job(DefocusJob job) const {
-    job = with_look(std::move(job), look.look());
-    job.scatter.view = scatter_view(view);
-    job.gaussian.view = gaussian_view(view).value_or(GaussianView::Result);
-    job.threads = run.threads;
-    job.max_memory_bytes = max_memory_bytes;
-    job.kernel_cache_folder = kernel_cache.value_or(default_kernel_cache());
-    if (job.kernel_cache_folder == "off") job.kernel_cache_folder.clear();
-    return job;
-}
-
-Json DefocusFlags::parameters_json(const DefocusJob& job) const {
-    const HighlightExpansion& plate = look.look().expansion;
-    return {
-        {"view", name_of(view)},
-        {"quality", name_of(job.quality)},
-        {"pupil_points", job.pupil_points},
-        {"threads", job.threads},
-        {"max_memory_bytes", job.max_memory_bytes},
-        {"seed", job.seed},
-        {"mask", input.mask.empty() ? Json(nullptr) : Json(input.mask)},
-        {"kernel_cache", job.kernel_cache_folder.empty() ? Json(nullptr) : Json(job.kernel_cache_folder)},
-        {"near_scale", job.coc.near_scale},
-        {"far_scale", job.coc.far_scale},
-        {"max_radius_px", number(job.coc.max_radius_px)},
-        {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
-        {"focus_falloff", job.coc.focus_falloff},
-        {"expand_highlights",
-         look.look().expand_highlights ? Json{{"knee", plate.knee}, {"peak", plate.peak}} : Json(nullptr)},
-        {"engine_options", engine_options_json()}};
-}
-
-Json DefocusFlags::engine_options_json() const {
-    Json options = look.engine_options_json();
-    if (!points.empty()) options["points"] = points;
-    return options;
+ShotRunSettings DefocusFlags::settings() const {
+    ShotRunSettings settings;
+    settings.source = input.source(camera);
+    settings.source.lights = points;
+    settings.focus_pixel = focus.focus_at, settings.focus_point = focus.focus_point;
+    settings.permissible_radius_px = focus.permissible_radius_px.value_or(1);
+    settings.look = look.look();
+    settings.view = view;
+    settings.overscan_px = overscan_px;
+    settings.display = develop, settings.transfer = input.transfer;
+    if (ocio.is_on()) settings.display_view = ocio.view, settings.display_space = ocio.space;
+    settings.output = output;
+    if (run.json != "-") settings.record_file = run.json;
+    if (frames.report != "-") settings.report_file = frames.report;
+    settings.save_look_file = look.save_to();
+    settings.existing = overwrite.existing();
+    settings.frames = frames.frames, settings.missing = frames.missing;
+    settings.track_file = track.file, settings.rack = track.rack_in_metres();
+    settings.focus_speed = track.focus_speed;
+    settings.temporal = track.temporal, settings.motion = track.motion_reading();
+    settings.kernel_cache_folder = kernel_cache_folder();
+    settings.engine_options = look.engine_options_json().dump();
+    settings.warnings = look.idle_in_file();
+    return settings;
 }
 
 }  // namespace petzval::cli

@@ -26,20 +26,11 @@ struct TrackFlags {
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
     MotionReading motion_reading() const;
+    // "1024:3.2m" has a unit, as --focus has. Throws UsageError for what is no length.
+    std::vector<std::string> rack_in_metres() const;
 };
 
-// Their files for that frame: no name has a place for a number any more.
-DefocusFlags at_frame(DefocusFlags flags, int frame);
-
-// Numbers that a track changes are the track's, whatever was typed.
-void name_track(const TrackedFrame& tracked, FoundCamera& camera);
-
-// True if the flags describe more than one frame. Throws UsageError if they contradict each other.
+// Whether the flags are about more than one frame. Throws UsageError where they do not fit each other.
 bool is_sequence(const DefocusFlags& flags);
-
-// Makes one frame: its flags, whose files have no place for a number any more. Returns its report.
-using MakeFrame = std::function<Result<Json>(DefocusFlags&)>;
-// make_frames() of all of them. Errors: also those of the track. Throws FramesFailed.
-Status defocus_frames(const DefocusFlags& flags, const MakeFrame& make);
 
 }  // namespace petzval::cli

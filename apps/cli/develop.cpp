@@ -68,10 +68,10 @@ MadeWith made_with_of(const DevelopVerbFlags& flags) {
     MadeWith made;
     made.add(flags.look.look());
     made.add_files(flags.input.files());
-    flags.camera.add_to(made);
-    flags.input.add_to(made);
-    flags.develop.add_to(made);
-    flags.ocio.add_to(made);
+    made.add(flags.input.source(flags.camera));
+    made.add(flags.develop);
+    if (flags.ocio.is_on()) made.add("ocio.view", flags.ocio.view);
+    if (!flags.ocio.space.empty()) made.add("ocio.working_space", flags.ocio.space);
     if (flags.no_dither) made.add("develop.dither", "off");
     return made;
 }
@@ -140,7 +140,7 @@ Status develop_frames(const DevelopVerbFlags& all, const Lens& lens) {
     work.make = [&](int frame, bool again) {
         DevelopVerbFlags flags = of_frame(frame);
         if (again) flags.overwrite = {};
-        return develop_file(flags, lens);
+        return record_of(develop_file(flags, lens));
     };
     return make_frames(all.frames, all.run, work);
 }

@@ -75,7 +75,7 @@ public:
         work.files = [&](int frame) -> Result<FrameWork::Files> {
             return FrameWork::Files{of(frame).files(), {}};
         };
-        work.make = [&](int frame, bool) { return measure(frame); };
+        work.make = [&](int frame, bool) { return record_of(measure(frame)); };
         work.finish = [&] { return write(); };
         return make_frames(all_.frames, all_.run, work);
     }

@@ -1,6 +1,7 @@
-// Many frames by one command: frame list, inputs, outputs, missing files, failures, times.
+// Many frames by one command: its flags, and the loop of petzval/frame_loop.h as this program runs it.
 #pragma once
 
+#include "petzval/frame_loop.h"
 #include "petzval/frames.h"
 
 #include "flags.h"
@@ -15,16 +16,15 @@ namespace petzval::cli {
 
 struct RunFlags;
 
-// Treatment of frames with missing files.
-enum class Missing { Fail, Skip, Black };
-
 struct FrameFlags {
     std::vector<int> frames;  // empty: one frame, or those that are there
-    std::optional<Missing> missing;
+    std::optional<MissingFiles> missing;
     std::string report;  // a file with one record a frame, or "-"
 
     void add_to(Verb& verb);
     std::vector<std::string> given() const;
+    // A report on standard output is written by the host's frame_done.
+    FrameLoopSettings loop() const;
 };
 
 // Frames of a shot that failed where others were made: exit code 4.
@@ -45,27 +45,15 @@ void put_frame(int frame, const std::vector<std::string*>& paths);
 bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& inputs, const std::string& output,
                  const RunFlags& run);
 
-// The work of a verb on the frames of a shot.
-struct FrameWork {
-    struct Files {
-        std::vector<std::string> inputs, outputs;  // of outputs the first is the picture
-    };
-    std::string input;                                    // its name says which frames are there
-    std::function<Result<std::vector<int>>()> otherwise;  // lists the frames, where it does not
-    bool keeps_what_is_there = false;                     // outputs that are whole
-    std::function<Result<Files>(int frame)> files;
-    // Once the frames are known, before one is made. Empty: nothing is left to be found out.
-    std::function<Status(const std::vector<int>& frames)> begin = {};
-    // Makes one frame and returns its report. `again`: existing outputs are ignored.
-    std::function<Result<Json>(int frame, bool again)> make;
-    // Makes a frame without light, of the size of another. Empty: the verb cannot.
-    std::function<Status(int frame, int like)> black = {};
-    // Once all frames are done, failed ones among them.
-    std::function<Status()> finish = {};
-};
+// The record of a frame that a verb made.
+Result<FrameRecord> record_of(const Result<Json>& report);
+// What the loop says and asks, on this program's terminal.
+FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run);
+// Once a loop has ended: throws FramesFailed where some of its frames failed.
+Status ended(const Status& done, const std::vector<int>& frames, const std::vector<int>& failed);
 
-// Makes all frames in order; a failing frame does not stop the others. Errors: those of the list and of
-// missing files, before any frame is made; Cancelled. Throws FramesFailed.
-Status make_frames(const FrameFlags& frames, const RunFlags& run, const FrameWork& work);
+// Makes all of them, one after the other; one that fails does not keep the others from being made. Errors:
+// those of the list and of files that lack, before any frame is made; Cancelled. Throws FramesFailed.
+Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work);
 
 }  // namespace petzval::cli

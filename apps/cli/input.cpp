@@ -71,18 +71,6 @@ void InputFlags::add_layers_to(Verb& verb) {
                parse_words, read.layers);
 }
 
-void InputFlags::add_to(MadeWith& made) const {
-    for (const auto& [field, text] : {std::pair("read.layer", &read.layer),
-                                      {"read.view_name", &read.view_name},
-                                      {"read.depth_channel", &read.depth_channel}})
-        if (!text->empty()) made.add(field, *text);
-    if (!read.layers.empty()) made.add("read.layers", listed(read.layers));
-    if (transfer) made.add("read.transfer", name_of(*transfer));
-    if (depth_kind) made.add("depth.kind", name_of(*depth_kind));
-    if (depth_range) made.add("depth.range", plain(depth_range->low, 9) + "," + plain(depth_range->high, 9));
-    made.add("depth.unit_scale_m", unit_scale_m);
-}
-
 void InputFlags::check() const {
     for (const std::string& file : files()) run_files().reads(file);
     if (const Status fine = petzval::check(source()); !fine) throw UsageError(in_flags(fine.error().message));

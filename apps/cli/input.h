@@ -28,7 +28,6 @@ struct InputFlags : ShotSource {
     void add_transfer_to(Verb& verb);  // --transfer
     void add_others_to(Verb& verb);    // --behind, --merge, --holdout, --mask
     void add_layers_to(Verb& verb);    // --layers
-    void add_to(MadeWith& made) const;
     // Throws UsageError for depth flags that contradict each other.
     void check() const;
     bool depth_is_coc() const { return depth_kind == DepthKind::CocPx; }

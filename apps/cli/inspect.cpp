@@ -241,14 +241,14 @@ Status inspect_frames(const InspectFlags& all) {
         if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
         return files;
     };
-    work.make = [&](int frame, bool) -> Result<Json> {
+    work.make = [&](int frame, bool) -> Result<FrameRecord> {
         const InspectFlags flags = of_frame(frame);
         auto seen = look_into(flags);
         if (!seen) return seen.error();
         changes.add(frame, values_of(*seen));
         if (!flags.run.json.empty())
             if (Status done = write_report(seen->report, flags.run.json); !done) return done.error();
-        return std::move(seen->report);
+        return record_of(seen->report);
     };
     work.finish = [&] {
         return all.frames.report == "-" ? Status(Done{}) : write_text("-", printable(changes.text()));

@@ -57,7 +57,7 @@ struct PictureFlags {
         look.look().lens.name = lens_name;
         look.settle();
         const auto kind = kind_of_output(output);
-        if (!kind) throw UsageError(kind.error().message);
+        if (!kind) throw UsageError("-o " + kind.error().message);
     }
 };
 

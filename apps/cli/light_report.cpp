@@ -38,10 +38,7 @@ void describe_limits(const FocusLimits& limits, double permissible_radius_px, st
 }
 
 Json limits_json(const FocusLimits& limits, double permissible_radius_px) {
-    return {{"permissible_radius_px", permissible_radius_px},
-            {"near_m", number(limits.near_m)},
-            {"far_m", number(limits.far_m)},
-            {"hyperfocal_m", number(limits.hyperfocal_m)}};
+    return Json::parse(record_of_limits(limits, permissible_radius_px));
 }
 
 }  // namespace petzval::cli

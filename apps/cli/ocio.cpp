@@ -28,11 +28,6 @@ void OcioFlags::check(const DevelopFlags& develop, std::optional<Transfer> trans
     refuse_both(is_on(), "--ocio", transfer.has_value(), "--transfer");
 }
 
-void OcioFlags::add_to(MadeWith& made) const {
-    if (!view.empty()) made.add("ocio.view", view);
-    if (!space.empty()) made.add("ocio.working_space", space);
-}
-
 Status OcioFlags::try_out() const {
     Picture light(1, 1);
     DevelopSettings settings;

@@ -21,7 +21,6 @@ struct OcioFlags {
     void add_to(Verb& verb);
     // Throws UsageError, also for flags that --ocio replaces.
     void check(const DevelopFlags& develop, std::optional<Transfer> transfer) const;
-    void add_to(MadeWith& made) const;
     bool is_on() const { return !view.empty(); }
     // Checks that the config has the display and view; errors as show().
     Status try_out() const;

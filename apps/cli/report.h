@@ -1,16 +1,11 @@
-// The --json report of a run. docs/reference/report.md describes its keys.
+// What was done, for programs: the --json report. Keys are described in docs/reference/report.md; the parts
+// that every host writes are petzval/records.h's.
 #pragma once
 
-#include "petzval/camera.h"
-#include "petzval/depth.h"
-#include "petzval/engine_report.h"
-#include "petzval/files.h"
-#include "petzval/look.h"
-#include "petzval/result.h"
+#include "petzval/records.h"
 
 #include <chrono>
 #include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -43,19 +38,14 @@ Json lens_json(const Look& look, const std::string& description);
 Json part_json(const PartSummary& part);
 Json depth_json(const DepthReport& depth, DepthKind kind);
 Json window_json(const Rect& window);
-// Adds the stages and sums of `seconds`: stages with a name, and `compute`.
-void add_stages(Json& report, const std::vector<StageTime>& stages, double seconds);
-
-// Largest resident memory of this process so far.
-std::size_t peak_memory_bytes();
 
 // Writes it to a file, or "-" for standard output. Infinite numbers are written as 1e999: valid JSON that
 // readers take as infinity. Errors: OutputFailed.
 // One line where `indent` is below 0.
-std::string report_text(Json report, int indent = 2);
-Status write_report(Json report, const std::string& path);
-// Prints a verb's result as text on standard output, and as a report if --json names a file; only the report
-// if that is "-". Errors: OutputFailed.
-Status tell(const std::string& text, Json report, const std::string& json);
+std::string report_text(const Json& report, int indent = 2);
+Status write_report(const Json& report, const std::string& path);
+// What a verb found: as text on standard output, and as a report where --json names a file; the report alone
+// where that is "-". Errors: OutputFailed.
+Status tell(const std::string& text, const Json& report, const std::string& json);
 
 }  // namespace petzval::cli

@@ -66,7 +66,7 @@ public:
         work.files = [&](int frame) -> Result<FrameWork::Files> {
             return FrameWork::Files{{at_frame(all_.input.path, frame)}, {}};
         };
-        work.make = [&](int frame, bool) { return add(frame); };
+        work.make = [&](int frame, bool) { return record_of(add(frame)); };
         work.black = [&](int frame, int) { return place(frame, Picture(width_, height_)); };
         work.finish = [&] { return write(); };
         return make_frames(all_.frames, all_.run, work);

@@ -100,7 +100,6 @@ std::string command_line(const ViewFlags& flags, const view::Choice& choice, con
 Status save(DefocusFlags flags, Session& session, const view::Choice& choice, const std::string& output) {
     const auto kind = kind_of_output(output);
     if (!kind) return kind.error();
-    if (choice.frame) flags = at_frame(std::move(flags), *choice.frame);
     flags.output = output;
     flags.run.json.clear();
     flags.run.progress = ProgressMode::Off;
@@ -114,9 +113,11 @@ Status save(DefocusFlags flags, Session& session, const view::Choice& choice, co
     flags.develop.contrast = choice.develop.contrast;
     flags.develop.tone = choice.develop.tone;
     if (!choice.ocio || *kind != FileKind::Png) flags.ocio = {};
-    Status done = defocus_frame(flags, session);
+    ShotRunSettings settings = flags.settings();
+    if (choice.frame) settings.source = at_frame(std::move(settings.source), *choice.frame);
+    const auto done = make_picture(session, settings, picture_host(flags));
     if (!done) return Error{done.error().code, in_flags(done.error().message), done.error().field};
-    return done;
+    return Done{};
 }
 
 std::vector<view::FieldRow> field_rows() {

@@ -2,9 +2,11 @@
 // make another one. Component petzval::files.
 #pragma once
 
+#include "petzval/display_files.h"
 #include "petzval/export.h"
 #include "petzval/look.h"
 #include "petzval/result.h"
+#include "petzval/shot.h"
 
 #include <map>
 #include <optional>
@@ -23,8 +25,11 @@ public:
     void add(const std::string& field, const std::string& text);
     void add(const std::string& field, double value);
     void add(const std::string& field, const std::optional<double>& value);  // nothing where it is not given
-    // Every field of the look that is not at its default.
+    // Every field of the look that is not at its default; the same of where a shot is, but for names of
+    // files, and its camera; of a display choice what is given.
     void add(const Look& look);
+    void add(const ShotSource& source);
+    void add(const DisplayChoice& display);
     // Names of files that are read, as a digest: a picture that is handed on tells no folders.
     void add_files(const std::vector<std::string>& names);
 

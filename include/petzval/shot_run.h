@@ -13,6 +13,8 @@
 #pragma once
 
 #include "petzval/develop.h"
+#include "petzval/display_files.h"
+#include "petzval/engine_options.h"
 #include "petzval/export.h"
 #include "petzval/frame_loop.h"
 #include "petzval/look.h"
@@ -57,24 +59,15 @@ PETZVAL_API const char* name_of(ShotView view);
 // An engine makes it; its PNG is developed (exposure, tone).
 PETZVAL_API bool is_rendered(ShotView view);
 PETZVAL_API bool is_developed(ShotView view);
+// What the engine of that name is asked for; nothing and Result for views of others.
+PETZVAL_API std::optional<GaussianView> gaussian_view(ShotView view);
+PETZVAL_API ScatterView scatter_view(ShotView view);
 
 // How far the data window grows: a number of pixels, or one of these.
 constexpr int kOverscanAutomatic = 0, kOverscanWithinFrame = -1, kOverscanOff = -2;
 
 // source.read.view_name of every view of a stereo file.
 inline constexpr const char* kAllViews = "all";
-
-// Of display pictures (PNG). What is not given depends on the input: a picture that was display-referred
-// keeps its look.
-struct DisplayChoice {
-    std::optional<double> exposure_stops = {}, contrast = {};
-    std::optional<ToneCurve> tone = {};
-    std::optional<Transfer> transfer = {};
-    int bits = 8;
-    std::string ocio_view = {}, ocio_space = {};  // done by ShotRunHost::to_display
-
-    PETZVAL_API DevelopSettings settings(bool display_referred, int threads) const;
-};
 
 // All that a run is asked for. Paths of the source and of the outputs may hold a frame number (frames.h);
 // without one, and without frames, the run makes a single picture.
@@ -86,7 +79,10 @@ struct ShotRunSettings {
     Look look = {};
     ShotView view = ShotView::Beauty;
     std::optional<int> overscan_px = {};
-    DisplayChoice display = {};
+    DisplayChoice display = {};             // of PNG outputs
+    std::optional<Transfer> transfer = {};  // of codes, read and written, as the user said it
+    // What ShotRunHost::to_display shows, by name; compared by Update. Empty: the display choice.
+    std::string display_view = {}, display_space = {};
 
     std::string output;          // .exr or .png
     std::string record_file;     // JSON of each frame in a file of its own; empty: none
@@ -103,6 +99,8 @@ struct ShotRunSettings {
     MotionReading motion = {};
     int retries = 0;  // of a frame that failed for another reason than its input
 
+    // Where the session keeps kernels, and what was chosen of an engine's own options, as JSON: for records.
+    std::string kernel_cache_folder = {}, engine_options = "{}";
     // Said beside the warnings of each frame, as what a look's file holds to no effect.
     std::vector<std::string> warnings = {};
 };
@@ -122,7 +120,14 @@ struct ShotRunHost : FrameLoopHost {
     std::function<Status(Picture& light, DevelopSettings& settings, std::string& used,
                          std::vector<std::string>& warnings)>
         to_display = {};
+    // What to add to an error on missing camera numbers, as an example of how to give them.
+    std::function<std::string(const FoundCamera&)> camera_example = {};
 };
+
+// One picture: paths of the settings hold no frame number, track, rack and frames are not looked at. Errors:
+// those of reading, of settings that do not fit each other, OutputFailed, Cancelled.
+PETZVAL_API Result<FrameRecord> make_picture(Session& session, const ShotRunSettings& settings,
+                                             const ShotRunHost& host = {});
 
 class PETZVAL_API ShotRun {
 public:

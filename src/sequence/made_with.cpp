@@ -1,10 +1,13 @@
 #include "petzval/made_with.h"
 
+#include "petzval/display_files.h"
 #include "petzval/files.h"
 #include "petzval/look_json.h"
+#include "petzval/names.h"
 #include "petzval/version.h"
 
 #include "base/content_hash.h"
+#include "sequence/words.h"
 
 #include <cmath>
 #include <filesystem>
@@ -42,24 +45,14 @@ std::string spoken(const std::map<std::string, std::string>& settings, const std
     const auto found = settings.find(field);
     if (found == settings.end()) return "not given";
     const std::string& value = found->second;
-    if (const Json number = Json::parse(value, nullptr, false); number.is_number_float()) {
-        char text[32];
-        std::snprintf(text, sizeof(text), "%.6g", number.get<double>());
-        return text;
-    }
+    if (const Json number = Json::parse(value, nullptr, false); number.is_number_float())
+        return plain(number.get<double>());
     return value.size() > 1 && value.front() == '"' ? value.substr(1, value.size() - 2) : value;
 }
 
-bool is_there(const std::string& path) {
+bool exists(const std::string& path) {
     std::error_code missing;
     return fs::exists(path, missing);
-}
-
-std::string listed(const std::vector<std::string>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-    return text;
 }
 
 }  // namespace
@@ -80,6 +73,36 @@ void MadeWith::add(const Look& look) {
         const auto same = usual.find(field);
         if (same == usual.end() || same->second != value) settings_[field] = value;
     }
+}
+
+void MadeWith::add(const ShotSource& source) {
+    const ReadOptions& read = source.read;
+    for (const auto& [field, text] : {std::pair("read.layer", &read.layer),
+                                      {"read.view_name", &read.view_name},
+                                      {"read.depth_channel", &read.depth_channel}})
+        if (!text->empty()) add(field, *text);
+    if (!read.layers.empty()) add("read.layers", listed(read.layers));
+    if (read.transfer != Transfer::Srgb) add("read.transfer", name_of(read.transfer));
+    const DepthSettings usual;
+    if (source.depth_kind_given) add("depth.kind", name_of(source.depth.kind));
+    if (source.depth.range_near != usual.range_near || source.depth.range_far != usual.range_far)
+        add("depth.range", plain(source.depth.range_near.value_or(0), 9) + "," +
+                               plain(source.depth.range_far.value_or(0), 9));
+    if (source.depth.unit_scale_m != 1) add("depth.unit_scale_m", source.depth.unit_scale_m);
+    const CameraChoice& camera = source.camera;
+    add("camera.focal_length_mm", camera.focal_length_mm);
+    add("camera.sensor_width_mm", camera.sensor_width_mm);
+    add("camera.f_number", camera.f_number);
+    add("camera.focus_distance_m", camera.focus_distance_m);
+    add("camera.aperture_diameter_mm", camera.aperture_diameter_mm);
+    if (camera.image_scale != ImageScale::Rendered) add("camera.image_scale", name_of(camera.image_scale));
+}
+
+void MadeWith::add(const DisplayChoice& display) {
+    add("develop.exposure_stops", display.exposure_stops);
+    add("develop.contrast", display.contrast);
+    if (display.tone) add("develop.tone", name_of(*display.tone));
+    if (display.bits != 8) add("display.bits", double(display.bits));
 }
 
 void MadeWith::add_files(const std::vector<std::string>& names) {
@@ -120,7 +143,7 @@ OutputState state_of(const std::vector<std::string>& outputs, const std::vector<
                      ExistingOutputs existing, const MadeWith* made_with) {
     if (existing == ExistingOutputs::Replace || outputs.empty()) return {};
     for (const std::string& path : outputs)
-        if (!is_there(path)) return {};
+        if (!exists(path)) return {};
     if (existing == ExistingOutputs::Keep)
         return {true, listed(outputs) + ": already there, left alone (run.keep)"};
     std::error_code missing;
@@ -140,9 +163,8 @@ OutputState state_of(const std::vector<std::string>& outputs, const std::vector<
 }
 
 bool is_whole_picture(const std::string& path) {
-    std::string extension = fs::path(path).extension().string();
-    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return extension == ".png" ? bool(read_png(path)) : bool(read_frame(path));
+    const auto kind = kind_of_output(path);
+    return kind && *kind == FileKind::Png ? bool(read_png(path)) : bool(read_frame(path));
 }
 
 }  // namespace petzval

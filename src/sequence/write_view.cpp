@@ -1,16 +1,14 @@
-#include "defocus_views.h"
+#include "sequence/write_view.h"
 
 #include "petzval/views.h"
 
-#include "console.h"
-#include "output.h"
-#include "values.h"
+#include "sequence/words.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace petzval::cli {
+namespace petzval::sequence {
 namespace {
 
 bool is_exr(const ViewSettings& settings) { return *kind_of_output(settings.output) == FileKind::Exr; }
@@ -73,11 +71,11 @@ Status write_beauty(Frame& frame, const ViewSource& source, const ViewSettings& 
     if (!is_exr(settings)) {
         Picture light = in_output_window(frame.colour, frame, settings, Rgba{});
         DevelopSettings develop = settings.develop;
-        if (settings.ocio && settings.ocio->is_on()) {
+        if (settings.to_display) {
             std::string used;
-            Status done = settings.ocio->show(light, develop, used, *settings.warnings);
+            Status done = settings.to_display(light, develop, used, *settings.warnings);
             if (!done) return done;
-            note(used);
+            settings.note(used);
         }
         return write_developed(settings.output, light.view(), develop, settings.overwrite,
                                frame.place.pixel_aspect, settings.png_texts);
@@ -90,7 +88,7 @@ Status write_beauty(Frame& frame, const ViewSource& source, const ViewSettings& 
     frames.insert(frames.end(), settings.other_views.begin(), settings.other_views.end());
     Status done = frames.size() > 1 ? write_exr_views(settings.output, frames, options)
                                     : write_exr(settings.output, frame, options);
-    if (changed.became_rgb) note("luminance of the input is written as R, G and B");
+    if (changed.became_rgb) settings.note("luminance of the input is written as R, G and B");
     if (changed.clamped_to_half > 0)
         settings.warnings->push_back(std::to_string(changed.clamped_to_half) +
                                      " colour values are too large for half float and were written as 65504");
@@ -153,8 +151,8 @@ Status write_depth(Frame& frame, const ViewSettings& settings) {
     const float nearest = settings.depth.nearest_m;
     Plane inverse = in_output_window(frame.depth, frame, settings, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < inverse.size(); ++i) inverse.pixels()[i] = nearest / inverse.pixels()[i];
-    note("code 65535 is " + plain(nearest) + " m, 0 is infinity; read it with --depth " + settings.output +
-         " --depth-kind inverse --unit-scale " + plain(nearest));
+    settings.note("code 65535 is " + plain(nearest) + " m, 0 is infinity; read it with read.depth_file " +
+                  settings.output + " depth.kind inverse depth.unit_scale_m " + plain(nearest));
     return write_grey_png(settings.output, inverse.view(), settings.overwrite, settings.png_texts);
 }
 
@@ -179,8 +177,8 @@ Status write_alpha(Frame& frame, const ViewSettings& settings) {
 Status write_hidden(const Frame& frame, const ViewSource& source, const ViewSettings& settings) {
     WriteOptions options = exr_options(settings);
     options.camera = settings.camera;
-    note(std::to_string(source.hidden.sample_count()) + " samples; --plate " + settings.output +
-         " reads them as a clean plate");
+    settings.note(std::to_string(source.hidden.sample_count()) + " samples; shot.behind " + settings.output +
+                  " reads them as a clean plate");
     return write_deep_exr(settings.output, frame.place, source.hidden, options);
 }
 
@@ -196,50 +194,23 @@ bool shows_radii(const Look& look) {
     return look.engine == "gather" && look.gather.stage == GatherStage::Coc;
 }
 
-const NameTable<ViewKind>& view_names() {
-    static const NameTable<ViewKind> table{
-        {"beauty", ViewKind::Beauty},         {"coc", ViewKind::Coc},
-        {"focus", ViewKind::Focus},           {"depth", ViewKind::Depth},
-        {"alpha", ViewKind::Alpha},           {"sharp", ViewKind::Sharp},
-        {"blur-small", ViewKind::BlurSmall},  {"blur-large", ViewKind::BlurLarge},
-        {"blur-rows", ViewKind::BlurRows},    {"focus-index", ViewKind::FocusIndex},
-        {"levels", ViewKind::Levels},         {"layers", ViewKind::Layers},
-        {"highlights", ViewKind::Highlights}, {"hidden", ViewKind::Hidden}};
-    return table;
-}
-
-const char* name_of(ViewKind view) {
-    for (const auto& [name, value] : view_names())
-        if (value == view) return name.c_str();
-    return "?";
-}
-
-bool is_rendered(ViewKind view) {
-    return view != ViewKind::Coc && view != ViewKind::Focus && view != ViewKind::Depth;
-}
-
-bool is_developed(ViewKind view) {
-    return view != ViewKind::Coc && view != ViewKind::Depth && view != ViewKind::Alpha &&
-           view != ViewKind::FocusIndex;
-}
-
-Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const ViewSettings& settings) {
+Status write_view(ShotView view, Frame& frame, const ViewSource& source, const ViewSettings& settings) {
     switch (view) {
-        case ViewKind::Coc:
+        case ShotView::Coc:
             return write_coc(frame, source, settings);
-        case ViewKind::Focus:
+        case ShotView::Focus:
             return write_focus(frame, source, settings);
-        case ViewKind::Depth:
+        case ShotView::Depth:
             return write_depth(frame, settings);
-        case ViewKind::Alpha:
+        case ShotView::Alpha:
             return write_alpha(frame, settings);
-        case ViewKind::FocusIndex:
+        case ShotView::FocusIndex:
             return write_index(frame, settings);
-        case ViewKind::Levels:
-        case ViewKind::Layers:
-        case ViewKind::Highlights:
+        case ShotView::Levels:
+        case ShotView::Layers:
+        case ShotView::Highlights:
             return write_panels(frame, source, settings);
-        case ViewKind::Hidden:
+        case ShotView::Hidden:
             return write_hidden(frame, source, settings);
         default:
             // Radii have a sign, which display codes have not.
@@ -248,4 +219,4 @@ Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const V
     }
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval::sequence

@@ -1,48 +1,24 @@
-// The buffers of --view, and their files: EXR covers the input's data window, PNG its display window.
+// What each view shows, and how it is written: EXR covers the data window of the input, PNG its display
+// window.
 #pragma once
 
 #include "petzval/defocus.h"
 #include "petzval/depth.h"
 #include "petzval/develop.h"
+#include "petzval/display_files.h"
 #include "petzval/files.h"
 #include "petzval/image.h"
 #include "petzval/look.h"
 #include "petzval/result.h"
-
-#include "ocio.h"
-#include "values.h"
+#include "petzval/shot_run.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace petzval::cli {
-
-enum class ViewKind {
-    Beauty,
-    Coc,
-    Focus,
-    Depth,
-    Alpha,
-    Sharp,
-    BlurSmall,
-    BlurLarge,
-    BlurRows,
-    FocusIndex,
-    Levels,
-    Layers,
-    Highlights,
-    Hidden
-};
-
-// Those that an engine makes.
-bool is_rendered(ViewKind view);
-// Those whose PNG is developed: exposure, tone.
-bool is_developed(ViewKind view);
-
-const NameTable<ViewKind>& view_names();
-const char* name_of(ViewKind view);
+namespace petzval::sequence {
 
 struct ViewSource {
     Plane coc_radius_px;        // for Coc and Focus; for Beauty where its channels hold radii, and no light
@@ -56,7 +32,9 @@ struct ViewSettings {
     std::string output;
     bool overwrite = true;
     DevelopSettings develop;
-    const OcioFlags* ocio = nullptr;  // of Beauty, as PNG; may be null
+    // Of Beauty, as PNG: as in ShotRunHost; may be empty.
+    std::function<Status(Picture&, DevelopSettings&, std::string&, std::vector<std::string>&)> to_display;
+    std::function<void(const std::string&)> note;
     FoundCamera camera;
     double permissible_radius_px = 1;
     DepthReport depth;
@@ -73,6 +51,6 @@ bool shows_radii(const Look& look);
 
 // `frame` holds what the engine made where is_rendered(view), else the sharp colour, and planar depth. It is
 // used up. Errors: OutputFailed.
-Status write_view(ViewKind view, Frame& frame, const ViewSource& source, const ViewSettings& settings);
+Status write_view(ShotView view, Frame& frame, const ViewSource& source, const ViewSettings& settings);
 
-}  // namespace petzval::cli
+}  // namespace petzval::sequence

@@ -1,0 +1,47 @@
+// Display pictures as PNG files, and which of the formats that are written a name asks for. Component
+// petzval::files.
+#pragma once
+
+#include "petzval/develop.h"
+#include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/result.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval {
+
+enum class FileKind { Exr, Png };
+// From the name's extension. Errors: InvalidArgument naming what is accepted.
+PETZVAL_API Result<FileKind> kind_of_output(const std::string& path);
+
+// How light becomes a display picture; what is not given depends on the input: a picture that was
+// display-referred keeps its look.
+struct DisplayChoice {
+    std::optional<double> exposure_stops = {}, contrast = {};
+    std::optional<ToneCurve> tone = {};
+    int bits = 8;
+
+    PETZVAL_API DevelopSettings settings(bool display_referred, std::optional<Transfer> transfer,
+                                         int threads) const;
+};
+
+// What a PNG says beside its pixels.
+using PngTexts = std::vector<std::pair<std::string, std::string>>;
+// Codes of develop(). pixel_aspect: of the file's pixels, where they are not square. Errors: OutputFailed.
+PETZVAL_API Status write_codes(const std::string& path, int width, int height,
+                               std::vector<std::uint16_t> codes, int bits, bool overwrite,
+                               double pixel_aspect = 1, PngTexts texts = {});
+// Developed, the same.
+PETZVAL_API Status write_developed(const std::string& path, View<const Rgba> picture,
+                                   const DevelopSettings& settings, bool overwrite, double pixel_aspect = 1,
+                                   PngTexts texts = {});
+// A plane as 16-bit grey: 0…1 becomes 0…65535, anything else the nearer end, NaN 0.
+PETZVAL_API Status write_grey_png(const std::string& path, View<const float> plane, bool overwrite,
+                                  PngTexts texts = {});
+
+}  // namespace petzval

@@ -1,0 +1,42 @@
+// The parts of a record, as JSON texts: what a run says of a frame to programs (docs/reference/report.md),
+// and lines about a camera for people. Component petzval::files.
+#pragma once
+
+#include "petzval/camera.h"
+#include "petzval/depth.h"
+#include "petzval/engine_report.h"
+#include "petzval/export.h"
+#include "petzval/files.h"
+#include "petzval/look.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace petzval {
+
+// Fields as a host calls them; empty: as they are.
+using InWords = std::function<std::string(const std::string&)>;
+
+// A number as JSON; NaN is null, and infinity, which JSON has not, a text that finished_record() replaces.
+PETZVAL_API std::string record_of_number(double value);
+// Every key that a record always holds, with nothing in them yet.
+PETZVAL_API std::string empty_record(const std::string& verb);
+PETZVAL_API std::string record_of_camera(const FoundCamera& camera, ImageScale image_scale);
+PETZVAL_API std::string record_of_lens(const Look& look, const std::string& description);
+PETZVAL_API std::string record_of_glare(const Look& look);  // null where there is none
+PETZVAL_API std::string record_of_depth(const DepthReport& depth, DepthKind kind);
+PETZVAL_API std::string record_of_limits(const FocusLimits& limits, double permissible_radius_px);
+
+// The record as it is written, ending with a line break: on one line where `indent` is below 0; infinity is
+// 1e999, valid JSON that readers take as infinity; lines, origins and errors in the words of the host.
+PETZVAL_API std::string finished_record(const std::string& record, int indent, const InWords& in_words = {});
+
+// Largest resident memory of this process so far.
+PETZVAL_API std::size_t peak_memory_bytes();
+
+// "camera: 85 mm (file: focalLength), sensor 36 mm (camera.sensor_width_mm), f/4 (…), focus 4 m (…)"
+PETZVAL_API std::string camera_line(const FoundCamera& camera, ImageScale image_scale);
+
+}  // namespace petzval

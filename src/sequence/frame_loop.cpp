@@ -1,0 +1,306 @@
+#include "petzval/frame_loop.h"
+
+#include "petzval/frames.h"
+#include "petzval/made_with.h"
+#include "petzval/output.h"
+#include "petzval/records.h"
+
+#include "sequence/record_json.h"
+#include "sequence/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <utility>
+
+namespace petzval {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> missing_files(const std::vector<std::string>& inputs) {
+    std::vector<std::string> missing;
+    std::error_code error;
+    for (const std::string& path : inputs)
+        if (!fs::exists(path, error)) missing.push_back(path);
+    return missing;
+}
+
+std::string time_in_words(double seconds) {
+    if (seconds < 90) return plain(std::ceil(seconds)) + " s";
+    if (seconds < 5400) return plain(std::ceil(seconds / 60)) + " min";
+    return plain(std::ceil(seconds / 360) / 10) + " h";
+}
+
+std::string without_numbers(std::string line) {
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c >= '0' && c <= '9'; }, '#');
+    line.erase(std::unique(line.begin(), line.end(), [](char a, char b) { return a == '#' && b == '#'; }),
+               line.end());
+    return line;
+}
+
+// "focus 3.95 m, f/2.8, "
+std::string focus_words(const FrameRecord& record) {
+    std::string words;
+    if (record.focus_m)
+        words += "focus " + plain(*record.focus_m, 4) + (std::isinf(*record.focus_m) ? ", " : " m, ");
+    if (record.f_number) words += "f/" + plain(*record.f_number, 4) + ", ";
+    return words;
+}
+
+bool contains(const std::vector<int>& frames, int frame) {
+    return std::find(frames.begin(), frames.end(), frame) != frames.end();
+}
+
+// Trying again changes nothing about what the user gave.
+bool may_pass(const Error& error) {
+    return error.code != ErrorCode::InvalidArgument && error.code != ErrorCode::InvalidFile &&
+           error.code != ErrorCode::Unsupported && error.code != ErrorCode::Cancelled;
+}
+
+}  // namespace
+
+struct FrameLoop::State {
+    FrameLoopSettings settings;
+    FrameWork work;
+    FrameLoopHost host;
+    bool is_planned = false;
+    std::vector<int> frames, black, failed;
+    std::ofstream report;
+    std::set<std::string> warned;
+    double made_s = 0;
+    std::size_t made_count = 0;
+
+    void say(Say how, const std::string& line) const {
+        if (host.say) host.say(how, line);
+    }
+    bool is_cancelled() const { return host.cancelled && host.cancelled(); }
+
+    Status find_frames();
+    Status find_missing();
+    Status begin();
+    Status guard(RunFiles* files);
+    Status open_report();
+    Status make(int frame, std::size_t number);
+    Result<FrameRecord> made(int frame, const FrameWork::Files& files);
+    Result<FrameRecord> made_black(int frame, const FrameWork::Files& files);
+    FrameRecord failure(int frame, const FrameWork::Files& files, const Error& error);
+    void tell(const FrameRecord& record, std::size_t number, const FrameWork::Files& files);
+    void warn_once(const FrameRecord& record);
+    Status keep(FrameRecord record);
+    // Another run may work in the same folder.
+    bool is_there(const FrameWork::Files& files) const {
+        std::error_code missing;
+        return work.keeps_what_is_there && fs::exists(files.outputs.front(), missing);
+    }
+};
+
+Status FrameLoop::State::find_frames() {
+    frames = settings.frames;
+    if (!frames.empty()) return Done{};
+    const auto pattern = FramePattern::find(work.input);
+    if (!pattern) return pattern.error();
+    if (!*pattern) {
+        if (!work.otherwise) return Done{};
+        auto listed_frames = work.otherwise();
+        if (!listed_frames) return listed_frames.error();
+        frames = std::move(*listed_frames);
+        return Done{};
+    }
+    auto there = (*pattern)->frames_there();
+    if (!there) return there.error();
+    frames = std::move(*there);
+    if (frames.empty()) return Error{ErrorCode::InvalidFile, work.input + ": no frame exists"};
+    say(Say::Note, "no run.frames given: all existing frames");
+    return Done{};
+}
+
+Status FrameLoop::State::find_missing() {
+    std::vector<int> missing;
+    std::string example;
+    for (const int frame : frames) {
+        const auto files = work.files(frame);
+        if (!files) return files.error();
+        const auto lacking = missing_files(files->inputs);
+        if (lacking.empty()) continue;
+        missing.push_back(frame);
+        if (example.empty()) example = lacking.front();
+    }
+    if (missing.empty()) return Done{};
+    const std::string what = std::to_string(missing.size()) + " of " + std::to_string(frames.size()) +
+                             " frames have missing files: " + frames_text(missing) + " (" + example +
+                             (missing.size() > 1 ? ", …)" : ")");
+    const MissingFiles how = settings.missing.value_or(MissingFiles::Fail);
+    if (how == MissingFiles::Fail)
+        return Error{ErrorCode::InvalidFile,
+                     what + "; run.missing skip leaves these frames out" +
+                         (work.black ? ", run.missing black writes black frames" : "")};
+    say(Say::Warning, what + (how == MissingFiles::Skip ? "; left out" : "; made black"));
+    if (how == MissingFiles::Skip) std::erase_if(frames, [&](int frame) { return contains(missing, frame); });
+    if (frames.empty() || (how == MissingFiles::Black && missing.size() == frames.size()))
+        return Error{ErrorCode::InvalidFile, "no frame has all its files"};
+    if (how == MissingFiles::Black) black = std::move(missing);
+    return Done{};
+}
+
+Status FrameLoop::State::begin() {
+    if (!work.begin) return Done{};
+    std::vector<int> lit = frames;
+    std::erase_if(lit, [&](int frame) { return contains(black, frame); });
+    return work.begin(lit);
+}
+
+// The guard learns the frames' own names; nothing is written before it has agreed.
+Status FrameLoop::State::guard(RunFiles* files) {
+    RunFiles own;
+    RunFiles& all = files ? *files : own;
+    all.reads(work.input);
+    if (!files) all.writes(settings.report_file);
+    for (const int frame : frames) {
+        const auto of = work.files(frame);
+        if (!of) return of.error();
+        for (const std::string& path : of->inputs) all.reads(path);
+        for (const std::string& path : of->outputs) all.writes(path);
+    }
+    return all.check();
+}
+
+Status FrameLoop::State::open_report() {
+    if (settings.report_file.empty()) return Done{};
+    report.open(settings.report_file, std::ios::trunc);
+    if (report) return Done{};
+    return Error{ErrorCode::OutputFailed, settings.report_file + ": cannot be written"};
+}
+
+Result<FrameRecord> FrameLoop::State::made_black(int frame, const FrameWork::Files& files) {
+    const int like = *std::find_if(frames.begin(), frames.end(), [&](int f) { return !contains(black, f); });
+    if (Status done = work.black(frame, like); !done) return done.error();
+    FrameRecord record;
+    record.state = FrameRecord::State::Black;
+    sequence::Json json{{"black", true}};
+    if (!files.outputs.empty()) record.output = files.outputs.front(), json["output"] = record.output;
+    record.record = sequence::as_text(json);
+    return record;
+}
+
+Result<FrameRecord> FrameLoop::State::made(int frame, const FrameWork::Files& files) {
+    const bool again = is_there(files) && !is_whole_picture(files.outputs.front());
+    if (again) say(Say::Warning, files.outputs.front() + ": damaged or cut off; made again");
+    if (host.around_frame) host.around_frame(true);
+    Result<FrameRecord> record = work.make(frame, again);
+    for (int left = settings.retries; left > 0 && !record && may_pass(record.error()) && !is_cancelled();
+         --left)
+        record = work.make(frame, again);
+    if (host.around_frame) host.around_frame(false);
+    if (!record && record.error().code == ErrorCode::OutputFailed && is_there(files) &&
+        is_whole_picture(files.outputs.front())) {
+        const std::string path = files.outputs.front();
+        return frame_record(
+            sequence::as_text({{"output", path}, {"skipped", "another run made it meanwhile"}}));
+    }
+    return record;
+}
+
+FrameRecord FrameLoop::State::failure(int frame, const FrameWork::Files& files, const Error& error) {
+    failed.push_back(frame);
+    say(Say::Failure, "frame " + std::to_string(frame) + ": " + error.message);
+    FrameRecord record;
+    record.state = FrameRecord::State::Failed;
+    record.why = error.message;
+    sequence::Json json = sequence::Json::object();
+    if (!files.inputs.empty()) record.input = files.inputs.front(), json["input"] = record.input;
+    if (!files.outputs.empty()) record.output = files.outputs.front(), json["output"] = record.output;
+    json["error"] = error.message;
+    record.record = sequence::as_text(json);
+    return record;
+}
+
+// A frame says nothing itself; what it warns of is said once, whatever its numbers: those of all frames are
+// in the records.
+void FrameLoop::State::warn_once(const FrameRecord& record) {
+    for (const std::string& line : record.warnings)
+        if (warned.insert(without_numbers(line)).second && !host.hears_frames) say(Say::Warning, line);
+}
+
+void FrameLoop::State::tell(const FrameRecord& record, std::size_t number, const FrameWork::Files& files) {
+    const bool is_made =
+        record.state == FrameRecord::State::Made || record.state == FrameRecord::State::Black;
+    if (is_made) made_s += record.seconds, ++made_count;
+    const std::size_t left = frames.size() - number - 1;
+    std::string state = record.state == FrameRecord::State::Failed ? "failed"
+                        : is_made                                  ? plain(record.seconds, 3) + " s"
+                                                                   : "left as it is";
+    if (is_made && !record.why.empty()) state += ", made again: " + record.why;
+    const std::string rest =
+        left == 0 || made_count == 0
+            ? ""
+            : ", about " + time_in_words(made_s / double(made_count) * double(left)) + " left";
+    say(Say::Note, "frame " + std::to_string(record.frame) + ": " +
+                       (files.outputs.empty() ? "" : files.outputs.front() + ", ") + focus_words(record) +
+                       state + " (" + std::to_string(number + 1) + " of " + std::to_string(frames.size()) +
+                       rest + ")");
+}
+
+Status FrameLoop::State::keep(FrameRecord record) {
+    sequence::Json json = {{"frame", record.frame}};
+    json.update(sequence::Json::parse(record.record));
+    record.record = finished_record(sequence::as_text(json), -1, host.in_words);
+    if (report.is_open() && !(report << record.record << std::flush))
+        return Error{ErrorCode::OutputFailed, settings.report_file + ": cannot be written"};
+    if (host.frame_done && !host.frame_done(record)) return Error{ErrorCode::Cancelled, "stopped"};
+    return Done{};
+}
+
+Status FrameLoop::State::make(int frame, std::size_t number) {
+    const sequence::Stopwatch watch;
+    const auto files = work.files(frame);
+    if (!files) return files.error();
+    const Result<FrameRecord> done = contains(black, frame) ? made_black(frame, *files) : made(frame, *files);
+    if (is_cancelled()) return Done{};
+    // An output shared by all frames cannot be written for any of them.
+    if (!done && files->outputs.empty() && done.error().code == ErrorCode::OutputFailed) return done.error();
+    FrameRecord record = done ? *done : failure(frame, *files, done.error());
+    record.frame = frame;
+    record.seconds = watch.seconds();
+    warn_once(record);
+    tell(record, number, *files);
+    if (host.progress) host.progress(double(number + 1) / double(frames.size()));
+    return keep(std::move(record));
+}
+
+FrameLoop::FrameLoop(FrameLoopSettings settings, FrameWork work, FrameLoopHost host)
+    : state_(std::make_unique<State>()) {
+    state_->settings = std::move(settings), state_->work = std::move(work), state_->host = std::move(host);
+}
+
+FrameLoop::~FrameLoop() = default;
+
+Status FrameLoop::plan(RunFiles* files) {
+    State& s = *state_;
+    s.is_planned = true;
+    for (const auto step : {&State::find_frames, &State::find_missing, &State::begin})
+        if (Status done = (s.*step)(); !done) return done;
+    return s.guard(files);
+}
+
+Status FrameLoop::run() {
+    State& s = *state_;
+    if (!s.is_planned)
+        if (Status fine = plan(); !fine) return fine;
+    if (Status open = s.open_report(); !open) return open;
+    s.say(Say::Note, std::to_string(s.frames.size()) + (s.frames.size() == 1 ? " frame, " : " frames, ") +
+                         frames_text(s.frames));
+    for (std::size_t i = 0; i < s.frames.size(); ++i) {
+        if (Status done = s.make(s.frames[i], i); !done) return done;
+        if (s.is_cancelled()) return Error{ErrorCode::Cancelled, "interrupted"};
+    }
+    return s.work.finish ? s.work.finish() : Status(Done{});
+}
+
+const std::vector<int>& FrameLoop::frames() const { return state_->frames; }
+const std::vector<int>& FrameLoop::failed() const { return state_->failed; }
+
+}  // namespace petzval

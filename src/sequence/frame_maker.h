@@ -1,0 +1,116 @@
+// One frame of a run: read, focused, with what its neighbours and other eyes see, blurred, written, recorded.
+#pragma once
+
+#include "petzval/seen_elsewhere.h"
+#include "petzval/shot_run.h"
+
+#include "sequence/record_json.h"
+#include "sequence/write_view.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace petzval::sequence {
+
+// What a run knows of a frame beside its settings.
+struct FrameContext {
+    std::optional<TrackedFrame> tracked = {};  // what a track changed
+    std::vector<std::string> neighbours = {};  // files of the frames around it
+    bool again = false;                        // what is there does not count
+    // What the frames around it, and its other eyes, see behind its surfaces; empty: not asked for.
+    std::function<Result<SeenElsewhere>(const Shot&, std::span<const Shot* const> eyes)> around = {};
+};
+
+// Errors: those of make_picture(). The record as JSON.
+Result<Json> make_frame(Session& session, const ShotRunSettings& settings, const ShotRunHost& host,
+                        const FrameContext& context);
+// A frame without light, of the size of `like`.
+Status make_black_frame(const ShotRunSettings& settings, const ShotRunSettings& like);
+
+// The assumption in words, for logs and the attribute petzval:expandHighlights.
+std::string in_words(const HighlightExpansion& expansion);
+
+// What Update compares, and the pictures that a frame is made of: all files but those of its look.
+MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context);
+std::vector<std::string> pictures_of(const ShotRunSettings& settings, const FrameContext& context);
+// A lens and its pictures.
+std::vector<std::string> lens_files(const Look& look);
+
+class FrameMaker {
+public:
+    // All outlive it.
+    FrameMaker(Session& session, ShotRunSettings settings, const ShotRunHost& host,
+               const FrameContext& context)
+        : session_(session), settings_(std::move(settings)), host_(host), context_(context) {}
+
+    Status make();
+    const Json& record() const { return record_; }
+
+private:
+    Status leave(const std::string& why);
+    Status read();
+    Status read_other_views();
+    Status look_around();
+    void take_behind(SeenElsewhere seen);
+    Status choose_camera();
+    Status grow();
+    Result<Rect> wanted_window();
+    Status grow_to(const Rect& window);
+    Result<Rect> window_of_light(bool within_frame);
+    DefocusJob job_of(DefocusJob job) const;
+    Status compute();
+    Status render(const DefocusJob& job);
+    void report_frame(const DefocusReport& done, double seconds);
+    Result<DefocusReport> take(const DefocusJob& job);
+    std::optional<CodesWanted> codes_wanted() const;
+    Json parameters(const DefocusJob& job) const;
+    Status write();
+    ViewSettings view_settings(std::vector<std::string>& warnings);
+    bool is_left_alone(const std::string& path) const;
+    Status save_look();
+    Status finish();
+    void say_layers();
+    void name_track();
+
+    void say(Say how, const std::string& line) const {
+        if (host_.say) host_.say(how, line);
+    }
+    void note(const std::string& line) const { say(Say::Note, line); }
+    void warn(const std::vector<std::string>& lines);
+    void tell_new_warnings();
+    bool is_cancelled() const { return host_.cancelled && host_.cancelled(); }
+
+    int threads() const { return settings_.source.read.threads; }
+    DevelopSettings display() const {
+        return settings_.display.settings(shot_.display_referred, settings_.transfer, threads());
+    }
+    const Look& look() const { return settings_.look; }
+    bool replaces() const { return settings_.existing != ExistingOutputs::Keep || context_.again; }
+    // Glare, falloff and what is given back to a plate are part of the picture, not of what is shown instead.
+    bool is_beauty() const { return settings_.view == ShotView::Beauty; }
+    bool expands_plate() const { return look().expand_highlights && is_beauty(); }
+    bool has_radii() const {
+        return settings_.source.depth_kind_given && settings_.source.depth.kind == DepthKind::CocPx;
+    }
+    bool needs_camera() const { return !has_radii() && settings_.view != ShotView::Depth; }
+
+    Session& session_;
+    ShotRunSettings settings_;
+    const ShotRunHost& host_;
+    const FrameContext& context_;
+    Stopwatch total_;
+    Json record_ = Json::parse(empty_record("defocus"));
+    Shot shot_;
+    std::size_t warnings_told_ = 0;                    // of the shot
+    std::optional<Lens> lens_;                         // once read
+    ViewSource view_;                                  // what compute() made and write() needs
+    std::vector<std::unique_ptr<FrameMaker>> others_;  // views of a stereo file
+    std::size_t held_bytes_ = 0;                       // by frames around
+    std::string made_with_;                            // what the output will say
+};
+
+}  // namespace petzval::sequence

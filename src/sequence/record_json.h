@@ -1,0 +1,35 @@
+// Records while they grow. Keys stay in the order in which they are set.
+#pragma once
+
+#include "petzval/records.h"
+
+#include <chrono>
+
+#include <nlohmann/json.hpp>
+
+namespace petzval::sequence {
+
+using Json = nlohmann::ordered_json;
+
+// File names need not be UTF-8: what is not becomes U+FFFD.
+inline std::string as_text(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+inline Json number(double value) { return Json::parse(record_of_number(value)); }
+
+// What took how long of `seconds`, as stages and in sums: those that stand under a name of their own, and
+// `compute`.
+void add_stages(Json& record, const std::vector<StageTime>& stages, double seconds);
+
+// Seconds since its making.
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace petzval::sequence
