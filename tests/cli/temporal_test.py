@@ -140,7 +140,7 @@ class SeenElsewhere(CommandLineTest):
     def test_what_does_not_go_together_is_refused(self):
         self.write_frames([0, 0.1])
         self.refuse(2, "defocus", "in.0001.exr", "-o", "out.exr", "--temporal", "1", says=["--temporal"])
-        for flags in (["--behind", "in.####.exr"], ["--expand-highlights"]):
+        for flags in (["--plate", "in.####.exr"], ["--expand-highlights"]):
             self.refuse(2, "defocus", "in.####.exr", "-o", "out.####.exr", "--temporal", "1", *flags,
                         says=["--temporal", flags[0]])
 
