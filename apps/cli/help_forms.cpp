@@ -120,12 +120,14 @@ constexpr std::size_t kManyFlags = 40;
 
 bool is_common(const FlagHelp& flag) {
     static const std::set<std::string> kCommon{
-        "--depth",    "--plate",    "--mask",        "--focal-length", "--sensor-width", "--fstop",
-        "--focus",    "--focus-at", "--focus-range", "--look",         "--lens",         "--blades",
-        "--cats-eye", "--bloom",    "--star",        "--engine",       "--quality",      "--fill",
-        "-o",         "--view",     "--frames",      "--track",        "--temporal",     "--no-clobber",
-        "--json",     "--exposure", "--device",      "--threads",      "--scene",        "--against",
-        "--script",   "-h",         "--help-all"};
+        "--depth",    "--plate",    "--mask",          "--focal-length", "--sensor-width", "--fstop",
+        "--focus",    "--focus-at", "--focus-range",   "--look",         "--lens",         "--blades",
+        "--cats-eye", "--bloom",    "--star",          "--engine",       "--quality",      "--fill",
+        "-o",         "--view",     "--frames",        "--track",        "--temporal",     "--no-clobber",
+        "--json",     "--exposure", "--device",        "--threads",      "--scene",        "--against",
+        "--script",   "-h",         "--help-all",      "--defocus",      "--field",        "--size",
+        "--columns",  "--raw",      "--add-spherical", "--coma",         "--bits",         "--tone",
+        "--listen"};
     return flag.is_argument() || kCommon.contains(flag.names.front());
 }
 

@@ -63,6 +63,7 @@ class Help(CommandLineTest):
         for flag in ("--depth", "--plate", "--fstop", "--focus-at", "--lens", "--frames"):
             self.assertIn(f"  {flag}", short)
         self.assertGreater(len(FLAG.findall(whole)), 2 * len(FLAG.findall(short)))
+        self.assertRegex(self.succeed("lens", "psf", "--help").out, r"(?s)--defocus .*--field ")
 
     def test_the_manual_page_is_clean(self):
         self.assertEqual(self.check("mandoc", "-T", "lint", self.file("man")), "")
