@@ -46,7 +46,7 @@ void find_touching(View<const unsigned char> connected, int y, View<unsigned cha
     }
 }
 
-// Whether lamps light the pixel or one beside it: less light of theirs than makes a lamp may fall on it.
+// True if lamps light the pixel or one beside it: less light of theirs than makes a lamp may fall on it.
 bool lit_around(const LitPicture& picture, int x, int y) {
     if (!picture.dim_of) return false;
     const Rect window = Rect{x - 1, y - 1, x + 2, y + 2}.intersected(picture.colour.rect());
