@@ -28,7 +28,7 @@ endfunction()
 
 file(GLOB core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/petzval/*.h)
 list(FILTER core_headers EXCLUDE REGEX "/(files|focus_track|frames|lens_report|look_file|ocio|output|scene|shot|track)\\.h$")
-list(FILTER core_headers EXCLUDE REGEX "/(petzval_c|petzval_lens_c|petzval_frame_c|petzval_files_c|vulkan)\\.h$")
+list(FILTER core_headers EXCLUDE REGEX "/(petzval_c|petzval_lens_c|petzval_frame_c|petzval_files_c|petzval_run_c|vulkan)\\.h$")
 set(c_headers ${headers}/petzval_c.h ${headers}/petzval_lens_c.h ${headers}/petzval_frame_c.h)
 if(vulkan)
   list(APPEND c_headers ${headers}/vulkan.h)
@@ -54,7 +54,7 @@ petzval_component(petzval_lib_ocio PACKAGE petzval-ocio HEADERS ${headers}/ocio.
                   REQUIRES petzval OpenColorIO DESCRIPTION "OpenColorIO displays for petzval")
 petzval_component(petzval_shared PACKAGE petzval-c HEADERS ${c_headers}
                   DESCRIPTION "petzval for C: libpetzval.so")
-petzval_component(petzval_files_shared PACKAGE petzval-files-c HEADERS ${headers}/petzval_files_c.h REQUIRES petzval-c
+petzval_component(petzval_files_shared PACKAGE petzval-files-c HEADERS ${headers}/petzval_files_c.h ${headers}/petzval_run_c.h REQUIRES petzval-c
                   DESCRIPTION "Files and scenes of petzval for C: libpetzval-files.so")
 if(TARGET petzval_cli)
   install(TARGETS petzval_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -17,7 +17,7 @@ import c_api_written
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADERS = ROOT / "include/petzval"
-NAMES = ["petzval_c.h", "petzval_lens_c.h", "petzval_frame_c.h", "petzval_files_c.h"]
+NAMES = ["petzval_c.h", "petzval_lens_c.h", "petzval_frame_c.h", "petzval_files_c.h", "petzval_run_c.h"]
 OPTIONAL = "vulkan.h"  # exported all or not at all
 PAGE = ROOT / "docs/reference/c-api.md"
 DECLARED = ROOT / "python/petzval/_declared.py"
@@ -57,7 +57,7 @@ def unlike(wanted, found):
 def main(*words):
     api = table()
     if words == ("--layout",):
-        print(c_api_written.layout_program(api, NAMES[-1]), end="")
+        print(c_api_written.layout_program(api, "petzval_files_c.h"), end="")
     elif words[:1] == ("--check",) and len(words) in (2, 3):
         found = list(differences(api, *words[1:]))
         print("\n".join(found) or f"c api: ok ({len(api.functions)} functions, {len(api.structs)} structs)")

@@ -99,6 +99,7 @@ PUBLIC = {
     "petzval_lens_c": "c",
     "petzval_frame_c": "c",
     "petzval_files_c": "c/files",
+    "petzval_run_c": "c/files",
     "pixel_view": "image",
     "result": "base",
     "scene": "scene",

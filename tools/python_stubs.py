@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 PACKAGE = pathlib.Path(__file__).resolve().parent.parent / "python/petzval"
-MODULES = ["__init__", "arrays", "camera", "comparison", "errors", "files", "lens", "look", "session", "shot"]
+MODULES = ["__init__", "arrays", "camera", "comparison", "errors", "files", "lens", "look", "run", "session", "shot"]
 
 
 class Bare(ast.NodeTransformer):

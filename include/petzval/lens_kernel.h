@@ -59,8 +59,8 @@ struct BokehTextureSettings {
     bool dense_near_focus = true;  // radii grow with the square of the distance from the middle column
     int rows_per_px = 4;           // 1…16
     bool raw = false;
-    int threads = 0;             // 0: all this process may use; the result never depends on it
-    Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
+    int threads = 0;                            // 0: all this process may use; the result never depends on it
+    Workers* workers = nullptr;                 // those of a host, in place of `threads`; null: our own
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
     std::function<bool()> cancelled = {};       // true cancels; asked often, by any thread at any time
 };

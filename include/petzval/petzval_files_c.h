@@ -68,5 +68,7 @@ PETZVAL_C_API void petzval_files_close(petzval_shot_file* file);
 }
 #endif
 
+#include <petzval/petzval_run_c.h> /* runs over the frames of a shot */
+
 /* NOLINTEND(modernize-use-using,modernize-deprecated-headers,readability-identifier-naming) */
 #endif

@@ -40,6 +40,10 @@ class petzval_shot_file(Structure):
     """A handle."""
 
 
+class petzval_files_run(Structure):
+    """A handle."""
+
+
 class petzval_workers(Structure):
     _fields_ = [
         ("size", c_size_t),
@@ -272,6 +276,15 @@ class petzval_shot_source(Structure):
     ]
 
 
+class petzval_run_host(Structure):
+    _fields_ = [
+        ("size", c_size_t),
+        ("host", c_void_p),
+        ("frame_done", CFUNCTYPE(c_int, c_void_p, c_int, c_char_p, c_char_p, c_char_p)),
+        ("stop", POINTER(c_int)),
+    ]
+
+
 # Name: type of the result, types of the arguments.
 PROTOTYPES = {
     "petzval_error_text": (c_char_p, []),
@@ -337,4 +350,13 @@ FILES_PROTOTYPES = {
     "petzval_files_write_like": (c_int, [POINTER(petzval_shot_file), POINTER(petzval_pixels),
         POINTER(POINTER(petzval_pixels)), c_uint64, c_char_p]),
     "petzval_files_close": (None, [POINTER(petzval_shot_file)]),
+    "petzval_files_run_open": (c_int, [POINTER(petzval_session_settings), c_char_p, POINTER(petzval_run_host),
+        POINTER(POINTER(petzval_files_run))]),
+    "petzval_files_run_plan": (c_int, [POINTER(petzval_files_run)]),
+    "petzval_files_run_frames": (c_int, [POINTER(petzval_files_run), POINTER(POINTER(c_int)),
+        POINTER(c_uint64)]),
+    "petzval_files_run_all": (c_int, [POINTER(petzval_files_run)]),
+    "petzval_files_run_failed": (c_int, [POINTER(petzval_files_run), POINTER(POINTER(c_int)),
+        POINTER(c_uint64)]),
+    "petzval_files_run_close": (None, [POINTER(petzval_files_run)]),
 }

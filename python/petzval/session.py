@@ -4,10 +4,10 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import json
-import threading
 from typing import Any, Callable
 
 from . import _declared, errors
+from ._interrupt import Interruptible
 from ._library import call, library, made, names, struct
 from ._pixels import pixels_of
 from .arrays import Array, like
@@ -108,9 +108,10 @@ class Session:
         """Calls a function that makes a frame; its report."""
         chosen = as_look(look)  # lives until the call returns
         report = ctypes.POINTER(_declared.petzval_report)()
-        with _Run(progress, region) as run:
-            run.call(name, self._open(), *first, ctypes.byref(given), chosen._handle, run.control, into,
-                     ctypes.byref(report))
+        running = Interruptible()
+        control = _control(running, progress, region)
+        running.call(lambda: call(name, self._open(), *first, ctypes.byref(given), chosen._handle, control, into,
+                                  ctypes.byref(report)))
         text = library().petzval_report_json(report)
         library().petzval_report_close(report)
         return json.loads(text)
@@ -155,72 +156,14 @@ class Session:
         self.close()
 
 
-class _Run:
-    """A call into the library that Ctrl-C and the exceptions of callbacks end.
-
-    In the main thread the library works in another thread, so that Python may handle signals meanwhile.
-    """
-
-    def __init__(self, progress, region: Window | None) -> None:
-        self._stop = ctypes.c_int(0)
-        self._raised: BaseException | None = None
-        control = struct(_declared.petzval_control, region=rect(region))
-        control.stop = ctypes.pointer(self._stop)
-        if progress is not None:
-            control.progress = type(control.progress)(self._reporter(progress))
-        self.control = ctypes.pointer(control)
-
-    def _reporter(self, progress):
+def _control(running: Interruptible, progress, region: Window | None):
+    """A pointer to the control of a frame."""
+    control = struct(_declared.petzval_control, region=rect(region), stop=ctypes.pointer(running.stop))
+    if progress is not None:
         def report(_host, done: float) -> int:
-            try:
-                return 0 if progress(done) is False else 1
-            except BaseException as raised:  # noqa: BLE001: raised again in call()
-                self._raised = self._raised or raised
-                return 0
-        return report
-
-    def __enter__(self) -> _Run:
-        return self
-
-    def __exit__(self, *_) -> None:
-        pass
-
-    def call(self, name: str, *arguments) -> None:
-        """As _library.call. Raises first what a callback raised."""
-        failure: list[BaseException] = []
-
-        def body() -> None:
-            try:
-                call(name, *arguments)
-            except BaseException as raised:  # noqa: BLE001: raised again below
-                failure.append(raised)
-
-        if threading.current_thread() is threading.main_thread():
-            self._beside(body)
-        else:
-            body()
-        if self._raised is not None:
-            raise self._raised
-        if failure:
-            raise failure[0]
-
-    def _beside(self, body) -> None:
-        # No join(): where an exception interrupts it, Python 3.11 takes a running thread for a finished one.
-        done = threading.Event()
-
-        def finishing() -> None:
-            try:
-                body()
-            finally:
-                done.set()
-
-        threading.Thread(target=finishing, name="petzval").start()
-        while not done.is_set():
-            try:
-                done.wait(0.05)
-            except BaseException as raised:  # noqa: BLE001: Ctrl-C, or what a signal handler raises
-                self._stop.value = 1
-                self._raised = self._raised or raised
+            return 0 if progress(done) is False else 1
+        control.progress = type(control.progress)(running.guarded(report, 0))
+    return ctypes.pointer(control)
 
 
 def _first(colour):

@@ -4,9 +4,9 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import json
-import threading
 from typing import Any, Callable
 from . import _declared, errors
+from ._interrupt import Interruptible
 from ._library import call, library, made, names, struct
 from ._pixels import pixels_of
 from .arrays import Array, like

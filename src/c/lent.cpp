@@ -178,6 +178,23 @@ Result<std::shared_ptr<Workers>> workers_of(const petzval_workers* given) {
     return std::shared_ptr<Workers>(std::make_shared<LentWorkers>(lent));
 }
 
+Result<SessionSettings> session_settings_of(const petzval_session_settings* given) {
+    constexpr int kMostThreads = 1024;
+    const petzval_session_settings s = taken(given);
+    if (s.threads < 0 || s.threads > kMostThreads)
+        return Error{ErrorCode::InvalidArgument, "session.threads is " + std::to_string(s.threads) +
+                                                     "; 0 (all) to " + std::to_string(kMostThreads)};
+    SessionSettings settings;
+    settings.threads = s.threads;
+    settings.max_memory_bytes = std::size_t(s.max_memory_bytes);
+    if (s.kernel_folder) settings.kernel_cache_folder = s.kernel_folder;
+    if (s.device) settings.device = s.device;
+    auto workers = workers_of(s.workers);
+    if (!workers) return workers.error();
+    settings.workers = std::move(*workers);
+    return settings;
+}
+
 Result<ColourView> colour_view(const petzval_pixels* given, const char* name) {
     if (!given) return refused(std::string(name) + " is null");
     const petzval_pixels p = taken(given);

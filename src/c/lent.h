@@ -68,5 +68,7 @@ struct TakenShot {
 
 // Errors: InvalidArgument naming the function that is missing.
 Result<std::shared_ptr<Workers>> workers_of(const petzval_workers* given);
+// Null: the defaults. Errors: InvalidArgument for a number of threads; those of lent workers.
+Result<SessionSettings> session_settings_of(const petzval_session_settings* given);
 
 }  // namespace petzval::c

@@ -21,24 +21,6 @@ using petzval::c::fail;
 using petzval::c::guarded;
 using petzval::c::missing;
 
-// Errors: InvalidArgument for a number of threads; those of lent workers.
-Result<SessionSettings> settings_of(const petzval_session_settings* given) {
-    constexpr int kMostThreads = 1024;
-    const petzval_session_settings s = c::taken(given);
-    if (s.threads < 0 || s.threads > kMostThreads)
-        return Error{ErrorCode::InvalidArgument, "session.threads is " + std::to_string(s.threads) +
-                                                     "; 0 (all) to " + std::to_string(kMostThreads)};
-    SessionSettings settings;
-    settings.threads = s.threads;
-    settings.max_memory_bytes = std::size_t(s.max_memory_bytes);
-    if (s.kernel_folder) settings.kernel_cache_folder = s.kernel_folder;
-    if (s.device) settings.device = s.device;
-    auto workers = c::workers_of(s.workers);
-    if (!workers) return workers.error();
-    settings.workers = std::move(*workers);
-    return settings;
-}
-
 const char* name_at(const std::vector<std::string>& names, int index) {
     return index >= 0 && std::size_t(index) < names.size() ? names[std::size_t(index)].c_str() : nullptr;
 }
@@ -49,7 +31,7 @@ petzval_status petzval_session_open(const petzval_session_settings* settings, pe
     if (!session) return missing("session");
     *session = nullptr;
     return guarded([&] {
-        auto taken = settings_of(settings);
+        auto taken = c::session_settings_of(settings);
         if (!taken) return fail(taken.error());
         if (const Status there = check_device(taken->device); !there) return fail(there.error());
         *session = new petzval_session{Session(std::move(*taken))};
