@@ -132,6 +132,7 @@ RingSizes::Sizes RingSizes::light_of(int level) const {
     Sizes sizes{std::numeric_limits<float>::infinity(), 0};
     for (int ring = 0; ring < count(); ++ring) {
         if (this->level(ring) != level && (level == 0 || skirt_level(ring) != level)) continue;
+        if (radius_px(ring) == 0) sizes.above_px = -1;  // light in focus belongs to it
         // As far as the rings beside it, or without end.
         for (const int beside : {ring - 1, ring + 1}) {
             const float r = beside < 0 || beside == count() ? std::numeric_limits<float>::infinity()

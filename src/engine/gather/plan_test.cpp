@@ -115,23 +115,41 @@ TEST(GatherPlan, NoKernelHasMoreThanSoManyTapsHoweverWideItIs) {
 }
 
 TEST(GatherPlan, ACoreAndItsSkirtHoldAllOfTheLight) {
-    Planned shot(wide_open(), 0.7);
-    shot.put({0, 0, 640, 384}, 12);
-    const GatherPlan plan = shot.plan();
-    const RingKernels kernels = shot.kernels();
-    int with_skirt = 0;
-    for (int ring = 0; ring < plan.sizes.count(); ++ring) {
-        if (plan.sizes.skirt_level(ring) == 0) continue;
-        ++with_skirt;
-        Rgba sum;
-        for (const bool skirt : {false, true}) {
-            const device::KernelAsk ask = kernels.ask(ring, 0, skirt);
-            sum += kernel::sum_of(*kernels.make({&ask, 1}).front().front());
+    for (const double f_number : {0.7, 0.9, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0}) {
+        Planned shot(wide_open(), f_number);
+        shot.put({0, 0, 640, 384}, 12);
+        const GatherPlan plan = shot.plan();
+        const RingKernels kernels = shot.kernels();
+        int with_skirt = 0;
+        for (int ring = 0; ring < plan.sizes.count(); ++ring) {
+            if (plan.sizes.skirt_level(ring) == 0) continue;
+            ++with_skirt;
+            Rgba sum;
+            for (const bool skirt : {false, true}) {
+                const device::KernelAsk ask = kernels.ask(ring, 0, skirt);
+                sum += kernel::sum_of(*kernels.make({&ask, 1}).front().front());
+            }
+            for (const float channel : {sum.r, sum.g, sum.b, sum.a})
+                EXPECT_NEAR(channel, 1, 1e-4) << plan.sizes.radius_px(ring) << " px at f/" << f_number;
         }
-        for (const float channel : {sum.r, sum.g, sum.b, sum.a})
-            EXPECT_NEAR(channel, 1, 1e-4) << plan.sizes.radius_px(ring);
+        EXPECT_TRUE(f_number > 1 || with_skirt > 0);
     }
-    EXPECT_GT(with_skirt, 0);
+}
+
+TEST(GatherPlan, LightInFocusHasItsSkirtToo) {
+    Planned shot(wide_open(), 0.7);
+    shot.put({0, 0, 640, 384}, 0);
+    shot.put({500, 300, 600, 380}, 30);
+    const GatherPlan plan = shot.plan();
+    const RingSizes& sizes = plan.sizes;
+    const int sharp = sizes.mix(0).inner, level = sizes.skirt_level(sharp);
+    ASSERT_EQ(sizes.radius_px(sharp), 0);
+    ASSERT_GT(level, 0);
+    float covered = 0;
+    for (const CellLight& light : plan.levels[std::size_t(level - 1)].at(100 >> level, 100 >> level))
+        if (sizes.is_skirt(light.entry) && sizes.ring_of_entry(light.entry) == sharp)
+            covered += light.covered;
+    EXPECT_NEAR(covered, 1, 1e-4);
 }
 
 TEST(GatherPlan, RingsOfOneRadiusShareAKernelWhateverLiesBeside) {
