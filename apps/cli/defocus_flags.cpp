@@ -2,6 +2,9 @@
 
 #include "petzval/session.h"
 
+#include "fields.h"
+#include "memory_limit.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
@@ -22,8 +25,10 @@ Result<int> parse_overscan(const std::string& text) {
 void DefocusFlags::add_engines_to(Verb& verb) {
     look.add_to(verb, {"Engine"});
     FlagGroup(verb, "Engine")
-        .value("--max-memory", "BYTES", "limit the memory for reading and blurring, such as 2G", parse_bytes,
-               max_memory_bytes);
+        .value("--max-memory", "BYTES",
+               "limit the memory for reading and blurring, such as 2G (default: the limit of the process, if "
+               "any)",
+               parse_bytes, max_memory_bytes);
     look.add_to(verb, {"Engine gather", "Engine gaussian", "Engine sprites"});
     FlagGroup(verb, "Engine sprites")
         .reads("--points", "FILE.csv",
@@ -113,7 +118,14 @@ void DefocusFlags::check_coc_input() const {
 void DefocusFlags::check_choices() {
     run.apply();
     input.read.threads = run.threads;
-    input.read.max_memory_bytes = max_memory_bytes;
+    if (max_memory_bytes == 0) {
+        const MemoryLimit limit = memory_limit(run.threads);
+        process_memory_bytes = limit.bytes;
+        if (limit.bytes > 0)
+            say_in_place_of("--max-memory", limit.name,
+                            [limit](const std::string& message) { return limit.enough(message); });
+    }
+    input.read.max_memory_bytes = memory_bytes();
     input.check();
     camera.check();
     look.settle();
@@ -188,12 +200,7 @@ void DefocusFlags::check_display() const {
     if (ocio.is_on() && (*kind != FileKind::Png || view != ShotView::Beauty))
         throw UsageError("--ocio is for display pictures: --view beauty with -o FILE.png");
     if (*kind == FileKind::Png && is_developed(view)) return;
-    for (const auto& [name, given] : {std::pair{"--exposure", develop.exposure_stops.has_value()},
-                                      std::pair{"--contrast", develop.contrast.has_value()},
-                                      std::pair{"--tone", develop.tone.has_value()}})
-        if (given)
-            throw UsageError(std::string(name) +
-                             " is for display pictures: --view beauty or focus with -o FILE.png");
+    develop.refuse("is for display pictures: --view beauty or focus with -o FILE.png");
 }
 
 // $PETZVAL_KERNEL_CACHE; else where the XDG base directory specification puts caches.
@@ -217,7 +224,7 @@ std::string DefocusFlags::kernel_cache_folder() const {
 SessionSettings DefocusFlags::session() const {
     SessionSettings settings;
     settings.threads = run.threads;
-    settings.max_memory_bytes = max_memory_bytes;
+    settings.max_memory_bytes = memory_bytes();
     settings.kernel_cache_folder = kernel_cache_folder();
     settings.device = device;
     return settings;

@@ -102,6 +102,16 @@ const Rows& flags_by_field() {
     return all;
 }
 
+// What is said in place of a flag that nobody typed, and how the message ends.
+struct OtherWords {
+    std::string words;
+    std::function<std::string(const std::string&)> ending;
+};
+std::map<std::string, OtherWords>& other_words() {
+    static std::map<std::string, OtherWords> all;
+    return all;
+}
+
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; }
 
 // End of the word that begins at `start`: letters, and dots between letters.
@@ -122,8 +132,13 @@ bool is_in_path(std::string_view text, std::size_t start, std::size_t end) {
 
 }  // namespace
 
+void say_in_place_of(const std::string& flag, const std::string& words,
+                     std::function<std::string(const std::string&)> ending) {
+    other_words()[flag] = {words, std::move(ending)};
+}
+
 std::string in_flags(const std::string& text) {
-    std::string said;
+    std::string said, ending;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = end_of_word(text, at);
         if (end == at) {
@@ -135,10 +150,16 @@ std::string in_flags(const std::string& text) {
         // Fields without a section, as quality, are words as well.
         const bool is_field = row != flags_by_field().end() && word.find('.') != std::string_view::npos &&
                               !is_in_path(text, at, end);
-        said += is_field ? std::string_view(row->second) : word;
         at = end;
+        const auto other = is_field ? other_words().find(row->second) : other_words().end();
+        if (other != other_words().end()) {
+            said += other->second.words;
+            if (const std::string more = other->second.ending(text); !more.empty()) ending = "; " + more;
+        } else {
+            said += is_field ? std::string_view(row->second) : word;
+        }
     }
-    return said;
+    return said + ending;
 }
 
 std::vector<std::string> in_flags(std::vector<std::string> lines) {

@@ -51,6 +51,13 @@ void DevelopFlags::add_to(Verb& verb) {
                            tone);
 }
 
+void DevelopFlags::refuse(const std::string& why) const {
+    for (const auto& [name, given] : {std::pair{"--exposure", exposure_stops.has_value()},
+                                      {"--contrast", contrast.has_value()},
+                                      {"--tone", tone.has_value()}})
+        if (given) throw UsageError(std::string(name) + " " + why);
+}
+
 Status write_text(const std::string& path, const std::string& text) {
     if (path != "-") return is_left_alone(path) ? Status(Done{}) : petzval::write_text(path, text);
     if (print(text)) return Done{};

@@ -33,6 +33,8 @@ struct OverwriteFlags {
 // From scene-linear light to a display picture; only for PNG.
 struct DevelopFlags : DisplayChoice {
     void add_to(Verb& verb);
+    // Throws UsageError for the first that was typed: `why` it has no effect ends the sentence.
+    void refuse(const std::string& why) const;
 };
 
 // petzval::write_text(); "-" is standard output.

@@ -46,6 +46,35 @@ class ShortMemory(CommandLineTest):
         self.assertGreater(ended[0], 2)
         self.assertGreater(ended[1], 2)
 
+    def test_a_limit_of_the_system_is_kept_to_and_what_is_enough_is_named(self):
+        if self.least() > 500:
+            self.skipTest("this build takes memory of its own")
+        self.succeed("scene", "make", "table", "--width", "1280", "--height", "720", "--pinhole-samples", "1", "-o", "in.exr")
+        defocus = ["defocus", "in.exr", "-o", "out.exr", "--kernel-cache", "off", "-q", "--threads", "1"]
+        refused = self.refuse(1, *defocus, limits=limited_to(self.least() + 72 + 80), says=["what ulimit -v leaves", "at least"])
+        named = int(re.search(r"ulimit -v (\d+) would be enough", refused.err).group(1))
+        self.succeed(*defocus, limits=limited_to(named // 1024 + 1))
+        group = "/sys/fs/cgroup/memory/petzval-test-%d" % os.getpid()
+        try:
+            os.mkdir(group)
+        except OSError:
+            return  # who runs this may make no groups
+        try:
+            def in_group_of(mebibytes):
+                def limit():
+                    with open(group + "/memory.limit_in_bytes", "w") as file:
+                        file.write("%dM" % mebibytes)
+                    with open(group + "/cgroup.procs", "w") as file:
+                        file.write(str(os.getpid()))
+                return limit
+            refused = self.run_program(*defocus, "--overwrite", limits=in_group_of(50))
+            self.assertEqual(refused.code, 1, refused)
+            self.assertIn("the limit of the memory cgroup", refused.err)
+            named = int(re.search(r"memory.limit_in_bytes (\d+)M would be enough", refused.err).group(1))
+            self.succeed(*defocus, "--overwrite", limits=in_group_of(named + 8))
+        finally:
+            os.rmdir(group)
+
     def peak(self, *args):
         """Exit code and the largest memory of one run, MiB."""
         with subprocess.Popen([PETZVAL, *args], cwd=self.folder, stdin=subprocess.DEVNULL) as run:
