@@ -17,7 +17,8 @@ Result<ImageScale> parse_breathing(const std::string& text) {
 }  // namespace
 
 void CameraFlags::add_to(Verb& verb, const std::string& owner) {
-    FlagGroup(verb, "Camera (numbers of the " + owner + " hold unless given here)")
+    const std::string heading = "Camera (numbers of the " + owner + " hold unless given here)";
+    FlagGroup(verb, heading)
         .value("--focal-length", "MM", "focal length, such as 85mm", parse_length_mm, focal_length_mm)
         .value("--sensor-width", "MM", "width of the sensor that the picture spans, such as 36mm",
                parse_length_mm, sensor_width_mm)
@@ -25,7 +26,9 @@ void CameraFlags::add_to(Verb& verb, const std::string& owner) {
         .value("--aperture-diameter", "MM", "aperture diameter instead of an f-number, such as 25mm",
                parse_length_mm, aperture_diameter_mm)
         .value("--focus", "M", "focus distance along the axis, such as 2.5m, 120cm or 8ft", parse_length_m,
-               focus_distance_m)
+               focus_distance_m);
+    // (A lens by itself is asked for radii; it refuses the flag.)
+    FlagGroup(verb, owner == "lens" ? "" : heading)
         .value("--breathing,--image-scale", "off|on",
                "focus breathing: off, sensor one focal length behind the pinhole, as renderers place it "
                "(default); on, thin-lens image distance; also rendered and thin-lens",

@@ -36,17 +36,19 @@ struct PictureFlags {
         look.add_to(verb, {"Lens", "Lens character", "Pupil"}, "--lens", idle);
         camera.add_to(verb, "lens");
     }
-    void add_output_to(Verb& verb, bool with_progress) {
+    // A table is of the middle of the picture, wherever its upper edge lies; and it takes its time.
+    void add_output_to(Verb& verb, bool is_table) {
         FlagGroup(verb, "Output")
             .writes("-o,--output", "FILE", "EXR for the numbers, or PNG to look at", output)
             .value("--width", "PX", "width of the picture that the camera takes (default 1920)",
                    parse_size_px, width_px)
-            .value("--height", "PX", "its height (default 9/16 of the width)", parse_size_px, height_px)
             .on("--raw", "keep colours that no screen has: negative values in fringes", raw);
+        FlagGroup(verb, is_table ? "" : "Output")
+            .value("--height", "PX", "its height (default 9/16 of the width)", parse_size_px, height_px);
         overwrite.add_to(verb, false);
         develop.add_to(verb);
         run.add_json_to(verb);
-        run.add_log_to(verb, with_progress);
+        run.add_log_to(verb, is_table);
     }
     void check(const Verb& verb) {
         require_argument(verb, lens_name, "a lens, as doublet, or a lens file");
@@ -58,6 +60,8 @@ struct PictureFlags {
         look.settle();
         const auto kind = kind_of_output(output);
         if (!kind) throw UsageError("-o " + kind.error().message);
+        if (*kind != FileKind::Png) develop.refuse("is for display pictures: -o FILE.png");
+        if (camera.image_scale) throw UsageError("--breathing has no effect on a disc whose radius is given");
     }
 };
 
@@ -320,6 +324,8 @@ void add_table(Verb& lens, Action& chosen) {
     flags->add_output_to(verb, true);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
+        if (flags->height_px)
+            throw UsageError("--height has no effect in lens table, which is of the picture's middle");
         chosen = [flags] { return make_table(*flags); };
     });
 }

@@ -25,7 +25,7 @@ struct SheetFlags {
     std::string output;
     int columns = 0;  // 0: about as wide as high
     std::optional<int> width_px;
-    double rate = 24;
+    std::optional<double> rate;  // 24 where it is not given
     bool no_labels = false;
     DevelopFlags develop;
     OverwriteFlags overwrite;
@@ -121,7 +121,7 @@ private:
         }
         if (!video_) {
             video_ = std::make_unique<Video>();
-            if (Status open = video_->open(all_.output, width_, height_, all_.rate); !open) {
+            if (Status open = video_->open(all_.output, width_, height_, all_.rate.value_or(24)); !open) {
                 video_.reset();
                 return open;
             }
@@ -174,6 +174,7 @@ void check(SheetFlags& flags, const Verb& verb) {
     const auto kind = kind_of_output(flags.output);
     if (!flags.makes_video() && (!kind || *kind != FileKind::Png))
         throw UsageError("-o " + flags.output + ": the name must end in .png, or .mp4, .mov, .mkv or .webm");
+    if (!flags.makes_video() && flags.rate) throw UsageError("--rate has no effect on a contact sheet");
     if (flags.makes_video() && flags.columns > 0) throw UsageError("--columns has no effect on a video");
     if (!is_sequence(flags.frames, {flags.input.path}, "", flags.run))
         throw UsageError("no frames: the input has no #### or %04d");
