@@ -44,6 +44,9 @@ typedef struct petzval_shot_file petzval_shot_file;
 /* Errors: invalid_file, unsupported. */
 PETZVAL_C_API petzval_status petzval_files_read_shot(const petzval_shot_source* source,
                                                      petzval_shot_file** file);
+/* A file by its headers, pixels unread: petzval_files_json() has its parts, channels, windows, views, camera
+ * numbers with their origin, and warnings; petzval_files_shot() has no pictures. Errors: invalid_file. */
+PETZVAL_C_API petzval_status petzval_files_inspect(const char* path, petzval_shot_file** file);
 /* A built-in scene (as `petzval scene list` names them) of width x height pixels and its hidden
  * layers. truth_samples: lens samples per pixel for the truth; 0: no truth. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_files_make_scene(const char* name, int width, int height, uint64_t seed,

@@ -24,7 +24,7 @@ typedef struct petzval_run_host {
     const volatile int* stop;
 } petzval_run_host;
 
-/* A run with a session of its own. settings: null for the defaults, `workers` is not used. json: the keys of
+/* A run with its own session. settings: null for the defaults, `workers` is not used. json: the keys of
  * ShotRunSettings: {"input": "beauty.####.exr", "output": "out.####.exr", "frames": "1001-1100", "look": {…},
  * "camera": {"f_number": 2}, "track": FILE, "layers": ["all"], "existing": "replace" | "keep" | "update",
  * "missing": "fail" | "skip" | "black", "retries": 1, …}. Errors: unsupported. */

@@ -10,7 +10,7 @@ from .camera import Camera
 from .comparison import compare
 from .errors import (Cancelled, Error, Internal, InvalidArgument, InvalidFile, OutOfMemory, OutputFailed,
                      Unsupported)
-from .files import FileShot, make_scene, read_shot
+from .files import FileShot, inspect, make_scene, read_shot
 from .lens import Lens, lens_list, lens_names
 from .look import Look
 from .run import ShotRun
@@ -19,7 +19,7 @@ from .shot import Deep, Layer, Light, Shot
 
 __all__ = ["Array", "Camera", "Cancelled", "Codes", "Deep", "Error", "FileShot", "Frame", "Internal", "InvalidArgument", "InvalidFile",
            "Layer", "Lens", "Light", "Look", "OutOfMemory", "OutputFailed", "Session", "Shot", "ShotRun", "Unsupported", "compare", "defocus",
-           "device_names", "engine_names", "lens_list", "lens_names", "make_scene", "read_shot", "version"]
+           "device_names", "engine_names", "inspect", "lens_list", "lens_names", "make_scene", "read_shot", "version"]
 
 
 def version() -> str:

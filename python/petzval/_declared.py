@@ -342,6 +342,7 @@ PROTOTYPES = {
 FILES_PROTOTYPES = {
     "petzval_files_error_text": (c_char_p, []),
     "petzval_files_read_shot": (c_int, [POINTER(petzval_shot_source), POINTER(POINTER(petzval_shot_file))]),
+    "petzval_files_inspect": (c_int, [c_char_p, POINTER(POINTER(petzval_shot_file))]),
     "petzval_files_make_scene": (c_int, [c_char_p, c_int, c_int, c_uint64, c_int,
         POINTER(POINTER(petzval_shot_file))]),
     "petzval_files_shot": (POINTER(petzval_shot), [POINTER(petzval_shot_file)]),

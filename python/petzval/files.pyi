@@ -39,6 +39,13 @@ def read_shot(path: str | os.PathLike, *, layer: str | None=None, view_name: str
     Raises InvalidFile, InvalidArgument for names that the file does not have, Unsupported without the library.
     """
 
+def inspect(path: str | os.PathLike) -> dict:
+    """A file by its headers, pixels unread.
+
+    Keys: parts (name, type, view, compression, data_window, channels), display_window, data_window, pixel_aspect,
+    views, camera (value and origin of each number), detected, warnings. Raises InvalidFile.
+    """
+
 def make_scene(name: str, width: int=960, height: int=540, *, seed: int=1, truth_samples: int=0) -> FileShot:
     """A built-in scene (`petzval scene list`) with its hidden layers; with truth_samples also its truth.
 

@@ -24,7 +24,7 @@ SampleType type_of(petzval_sample sample) {
     return sample == PETZVAL_HALF ? SampleType::Half : SampleType::Float;
 }
 
-// How pixels lie in a host's memory.
+// Checks the strides of a host's pixels.
 Status check_layout(int width, int height, petzval_sample sample, std::ptrdiff_t pixel_stride,
                     std::ptrdiff_t row_stride, const char* name) {
     if (sample != PETZVAL_FLOAT && sample != PETZVAL_HALF)
@@ -95,7 +95,7 @@ void take_lights(const petzval_shot& shot, TakenShot& into) {
     into.job.points = &into.lights;
 }
 
-// Where the picture lies. Errors: InvalidArgument naming the field.
+// The place of the picture. Errors: InvalidArgument naming the field.
 Result<Place> place_of(const petzval_shot& shot, const ColourView& colour) {
     const Rect display = rect_of(shot.display_window), data = rect_of(shot.data_window);
     Place place;

@@ -1,4 +1,4 @@
-// What a C host lends, as the library takes it: pictures, samples, lights, threads.
+// A C host's structs as the library takes them: pictures, samples, lights, threads.
 #pragma once
 
 #include "petzval/deep.h"

@@ -1,4 +1,4 @@
-// What a frame's report says, as JSON.
+// A frame's report as JSON.
 #pragma once
 
 #include "petzval/defocus.h"

@@ -101,6 +101,13 @@ class Files(unittest.TestCase):
         colour = petzval.make_scene("bars", 32, 18).colour
         self.assertTrue(np.isfinite(colour).all())
 
+    def test_a_file_is_inspected_by_its_headers(self):
+        found = petzval.inspect(self.layered(1))
+        self.assertEqual(found["display_window"], [0, 0, 72, 48])
+        self.assertIn("matte float", found["parts"][0]["channels"])
+        with self.assertRaisesRegex(petzval.InvalidFile, "missing.exr"):
+            petzval.inspect(self.folder / "missing.exr")
+
     def test_errors(self):
         with self.assertRaisesRegex(petzval.InvalidFile, "missing.exr"):
             petzval.read_shot(self.folder / "missing.exr")

@@ -4,6 +4,7 @@ Exits 77 (skipped) where numpy or matplotlib is missing.
 """
 import json
 import pathlib
+import re
 import sys
 import unittest
 
@@ -29,6 +30,12 @@ class Notebooks(unittest.TestCase):
                 with self.subTest(notebook=path.name, cell=i):
                     exec(compile("".join(cell["source"]), f"{path.name} cell {i}", "exec"), names)
             matplotlib.pyplot.close("all")
+
+    def test_the_blocks_of_the_readme_run(self):
+        blocks = re.findall(r"^```python\n(.*?)^```", (NOTEBOOKS.parent / "README.md").read_text(), re.M | re.S)
+        self.assertTrue(blocks)
+        for block in blocks:
+            exec(compile(block, "README.md", "exec"), {})
 
     def test_no_notebook_keeps_outputs(self):
         for path in NOTEBOOKS.glob("*.ipynb"):

@@ -5,6 +5,7 @@
 #include "petzval/scene.h"
 #include "petzval/shot.h"
 
+#include "c/files/inspect.h"
 #include "c/files/lent_shot.h"
 #include "c/handles.h"
 #include "c/lent.h"
@@ -149,6 +150,21 @@ petzval_status petzval_files_read_shot(const petzval_shot_source* source, petzva
         auto made = std::make_unique<petzval_shot_file>();
         made->shot = std::move(*shot);
         give(std::move(made), file);
+        return PETZVAL_OK;
+    });
+}
+
+petzval_status petzval_files_inspect(const char* path, petzval_shot_file** file) {
+    if (!file) return missing("file");
+    *file = nullptr;
+    if (!path) return missing("path");
+    return guarded([&] {
+        const auto header = read_frame_header(path);
+        if (!header) return fail(header.error());
+        auto made = std::make_unique<petzval_shot_file>();
+        made->lent.shot.size = sizeof made->lent.shot;
+        made->json = c::inspection_text(*header);
+        *file = made.release();
         return PETZVAL_OK;
     });
 }
