@@ -63,7 +63,7 @@ MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context)
         made.add("focus.at", std::to_string(pixel->x) + "," + std::to_string(pixel->y));
     if (const auto& point = settings.focus_point)
         made.add("focus.point", plain(point->x, 9) + "," + plain(point->y, 9) + "," + plain(point->z, 9));
-    if (settings.view == ShotView::Focus)
+    if (settings.view == ShotView::Focus && settings.permissible_radius_px != 1)
         made.add("focus.permissible_radius_px", settings.permissible_radius_px);
     if (settings.overscan_px) made.add("shot.overscan_px", double(*settings.overscan_px));
     if (settings.temporal > 0) {
@@ -134,7 +134,7 @@ Status FrameMaker::read() {
     lens_ = *lens;
     ShotSource source = settings_.source;
     if (source.read.view_name == kAllViews) source.read.view_name.clear();
-    auto shot = read_shot(source, {.cancelled = host_.cancelled});
+    auto shot = context_.shot ? std::move(*context_.shot) : read_shot(source, {.cancelled = host_.cancelled});
     if (!shot) return shot.error();
     shot_ = std::move(*shot);
     for (const auto& line : detected_in_picture(shot_)) note(line);

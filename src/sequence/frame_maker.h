@@ -20,6 +20,7 @@ namespace petzval::sequence {
 struct FrameContext {
     std::optional<TrackedFrame> tracked = {};  // what a track changed
     std::vector<std::string> neighbours = {};  // files of the frames around it
+    std::shared_ptr<Result<Shot>> shot = {};   // read ahead; used up
     bool again = false;                        // what is there does not count
     // What the frames around it, and its other eyes, see behind its surfaces; empty: not asked for.
     std::function<Result<SeenElsewhere>(const Shot&, std::span<const Shot* const> eyes)> around = {};

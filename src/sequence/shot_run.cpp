@@ -5,9 +5,12 @@
 
 #include "sequence/focus_jumps.h"
 #include "sequence/frame_maker.h"
+#include "sequence/read_ahead.h"
 #include "sequence/shot_neighbours.h"
 #include "sequence/words.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace petzval {
@@ -68,6 +71,7 @@ struct ShotRun::State {
     std::shared_ptr<sequence::ShotNeighbours> around = {};
     sequence::FocusJumps jumps = {};
     std::unique_ptr<FrameLoop> loop = {};
+    sequence::ReadAhead ahead = {};
     bool is_ready = false, is_begun = false;
 
     Status prepare();
@@ -76,6 +80,7 @@ struct ShotRun::State {
     Result<ShotRunSettings> of_frame(int frame) const;
     Result<FrameWork::Files> files(int frame) const;
     Result<FrameRecord> make(int frame, bool again);
+    void read_after(int frame);
     FrameWork work();
 };
 
@@ -126,10 +131,24 @@ Result<FrameRecord> ShotRun::State::make(int frame, bool again) {
             return around->behind(shot, frame, *own_workers(settings.source.read.threads), eyes);
         };
     }
+    context.shot = ahead.take(frame);
+    read_after(frame);
     auto record = sequence::make_frame(session, *of, host, context);
     if (!record) return record.error();
     jumps.look_at(frame, context.tracked && context.tracked->is_between_keys, *record);
     return frame_record(sequence::as_text(*record));
+}
+
+void ShotRun::State::read_after(int frame) {
+    const std::vector<int>& frames = loop->frames();
+    const auto now = std::find(frames.begin(), frames.end(), frame);
+    if (now == frames.end() || now + 1 == frames.end() || !sequence::ReadAhead::fits(settings)) return;
+    const auto next = of_frame(*(now + 1));
+    std::error_code missing;
+    const auto exists = [&](const std::string& path) { return std::filesystem::exists(path, missing); };
+    const bool may_be_kept = settings.existing != ExistingOutputs::Replace && next && exists(next->output);
+    if (next && !may_be_kept && exists(next->source.path))
+        ahead.begin(*(now + 1), next->source, host.cancelled);
 }
 
 FrameWork ShotRun::State::work() {
