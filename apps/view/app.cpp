@@ -87,6 +87,8 @@ void App::go_to(int frame) {
 void App::use_track(Track track) {
     constexpr int kMostFrames = 100'000;
     Timeline& line = state.timeline;
+    if (const Status measured = measure_focus(track, line.frames, setup_.source); !measured)
+        return void(error = measured.error().message);
     line.keys.clear(), line.easing = false;
     const int last = std::min(track.last(), track.first() + kMostFrames);
     std::map<int, double> dioptres;
