@@ -37,11 +37,17 @@ bool is_opaque(const EngineView& part) {
     return true;
 }
 
+// True if the lens draws what is in focus as it is, but for a trace: aberrations blur it too.
+bool keeps_pixels(const LensOnPicture& lens) {
+    constexpr double kOwnPixelPx = 1;
+    return lens.level(0).reach_px(0) <= kOwnPixelPx;
+}
+
 // Whether blurred light from any tile can land in this one; largest: of each.
 bool is_reached(const EngineView& input, const std::vector<Rect>& tiles, const std::vector<float>& largest,
                 const Rect& tile) {
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        if (largest[i] <= kSharpPx) continue;
+        if (largest[i] <= kSharpPx && keeps_pixels(input.lens)) continue;
         const int reach = int(std::ceil(input.lens.level(0).reach_px(double(largest[i])) * 1.05)) + 4;
         if (!tiles[i].grown(reach).intersected(tile).empty()) return true;
     }

@@ -52,6 +52,13 @@ private:
     EngineView input_;
 };
 
+// Wide open, this lens spreads light of what is in focus over 60 px and more.
+LensChoice wide_open() {
+    LensChoice lens;
+    lens.name = "doublet";
+    return lens;
+}
+
 TEST(GatherPlan, TilesThatNoBlurReachesStayAsTheyWere) {
     Planned shot;
     shot.put({10, 10, 60, 60}, 8);
@@ -59,6 +66,12 @@ TEST(GatherPlan, TilesThatNoBlurReachesStayAsTheyWere) {
     ASSERT_EQ(plan.tiles.size(), 15u);
     for (const GatherPlan::Tile& tile : plan.tiles)
         EXPECT_EQ(tile.is_sharp, tile.pixels.x0 >= 256 || tile.pixels.y0 >= 256) << tile.pixels.x0;
+}
+
+TEST(GatherPlan, NoTileStaysSharpUnderALensThatBlursWhatIsInFocus) {
+    Planned shot(wide_open(), 0.7);
+    shot.put({10, 10, 60, 60}, 8);
+    for (const GatherPlan::Tile& tile : shot.plan().tiles) EXPECT_FALSE(tile.is_sharp) << tile.pixels.x0;
 }
 
 TEST(GatherPlan, RingsHaveTheirKernelsInTheZonesThatTheyLightAndNowhereElse) {
@@ -85,13 +98,6 @@ TEST(GatherPlan, RingsHaveTheirKernelsInTheZonesThatTheyLightAndNowhereElse) {
         }
     EXPECT_GT(with, 0);
     EXPECT_TRUE(std::is_sorted(plan.kernels.asks.begin(), plan.kernels.asks.end()));
-}
-
-// Wide open, this lens spreads light of what is in focus over 60 px and more.
-LensChoice wide_open() {
-    LensChoice lens;
-    lens.name = "doublet";
-    return lens;
 }
 
 TEST(GatherPlan, NoKernelHasMoreThanSoManyTapsHoweverWideItIs) {
