@@ -150,7 +150,7 @@ void judge(const std::string& name, const Asked& asked) {
     if (shot.frames.size() >= 3) {
         const flicker::Steadiness found = flicker::measure(results, truths);
         std::printf(", \"shake\": %.4f, \"pop\": %.4f, \"pop_at\": [%d, %d, %d]", found.shake,
-                    found.worst_jump, found.frame, found.x, found.y);
+                    found.worst_pop, found.frame, found.x, found.y);
     }
     std::printf(", \"exposure\": %g, \"frame\": %d, \"sharp\": \"%s\", \"truth\": \"%s\", \"crops\": [",
                 double(shot.exposure), int(middle), shot.frames[middle].sharp_file.c_str(),

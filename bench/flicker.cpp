@@ -96,9 +96,9 @@ int main(int count, char** words) {
         const flicker::Steadiness found = flicker::measure(result, truth);
         write_all(words[2], named.name, result, truth);
         std::printf(
-            "{\"change_db\": %.2f, \"worst_jump\": %.5f, \"shake\": %.4f, \"frame\": %d, \"x\": %d, \"y\": "
+            "{\"change_db\": %.2f, \"worst_pop\": %.5f, \"shake\": %.4f, \"frame\": %d, \"x\": %d, \"y\": "
             "%d}\n",
-            found.change_db, found.worst_jump, found.shake, found.frame, found.x, found.y);
+            found.change_db, found.worst_pop, found.shake, found.frame, found.x, found.y);
         return 0;
     }
     fail(std::string("no shot ") + words[1]);

@@ -2,9 +2,9 @@
 
 Each shot goes through `scatter`. Focus pulls stay on one picture with all hidden layers known, so that `reference` is
 the truth; camera moves have to guess what is hidden, and their truth is what a ray tracer saw through the lens, whose
-own noise counts. How much the error changes from frame to frame is measured (tests/flicker/flicker.h says how), and
-drawn, eight times as strong, in the third row of every contact sheet in build/bench/flicker. Videos are made if
-ffmpeg is there.
+own noise counts. tests/flicker/flicker.h defines the measures; the worst pop is the largest change of an 8 x 8 block
+between frames beyond the truth's. The third row of every contact sheet in build/bench/flicker draws the change of the
+error, eight times as strong. Videos are made if ffmpeg is there.
 
 Usage: ./dev bench flicker [--shots A,B] [--width N] [--frames N] [--points N]
 """
@@ -47,11 +47,11 @@ def main():
             sys.exit(result.returncode)
         found = json.loads(result.stdout)
         body.append([shot, f"{given.width} px, {given.frames} frames", f"{found['change_db']:.1f}",
-                     f"{found['worst_jump']:.4f}", f"{found['frame']} at {found['x']},{found['y']}",
+                     f"{found['worst_pop']:.4f}", f"{found['frame']} at {found['x']},{found['y']}",
                      f"{found['shake']:.3f}"])
         print(OUT / f"{shot}_sheet.png", file=sys.stderr)
         video_of(shot)
-    print_table(["shot", "size", "change of error, dB", "worst jump", "where", "shake"], body)
+    print_table(["shot", "size", "change of error, dB", "worst pop", "where", "shake"], body)
     print(f"\n{given.points} points or lens samples in the truth. {machine()}; command: ./dev bench flicker "
           f"{' '.join(sys.argv[1:])}".rstrip() + ".")
 

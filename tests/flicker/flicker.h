@@ -3,10 +3,10 @@
 //
 // A constant error is not seen to move. What is seen is its change d = e(t+1) - e(t), e = result - truth, in
 // linear light clipped to 0…1:
-//   change_db   -20 log10 rms(d) over all pixels and frames
-//   worst_jump  the largest mean of d over 8 x 8 pixels and three channels: a patch that pops or a seam that
-//   passes shake       rms of the second difference in time of the result against that of the truth; 1 is as
-//   smooth
+//   change_db  -20 log10 rms(d) over all pixels and frames
+//   worst_pop  the largest mean of d over 8 x 8 pixels and three channels: how much a patch changes from one
+//              frame to the next beyond the change of the truth
+//   shake      rms of the second difference in time of the result against that of the truth; 1 is as smooth
 #pragma once
 
 #include "petzval/defocus.h"
@@ -23,9 +23,8 @@
 namespace petzval::flicker {
 
 struct Steadiness {
-    double change_db = 0, worst_jump = 0, shake = 0;
-    int frame = 0, x = 0,
-        y = 0;  // of the worst jump: it happens from `frame` to the next, in the block at x, y
+    double change_db = 0, worst_pop = 0, shake = 0;
+    int frame = 0, x = 0, y = 0;  // of the worst pop: from `frame` to the next, in the block at x, y
 };
 
 using Frames = std::vector<Picture>;
@@ -60,22 +59,22 @@ inline Steadiness measure(const Frames& result, const Frames& truth) {
     const int width = truth[0].width(), height = truth[0].height();
     double changes = 0, bends = 0, bends_of_truth = 0;
     for (std::size_t t = 0; t + 1 < truth.size(); ++t) {
-        Plane jump((width + kBlock - 1) / kBlock, (height + kBlock - 1) / kBlock);
+        Plane pop((width + kBlock - 1) / kBlock, (height + kBlock - 1) / kBlock);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const auto r0 = shown(result[t](x, y)), r1 = shown(result[t + 1](x, y));
                 const auto t0 = shown(truth[t](x, y)), t1 = shown(truth[t + 1](x, y));
                 const auto change = [&](std::size_t i) { return (r1[i] - t1[i]) - (r0[i] - t0[i]); };
                 changes += internal::square_sum(change);
-                jump(x / kBlock, y / kBlock) += (change(0) + change(1) + change(2)) / (3 * kBlock * kBlock);
+                pop(x / kBlock, y / kBlock) += (change(0) + change(1) + change(2)) / (3 * kBlock * kBlock);
                 if (t == 0) continue;
                 bends += internal::second_difference_sum(result, t, x, y);
                 bends_of_truth += internal::second_difference_sum(truth, t, x, y);
             }
-        for (int y = 0; y < jump.height(); ++y)
-            for (int x = 0; x < jump.width(); ++x)
-                if (std::abs(double(jump(x, y))) > found.worst_jump)
-                    found = {0, std::abs(double(jump(x, y))), 0, int(t), x * kBlock, y * kBlock};
+        for (int y = 0; y < pop.height(); ++y)
+            for (int x = 0; x < pop.width(); ++x)
+                if (std::abs(double(pop(x, y))) > found.worst_pop)
+                    found = {0, std::abs(double(pop(x, y))), 0, int(t), x * kBlock, y * kBlock};
     }
     const double values = 3.0 * double(width) * double(height) * double(truth.size() - 1);
     found.change_db = -10 * std::log10(changes / values);

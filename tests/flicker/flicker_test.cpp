@@ -23,16 +23,16 @@ Frames with_jumping_blurs(const Shot& shot) {
 
 // What was measured, with a little room; a perfect engine would have no change, no jump and a shake of 1.
 struct Limits {
-    double least_change_db, most_jump, most_shake;
+    double least_change_db, most_pop, most_shake;
 };
 
 void expect_steady(const Steadiness& found, const Limits& limits) {
     EXPECT_GE(found.change_db, limits.least_change_db);
-    EXPECT_LE(found.worst_jump, limits.most_jump)
+    EXPECT_LE(found.worst_pop, limits.most_pop)
         << "from frame " << found.frame << " on, 8 x 8 pixels at " << found.x << ", " << found.y;
     EXPECT_LE(found.shake, limits.most_shake);
     testing::Test::RecordProperty("change_db", std::to_string(found.change_db));
-    testing::Test::RecordProperty("worst_jump", std::to_string(found.worst_jump));
+    testing::Test::RecordProperty("worst_pop", std::to_string(found.worst_pop));
     testing::Test::RecordProperty("shake", std::to_string(found.shake));
 }
 
