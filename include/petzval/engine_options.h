@@ -26,6 +26,7 @@ enum class ScatterView {
     Levels,  // what each level of detail drew, before it is composited (docs/published.md)
     Highlights,  // the light that is spread by itself: as it was taken out of the picture, and as it is drawn
     Hidden,      // the surfaces of Layers, all of them, as deep samples: DefocusReport::hidden
+    Guessed,  // a matte, 0…1 in every channel: the share of a pixel's light that comes from guessed surfaces
 };
 
 struct ScatterOptions {

@@ -51,7 +51,8 @@ enum class ShotView {
     Levels,
     Layers,
     Highlights,
-    Hidden
+    Hidden,
+    Guessed
 };
 // Each with its name, in the order in which people should read them.
 PETZVAL_API const std::vector<std::pair<std::string, ShotView>>& shot_views();

@@ -16,7 +16,8 @@ constexpr Named<ScatterView> kScatterViews[]{
     {ScatterView::Layers, "layers", "the surfaces seen and found behind them"},
     {ScatterView::Levels, "levels", "what each level of detail drew"},
     {ScatterView::Highlights, "highlights", "light spread by itself"},
-    {ScatterView::Hidden, "hidden", "the surfaces seen and found behind them, as deep samples"}};
+    {ScatterView::Hidden, "hidden", "the surfaces seen and found behind them, as deep samples"},
+    {ScatterView::Guessed, "guessed", "a matte of the light that comes from guessed surfaces"}};
 constexpr Named<GatherStage> kStages[]{
     {GatherStage::Final, "final", "the engine itself"},
     {GatherStage::Coc, "coc", "the published signed radius"},

@@ -11,7 +11,8 @@ const std::vector<std::pair<std::string, ShotView>>& shot_views() {
         {"blur-small", ShotView::BlurSmall},  {"blur-large", ShotView::BlurLarge},
         {"blur-rows", ShotView::BlurRows},    {"focus-index", ShotView::FocusIndex},
         {"levels", ShotView::Levels},         {"layers", ShotView::Layers},
-        {"highlights", ShotView::Highlights}, {"hidden", ShotView::Hidden}};
+        {"highlights", ShotView::Highlights}, {"hidden", ShotView::Hidden},
+        {"guessed", ShotView::Guessed}};
     return table;
 }
 
@@ -42,6 +43,8 @@ ScatterView scatter_view(ShotView view) {
             return ScatterView::Highlights;
         case ShotView::Hidden:
             return ScatterView::Hidden;
+        case ShotView::Guessed:
+            return ScatterView::Guessed;
         default:
             return ScatterView::Result;
     }
@@ -59,7 +62,7 @@ bool is_rendered(ShotView view) {
 
 bool is_developed(ShotView view) {
     return view != ShotView::Coc && view != ShotView::Depth && view != ShotView::Alpha &&
-           view != ShotView::FocusIndex;
+           view != ShotView::FocusIndex && view != ShotView::Guessed;
 }
 
 }  // namespace petzval

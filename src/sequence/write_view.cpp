@@ -157,11 +157,10 @@ Status write_depth(Frame& frame, const ViewSettings& settings) {
 }
 
 // One number per pixel that an engine put into every channel.
-Status write_index(Frame& frame, const ViewSettings& settings) {
-    const Plane index = red_of(frame.colour);
-    if (is_exr(settings))
-        return write_plane("focus_index", index.view(), frame, settings, exr_options(settings));
-    return write_grey_png(settings.output, in_output_window(index, frame, settings, 0.0f).view(),
+Status write_number(const std::string& channel, Frame& frame, const ViewSettings& settings) {
+    const Plane number = red_of(frame.colour);
+    if (is_exr(settings)) return write_plane(channel, number.view(), frame, settings, exr_options(settings));
+    return write_grey_png(settings.output, in_output_window(number, frame, settings, 0.0f).view(),
                           settings.overwrite, settings.png_texts);
 }
 
@@ -205,7 +204,9 @@ Status write_view(ShotView view, Frame& frame, const ViewSource& source, const V
         case ShotView::Alpha:
             return write_alpha(frame, settings);
         case ShotView::FocusIndex:
-            return write_index(frame, settings);
+            return write_number("focus_index", frame, settings);
+        case ShotView::Guessed:
+            return write_number("guessed", frame, settings);
         case ShotView::Levels:
         case ShotView::Layers:
         case ShotView::Highlights:

@@ -138,7 +138,9 @@ PreparedFrame::PreparedFrame(const DefocusJob& job, const Radii& radii, double l
     if (!is_finite(job.colour, *job.workers))
         samples.colour = repaired_ = finite_picture(job.colour, *job.workers);
     shows_spent = job.spent_colour && job.mask.empty() && job.layers.empty() && !job.colour.empty() &&
+                  job.scatter.view == ScatterView::Result &&
                   job.spent_colour->pixels() == samples.colour.row(0);
+    if (job.scatter.view == ScatterView::Guessed) samples.layers.push_back({samples.colour, false, true});
     for (const ColourLayer& layer : job.layers) {
         samples.layers.push_back({layer.colour, layer.is_light});
         if (is_finite(layer.colour, *job.workers)) continue;

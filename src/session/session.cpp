@@ -192,10 +192,12 @@ void finish(DefocusReport& report, const DefocusJob& job, const Asked& asked, co
     }
 }
 
+bool is_matte(const DefocusJob& job) { return job.scatter.view == ScatterView::Guessed; }
+
 // What is left to be done to the picture where it was drawn: drawn, or else at home in the report.
-Status bring_home(DefocusReport& report, std::shared_ptr<device::Canvas> drawn, const NotingDevice& drawing,
-                  const Finish& last) {
-    if (!last || !report.panels.empty()) return Done{};
+Status bring_home(DefocusReport& report, const DefocusJob& job, std::shared_ptr<device::Canvas> drawn,
+                  const NotingDevice& drawing, const Finish& last) {
+    if (!last || is_matte(job) || !report.panels.empty()) return Done{};
     if (!drawn) drawn = canvas_of(drawing, std::move(report.image));
     if (const Status done = last(drawn); !done) return done;
     if (drawn) report.image = drawn->take();
@@ -209,6 +211,18 @@ void take_view(DefocusReport& report, engine::Output& output, views::PlanView& v
     report.panels = std::move(shown.panels);
     output.warnings = std::move(shown.warnings);
     report.hidden = radii.with_depths(std::move(shown.hidden));
+}
+
+// The one layer, which marks guesses, as an opaque picture 0…1; takes it out of the layers.
+Picture matte_of(std::vector<Picture>& layers) {
+    const Picture layer = std::move(layers.at(0));
+    layers.clear();
+    Picture matte(layer.width(), layer.height());
+    for (std::size_t i = 0; i < matte.size(); ++i) {
+        const float share = std::clamp(layer.pixels()[i].r, 0.0f, 1.0f);
+        matte.pixels()[i] = {share, share, share, 1};
+    }
+    return matte;
 }
 
 Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, const engine::Engine& chosen,
@@ -245,10 +259,11 @@ Result<DefocusReport> made_frame(const DefocusJob& job, const Asked& asked, cons
     if (last && !view && stays_as_drawn(job, asked, seen)) canvas = output->canvas;
     if (!canvas) report.image = taken(*output);
     if (view) take_view(report, *output, *view, radii);
+    if (is_matte(job)) report.image = matte_of(output->layers);
     report.layers = std::move(output->layers);
     finish(report, job, asked, seen);
     keep_matte_range(report, job, *job.workers);
-    if (const Status done = bring_home(report, canvas, drawing, last); !done) return done.error();
+    if (const Status done = bring_home(report, job, canvas, drawing, last); !done) return done.error();
     report.engine = chosen.name;
     report.device = drawing.drawn_by();
     report.lens = lens.levels.front()->description();

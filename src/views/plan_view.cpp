@@ -5,6 +5,7 @@ namespace petzval::views {
 std::unique_ptr<PlanView> plan_view(ScatterView view) {
     switch (view) {
         case ScatterView::Result:
+        case ScatterView::Guessed:  // the engine draws this one itself
             break;
         case ScatterView::Layers:
             return std::make_unique<LayersView>();
@@ -30,6 +31,8 @@ const char* name_of(ScatterView view) {
             return "highlights";
         case ScatterView::Hidden:
             return "hidden";
+        case ScatterView::Guessed:
+            return "guessed";
     }
     return "result";
 }

@@ -68,6 +68,17 @@ class Deep(CommandLineTest):
         self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *view, "--near-scale", "2", says=["--near-scale"])
         self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *view, "--engine", "gather", says=["--view hidden", "scatter"])
 
+    def test_guesses_are_marked_by_a_matte(self):
+        write_exr(self.path("in.exr"), picture(40, 30, lambda x, y: 0.2 if x < 16 else 1.0, lambda x, y: 1.0 if x < 16 else 6.0))
+        view = ["--view", "guessed", *CAMERA, "--fstop", "1.4"]
+        self.succeed("defocus", "in.exr", "-o", "matte.exr", *view)
+        row = self.rows("matte.exr", "guessed")[15]
+        self.assertGreater(max(row[8:18]), 0.1)
+        self.assertEqual(max(row[34:]), 0)
+        self.assertTrue(all(0 <= share <= 1 for share in row))
+        self.succeed("defocus", "in.exr", "-o", "matte.png", *view)
+        self.refuse(2, "defocus", "in.exr", "-o", "no.exr", *view, "--engine", "gather", says=["--view guessed", "scatter"])
+
     def test_windows_are_joined(self):
         write_exr(self.path("left.exr"), picture(6, 5, 1, 2, alpha=1), display=DISPLAY, origin=(2, 3))
         write_exr(self.path("right.exr"), picture(4, 9, 1, 3, alpha=1), display=DISPLAY, origin=(20, 1))

@@ -7,7 +7,7 @@ from program import CommandLineTest
 
 ASPECT, DISPLAY, ORIGIN = 2, (0, 0, 39, 29), (4, 5)
 SENSOR_MM = 36
-VIEWS = {"beauty": [], "coc": [], "focus": [], "depth": [], "alpha": [], "layers": [], "highlights": [],
+VIEWS = {"beauty": [], "coc": [], "focus": [], "depth": [], "alpha": [], "layers": [], "highlights": [], "guessed": [],
          "sharp": ["--engine", "gaussian"], "blur-small": ["--engine", "gaussian"],
          "blur-large": ["--engine", "gaussian"], "focus-index": ["--engine", "gaussian"]}
 

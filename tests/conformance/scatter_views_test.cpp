@@ -1,4 +1,4 @@
-// --view layers and --view highlights: what scatter takes a scene for.
+// --view layers, hidden, guessed and highlights: what scatter takes a scene for.
 #include "shots.h"
 
 namespace petzval::conformance {
@@ -126,6 +126,44 @@ TEST(Hidden, SurfacesOfRadiiThatWereChangedAreRefused) {
     DefocusJob job = card.job();
     job.scatter.view = ScatterView::Hidden, job.coc.near_scale = 0.5;
     EXPECT_FALSE(defocus(job));
+}
+
+TEST(Guessed, LightThatComesPastANearEdgeIsMarkedAndNothingElse) {
+    const Picture matte = view_of(a_square(), ScatterView::Guessed).image;
+    EXPECT_EQ(matte(5, 5), (Rgba{0, 0, 0, 1}));  // farther from the square than any blur reaches
+    EXPECT_LT(matte(45, 32).r, 0.01f);           // the square fills the lens
+    EXPECT_GT(matte(31, 32).r, 0.2f);
+    EXPECT_GT(matte(31, 32).r, matte(35, 32).r);
+    for (std::size_t i = 0; i < matte.size(); ++i) {
+        const Rgba c = matte.pixels()[i];
+        ASSERT_TRUE(c.r >= 0 && c.r <= 1 && c.g == c.r && c.b == c.r && c.a == 1);
+    }
+}
+
+TEST(Guessed, OnePlainSurfaceHasNoGuess) {
+    Shot shot = flat(96, 64, kBlue, 5);
+    paint_noise(shot.colour, 3);
+    const Picture matte = view_of(shot, ScatterView::Guessed).image;
+    EXPECT_EQ(largest_difference(matte, Picture(96, 64, Rgba{0, 0, 0, 1})), 0);
+}
+
+TEST(Guessed, NothingIsMarkedWhereACleanPlateShowsIt) {
+    Shot shot = a_square();
+    put_behind(
+        shot, [](int, int) { return kBlue; }, [](int, int) { return 5.0f; });
+    const Picture matte = view_of(shot, ScatterView::Guessed).image;
+    EXPECT_EQ(largest_difference(matte, Picture(96, 64, Rgba{0, 0, 0, 1})), 0);
+}
+
+TEST(Guessed, NothingIsMarkedWithoutFill) {
+    const Picture full = view_of(a_square(), ScatterView::Guessed).image;
+    Shot off = a_square();
+    DefocusJob job = off.job("scatter");
+    job.scatter.view = ScatterView::Guessed, job.fill = Fill::Off;
+    const auto none = defocus(job);
+    ASSERT_TRUE(none);
+    EXPECT_LT(none->image(31, 32).r, 0.01f);  // nothing was guessed
+    EXPECT_GT(full(31, 32).r, 0.2f);
 }
 
 TEST(Layers, BeyondTheFourthAreSaidNotToBeShown) {

@@ -1,6 +1,7 @@
 #include "engine/scatter/layer_light.h"
 
 #include "base/parallel.h"
+#include "engine/scatter/seen_share.h"
 #include "laws/surfaces.h"
 
 #include <algorithm>
@@ -78,16 +79,6 @@ public:
 
 private:
     static constexpr std::size_t kSizes = 3;
-
-    static float cover(const CocSample& s) { return s.colour.a + s.empty; }
-    // The share of a sample that shows; `open` is what those in front leave of the pixel.
-    static float seen(const CocSample& s, float& open) {
-        const float covers = cover(s);
-        if (covers <= 0) return open;
-        const float share = std::min(1.0f, open / covers);
-        open = std::max(0.0f, open - share * covers);
-        return share;
-    }
 
     void of_pixel(int x, int y, Rgba* out) {
         const std::span<const CocSample> samples = CocSamplesView(complete_).at(x, y);

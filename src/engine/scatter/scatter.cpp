@@ -9,6 +9,7 @@
 #include "engine/samples/connectivity.h"
 #include "engine/samples/hidden_outlines.h"
 #include "engine/samples/lamps.h"
+#include "engine/scatter/guessed_shares.h"
 #include "engine/scatter/layer_light.h"
 #include "engine/scatter/plan_reader.h"
 #include "engine/waist/stopwatch.h"
@@ -294,6 +295,9 @@ private:
     void draw_layers(const Strip& strip, const PlannedStrip& beauty, ScatterPlan& plan,
                      const CocSamples& seen, double share, std::vector<Picture>& out) {
         const std::span<const SampleLayer> layers = strip.input.samples.layers;
+        if (layers.size() == 1 && layers[0].marks_guesses)
+            return draw_layer(strip, beauty, plan, guessed_shares(strip.input, seen), layers[0], share,
+                              out[0]);
         for (std::size_t first = 0; first < layers.size(); first += LayerShares::kAtOnce) {
             const auto together =
                 layers.subspan(first, std::min(LayerShares::kAtOnce, layers.size() - first));

@@ -27,6 +27,7 @@ namespace petzval::engine {
 struct SampleLayer {
     View<const Rgba> colour;
     bool is_light = true;
+    bool marks_guesses = false;  // alone, in place of `colour`: 1 where a surface was guessed, else 0
 };
 
 // What is known of a picture without the things in front; then Samples::deep holds them both. Empty: no

@@ -1,0 +1,30 @@
+#include "engine/scatter/guessed_shares.h"
+
+#include "base/parallel.h"
+#include "engine/scatter/seen_share.h"
+
+namespace petzval::engine {
+
+std::vector<Rgba> guessed_shares(const EngineView& view, const CocSamples& complete) {
+    std::vector<Rgba> shares(complete.samples.size());
+    if (!view.samples.deep.empty()) return shares;
+    constexpr float kSameRadiusPx = 0.25f;
+    const auto is_given = [&](int x, int y, const CocSample& s) {
+        return !view.samples.plate.empty() && view.samples.plate.colour(x, y).a > 0 &&
+               s.coc_px > view.samples.plate.coc_px(x, y) - kSameRadiusPx;
+    };
+    parallel_for(view.height(), *view.services.workers, [&](int y) {
+        for (int x = 0; x < view.width(); ++x) {
+            float open = 1;
+            std::size_t i = complete.first[std::size_t(y) * std::size_t(view.width()) + std::size_t(x)];
+            for (const CocSample& s : CocSamplesView(complete).at(x, y)) {
+                const float guessed = 1 - seen(s, open);
+                if (!is_given(x, y, s)) shares[i] = {guessed, guessed, guessed, 0};
+                ++i;
+            }
+        }
+    });
+    return shares;
+}
+
+}  // namespace petzval::engine
