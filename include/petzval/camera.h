@@ -8,7 +8,7 @@
 
 namespace petzval {
 
-// Where the sensor stood when the picture was rendered; see CircleOfConfusion.
+// Position of the sensor when the picture was rendered; see CircleOfConfusion.
 enum class ImageScale {
     Rendered,  // one focal length behind the pinhole, as every renderer does
     ThinLens,  // where a real thin lens focused at the focus distance has its image: it breathes
@@ -30,7 +30,7 @@ struct CocControls {
     // Depths inside [focus_near_m, focus_far_m] are held sharp; outside, blur is that of physics measured
     // from the end of the range. 0, 0: no range.
     double focus_near_m = 0, focus_far_m = 0;
-    // Beyond each end of the range the blur eases in over this share of the end's distance; 0: at once.
+    // The blur eases in beyond each end of the range over this share of the end's distance; 0: at once.
     double focus_falloff = 0;
 
     bool operator==(const CocControls&) const = default;
@@ -73,7 +73,7 @@ private:
     CocControls controls_;
 };
 
-// What a photographer reads off the lens. Without the artist's controls.
+// Depth of field as a photographer reads it off the lens. Without the artist's controls.
 struct FocusLimits {
     double near_m = 0, far_m = 0;  // radii between are below the permissible one; far may be infinite
     double hyperfocal_m = 0;       // focused there, the far limit is infinite

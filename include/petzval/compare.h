@@ -1,4 +1,4 @@
-// How far a picture is from another, by the measures of docs/conventions.md.
+// Differences between pictures, by the measures of docs/reference/report.md.
 #pragma once
 
 #include "petzval/export.h"

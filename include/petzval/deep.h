@@ -14,8 +14,8 @@
 
 namespace petzval {
 
-// One thing seen in one pixel. Colour is premultiplied by the sample's OWN coverage `colour.a` (what it hides
-// of whatever lies behind it), not by what is left of the pixel in front of it.
+// One surface seen in one pixel. Colour is premultiplied by the sample's OWN coverage `colour.a` (the area
+// that it hides), not by the part of the pixel that samples in front leave.
 struct DeepSample {
     Rgba colour;
     float depth_m = 0;       // planar, metres; +infinity for a miss
@@ -73,7 +73,7 @@ struct PlacedDeep {
 };
 
 // All samples of all parts in one picture that covers `window`, nearest first in each pixel. Samples at one
-// depth are ordered by what they hold, so that the order of the parts changes no bit. Requires: no NaN.
+// depth are ordered by their values, so that the order of the parts changes no bit. Requires: no NaN.
 PETZVAL_API DeepPicture merge_deep(const std::vector<PlacedDeep>& parts, const Rect& window);
 
 // One sample per pixel of a flat picture with depth of the same size; pixels that hold nothing give none.

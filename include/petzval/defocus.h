@@ -24,15 +24,15 @@
 
 namespace petzval {
 
-// Another picture of what the job's colour shows, same size, blurred by the same weights.
+// Another picture of the same surfaces as the job's colour, same size, blurred by the same weights.
 struct ColourLayer {
     View<const Rgba> colour;  // scene-linear, premultiplied; its alpha is not read
     // True: light, of which the job's colour is the sum with that of other layers: layers that sum to it sum
     // to it still when blurred. False: a matte or another value of surfaces, blurred as their coverage is.
     bool is_light = true;
-    // What this light is made of, where that is not what the lens is told (LensChoice::light): the job's
-    // colour then holds it as that lamp's too. Light alone. Costs a frame for every lamp. Not of engine
-    // gaussian, whose blur knows no wavelength.
+    // Spectrum of this light, if it differs from LensChoice::light: its share of the job's colour is then
+    // treated as that lamp's too. For light only. Costs a frame per lamp. Not for engine gaussian, whose blur
+    // knows no wavelength.
     std::optional<LightSpectrum> spectrum = {};
 };
 
@@ -47,21 +47,20 @@ struct DefocusJob {
     // depths of `deep`, `behind` and `holdout` are radii too.
     View<const float> coc_px;
     bool depth_is_coc = false;  // older: depth_m holds what coc_px is for
-    // What is done with soft silhouettes of depth_m, or of radii; not of deep pictures. What was done stands
-    // in the report's warnings.
+    // Treatment of soft silhouettes in depth_m, or in radii; not for deep pictures. The report's warnings
+    // tell the outcome.
     DepthEdges depth_edges = DepthEdges::Auto;
     const DeepPicture* deep =
         nullptr;  // all samples of a deep input, same size; replaces colour and depth_m where given
     const DeepPicture* behind = nullptr;  // hidden layers, same size, see docs/conventions.md; may be null
-    // A matte that is not blurred, same size, of deep samples: light that lands in a pixel is dimmed by what
-    // the matte holds there in front of where the light came from. For engines scatter and reference.
+    // A holdout matte of deep samples, same size, not blurred: light that lands in a pixel is dimmed by the
+    // matte's samples there in front of the light's depth. For engines scatter and reference.
     const DeepPicture* holdout = nullptr;
-    // Where the effect is wanted, of the picture's size: 1 takes the blurred picture, 0 `colour` as it is, a
-    // share between them mixes the two; all that Session::take() does to light is limited so. Empty:
-    // everywhere.
+    // Limits the effect, at the picture's size: 1 is the blurred picture, 0 is `colour`, values between mix
+    // the two; everything that Session::take() does to light is limited. Empty: everywhere.
     View<const float> mask;
     std::vector<ColourLayer> layers;  // more layers of the same picture; for engine scatter
-    // Where the pixels lie in the display window, for the field position of lenses and the sensor's width.
+    // Position of the pixels in the display window, for the field position of lenses and the sensor's width.
     Place place;
 
     Camera camera;
@@ -77,8 +76,8 @@ struct DefocusJob {
     GatherOptions gather;      // gather, and sprites over it
     GaussianOptions gaussian;  // gaussian, and sprites over it
     SpriteOptions sprites;     // sprites; what it finds, gather finds as well
-    // sprites only: lights to draw on top, hidden by what is nearer than they are. Those that cannot be drawn
-    // (not finite, negative, out of sight) are left out, counted and reported.
+    // For sprites only: lights to draw on top, hidden by nearer surfaces. Lights that cannot be drawn (not
+    // finite, negative, outside the frame) are left out, counted and reported.
     const std::vector<LightPoint>* points = nullptr;
     int threads = 0;                   // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;        // those of a host, in place of `threads`; null: our own
@@ -96,12 +95,13 @@ struct DefocusReport {
     Picture image;                // same size as the input, unless options ask for several side by side
     std::vector<Panel> panels;    // then: what lies where
     std::vector<Picture> layers;  // those of the job, with the alpha of `image`
-    // Of ScatterView::Hidden: what the engine takes every pixel for, nearest first, seen and found behind;
-    // `image` is the sharp picture then. Depth in metres, or radii where the job gives those.
+    // For ScatterView::Hidden: the engine's surfaces of every pixel, nearest first, visible and estimated;
+    // `image` is the sharp picture then. Depth in metres, or radii if the job gives radii.
     DeepPicture hidden;
     std::string engine, device, lens;
     std::string glare_device;  // who drew glare, as `device`; empty where there is none
-    // As Control::codes wants them, as of develop(); and who made them, as `device`. Else empty.
+    // Codes as requested by Control::codes, made like develop(); and the device that made them, as `device`.
+    // Otherwise empty.
     std::vector<std::uint16_t> codes;
     std::string codes_device;
     double largest_radius_px = 0, smallest_radius_px = 0;  // signed: farthest behind, farthest in front

@@ -1,4 +1,4 @@
-// What a renderer's depth channel means, and how it becomes planar metres.
+// Kinds of a renderer's depth channel, and their conversion to planar metres.
 #pragma once
 
 #include "petzval/deep.h"

@@ -1,5 +1,5 @@
-// From scene-linear light to what a display shows: exposure, contrast, tone curve, transfer function, dither,
-// in this order.
+// Conversion of scene-linear light to display codes: exposure, contrast, tone curve, transfer function,
+// dither, in this order.
 #pragma once
 
 #include "petzval/export.h"
@@ -15,7 +15,7 @@ namespace petzval {
 PETZVAL_API double srgb_encode(double linear);
 PETZVAL_API double srgb_decode(double encoded);
 
-// How codes of 0…1 stand for light.
+// Meaning of codes of 0…1 as light.
 enum class Transfer {
     Srgb,     // IEC 61966-2-1
     Gamma22,  // light = code^2.2: displays of the plain power kind

@@ -1,4 +1,4 @@
-// What a session can draw with.
+// Devices that a session can draw with.
 #pragma once
 
 #include "petzval/export.h"
@@ -22,7 +22,7 @@ PETZVAL_API std::vector<DeviceFacts> devices();
 // Why there is no device but the CPU, in one sentence; empty: there is one.
 PETZVAL_API std::string why_no_gpu();
 
-// Whether a session can draw with it: SessionSettings::device. Errors: those that its first frame would have.
+// Checks that a session can draw with it: SessionSettings::device. Errors: those of its first frame.
 PETZVAL_API Status check_device(const std::string& device);
 
 }  // namespace petzval

@@ -12,7 +12,7 @@
 
 namespace petzval {
 
-// Of luminance (Rec.709), over pixels that hold light; levels by rank.
+// Luminance statistics (Rec.709) over pixels that hold light; levels by rank.
 struct DynamicRange {
     double shadow = 0, middle = 0, diffuse = 0, specular = 0;  // 5, 50, 90 and 99.9 % of pixels are darker
     double brightest = 0;                                      // largest channel

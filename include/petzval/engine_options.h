@@ -1,4 +1,4 @@
-// What the lighter engines let a user choose. The defaults are what each engine is for.
+// Options of the lighter engines. The defaults suit each engine's purpose.
 #pragma once
 
 #include "petzval/light_point.h"
@@ -10,20 +10,20 @@ namespace petzval {
 // Accuracy only: radius and energy are the same at every level.
 enum class Quality { Draft, Standard, Final };
 
-// What an engine adds of its own where a lens looks past an edge and the picture does not say what is there.
+// Background that an engine estimates behind an edge if the picture does not show any.
 enum class Fill {
     Full,  // what is around goes on behind the edge, lamps that it cuts as well
     Dim,   // what is around goes on; of lamps only what shows
     Off,   // nothing: what is known takes all of the lens, and edges of near things stay harder
 };
 
-// What the scatter engine made on its way, in place of its result: several pictures in one, DefocusReport
-// says where each lies.
+// Intermediate pictures of the scatter engine instead of its result: several pictures in one; DefocusReport
+// gives their positions.
 enum class ScatterView {
     Result,
     Layers,  // what it takes the scene for: the surfaces seen, and those found behind them; after each, by
              // number, the depth layer it is composited in
-    Levels,  // what each level of detail drew, before it is composited (docs/published.md)
+    Levels,  // what each level of detail drew, before it is composited (docs/explain/published.md)
     Highlights,  // the light that is spread by itself: as it was taken out of the picture, and as it is drawn
     Hidden,      // the surfaces of Layers, all of them, as deep samples: DefocusReport::hidden
     Guessed,  // a matte, 0…1 in every channel: the share of a pixel's light that comes from guessed surfaces
@@ -33,7 +33,7 @@ struct ScatterOptions {
     ScatterView view = ScatterView::Result;
 };
 
-// A stop on the way of the published gather method (docs/published.md); its buffer becomes the
+// A stop on the way of the published gather method (docs/explain/published.md); its buffer becomes the
 // picture. Final is our engine, not the article's last step.
 enum class GatherStage {
     Final,      // the engine itself
@@ -68,10 +68,11 @@ struct GatherOptions {
 enum class GaussianStyle {
     Layered,  // light spreads from where it is, near and far apart: nothing in focus bleeds or is bled on
     Plain,    // every pixel mixes two of a stack of blurred pictures, by its own radius
-    Wgld,     // sharp and two blurred ones by depth, with the weights that were published (docs/published.md)
+    Wgld,     // sharp and two blurred ones by depth, with the weights that were published
+              // (docs/explain/published.md)
 };
 
-// A buffer of the Gaussian engine in place of its result.
+// A buffer of the Gaussian engine instead of its result.
 enum class GaussianView {
     Result,
     Sharp,       // the input
@@ -85,8 +86,8 @@ enum class GaussianView {
 struct GaussianOptions {
     GaussianStyle style = GaussianStyle::Layered;
     GaussianView view = GaussianView::Result;
-    // What is held sharp. Wgld: width of the band around the middle of normalised depth, 0…1, default 0.2.
-    // Else: radii up to so many pixels, default 0.
+    // Range that stays sharp. Wgld: width of the band around the middle of normalised depth, 0…1, default
+    // 0.2. Otherwise: radii up to that many pixels, default 0.
     std::optional<double> focus_band;
     // Wgld: added to normalised depth; default: what puts the focus distance into the middle of the band.
     std::optional<double> depth_offset;

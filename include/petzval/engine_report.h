@@ -1,4 +1,4 @@
-// What an engine says of its run, besides the picture.
+// Report of an engine's run, besides the picture.
 #pragma once
 
 #include "petzval/image.h"
@@ -12,7 +12,7 @@ namespace petzval {
 struct StageTime {
     std::string stage;
     double seconds = 0;
-    // Bytes touched and multiply-adds, as the stage counted them (docs/command-line.md); 0: it did not.
+    // Bytes touched and multiply-adds, as the stage counted them (docs/reference/report.md); 0: it did not.
     std::uint64_t bytes = 0, multiply_adds = 0;
 };
 

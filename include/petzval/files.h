@@ -21,23 +21,23 @@
 
 namespace petzval {
 
-// What to take from a file; empty strings mean "detect, and say what was taken and why".
+// Choices of what is read from a file; empty strings mean "detect, and report the choice with its reason".
 struct ReadOptions {
     std::string layer;                   // colour layer or part, e.g. "ViewLayer.Combined" or "rgba_right"
     std::string view_name;               // stereo view, e.g. "left"
     std::string depth_file;              // another file that holds the depth
     std::string depth_channel;           // e.g. "Z", "depth.R", "ViewLayer.Depth.Z"
     Transfer transfer = Transfer::Srgb;  // how PNG colour is decoded; EXR is linear by definition
-    // What is blurred beside the colour: "all", and names of layers, parts or single channels; "-NAME" after
-    // "all" leaves one out, "NAME:LAMP" says what its light is made of, as "signs:neon". Empty: nothing. EXR
-    // only.
+    // Layers that are blurred beside the colour: "all", and names of layers, parts or single channels;
+    // "-NAME" after "all" leaves one out, "NAME:LAMP" sets the spectrum of its light, as "signs:neon". Empty:
+    // none. EXR only.
     std::vector<std::string> layers;
     bool need_colour = true;    // false: alpha and depth are enough, as of a matte; colour is 0 then
     bool need_depth = true;     // false: a file without depth is fine, depth stays empty
     MotionReading motion = {};  // EXR only; not of deep parts
     std::size_t max_pixels = std::size_t(1) << 28;  // larger data windows are refused before memory is taken
-    // What the pixels of a frame may take: more is refused before it is taken, deep samples as soon as they
-    // are counted. 0: no limit.
+    // Memory limit for the pixels of a frame: a larger frame is refused before memory is taken, deep samples
+    // as soon as they are counted. 0: no limit.
     std::size_t max_memory_bytes = 0;
     int threads = 0;  // 0: all this process may use; the result never depends on it.
                       // OpenEXR decodes on its own pool, of as many threads; for 1 that stays empty
@@ -53,8 +53,8 @@ struct FoundNumber {
 
 struct FoundCamera {
     std::optional<FoundNumber> focal_length_mm, sensor_width_mm, f_number, focus_distance_m;
-    // Where a file gives it; with one of focal length and sensor width known, the other follows (and is
-    // filled in where the file holds both of these).
+    // Set if a file gives it; with one of focal length and sensor width known, the other follows (and is
+    // filled in if the file holds both).
     std::optional<FoundNumber> horizontal_fov_deg;
     // The file's worldToCamera, rows one after the other: a point of the world as row vector (x, y, z, 1)
     // times it is that point as the camera sees it, in scene units; OpenEXR's camera looks along +z.
@@ -69,8 +69,8 @@ struct PartSummary {
     std::vector<std::string> channels;  // "R half", "Z float", …
 };
 
-// More of what the colour shows, of its data window: a colour layer, or up to three single channels as red,
-// green and blue. Those of a file stand in the order in which write_exr() finds them again.
+// Another layer of the colour's surfaces, with its data window: a colour layer, or up to three single
+// channels as red, green and blue. Layers of a file stand in the order in which write_exr() finds them again.
 struct FrameLayer {
     std::vector<std::string> names;  // one of a colour, else one for each channel
     Picture colour;                  // alpha: that of the frame's colour
@@ -107,8 +107,8 @@ struct Frame {
     FoundCamera camera;
     std::vector<std::string> views;  // of a stereo file, in its order; empty for others
     std::string view;                // that of the colour
-    // What was done to the colour's part, a line each, oldest first (attribute petzval:history), and the
-    // first channel of the colour, by which it is spoken of there.
+    // History of the colour's part, a line per step, oldest first (attribute petzval:history), and the first
+    // channel of the colour, which names it there.
     std::string history, colour_name;
     bool display_referred = false;  // read from PNG: 1.0 is clipped highlights
     std::size_t non_finite_colour =
@@ -136,7 +136,7 @@ PETZVAL_API Result<std::string> read_text_attribute(const std::string& path, con
 
 enum class PixelType { Keep, Half, Float };
 
-// What writing had to change, for a log.
+// Changes that writing had to make, for a log.
 struct WriteReport {
     std::size_t clamped_to_half = 0;  // finite colour values beyond 65504, written as 65504
     std::size_t non_finite = 0;       // NaN written as 0, infinities as 65504

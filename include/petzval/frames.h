@@ -29,7 +29,7 @@ public:
     static Result<std::optional<FramePattern>> find(std::string_view path);
 
     std::string path(int frame) const;
-    // Of a file in the same folder: the number in its name, if it is of this pattern.
+    // The number in the name of a file in the same folder, if it matches this pattern.
     std::optional<int> frame_of(std::string_view file_name) const;
     // Numbers of the files that are there, ascending. Errors: InvalidFile for a folder that cannot be read.
     Result<std::vector<int>> frames_there() const;

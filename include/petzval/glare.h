@@ -3,7 +3,7 @@
 //
 // Glare moves light and never makes any: each amount is the share of light that a part takes from where it
 // was, and every part's spread sums to 1 per channel, so the sum over the picture stays (what is thrown
-// beyond the frame is gone). Formulas: docs/glare.md.
+// beyond the frame is gone). Formulas: docs/explain/glare.md.
 #pragma once
 
 #include "petzval/camera.h"
@@ -34,7 +34,7 @@ struct GlareAmounts {
     // about as 1/r^2; of the whole picture, or of the light above bloom_threshold alone.
     double bloom = 0;
     double bloom_radius = 0.08;  // standard deviation of the widest layer, share of the picture's height
-    // As `threshold` below, for bloom. 0: all light, as lenses scatter it. >= 0.
+    // Like `threshold` below, for bloom. 0: all light, as lenses scatter it. >= 0.
     double bloom_threshold = 0;
 
     // Spikes across the aperture's edges, of the light above `threshold`: n for an even number of blades n,
@@ -58,7 +58,7 @@ struct GlareAmounts {
     bool operator==(const GlareAmounts&) const = default;
 };
 
-// And what it depends on in the shot.
+// Glare amounts with the properties of the shot that they depend on.
 struct GlareSettings : GlareAmounts {
     // 550 nm times the f-number, in pixels: the grain of the diffraction pattern. 0 or less than the finest
     // that is computed (about star_radius / 500 of the height): that finest, whose grain does not show.
@@ -66,8 +66,8 @@ struct GlareSettings : GlareAmounts {
     Camera camera;                    // for the ghosts of a prescription: all four numbers
     LensChoice lens;                  // the aperture, and the prescription for ghosts
     std::optional<Lens> opened_lens;  // where given, it is taken instead of `lens`, and nothing is read
-    // Of an empty display window: the picture is the frame. Shares of height are of the display window's,
-    // ghosts mirror about its centre.
+    // Position of the picture; an empty display window means that the picture is the frame. Fractions of
+    // height refer to the display window; ghosts mirror about its centre.
     Place place;
     int threads = 0;             // 0: all this process may use; the result never depends on it
     Workers* workers = nullptr;  // those of a host, in place of `threads`; null: our own
@@ -79,8 +79,8 @@ struct GlareSettings : GlareAmounts {
 // ghosts of a prescription without camera numbers.
 PETZVAL_API Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings);
 
-// Of the light in the picture's middle, the share that reaches each place: cos^4 of the field angle, times
-// the share of the pupil left there (the barrel's cat's eye; for a prescription, rays past its rims).
+// Falloff: the share of the middle's light that reaches each place: cos^4 of the field angle, times the open
+// share of the pupil there (the barrel's cat's eye; for a prescription, rays past its rims).
 struct FalloffSettings {
     Camera camera = {};  // focal length and sensor width; for a prescription also f-number and focus
     LensChoice lens = {};

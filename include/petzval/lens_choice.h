@@ -1,5 +1,5 @@
-// What a user says of a lens: its name, the shape of its aperture, and what is left of its aberrations.
-// Lens (petzval/lens.h) is made of it.
+// A user's choice of a lens: its name, the shape of its aperture, and changes of its aberrations. Lens
+// (petzval/lens.h) is made from it.
 #pragma once
 
 #include "petzval/image.h"
@@ -33,15 +33,14 @@ struct BarrelRim {
     bool operator==(const BarrelRim&) const = default;
 };
 
-// How far each door of a matte box reaches over the pupil from its side, in pupil radii: 0 open, 1 half
-// covered.
+// Coverage of the pupil by each door of a matte box, from its side, in pupil radii: 0 open, 1 half covered.
 struct BarnDoors {
     double left = 0, right = 0, top = 0, bottom = 0;  // as seen in the far (upright) disc
 
     bool operator==(const BarnDoors&) const = default;
 };
 
-// What lies in the pupil; seen best in large discs. Strengths 0 (none) to 1.
+// Texture of the pupil; best visible in large discs. Strengths 0 (none) to 1.
 struct PupilTexture {
     // Transmission 0…1 over the square around the f-stop's circle, upright as the far disc shows it; may be
     // null.
@@ -61,7 +60,7 @@ struct KernelImages {
     bool operator==(const KernelImages&) const = default;
 };
 
-// Where the sensor is put, which spherical aberration and colour leave open.
+// Position of the sensor, which spherical aberration and colour leave open.
 enum class FocusMode {
     Best,      // least mean square blur at this aperture, wavelengths weighted by luminance
     Paraxial,  // where light at 587.56 nm near the axis meets
@@ -78,7 +77,7 @@ struct AddedAberrations {
     double spherical_waves = 0, at_f_number = 0;
     double axial_colour_mm = 0;     // where blue (486 nm) focuses, from red (656 nm); over 1/wavelength^2
     double field_curvature_mm = 0;  // where the corners focus, from the middle; grows with the field's square
-    // How much larger the blue image is than the red one (486, 656 nm); 588 nm stays.
+    // Size of the blue image relative to the red one, percent more (486, 656 nm); 588 nm stays.
     double lateral_colour_percent = 0;
 
     bool operator==(const AddedAberrations&) const = default;
@@ -96,7 +95,7 @@ struct LensChoice {
 
     FocusMode focus_mode = FocusMode::Best;
     double focus_shift_mm = 0;  // FocusMode::Shift: + away from the lens
-    // Factors on what a lens has itself, 1 as built, 0 none, -1 reversed.
+    // Factors on the lens's own aberrations, 1 as built, 0 none, -1 reversed.
     double spherical = 1, axial_colour = 1;  // of a curve lens
     double lateral_colour = 1;               // of a prescription: how far apart colours land off the axis
     AddedAberrations added;
@@ -109,7 +108,7 @@ struct LensChoice {
     // picture with them: from r half diagonals to r (1 + d r^2). Channels besides colour and alpha stay where
     // they are.
     double distortion = 0;
-    // What the light of the picture is made of. The sensor stands as for daylight.
+    // Spectrum of the picture's light. The sensor stands as for daylight.
     LightSpectrum light = LightSpectrum::Daylight;
     int wavelengths = 0;  // bands of the spectrum; 0: as many as the kernel needs to be smooth
     bool wave = false;    // diffraction: rings in discs of small sensors, spikes of blades; slow

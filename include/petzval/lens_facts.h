@@ -1,5 +1,4 @@
-// What there is to know about a lens before a picture is taken with it: the lenses that ship, and the numbers
-// of any lens or lens file.
+// Facts about lenses without a picture: the built-in lenses, and the numbers of any lens or lens file.
 #pragma once
 
 #include "petzval/export.h"
@@ -29,7 +28,7 @@ struct SeidelFacts {
     double s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, c1 = 0, c2 = 0;
 };
 
-// Where axial rays cross the axis, from the paraxial focus of the primary wavelength; negative is nearer the
+// Axis crossings of axial rays, from the paraxial focus of the primary wavelength; negative is nearer the
 // lens.
 struct LongitudinalAberrationFacts {
     std::vector<double> zones;  // share of the entrance pupil's radius
@@ -48,8 +47,8 @@ struct FieldFacts {
     double unvignetted_share = 0;   // of the light through the stop
 };
 
-// Of a prescription, at its primary wavelength; lengths in mm, + towards the image. A lens known by its
-// curves alone has efl_mm, f_number, sensor_width_mm and longitudinal_aberration, and has_prescription false.
+// Numbers of a prescription at its primary wavelength; lengths in mm, + towards the image. A lens of curves
+// has only efl_mm, f_number, sensor_width_mm and longitudinal_aberration, and has_prescription false.
 struct LensFacts {
     LensSummary summary;
     std::string format;  // of the file it was read from

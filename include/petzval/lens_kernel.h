@@ -1,4 +1,4 @@
-// What a lens does to a point of light, as pictures.
+// Images of a point of light through a lens.
 #pragma once
 
 #include "petzval/camera.h"

@@ -17,7 +17,7 @@ namespace petzval {
 PETZVAL_API Result<std::string> lens_report(const std::string& name_or_file, int threads = 0,
                                             Workers* lent = nullptr);
 
-// What stands for a lens on sheets of many.
+// Entry of a lens on sheets of many lenses.
 struct LensCard {
     std::string name, title, year, kind;
     std::string focal_length, f_number, blur;  // with units, as shown
@@ -33,7 +33,7 @@ PETZVAL_API Result<LensCard> lens_card(const std::string& name_or_file, int thre
 // rays, texture, discs and numbers.
 PETZVAL_API std::string lens_index(const std::vector<LensCard>& cards);
 PETZVAL_API std::string lens_comparison(const std::vector<LensCard>& cards);
-// The contact sheet as an SVG file of its own.
+// The contact sheet as a separate SVG file.
 PETZVAL_API std::string lens_contact_sheet(const std::vector<LensCard>& cards);
 
 }  // namespace petzval

@@ -17,9 +17,9 @@ struct SectionPoint {
 };
 
 struct SectionRay {
-    // Of the f-stop's circle, upright as discs behind focus show it: x right, y down, pupil radii.
+    // Position in the f-stop's circle, upright like discs behind focus: x right, y down, pupil radii.
     double pupil_x = 0, pupil_y = 0;
-    // Where it lands, from the middle of the disc: pixels, x right, y down. At 546 nm.
+    // Landing position, from the middle of the disc: pixels, x right, y down. At 546 nm.
     double disc_x_px = 0, disc_y_px = 0;
     double off_plane = 0;            // of the pupil, how far from the plane of the drawing, pupil radii
     std::vector<SectionPoint> path;  // from in front of the lens to the sensor, seen from the side

@@ -1,4 +1,4 @@
-// What light is made of, where its colour alone does not say what a lens makes of it.
+// Spectra of light, for lenses whose image depends on more than the colour.
 #pragma once
 
 namespace petzval {

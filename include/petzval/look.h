@@ -32,8 +32,8 @@ struct Look {
     DepthEdges depth_edges = DepthEdges::Auto;
     CocControls coc;
     LensChoice lens;
-    // Files with what lens.texture.image and lens.kernel_images hold; empty: none. The pictures themselves
-    // are no part of a look that is written: whoever reads one loads them.
+    // Files of lens.texture.image and lens.kernel_images; empty: none. A written look does not contain the
+    // pictures: the reader of a look loads them.
     std::string aperture_image, kernel_image_far, kernel_image_near;
 
     GatherOptions gather;

@@ -1,4 +1,4 @@
-// Which choices of a look go together.
+// Checks that the choices of a look fit each other.
 #pragma once
 
 #include "petzval/export.h"

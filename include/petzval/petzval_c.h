@@ -1,5 +1,5 @@
 /* petzval for C, and for every language that calls C: sessions, lenses, looks; a sharp picture with depth
- * in, the picture that a lens would have taken out. docs/library.md shows it in use.
+ * in, the picture that a lens would have taken out. docs/reference/library.md shows it in use.
  *
  * - C99. Nothing else is exported by libpetzval.so.
  * - Handles are opaque. What is opened is closed by its own function; null is closed without harm.

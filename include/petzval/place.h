@@ -1,5 +1,5 @@
-// Where the pixels of a picture lie in the frame: the display window, the data window and the shape of a
-// pixel are of use only together.
+// Position of a picture's pixels in the frame: the display window, the data window and the pixel aspect are
+// only useful together.
 #pragma once
 
 #include "petzval/export.h"
@@ -13,13 +13,13 @@ struct FieldPosition {
     double x = 0, y = 0;
 };
 
-// What maps the pixels of one picture, counted from its own first pixel, to the field.
+// Maps the pixels of one picture, counted from its own first pixel, to the field.
 struct PixelField {
     double field_centre_x = 0, field_centre_y = 0;  // of the display window, in the picture's pixels
     double field_per_px = 0;                        // half diagonals
     double pixel_aspect = 1;
 
-    // Of the centre of pixel (x, y).
+    // Field position of the centre of pixel (x, y).
     FieldPosition field_at(double x, double y) const {
         return {(x + 0.5 - field_centre_x) * field_per_px,
                 -(y + 0.5 - field_centre_y) * field_per_px / pixel_aspect};
@@ -38,9 +38,9 @@ struct Place {
     double display_height_px() const { return display_window.height() / pixel_aspect; }
     // More pixels around the same frame.
     Place grown(int by_px) const { return {display_window, data_window.grown(by_px), pixel_aspect}; }
-    // Whether the frame shows pixels of the picture.
+    // True if the frame shows pixels of the picture.
     bool is_in_sight() const { return !data_window.intersected(display_window).empty(); }
-    // Whether a picture of that size fills the data window.
+    // True if a picture of that size fills the data window.
     bool fits(int width, int height) const {
         return width == data_window.width() && height == data_window.height();
     }
@@ -61,8 +61,8 @@ Image<T> through_window(const Image<T>& pixels, const Rect& data, const Rect& wi
     return seen;
 }
 
-// How far, in pixels, radial distortion (LensChoice::distortion) moves at most what is seen in the frame:
-// outward for amounts above 0; below, inward, so far beyond the frame lies what is seen at its edge.
+// Largest displacement in pixels of visible points by radial distortion (LensChoice::distortion): outward for
+// amounts above 0. For amounts below 0 the frame shows points up to that far beyond its edge.
 PETZVAL_API int distortion_reach_px(const Place& place, double amount);
 
 // Errors: InvalidArgument for an empty display or data window, or a pixel aspect beyond 1e-6 to 1e6.

@@ -7,7 +7,7 @@
 
 namespace petzval {
 
-// What kind of failure; the command line turns it into an exit code.
+// Kind of failure; the command line turns it into an exit code.
 enum class ErrorCode {
     InvalidArgument,  // a flag, a camera number or a field of a struct is wrong or missing
     InvalidFile,      // an input is missing, damaged, empty or lacks what is needed (depth)
@@ -17,9 +17,9 @@ enum class ErrorCode {
     Cancelled,        // the progress callback asked to stop
 };
 
-// One sentence: what is wrong, where, and what would be accepted. No trailing newline. What can be chosen is
-// spoken of by its field, as camera.f_number (those of a look as petzval/look_json.h writes them); a program
-// may put in what its user knows.
+// One sentence: the problem, its place, and the accepted values. No trailing newline. Choices are named by
+// their field, as camera.f_number (those of a look as in petzval/look_json.h); a program may substitute its
+// own names.
 struct Error {
     ErrorCode code = ErrorCode::InvalidArgument;
     std::string message;

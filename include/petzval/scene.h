@@ -43,8 +43,8 @@ struct SceneSettings {
     int frame = 0;
     std::optional<Camera> camera;  // default: the scene's own
     std::string own_camera = {};   // of a file's the one of this name, or number from 1; empty: the first
-    // Where the camera stands and the point that lies in the middle of its picture; upright. Default: as the
-    // scene has it at that frame. With camera_at alone it looks the same way from elsewhere.
+    // Position of the camera, and the point in the middle of its picture; upright. Default: the scene's own
+    // at that frame. With camera_at only, the direction stays.
     std::optional<ScenePoint> camera_at, look_at;
     // Depth as a network guesses it from a photograph: 1/depth blurred by a Gaussian of so many pixels'
     // standard deviation, and in 2^bits even steps. 0: exact. Truth and layers keep the exact depth.
@@ -87,7 +87,8 @@ PETZVAL_API Result<RenderedScene> render_scene(const std::string& name, const Sc
 // built-in one, or a glTF file, which ends in .gltf or .glb (by tinygltf, where it was found).
 class PETZVAL_API StandingScene {
 public:
-    // Of the settings the frame, own_camera, lit_in_codes and the threads. Errors: those of render_scene().
+    // Uses the frame, own_camera, lit_in_codes and the threads of the settings. Errors: those of
+    // render_scene().
     static Result<StandingScene> build(const std::string& name, const SceneSettings& settings);
     ~StandingScene();
     StandingScene(StandingScene&&) noexcept;
@@ -95,7 +96,7 @@ public:
 
     // The same bits as render_scene(). Errors: also InvalidArgument for another frame than it was built for.
     Result<RenderedScene> render(const SceneSettings& settings);
-    // Where what the scene is about stands in this frame; nothing where it is about nothing in particular.
+    // Position of the scene's subject in this frame; nothing if the scene has no particular subject.
     std::optional<ScenePoint> subject() const;
     const Camera& camera() const;                      // the scene's own
     int frames() const;                                // > 1: it moves; of a file, 24 a second
@@ -127,9 +128,10 @@ struct PointSettings {
     std::uint64_t seed = 1;
 };
 
-// By depth, all finite, none negative; the same for the same settings on every machine with IEEE arithmetic.
-// Light is scaled with the area a pixel sees, so that a larger picture shows the same lights. Errors:
-// InvalidArgument for an unknown set (the message lists them), numbers out of range, more than there are.
+// Points ordered by depth, all finite, none negative; the same for the same settings on every machine with
+// IEEE arithmetic. Light is scaled with the area a pixel sees, so that a larger picture shows the same
+// lights. Errors: InvalidArgument for an unknown set (the message lists them), numbers out of range, or too
+// many points.
 PETZVAL_API Result<std::vector<LightPoint>> make_points(const std::string& name,
                                                         const PointSettings& settings);
 

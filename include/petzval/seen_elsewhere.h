@@ -28,7 +28,7 @@ struct SeenElsewhere {
     std::vector<std::string> left_out;  // pictures, or their vectors, that could not be used; a line each
 };
 
-// One more picture of what a shot shows.
+// Another picture of a shot's surfaces.
 struct OtherPicture {
     const Shot* shot = nullptr;
     int frames_later = 0;  // than the shot; 0: of the same moment, as the other eye

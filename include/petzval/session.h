@@ -1,5 +1,5 @@
-// What outlives a frame: workers, kernels, one memory budget. `petzval::defocus(job)` is a session of one
-// frame.
+// Sessions keep data between frames: workers, kernels, one memory budget. `petzval::defocus(job)` is a
+// session of one frame.
 #pragma once
 
 #include "petzval/defocus.h"
@@ -19,17 +19,17 @@ namespace petzval {
 
 struct SessionSettings {
     int threads = 0;  // 0: all this process may use
-    // For everything: what a frame takes while it is made, and what is kept between frames (at most an eighth
-    // of it; a gibibyte where there is no limit). 0: no limit.
+    // Memory limit for frames in progress and for data kept between frames (at most an eighth of it; a
+    // gibibyte without a limit). 0: no limit.
     std::size_t max_memory_bytes = 0;
     // A folder in which kernels that take long to make are kept between runs, so many bytes at most, those
     // not used longest go first; empty: none.
     std::string kernel_cache_folder = {};
     std::size_t kernel_cache_bytes = std::size_t(1) << 30;
     std::shared_ptr<Workers> workers = nullptr;  // those of a host, in place of `threads`; null: our own
-    // What draws: "cpu", "gpu" (the first of devices() that is no CPU), "gpu:1", or "auto": the first that is
-    // neither a CPU nor a software driver, else the CPU. What engines make without a device (reference) the
-    // CPU makes; the report says who drew.
+    // Device: "cpu", "gpu" (the first of devices() that is no CPU), "gpu:1", or "auto": the first that is
+    // neither a CPU nor a software driver, otherwise the CPU. Engines without a device (reference) use the
+    // CPU; the report names the device used.
     std::string device = "cpu";
 };
 
@@ -41,15 +41,15 @@ PETZVAL_API DefocusJob with_look(DefocusJob job, const Look& look);
 // pictures are not asked for. Errors: those of check(look), add_falloff() and add_glare().
 PETZVAL_API Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look);
 
-// A frame as codes of a display, in place of light.
+// Request for a frame as display codes instead of light.
 struct CodesWanted {
     DevelopSettings develop;  // its threads and workers are not asked
-    // What they show, in pixels of the display window as the data window is; black where nothing was made.
+    // Window of the codes, in pixels of the display window like the data window; black outside the picture.
     // Empty: the display window.
     Rect window = {};
 };
 
-// How one frame is made.
+// Control of one frame.
 struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
     // True cancels; asked often, by any thread at any time: a flag that another thread sets.
@@ -58,9 +58,9 @@ struct Control {
     // that part, bit for bit as in the whole. Costs the part with region_margin_px() around it, but for
     // glare, which takes the whole frame. Views and stages that are shown instead of a result are made whole.
     std::optional<Rect> region = {};
-    // Of take() alone: the report's codes hold the frame then, and its image is empty. A frame that was drawn
-    // by a GPU comes home as codes, if nothing is left to be done to its light there. Buffers that are shown
-    // instead of a result stay images.
+    // For take() only: the report then holds the frame as codes, and its image is empty. A frame drawn by a
+    // GPU is read back as codes if no later step needs its light on the CPU. Buffers that are shown instead
+    // of a result stay images.
     std::optional<CodesWanted> codes = {};
 };
 
@@ -69,8 +69,8 @@ struct SessionUsage {
     int lenses = 0;              // mounted on cameras, and kept
 };
 
-// Used by any number of threads at once; frames that are made at the same time share what is kept. Results
-// depend neither on what was made before nor on what is made beside.
+// A session may be used by any number of threads at once; simultaneous frames share the kept data. Results
+// depend neither on earlier frames nor on simultaneous ones.
 class PETZVAL_API Session {
 public:
     explicit Session(SessionSettings settings = {});
@@ -94,16 +94,17 @@ public:
     Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look,
                               const Control& control = {});
 
-    // How many pixels around a region are looked at for it: four of the largest radius, or of how far the
-    // lens throws light at that radius if it is farther, and 160, in which it is told how outlines go on that
-    // something hides. Errors: those of defocus().
+    // Margin around a region that affects it, in pixels: four times the largest radius, or the reach of the
+    // lens's light at that radius if larger, and 160 for the search of hidden outlines. Errors: those of
+    // defocus().
     Result<int> region_margin_px(const DefocusJob& job);
 
-    // How far, in pixels, light of the largest radius lands from where it came. Errors: those of defocus().
+    // Largest distance, in pixels, between light of the largest radius and its source. Errors: those of
+    // defocus().
     Result<double> reach_px(const DefocusJob& job);
 
     SessionUsage usage() const;
-    // Lets go of what was not used longest until at most so many bytes are kept.
+    // Releases the least recently used data until at most that many bytes are kept.
     void trim(std::size_t bytes);
 
 private:

@@ -38,35 +38,34 @@ struct DepthMetres {
 struct RadiiPx {
     Plane plane;
 };
-// By what each pixel's blur is known; monostate where the file says nothing and nothing was asked for.
+// Source of each pixel's blur; monostate if the file has none and none was requested.
 using ShotDepth = std::variant<std::monostate, DepthMetres, RadiiPx>;
 
 // The camera numbers of a user. Those that are given win over the file's.
 struct CameraChoice {
     std::optional<double> focal_length_mm = {}, sensor_width_mm = {}, f_number = {}, focus_distance_m = {};
     ImageScale image_scale = ImageScale::Rendered;
-    // Of the entrance pupil, in place of an f-number: f_number is focal_length_mm / this, however either is
-    // found. Not beside f_number, which wins.
+    // Diameter of the entrance pupil, instead of an f-number: f_number is focal_length_mm / this. Ignored
+    // beside f_number.
     std::optional<double> aperture_diameter_mm = {};
 };
 
-// Where a shot is to be found. Messages name these fields as read.layer, depth.kind, shot.behind,
+// Location of a shot's files. Messages name these fields as read.layer, depth.kind, shot.behind,
 // camera.f_number.
 struct ShotSource {
     std::string path;  // EXR or PNG
-    // What to take from `path`; its threads or workers read all files of the shot.
+    // Choices for reading `path`; its threads or workers read all files of the shot.
     ReadOptions read = {};
-    // What depth means in all files of the shot: kind, unit, range. The camera's numbers and the threads are
+    // Meaning of depth in all files of the shot: kind, unit, range. The camera's numbers and the threads are
     // filled in. CocPx: radii in pixels.
     DepthSettings depth = {};
     bool depth_kind_given = false;  // depth.kind is what a user said, not the default
-    // What the picture hides: RGBA and Z or deep, of the same data window. Empty: not known.
+    // Clean plate: RGBA and Z or deep, of the same data window. Empty: none.
     std::string behind = {};
     std::string holdout = {};  // a matte that stays sharp and hides what is behind it
-    // Where the effect is wanted, "FILE" or "FILE:CHANNEL" of the same display window: of an EXR any channel,
-    // of other files R, G, B or A, whole numbers as shares of full scale. Without a channel: alpha where it
-    // is not 1 everywhere, else luminance. Outside of the file's pixels it is 0, beyond the frame as at its
-    // border.
+    // Mask, "FILE" or "FILE:CHANNEL" of the same display window: any channel of an EXR; R, G, B or A of other
+    // files, whole numbers as fractions of full scale. Without a channel: alpha if it is not 1 everywhere,
+    // otherwise luminance. Outside the file's pixels it is 0, beyond the frame its border value.
     std::string mask = {};
     std::vector<std::string> merge = {};  // more pictures of the shot, sorted in by depth
     std::string lights = {};              // CSV, see read_lights()
@@ -85,7 +84,7 @@ struct Shot {
     MotionVectors motion;  // as source.read.motion asks
     Plane mask;            // of the frame and the data window, whose union mask_window is; empty: everywhere
     Rect mask_window;
-    // More of what the colour shows, as source.read.layers asks, and what stays as it is.
+    // More layers of the colour's surfaces, as source.read.layers asks, blurred or copied.
     std::vector<FrameLayer> layers;
     std::vector<CarriedLayer> layers_carried;
     std::vector<LightPoint> lights;  // in pixels of the data window
@@ -132,8 +131,8 @@ PETZVAL_API Result<Camera> complete_camera(const FoundCamera& found, ImageScale 
 // The same without errors: numbers that are missing are 0.
 PETZVAL_API Camera known_camera(const FoundCamera& found, ImageScale image_scale);
 
-// What a session takes: all of the shot but its choices, borrowed. A camera number may be missing where radii
-// are given; it is 0 then. Errors: those of complete_camera().
+// The job of a session: the whole shot without choices, borrowed. A camera number may be missing if radii are
+// given; it is 0 then. Errors: those of complete_camera().
 PETZVAL_API Result<DefocusJob> rendered(const Shot& shot);
 
 // A pixel of the display window, counted from its top left.
@@ -161,16 +160,16 @@ PETZVAL_API Status focus_on_point(Shot& shot, WorldPoint point);
 // nothing says the focus. Errors: InvalidArgument for a focus outside of the range.
 PETZVAL_API Status focus_within_range(Shot& shot, const CocControls& coc);
 
-// How far the light of this look reaches beyond the picture, in pixels: the largest radius of what is not
-// empty, and what distortion moves it. Errors: those of rendered() and circle_of_confusion().
+// Reach of this look's light beyond the picture, in pixels: the largest radius of non-empty pixels, plus the
+// displacement by distortion. Errors: those of rendered() and circle_of_confusion().
 PETZVAL_API Result<int> reach_px(const Shot& shot, const Look& look);
 // The data window with the room that light of this look needs where it ends inside the display window: as far
 // as the discs of what is visible reach. spread: how far light lands from its point, in radii. within_frame:
 // no farther than the display window. Errors: those of reach_px().
 PETZVAL_API Result<Rect> window_of_light(const Shot& shot, const Look& look, double spread = 1,
                                          bool within_frame = false);
-// So many pixels more on each side where the data window ends inside the display window; elsewhere the scene
-// goes on beyond the frame, unknown.
+// Adds that many pixels on each side where the data window ends inside the display window; on other sides the
+// scene continues beyond the frame, unknown.
 PETZVAL_API Rect with_empty_sides(const Place& place, int by_px);
 // Adds emptiness around the picture. Requires: `wider` holds its data window. Returns whether it is larger.
 // Errors: InvalidArgument for more pixels than any picture may have.
@@ -181,10 +180,10 @@ PETZVAL_API Result<bool> grow_empty_sides(Shot& shot, int by_px);
 // A line of the attribute petzval:history that says how this look blurs the shot; the same wherever and
 // whenever that is done.
 PETZVAL_API std::string history_line(const Shot& shot, const Look& look);
-// Whether the history that the shot was read with has such a line of its colour.
+// True if the history of the file has such a line about this colour.
 PETZVAL_API bool was_blurred(const Shot& shot);
 
-// What write_exr() takes: shot.colour in its place with all that the input carried, metres as its depth.
+// The frame for write_exr(): shot.colour in its place with all other data of the input, metres as its depth.
 PETZVAL_API Frame to_frame(Shot shot);
 
 // Lights in a CSV file. The first line that is not empty names the columns, in any order: x, y (pixels of the

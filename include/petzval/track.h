@@ -1,4 +1,4 @@
-// What of a shot changes from frame to frame: focus, aperture, zoom, any number of the look. Component
+// Values of a shot that change from frame to frame: focus, aperture, zoom, any number of the look. Component
 // petzval::files.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace petzval {
 
-// What a track says of one frame; what it does not say is the file's or the user's.
+// Values of a track for one frame; unset values are the file's or the user's.
 struct TrackedFrame {
     CameraChoice camera;
     std::optional<PixelPosition> focus_pixel;  // whose depth in this frame is focused
@@ -46,7 +46,7 @@ public:
 
     // A rack: "1001:80,45" is a pixel in a frame, "1024:3.2" a distance in metres. Errors: InvalidArgument.
     static Result<Track> rack(const std::vector<std::string>& keys);
-    // Takes over what the other one changes. Errors: InvalidArgument where both change the same.
+    // Adds the values of another track. Errors: InvalidArgument if both change the same value.
     Status add(Track other);
 
     // The pixels whose depth has to be known to make these frames, by the frame in which it is measured.

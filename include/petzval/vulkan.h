@@ -1,6 +1,7 @@
 /* The pass for real time, recorded into a host's own command buffer: colour and depth that are on the GPU in,
  * the picture that a lens would have taken out, on the GPU. Part of libpetzval.so where it was built with
- * Vulkan. docs/gpu.md says how it is used, examples/embed_vulkan.cpp shows it, every line explained.
+ * Vulkan. docs/reference/devices.md says how it is used, examples/embed_vulkan.cpp shows it, every line
+ * explained.
  *
  * - Instance, device, queue, command buffers and images are the host's. What is ours is made by
  * petzval_pass_open() and petzval_pass_resize(), never by petzval_pass_record(): that allocates nothing on

@@ -36,7 +36,8 @@ private:
     Returned (*call_)(void*, Arguments...);
 };
 
-// What a host implements to lend its threads. Results never depend on the width nor on who runs what.
+// Interface for a host that lends its threads. Results depend neither on the width nor on the thread that
+// runs a body.
 class PETZVAL_API Workers {
 public:
     Workers() = default;
@@ -44,8 +45,8 @@ public:
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    // How many bodies of one run() may be under way at the same time, the calling thread's included. At
-    // least 1; the same for as long as the object lives.
+    // Number of bodies of one run() that may run at the same time, the calling thread included. At least 1;
+    // constant for the object's lifetime.
     virtual int width() const = 0;
     // Calls body(i) once for each i in 0…count-1, on any threads, in any order, and returns when all have
     // returned. Bodies throw nothing, need no other body to be under way, and never call run(). Several

@@ -1,5 +1,5 @@
-// What three words mean, wherever they decide something: opaque, same surface, in front of. Who asks names a
-// law from this file, so that each of its numbers stands once and beside its reason.
+// Definitions of three terms: opaque, same surface, in front of. Code that decides by them uses a law from
+// this file, so that each number stands once and beside its reason.
 //
 // Radii are signed circles of confusion in pixels, smaller is nearer.
 #pragma once
@@ -39,7 +39,7 @@ inline bool same_surface_by_depth(float ratio, float a_m, float b_m) {
 inline bool is_in_front(float nearer_px, float farther_px, float by_px) {
     return nearer_px < farther_px - by_px;
 }
-// Of a light that is dimmed tap by tap: the next pixels of a surface that slopes by less than a pixel of
+// Step of a light that is dimmed tap by tap: the next pixels of a surface that slopes by less than a pixel of
 // radius per pixel lie outside the pupil as the light sees them.
 constexpr float kOwnTapPx = 0.02f;
 constexpr float kOwnPupilPx = 1;     // of a light whose pupil is known in 8 x 8 points: its surface may tilt

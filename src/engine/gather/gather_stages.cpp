@@ -10,7 +10,7 @@
 namespace petzval::engine {
 namespace {
 
-// Where the article's picture is wholly blurred, and its far part, px, if nothing else is asked for.
+// Radii from which the article's picture, and its far part, are fully blurred by default, px.
 constexpr float kBlurredPx = 1, kFarBlurredPx = 1.2f;
 
 // |CoC| is that of infinity in much of a picture, and so the distance of the outermost taps to the bit: they

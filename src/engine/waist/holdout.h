@@ -1,4 +1,4 @@
-// What stands between the picture's light and its destination: a matte with depth that is not blurred.
+// A holdout between the picture's light and its destination: a matte with depth that is not blurred.
 #pragma once
 
 #include "engine/waist/engine.h"

@@ -1,4 +1,4 @@
-// What an engine may take: job.max_memory_bytes against what it knows it needs.
+// Memory limits of an engine: job.max_memory_bytes against its known needs.
 #pragma once
 
 #include "engine/waist/engine.h"

@@ -1,4 +1,4 @@
-// What is chosen of an engine: what all understand, and its own options alone.
+// Choices of an engine: those all engines understand, and its own options.
 #pragma once
 
 #include "petzval/engine_options.h"
@@ -42,7 +42,7 @@ struct EngineOptions {
         const Own* const held = std::get_if<Own>(&own);
         return held ? *held : kAsUsual;
     }
-    // Of engines gather and sprites.
+    // Light options of engines gather and sprites.
     const SpriteOptions& lights() const {
         return std::holds_alternative<SpritesOwn>(own) ? of<SpritesOwn>().lights : of<GatherOwn>().lights;
     }

@@ -13,7 +13,7 @@ class Stopwatch {
 public:
     explicit Stopwatch(std::vector<StageTime>& stages) : stages_(stages) {}
 
-    // What was done since the last lap; a stage that comes again adds to its own.
+    // Records the work since the last lap; a repeated stage adds to its entry.
     void lap(const char* stage, std::uint64_t bytes = 0, std::uint64_t multiply_adds = 0) {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();

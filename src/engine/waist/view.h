@@ -30,8 +30,7 @@ struct SampleLayer {
     bool marks_guesses = false;  // alone, in place of `colour`: 1 where a surface was guessed, else 0
 };
 
-// What is known of a picture without the things in front; then Samples::deep holds them both. Empty: no
-// plate.
+// Background of a picture without the objects in front; then Samples::deep holds them both. Empty: no plate.
 struct CleanPlate {
     View<const Rgba> colour;
     View<const float> coc_px;
@@ -40,11 +39,11 @@ struct CleanPlate {
     CleanPlate part(const Rect& r) const { return {colour.part(r), coc_px.part(r), all}; }
 };
 
-// What was rendered, with radii in place of depths. All pictures are of one size.
+// The rendered input, with radii instead of depths. All pictures have one size.
 struct Samples {
     View<const Rgba> colour;   // premultiplied; the front view of `deep` where that is given
     View<const float> coc_px;  // signed radius, + behind focus
-    // Where `colour` is a layer of a picture: that picture. Empty otherwise.
+    // If `colour` is a layer of a picture: that picture. Empty otherwise.
     View<const Rgba> picture;
     // Both with the light that was taken out of them to be drawn by itself: what continues behind an edge is
     // as bright as what shows. Empty: none was.
@@ -52,8 +51,8 @@ struct Samples {
     // Every sample of every pixel, when more is known than its front view (deep files, hidden layers); then
     // colour and coc_px are not all there is to hit. Empty otherwise.
     CocSamplesView deep;
-    // What a coverage below 1 in `deep` means. True: as in deep files, each sample dims what is behind it in
-    // its pixel, as thin fog does. False: it is the share of the pixel's area that a surface fills, and
+    // Meaning of a coverage below 1 in `deep`. True: as in deep files, each sample dims the samples behind it
+    // in its pixel, like thin fog. False: it is the share of the pixel's area that a surface fills, and
     // others lie beside it.
     bool deep_dims_itself = false;
     CleanPlate plate;
@@ -66,7 +65,7 @@ struct Samples {
     View<const float> depth_m;                      // planar, may hold misses; empty where radii were given
     float nearest_coc_px = 0, farthest_coc_px = 0;  // smallest and largest radius anywhere in the frame
 
-    // What decisions look at, so that those of all layers agree.
+    // The picture that decisions look at, so that those of all layers agree.
     View<const Rgba> judged() const { return picture.empty() ? colour : picture; }
     // Rows y0…y1-1 alone.
     Samples rows(int y0, int y1) const;
@@ -80,7 +79,7 @@ struct OpenEdges {
 
 struct EngineView;
 
-// Which part of the frame is seen.
+// The visible part of the frame.
 struct SeenWindow {
     OpenEdges open_edges;
     // What this is a part of, for what an engine must know of all the frame; null: it is all of it.
@@ -89,7 +88,7 @@ struct SeenWindow {
 
 struct Services {
     const device::Device* device = nullptr;  // what draws; never null
-    // What may outlive this frame, of this lens, size and quality alone; never null.
+    // Memory that may outlive this frame, for this lens, size and quality; never null.
     device::Memory* memory = nullptr;
     Workers* workers = &one_thread();  // never null
     Progress* progress = nullptr;      // never null
@@ -108,8 +107,7 @@ struct EngineView {
     int height() const { return samples.colour.height(); }
     const EngineView& all() const { return window.whole ? *window.whole : *this; }
     EngineView with_all_light() const;
-    // Rows y0…y1-1 as a view of their own, while this one lasts. The edges towards the other rows count as
-    // open.
+    // Rows y0…y1-1 as a separate view, while this one lasts. The edges towards the other rows count as open.
     EngineView rows(int y0, int y1) const;
 };
 
