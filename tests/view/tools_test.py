@@ -32,6 +32,14 @@ def free_port():
 
 
 class ToolsTest(window.WindowTest):
+    def test_nothing_that_is_saved_replaces_a_picture_that_the_window_reads(self):
+        before = list(self.contents("table.exr", "truth.exr"))
+        os.symlink("truth.exr", os.path.join(self.shared, "link.exr"))
+        for line in ("shot table.exr", "shot link.exr", "save table.exr", "save_look truth.exr", "save_lens table.exr"):
+            _, err = self.do("wait\n%s\nexpect no error\n" % line, "table.exr", "--against", "truth.exr", code=2)
+            self.assertIn("would replace the input", err)
+        self.assertEqual(list(self.contents("table.exr", "truth.exr")), before)
+
     def test_curves_that_are_bent_make_another_lens_that_can_be_saved(self):
         out, _ = self.do("""
             wait
