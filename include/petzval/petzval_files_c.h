@@ -51,7 +51,7 @@ PETZVAL_C_API petzval_status petzval_files_inspect(const char* path, petzval_sho
  * layers. truth_samples: lens samples per pixel for the truth; 0: no truth. Errors: unsupported. */
 PETZVAL_C_API petzval_status petzval_files_make_scene(const char* name, int width, int height, uint64_t seed,
                                                       int truth_samples, petzval_shot_file** file);
-/* The shot, for petzval_defocus(). Its layers have no `out`: a host gives layers of its own that point at the
+/* The shot, for petzval_defocus(). Its layers have no `out`: a host gives separate layers that point at the
  * same colour. Lives as long as the file. */
 PETZVAL_C_API const petzval_shot* petzval_files_shot(const petzval_shot_file* file);
 /* Truth of a scene; null where there is none. Lives as long as the file. */
