@@ -51,7 +51,7 @@ struct HalfPicture {
     Plane coc_px;
 };
 
-// As a texture unit reads it: bilinear, clamped; (x, y) in cells, centres at whole numbers.
+// Reads like a texture unit: bilinear, clamped; (x, y) in cells, centres at whole numbers.
 template <typename Read>
 auto bilinear(float x, float y, const Read& read) {
     const int u = int(std::floor(x)), v = int(std::floor(y));
