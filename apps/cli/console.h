@@ -21,7 +21,7 @@ void detail(const std::string& line);   // with -v
 void warning(const std::string& line);  // unless -q; "petzval: warning: …"
 // Any of these, and failure().
 void say(Say how, const std::string& line);
-// Always; "petzval: …". Fields are spoken of by their flags, or as they stand in a file.
+// Prints "petzval: …". Fields appear as their flags, or as they stand in a file.
 enum class Words { Flags, Fields };
 void failure(const std::string& line, Words words = Words::Flags);
 

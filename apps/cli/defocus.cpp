@@ -14,7 +14,7 @@
 namespace petzval::cli {
 namespace {
 
-// What a run may ask for beside what a loop asks for.
+// Callbacks of a run, in addition to those of a loop.
 ShotRunHost with_picture(FrameLoopHost loop, const DefocusFlags& flags) {
     ShotRunHost host;
     static_cast<FrameLoopHost&>(host) = std::move(loop);
@@ -52,7 +52,7 @@ Status make_shot(const DefocusFlags& flags) {
 
 ShotRunHost picture_host(const DefocusFlags& flags) {
     FrameLoopHost loop;
-    // The bar is taken off the screen before a line is said.
+    // Removes the bar from the screen before a line is printed.
     const auto bar = std::make_shared<std::unique_ptr<ProgressLine>>();
     loop.say = [bar](Say how, const std::string& line) {
         bar->reset();

@@ -56,7 +56,7 @@ struct DefocusFlags {
     static std::string default_kernel_cache();
     std::string kernel_cache_folder() const;  // empty: none
     SessionSettings session() const;
-    // What they say of a run, of many frames or of one picture.
+    // The flags as settings of a run, of many frames or of one picture.
     ShotRunSettings settings() const;
 
 private:
@@ -70,7 +70,7 @@ private:
     void check_display() const;
 };
 
-// How a run of one picture speaks on this program's terminal, and is asked to end.
+// Messages, progress and cancelling of a run of one picture on this program's terminal.
 ShotRunHost picture_host(const DefocusFlags& flags);
 
 }  // namespace petzval::cli

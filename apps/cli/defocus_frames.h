@@ -30,7 +30,7 @@ struct TrackFlags {
     std::vector<std::string> rack_in_metres() const;
 };
 
-// Whether the flags are about more than one frame. Throws UsageError where they do not fit each other.
+// True if the flags describe more than one frame. Throws UsageError if they contradict each other.
 bool is_sequence(const DefocusFlags& flags);
 
 }  // namespace petzval::cli

@@ -102,7 +102,7 @@ const Rows& flags_by_field() {
     return all;
 }
 
-// What is said in place of a flag that nobody typed, and how the message ends.
+// Words instead of a flag that was not typed, and the end of the message.
 struct OtherWords {
     std::string words;
     std::function<std::string(const std::string&)> ending;

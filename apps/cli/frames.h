@@ -47,13 +47,13 @@ bool is_sequence(const FrameFlags& frames, const std::vector<std::string>& input
 
 // The record of a frame that a verb made.
 Result<FrameRecord> record_of(const Result<Json>& report);
-// What the loop says and asks, on this program's terminal.
+// Messages and questions of the loop on this program's terminal.
 FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run);
 // Once a loop has ended: throws FramesFailed where some of its frames failed.
 Status ended(const Status& done, const std::vector<int>& frames, const std::vector<int>& failed);
 
-// Makes all of them, one after the other; one that fails does not keep the others from being made. Errors:
-// those of the list and of files that lack, before any frame is made; Cancelled. Throws FramesFailed.
+// Makes all frames in order; a failing frame does not stop the others. Errors: those of the list and of
+// missing files, before any frame is made; Cancelled. Throws FramesFailed.
 Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work);
 
 }  // namespace petzval::cli

@@ -264,7 +264,7 @@ Status make_table(TableFlags& flags) {
     return finish(flags, std::move(report), mount, texture->lens, watch);
 }
 
-// What shows beside the middle of the picture alone.
+// True for choices that show only off the middle of the picture.
 bool is_off_axis(const LookRow& row) {
     for (const char* flag : {"--cats-eye", "--lateral-colour", "--add-lateral-colour",
                              "--add-field-curvature", "--coma", "--astigmatism", "--distortion"})

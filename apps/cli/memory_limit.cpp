@@ -33,7 +33,7 @@ std::optional<std::size_t> number_in(const fs::path& path) {
     return std::nullopt;  // missing, or "max"
 }
 
-// What others in a group hold; pages of files are given back when memory runs short.
+// Bytes held by others in a group; file pages are released when memory runs short.
 std::size_t held_by_others(const fs::path& group) {
     std::ifstream file(group / "memory.stat");
     std::size_t held = 0;

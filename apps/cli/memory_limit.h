@@ -1,4 +1,4 @@
-// What a system lets this process take: of a memory cgroup (containers, farms), or of ulimit -v.
+// The memory that the system lets this process take: by a memory cgroup (containers, farms), or ulimit -v.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ struct MemoryLimit {
     std::size_t bytes = 0;  // that are left for work; 0: no limit, or none below the machine's memory
     std::string name;       // for messages
     std::string setting;    // what a user would change
-    // How high the setting has to be for work of so many bytes.
+    // The setting needed for work of that many bytes.
     std::function<std::size_t(std::size_t)> for_bytes;
 
     // Ends a message that says how much work takes, as "… at least 234M …": which setting is enough. Empty:

@@ -14,7 +14,7 @@
 
 namespace petzval::cli {
 
-// What to do with files that are already there.
+// Treatment of existing files.
 struct OverwriteFlags {
     bool overwrite = false, no_clobber = false, update = false;
 
@@ -30,7 +30,7 @@ struct OverwriteFlags {
                          const MadeWith* made_with = nullptr) const;
 };
 
-// From scene-linear light to a display picture; only for PNG.
+// Settings from scene-linear light to a display picture; only for PNG.
 struct DevelopFlags : DisplayChoice {
     void add_to(Verb& verb);
     // Throws UsageError for the first that was typed: `why` it has no effect ends the sentence.

@@ -1,5 +1,5 @@
-// What was done, for programs: the --json report. Keys are described in docs/reference/report.md; the parts
-// that every host writes are petzval/records.h's.
+// The --json report of a run. docs/reference/report.md describes its keys; petzval/records.h has the parts
+// that every host writes.
 #pragma once
 
 #include "petzval/records.h"
@@ -44,8 +44,8 @@ Json window_json(const Rect& window);
 // One line where `indent` is below 0.
 std::string report_text(const Json& report, int indent = 2);
 Status write_report(const Json& report, const std::string& path);
-// What a verb found: as text on standard output, and as a report where --json names a file; the report alone
-// where that is "-". Errors: OutputFailed.
+// Prints a verb's result as text on standard output, and as a report if --json names a file; only the report
+// if that is "-". Errors: OutputFailed.
 Status tell(const std::string& text, const Json& report, const std::string& json);
 
 }  // namespace petzval::cli
