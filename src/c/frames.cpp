@@ -189,7 +189,7 @@ petzval_status take_codes(petzval_session& session, Asked& asked, const petzval_
     if (wanted->window.empty()) wanted->window = asked.compared.place.display_window;
     if (const Status ok = check_codes(into, wanted->window); !ok) return fail(ok.error());
     if (const Status ok = asked.read(look); !ok) return fail(ok.error());
-    asked.control.codes = std::move(*wanted);
+    asked.control.codes = *wanted;
     const auto frame = session.session.take(asked.shot.job, asked.look, asked.control);
     if (!frame) return fail(frame.error());
     if (frame->codes.empty()) return fail(PETZVAL_UNSUPPORTED, "a view of an engine has no codes");
