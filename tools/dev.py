@@ -160,11 +160,11 @@ def lint(*words):
 
 
 def check(*_):
-    """formatting, layers, sizes, prose, headers that compile alone, the C interface, clang-tidy on changed files"""
+    """formatting, layers, sizes, density, prose, headers that compile alone, the C interface, clang-tidy on changed files"""
     make("release", "petzval_shared", "petzval_bench")
     failed = []
     for command in (["./dev", "format", "--check"], [sys.executable, "tools/check_layers.py"],
-                    [sys.executable, "tools/check_sizes.py"], [sys.executable, "tools/check_prose.py"], [sys.executable, "tools/check_headers.py"],
+                    [sys.executable, "tools/check_sizes.py"], [sys.executable, "tools/check_density.py"], [sys.executable, "tools/check_prose.py"], [sys.executable, "tools/check_headers.py"],
                     [sys.executable, "tools/check_abi.py", "build/release"],
                     ["./dev", "lint"]):
         start = time.monotonic()

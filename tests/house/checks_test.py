@@ -6,6 +6,9 @@ import tempfile
 import unittest
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+import check_density  # noqa: E402
+
 LONG_BODY = "    step();\n" * 60
 
 
@@ -72,6 +75,21 @@ class Checks(unittest.TestCase):
         self.assert_clean("check_layers.py", {"src/image/a.cpp": '// --fstop\nauto a = "give camera.f_number -- or b--c";\n',
                                               "src/image/a_test.cpp": 'auto a = "--fstop";\n',
                                               "apps/cli/a.cpp": 'auto a = "--fstop";\n'})
+
+    def test_a_crowded_folder_is_found(self):
+        files = {f"src/image/a{i}.cpp": "" for i in range(41)}
+        self.assert_found("check_density.py", files, "files in src/image: 41, more than 40")
+        files.pop("src/image/a0.cpp")
+        self.assert_clean("check_density.py", files)
+
+    def test_chains_of_commas_and_nested_ternaries_are_counted(self):
+        for code, chained, nested in (("a = 1, b = 2;", 1, 0), ("if (c) x.a += f(1, 2), ++y;", 1, 0),
+                                      ("int a = 1, b = 2;", 0, 0), ("f(a = 1, b);", 0, 0), ("a = {1, 2};", 0, 0),
+                                      ("x = a ? b : c;", 0, 0), ("x = a ? b : c ? d : e;", 0, 1),
+                                      ("f(a ? b : c, d ? e : g);", 0, 0), ('s = "?, a = 1, b = 2;";', 0, 0)):
+            text = check_density.STRIP.sub("", f"void f() {{ {code} }}")
+            self.assertEqual(check_density.chained(text), chained, code)
+            self.assertEqual(check_density.nested_ternaries(text), nested, code)
 
     def test_a_long_function_is_found_in_any_form(self):
         for head in ("int long_one() {\n", "Result<A<B>> C::long_one(int a,\n          int b) const {\n",
