@@ -89,8 +89,9 @@ BrightPoints::Rest BrightPoints::rest(int first_row, int last_row) const {
     rest.input_ = frame_.rows(first_row, last_row);
     EngineView& input = rest.input_;
     const auto first_in = [&](int row) {
-        const auto row_of = [](const Sprite& s) { return int(s.y); };
-        return std::size_t(std::ranges::lower_bound(sprites_, row, {}, row_of) - sprites_.begin());
+        const auto is_above = [](const Sprite& s, int y) { return int(s.y) < y; };
+        return std::size_t(std::lower_bound(sprites_.begin(), sprites_.end(), row, is_above) -
+                           sprites_.begin());
     };
     const std::size_t begin = first_in(first_row), end = first_in(last_row);
     if (begin == end) return rest;
