@@ -27,6 +27,7 @@ ALLOWED = {
     "device": MODEL,
     "device/cpu": MODEL | {"laws", "colour", "device", "engine/waist"},
     "device/vulkan": MODEL | {"laws", "colour", "device", "engine/waist"},
+    "device/webgl": MODEL | {"laws", "colour", "device", "engine/waist"},
     "engine/waist": MODEL | {"laws"},
     "engine/samples": MODEL | {"laws", "engine/waist"},
     "engine/lights": WAIST,
@@ -48,7 +49,7 @@ ALLOWED = {
     "lens_facts": LENS,
     "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session"},
     "c/files": PIXELS | {"c", "names", "scene", "session", "sequence", "shot", "files"},
-    "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "depth", "views", "look", "glare"},
+    "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "device/webgl", "depth", "views", "look", "glare"},
 }
 # What tests beside the code may see as well.
 TESTS = {

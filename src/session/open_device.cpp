@@ -8,6 +8,9 @@
 #ifdef PETZVAL_VULKAN
 #include "device/vulkan/vulkan_device.h"
 #endif
+#ifdef PETZVAL_WEBGL
+#include "device/webgl/webgl_device.h"
+#endif
 
 #include <algorithm>
 #include <charconv>
@@ -58,8 +61,8 @@ std::optional<std::size_t> number_of(const std::string& choice) {
 }
 
 // A device that lives for ever, as one that is shared.
-std::shared_ptr<const device::Device> the_cpu() {
-    return {&device::cpu_device(), [](const auto*) {}};
+std::shared_ptr<const device::Device> that_lives(const device::Device& device) {
+    return {&device, [](const auto*) {}};
 }
 
 Error refused(ErrorCode code, const std::string& message) {
@@ -75,7 +78,10 @@ Result<std::shared_ptr<const device::Device>> opened(std::size_t number) {
 }  // namespace
 
 Result<std::shared_ptr<const device::Device>> open_device(const std::string& choice) {
-    if (choice == "cpu") return the_cpu();
+    if (choice == "cpu") return that_lives(device::cpu_device());
+#ifdef PETZVAL_WEBGL
+    if (choice == "webgl") return that_lives(device::webgl_device());
+#endif
     const auto number = number_of(choice);
     if (choice != "gpu" && choice != "auto" && !number)
         return refused(ErrorCode::InvalidArgument,
@@ -85,7 +91,7 @@ Result<std::shared_ptr<const device::Device>> open_device(const std::string& cho
         if (choices)
             for (std::size_t i = 0; i < choices->size(); ++i)
                 if (!(*choices)[i].is_software && (*choices)[i].lacks.empty()) return opened(i);
-        return the_cpu();
+        return that_lives(device::cpu_device());
     }
     if (!choices) return refused(choices.error().code, choice + ": " + choices.error().message);
     if (choices->empty())
