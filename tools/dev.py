@@ -216,7 +216,8 @@ def web_test(*words):
     """[ARGS…]: builds the lens lab and tests it in a headless Chromium; ARGS go to Python's unittest"""
     make("release", "petzval_cli")
     run(sys.executable, "tools/web.py", program())
-    run("/usr/bin/python3", "tests/web/lab_test.py", program(), *words)  # Debian's: selenium is its package
+    for test in sorted(ROOT.glob("tests/web/*_test.py")):
+        run("/usr/bin/python3", test, program(), *words)  # Debian's: selenium is its package
 
 
 def wheel(*_):

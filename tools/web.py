@@ -1,4 +1,4 @@
-"""Builds the lens lab into build/web: web/lab, petzval's lens rooms as WebAssembly, and a page per lens.
+"""Builds the lens lab into build/web: web/lab, petzval's rooms as WebAssembly, a scene, and a page per lens.
 
 Usage: web.py PETZVAL [--serve]; --serve: then serves it on loopback.
 """
@@ -28,8 +28,13 @@ def build(petzval):
     run("cmake", "--build", KERNEL)
     shutil.rmtree(SITE, ignore_errors=True)
     shutil.copytree(ROOT / "web/lab", SITE)
-    for name in ("petzval-lab.js", "petzval-lab.wasm"):
-        shutil.copy(KERNEL / name, SITE)
+    for name in ("lab", "picture"):
+        for kind in ("js", "wasm"):
+            shutil.copy(KERNEL / f"petzval-{name}.{kind}", SITE)
+    scene = KERNEL / "night.bin.gz"
+    if not scene.exists():  # Debian's Python: numpy is its package
+        run("/usr/bin/python3", "tools/scene_textures.py", petzval, "night", "480", "270", scene)
+    shutil.copy(scene, SITE)
     run(sys.executable, "tools/lens_pages.py", petzval, KERNEL / "lenses")
     shutil.copytree(KERNEL / "lenses", SITE / "lenses")
 

@@ -1,6 +1,6 @@
 """The lens lab in a headless Chromium: discs beside the program's, every control, links, sizes, and what the page does without.
 
-Usage: /usr/bin/python3 lab_test.py PETZVAL (Debian's Python: selenium is its package), after ./dev web.
+Usage: pages.py says it.
 """
 import base64
 import gzip
@@ -8,72 +8,12 @@ import json
 import pathlib
 import shutil
 import subprocess
-import sys
 import tempfile
-import threading
 import unittest
+import urllib.parse
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/cli"), str(ROOT / "tools")]
-from pictures import read_exr  # noqa: E402
-from web import SITE, server_of  # noqa: E402
-
-from selenium import webdriver  # noqa: E402
-from selenium.webdriver.chrome.service import Service  # noqa: E402
-from selenium.webdriver.common.by import By  # noqa: E402
-from selenium.webdriver.support.ui import WebDriverWait  # noqa: E402
-
-PETZVAL = sys.argv.pop(1)
-SECONDS = 120
-
-
-def browser():
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage"):
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    made = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-    made.set_script_timeout(SECONDS)
-    return made
-
-
-class Page(unittest.TestCase):
-    site = SITE
-
-    @classmethod
-    def setUpClass(cls):
-        cls.server = server_of(cls.site)
-        threading.Thread(target=cls.server.serve_forever, daemon=True).start()
-        cls.origin = f"http://127.0.0.1:{cls.server.server_port}"
-        cls.browser = browser()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.quit()
-        cls.server.shutdown()
-
-    def open(self, fragment="", width=1280, height=900):
-        self.browser.set_window_size(width, height)
-        self.browser.get("about:blank")
-        self.browser.get(f"{self.origin}/index.html{fragment}")
-        WebDriverWait(self.browser, SECONDS).until(
-            lambda b: b.execute_script('return document.getElementById("lab").getAttribute("aria-busy") === "false"'))
-
-    def text(self, name):
-        return self.browser.execute_script("return document.getElementById(arguments[0]).textContent", name)
-
-    def ask(self, call, **args):
-        """A call of the page's kernel; pixels come as a list."""
-        done = self.browser.execute_async_script("""
-            const [call, args, finish] = arguments;
-            lab.kernel.ask(call, args).then(({ result }) => finish(result?.pixels ? { ...result, pixels: Array.from(result.pixels) } : result),
-                                            (error) => finish({ refused: error.message }));""", call, args)
-        self.assertFalse(isinstance(done, dict) and "refused" in done, done)
-        return done
-
-    def complaints(self):
-        return [entry["message"] for entry in self.browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+from pages import PETZVAL, SECONDS, SITE, By, Page, WebDriverWait
+from pictures import read_exr
 
 
 class Lab(Page):
@@ -151,24 +91,24 @@ class Lab(Page):
                 self.assertEqual(self.browser.execute_script("return lab.state.lens.name"), "doublet")
 
     def test_no_request_leaves_the_origin(self):
-        self.browser.get_log("performance")
+        self.requests()
         self.open()
-        asked = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
-        urls = [event["params"]["request"]["url"] for event in asked if event["method"] == "Network.requestWillBeSent"]
+        urls = self.requests()
         self.assertTrue(any(url.endswith(".js") for url in urls), urls)
         self.assertEqual([url for url in urls if not url.startswith((self.origin, "blob:", "data:", "about:"))], [])
 
     def test_it_fits_a_phone(self):
         for width in (360, 768):
-            # A window is never that narrow in headless mode; the device's metrics are.
-            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 700, "deviceScaleFactor": 2, "mobile": True})
+            self.narrow(width)
             self.open()
             self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), width)
-        self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def test_what_goes_over_the_wire_is_small(self):
-        packed = sum(len(gzip.compress(path.read_bytes(), 9)) for path in SITE.iterdir() if path.is_file())
-        self.assertLessEqual(packed, 400_000)
+        self.requests()
+        self.open()
+        paths = {SITE / urllib.parse.urlparse(url).path.lstrip("/") for url in self.requests() if url.startswith(self.origin)}
+        self.assertGreater(len(paths), 10)
+        self.assertLessEqual(sum(len(gzip.compress(path.read_bytes(), 9)) for path in paths), 400_000)
 
     def test_a_patents_table_becomes_a_lens(self):
         self.open()

@@ -12,7 +12,7 @@ const STRIP_PX = [-60, -40, -20, -8, 8, 20, 40, 60];
 const kernel = new Kernel();
 
 let { state, problem } = fromFragment(location.hash.slice(1));
-let lenses = [], facts = null, factsAsked = null, section = null, disc = null, spot = null, exposure = 0;
+let lenses = [], facts = null, factsAsked = null, section = null, disc = null, spot = null, exposure = 0, picture = null;
 
 function complain(sentence) {
   $("problem").textContent = sentence ?? "";
@@ -36,13 +36,13 @@ function camera(coc_px, scale = 1) {
 }
 
 /** Asks, draws, and tells what went wrong; a call that a newer one replaced is none of our business any more. */
-async function drawn(slot, call, args, draw) {
+async function drawn(slot, call, args, draw, tell = complain) {
   try {
     const { result, ms } = await kernel.ask(call, args, slot);
     draw(result, ms);
     return true;
   } catch (error) {
-    if (!(error instanceof Replaced)) complain(error.message);
+    if (!(error instanceof Replaced)) tell(error.message);
     return false;
   }
 }
@@ -65,10 +65,11 @@ async function update({ lensChanged = false } = {}) {
   if (lensChanged) factsAsked = askFacts();
   await factsAsked;
   const coarse = Math.abs(state.light.coc_px) > 16 ? 0.25 : 0;
-  if (coarse) drawn("disc", "disc", discArgs(state.light.coc_px, coarse), (found, ms) => showDisc(found, ms, coarse));
-  drawn("exact", "disc", discArgs(state.light.coc_px), (found, ms) => showDisc(found, ms, 1));
+  if (coarse) drawn("disc", "disc", discArgs(state.light.coc_px, coarse), (found, ms) => showDisc(found, ms, coarse), () => {});
+  drawn("exact", "disc", discArgs(state.light.coc_px), (found, ms) => showDisc(found, ms, 1), (sentence) => ($("told").textContent = sentence));
   askSection();
-  STRIP_PX.forEach((px, i) => drawn(`strip${i}`, "disc", discArgs(px / 2, 0.5), (found) => drawDisc($("strip").children[i].firstChild, found, px / 4, exposure)));
+  picture?.update({ moving: !lensChanged });
+  STRIP_PX.forEach((px, i) => drawn(`strip${i}`, "disc", discArgs(px / 2, 0.5), (found) => drawDisc($("strip").children[i].firstChild, found, px / 4, exposure), () => {}));
 }
 
 async function askFacts() {
@@ -161,6 +162,24 @@ async function useText(text, name) {
   }
 }
 
+/** Loads the part "Your picture", which most visitors of a lens do not need. */
+async function showPicture() {
+  $("picture-open").disabled = true;
+  try {
+    const { openPicture } = await import("./picture.js");
+    $("picture").hidden = false;
+    picture = await openPicture(() => ({ lens: state.lens, facts, picture: state.picture }), (change) => {
+      Object.assign(state.picture, change);
+      history.replaceState(null, "", "#" + toFragment(state));
+    });
+    $("picture-offer").hidden = true;
+  } catch (error) {
+    $("picture").hidden = true;
+    $("picture-open").disabled = false;
+    complain(`The picture cannot be shown: ${error.message}.`);
+  }
+}
+
 function wire() {
   buildControls($("controls"), CONTROLS, (field, value) => {
     const usual = CONTROLS.find((control) => control.field === field).value;
@@ -182,6 +201,7 @@ function wire() {
     $("exposure-value").textContent = `${exposure > 0 ? "+" : ""}${exposure.toFixed(1)} stops`;
     if (disc) drawDisc($("disc"), disc, disc.coc_px, exposure);
   };
+  $("picture-open").onclick = showPicture;
   $("search").oninput = listLenses;
   $("lens").onchange = () => $("lens").value && use({ name: $("lens").value, text: null, look: {} });
   $("disc").onclick = lightUp;
@@ -235,5 +255,5 @@ async function start() {
 }
 
 // For the browser's console, and for tests.
-globalThis.lab = { kernel, use, useText, place, discArgs, get state() { return state; } };
+globalThis.lab = { kernel, use, useText, place, discArgs, showPicture, get state() { return state; }, get picture() { return picture; } };
 start();

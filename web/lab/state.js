@@ -35,10 +35,13 @@ export const CAMERA = { focal_mm: 0, sensor_mm: 36, f_number: 0, focus_m: 0, wid
 /** Where the light stands: signed radius of its circle of confusion, and its place in half diagonals. */
 export const LIGHT = { coc_px: 40, x: 0, y: 0 };
 
+/** The picture of the page: 0 stands for the scene's own. */
+export const PICTURE = { f_number: 0, focus_m: 0 };
+
 /** @typedef {{name: string, text: ?string, look: Object<string, number|boolean>}} LensChoice */
 
 export function freshState() {
-  return { lens: { name: "doublet", text: null, look: {} }, camera: { ...CAMERA }, light: { ...LIGHT } };
+  return { lens: { name: "doublet", text: null, look: {} }, camera: { ...CAMERA }, light: { ...LIGHT }, picture: { ...PICTURE } };
 }
 
 const VERSION = 1;
@@ -55,7 +58,7 @@ const differing = (value, usual) => Object.fromEntries(Object.entries(value).fil
 
 /** The fragment of a link, without "#": "lens=1." and base64url of JSON that holds what differs from the default. */
 export function toFragment(state) {
-  const told = { lens: state.lens, camera: differing(state.camera, CAMERA), light: differing(state.light, LIGHT) };
+  const told = { lens: state.lens, camera: differing(state.camera, CAMERA), light: differing(state.light, LIGHT), picture: differing(state.picture, PICTURE) };
   return `lens=${VERSION}.${toBase64Url(JSON.stringify(told))}`;
 }
 
@@ -76,7 +79,7 @@ export function fromFragment(fragment) {
 
 class BadState extends Error {}
 
-/** Numbers within the camera's and the light's fields; everything else is refused. */
+/** Numbers within the camera's, the light's and the picture's fields; everything else is refused. */
 function checked(told) {
   const numbers = (given, usual) => {
     for (const [key, value] of Object.entries(given ?? {}))
@@ -92,5 +95,6 @@ function checked(told) {
     lens: { name: lens.name, text: lens.text ?? null, look: lens.look ?? {} },
     camera: numbers(told.camera, CAMERA),
     light: numbers(told.light, LIGHT),
+    picture: numbers(told.picture, PICTURE),
   };
 }
