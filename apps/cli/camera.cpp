@@ -14,15 +14,28 @@ Result<ImageScale> parse_breathing(const std::string& text) {
     return parse_name(text, kWords);
 }
 
+// A number, or kWideOpen.
+Result<double> parse_f_number_or_open(const std::string& text) {
+    if (text == "open") return kWideOpen;
+    auto number = parse_f_number(text);
+    if (!number) return Error{number.error().code, number.error().message + ", or open"};
+    return number;
+}
+
 }  // namespace
 
-void CameraFlags::add_to(Verb& verb, const std::string& owner) {
+void CameraFlags::add_to(Verb& verb, const std::string& owner, bool may_be_open) {
     const std::string heading = "Camera (numbers of the " + owner + " hold unless given here)";
-    FlagGroup(verb, heading)
-        .value("--focal-length", "MM", "focal length, such as 85mm", parse_length_mm, focal_length_mm)
+    FlagGroup group(verb, heading);
+    group.value("--focal-length", "MM", "focal length, such as 85mm", parse_length_mm, focal_length_mm)
         .value("--sensor-width", "MM", "width of the sensor that the picture spans, such as 36mm",
-               parse_length_mm, sensor_width_mm)
-        .value("--fstop", "N", "f-number, such as 2.8", parse_f_number, f_number)
+               parse_length_mm, sensor_width_mm);
+    if (may_be_open)
+        group.value("--fstop", "N|open", "f-number, such as 2.8; open: the widest aperture of the lens",
+                    parse_f_number_or_open, f_number);
+    else
+        group.value("--fstop", "N", "f-number, such as 2.8", parse_f_number, f_number);
+    group
         .value("--aperture-diameter", "MM", "aperture diameter instead of an f-number, such as 25mm",
                parse_length_mm, aperture_diameter_mm)
         .value("--focus", "M", "focus distance along the axis, such as 2.5m, 120cm or 8ft", parse_length_m,
@@ -47,12 +60,14 @@ std::vector<std::string> CameraFlags::given() const {
 }
 
 CameraChoice CameraFlags::choice() const {
+    const bool wide_open = f_number == kWideOpen;
     return {focal_length_mm,
             sensor_width_mm,
-            f_number,
+            wide_open ? std::nullopt : f_number,
             focus_distance_m,
             image_scale.value_or(ImageScale::Rendered),
-            aperture_diameter_mm};
+            aperture_diameter_mm,
+            wide_open};
 }
 
 void CameraFlags::check() const {

@@ -14,13 +14,17 @@
 
 namespace petzval::cli {
 
+// CameraFlags::f_number of --fstop open.
+inline constexpr double kWideOpen = 0;
+
 struct CameraFlags {
     std::optional<double> focal_length_mm, sensor_width_mm, f_number, focus_distance_m;
     std::optional<ImageScale> image_scale;
     std::optional<double> aperture_diameter_mm;
 
-    // `owner` is what holds the numbers that are not given: "file" or "scene".
-    void add_to(Verb& verb, const std::string& owner);
+    // `owner` is what holds the numbers that are not given: "file" or "scene". may_be_open: of a verb that
+    // has a lens, so that --fstop takes its widest aperture.
+    void add_to(Verb& verb, const std::string& owner, bool may_be_open = false);
     // True if any was given.
     bool any() const;
     // Names of those given, for messages.

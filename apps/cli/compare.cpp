@@ -1,9 +1,12 @@
 // petzval compare: how far a picture is from a reference.
 #include "petzval/compare.h"
 
+#include "petzval/views.h"
+
 #include "console.h"
 #include "frames.h"
 #include "input.h"
+#include "output.h"
 #include "report.h"
 #include "run_flags.h"
 #include "verbs.h"
@@ -22,9 +25,10 @@ namespace {
 
 struct CompareFlags {
     InputFlags reference;  // --layer and --view-name hold for both
-    std::string test, mask;
+    std::string test, mask, output;
     double exposure = 1;
     FrameFlags frames;
+    OverwriteFlags overwrite;
     RunFlags run;
 };
 
@@ -109,9 +113,43 @@ Json report_of(const Comparison& c, const CompareFlags& flags) {
     return report;
 }
 
+// "1  12,340 to 44,372   RMS 30.5 codes" for each of the worst places.
+std::string places_text(const Difference& difference) {
+    std::string text;
+    for (std::size_t i = 0; i < difference.worst.size(); ++i) {
+        const Rect& r = difference.worst[i].area;
+        std::array<char, 120> line{};
+        std::snprintf(line.data(), line.size(), "%-16s%d,%d to %d,%d: %.2f codes RMS\n",
+                      ("worst place " + std::to_string(i + 1)).c_str(), r.x0, r.y0, r.x1, r.y1,
+                      255 * difference.worst[i].rms);
+        text += line.data();
+    }
+    return text;
+}
+
+Json places_json(const Difference& difference) {
+    Json places = Json::array();
+    for (const WorstPlace& place : difference.worst)
+        places.push_back({{"area", {place.area.x0, place.area.y0, place.area.x1, place.area.y1}},
+                          {"rms_codes", 255 * place.rms}});
+    return places;
+}
+
+Status write_heat_map(const CompareFlags& flags, const Difference& difference) {
+    if (flags.output.empty()) return Done{};
+    std::vector<Rect> areas;
+    for (const WorstPlace& place : difference.worst) areas.push_back(place.area);
+    const Picture map = heat_map(difference.error.view(), areas);
+    const Status done = write_developed(flags.output, map.view(), {.tone = ToneCurve::None, .dither = false},
+                                        !flags.overwrite.no_clobber);
+    if (done) note("wrote " + flags.output);
+    return done;
+}
+
 struct Compared {
     Comparison comparison;
     Json report;
+    std::string places;
 };
 
 Result<Compared> compare_files(const CompareFlags& flags) {
@@ -135,31 +173,47 @@ Result<Compared> compare_files(const CompareFlags& flags) {
     }
     if (Status same = check_sizes(flags, reference, test, mask); !same) return same.error();
     const double read_s = watch.seconds();
-    const auto result =
-        compare(reference.view(), test.view(), {.exposure = flags.exposure, .mask = mask.view()});
+    const CompareSettings settings{.exposure = flags.exposure, .mask = mask.view()};
+    const auto result = compare(reference.view(), test.view(), settings);
     if (!result) return result.error();
+    const auto where = difference(reference.view(), test.view(), settings);
+    if (!where) return where.error();
+    if (Status done = write_heat_map(flags, *where); !done) return done.error();
     Json report = report_of(*result, flags);
+    report["worst_places"] = places_json(*where);
+    report["output"] = flags.output.empty() ? Json(nullptr) : Json(flags.output);
     report["non_finite"]["colour"] = broken;
     report["seconds"]["read"] = read_s;
     report["seconds"]["compute"] = watch.seconds() - read_s;
     report["seconds"]["total"] = watch.seconds();
     report["peak_memory_bytes"] = peak_memory_bytes();
-    return Compared{*result, std::move(report)};
+    return Compared{*result, std::move(report), places_text(*where)};
 }
 
 Status compare_pair(const CompareFlags& flags) {
+    if (!flags.output.empty())
+        if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
+            note(*reason);
+            return Done{};
+        }
     const auto compared = compare_files(flags);
     if (!compared) return compared.error();
-    return tell(table(compared->comparison), compared->report, flags.run.json);
+    return tell(table(compared->comparison) + compared->places, compared->report, flags.run.json);
 }
 
 // A row a frame, then the mean and the worst: a shot is as good as its worst frame.
 class ShotTable {
 public:
-    void add(int frame, const Comparison& c) {
+    void add(int frame, const Comparison& c, const std::string& places) {
         rows_ += row(std::to_string(frame), c);
-        sum_.psnr_lin += c.psnr_lin, sum_.psnr_srgb += c.psnr_srgb, sum_.ssim_srgb += c.ssim_srgb;
-        if (count_++ == 0 || c.psnr_lin < worst_.psnr_lin) worst_ = c, worst_frame_ = frame;
+        sum_.psnr_lin += c.psnr_lin;
+        sum_.psnr_srgb += c.psnr_srgb;
+        sum_.ssim_srgb += c.ssim_srgb;
+        if (count_++ == 0 || c.psnr_lin < worst_.psnr_lin) {
+            worst_ = c;
+            worst_frame_ = frame;
+            places_ = places;
+        }
     }
     std::string text() const {
         if (count_ == 0) return "";
@@ -168,7 +222,8 @@ public:
                       "PSNR sRGB dB", "SSIM sRGB", "largest error", "energy ratio");
         std::snprintf(mean.data(), mean.size(), "%-8s%14.2f%14.2f%12.4f\n", "mean", sum_.psnr_lin / count_,
                       sum_.psnr_srgb / count_, sum_.ssim_srgb / count_);
-        return head.data() + rows_ + mean.data() + "worst is frame " + std::to_string(worst_frame_) + "\n";
+        return head.data() + rows_ + mean.data() + "worst is frame " + std::to_string(worst_frame_) + "\n" +
+               places_;
     }
 
 private:
@@ -178,7 +233,7 @@ private:
                       c.psnr_lin, c.psnr_srgb, c.ssim_srgb, c.max_error, c.energy_ratio);
         return text.data();
     }
-    std::string rows_;
+    std::string rows_, places_;
     Comparison sum_{}, worst_{};
     int count_ = 0, worst_frame_ = 0;
 };
@@ -186,7 +241,7 @@ private:
 Status compare_frames(const CompareFlags& all) {
     const auto of_frame = [&](int frame) {
         CompareFlags flags = all;
-        put_frame(frame, {&flags.reference.path, &flags.test, &flags.mask, &flags.run.json});
+        put_frame(frame, {&flags.reference.path, &flags.test, &flags.mask, &flags.output, &flags.run.json});
         return flags;
     };
     ShotTable rows;
@@ -196,6 +251,7 @@ Status compare_frames(const CompareFlags& all) {
         const CompareFlags flags = of_frame(frame);
         FrameWork::Files files{{flags.reference.path, flags.test}, {}};
         if (!flags.mask.empty()) files.inputs.push_back(flags.mask);
+        if (!flags.output.empty()) files.outputs.push_back(flags.output);
         if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
         return files;
     };
@@ -203,7 +259,7 @@ Status compare_frames(const CompareFlags& all) {
         const CompareFlags flags = of_frame(frame);
         auto compared = compare_files(flags);
         if (!compared) return compared.error();
-        rows.add(frame, compared->comparison);
+        rows.add(frame, compared->comparison, compared->places);
         if (!flags.run.json.empty())
             if (Status done = write_report(compared->report, flags.run.json); !done) return done.error();
         return record_of(compared->report);
@@ -219,6 +275,7 @@ void add_compare(Verb& program, Action& chosen) {
                           "how far a picture is from a reference: PSNR, SSIM, largest error, energy",
                           "petzval compare truth.exr out.exr\n"
                           "petzval compare truth.exr out.exr --exposure 0.8 --json - | jq .psnr_lin\n"
+                          "petzval compare truth.exr out.exr -o difference.png\n"
                           "petzval compare truth.####.exr out.####.exr --frames 1001-1100");
     auto flags = std::make_shared<CompareFlags>();
     FlagGroup(verb, "Input")
@@ -230,6 +287,11 @@ void add_compare(Verb& program, Action& chosen) {
         .value("--exposure", "FACTOR", "multiply both by this before they are clipped to 1", parse_positive,
                flags->exposure)
         .reads("--mask", "FILE", "count only pixels where this picture is above one half", flags->mask);
+    FlagGroup(verb, "Output")
+        .writes("-o,--output", "FILE.png",
+                "heat map of the difference in sRGB codes, logarithmic, with the worst places outlined",
+                flags->output);
+    flags->overwrite.add_to(verb, false);
     flags->frames.add_to(verb);
     flags->run.add_json_to(verb);
     flags->run.add_log_to(verb, false);
@@ -237,8 +299,13 @@ void add_compare(Verb& program, Action& chosen) {
         require_argument(verb, flags->reference.path, "REF and TEST");
         require_argument(verb, flags->test, "TEST, the picture to judge");
         flags->run.apply();
+        flags->overwrite.check();
+        if (const auto kind = kind_of_output(flags->output);
+            !flags->output.empty() && (!kind || *kind != FileKind::Png))
+            throw UsageError("-o " + flags->output + ": the name must end in .png");
         flags->reference.read.need_depth = false;
-        const bool many = is_sequence(flags->frames, {flags->reference.path, flags->test}, "", flags->run);
+        const bool many =
+            is_sequence(flags->frames, {flags->reference.path, flags->test}, flags->output, flags->run);
         chosen = [flags, many] { return many ? compare_frames(*flags) : compare_pair(*flags); };
     });
 }

@@ -52,7 +52,11 @@ void DefocusFlags::add_output_to(Verb& verb) {
         .value("--overscan", "PX",
                "room for light that leaves a data window inside the frame: fit, within the frame (default); "
                "auto, as far as the blur reaches; off; or a number of pixels",
-               parse_overscan, overscan_px);
+               parse_overscan, overscan_px)
+        .value("--roi", "X0,Y0,X1,Y1",
+               "render this part of the frame, pixels from the top left up to X1,Y1; the same pixels as in "
+               "the whole frame",
+               parse_region, region);
 }
 
 void DefocusFlags::add_choices_to(Verb& verb) {
@@ -62,7 +66,7 @@ void DefocusFlags::add_choices_to(Verb& verb) {
     input.add_others_to(verb);
     input.add_transfer_to(verb);
     look.add_to(verb, {"Input"});
-    camera.add_to(verb, "file");
+    camera.add_to(verb, "file", true);
     focus.add_to(verb);
     look.add_to(verb, {"Focus"});
     look.add_files_to(verb);
@@ -169,6 +173,7 @@ void DefocusFlags::check_view() const {
     const bool computes = view == ShotView::Beauty || view == ShotView::Alpha;
     const std::string here = " has no effect on --view " + std::string(name_of(view));
     if (!input.holdout.empty() && !computes) throw UsageError("--holdout" + here);
+    if (region && view != ShotView::Beauty) throw UsageError("--roi" + here);
     if (overscan_px && !computes) throw UsageError("--overscan" + here);
     if (!input.mask.empty() && !computes) throw UsageError("--mask" + here);
     if (!input.read.layers.empty() && view != ShotView::Beauty) throw UsageError("--layers" + here);
@@ -193,6 +198,8 @@ void DefocusFlags::check_display() const {
                 "which "
                 "are of one view");
     }
+    if (region && input.read.view_name == kAllViews)
+        throw UsageError("--roi is for one view; --view-name all blurs every view");
     if (view == ShotView::Hidden && *kind != FileKind::Exr)
         throw UsageError("--view hidden is a deep EXR; -o " + output + " is none");
     if (!input.read.layers.empty() && *kind != FileKind::Exr)
@@ -240,6 +247,7 @@ ShotRunSettings DefocusFlags::settings() const {
     settings.look = look.look();
     settings.view = view;
     settings.overscan_px = overscan_px;
+    settings.region = region;
     settings.display = develop, settings.transfer = input.transfer;
     if (ocio.is_on()) settings.display_view = ocio.view, settings.display_space = ocio.space;
     settings.output = output;

@@ -41,6 +41,7 @@ struct DefocusFlags {
     std::string output;
     ShotView view = ShotView::Beauty;
     std::optional<int> overscan_px;  // or one of kOverscan…; not given: kOverscanWithinFrame
+    std::optional<Rect> region;      // --roi
     DevelopFlags develop;
     OcioFlags ocio;
     OverwriteFlags overwrite;

@@ -53,6 +53,7 @@ const Rows& source_flags() {
         {"shot.focus_speed", "--focus-speed"},
         {"shot.overscan_px", "--overscan"},
         {"shot.rack", "--rack"},
+        {"shot.region", "--roi"},
         {"shot.temporal", "--temporal"},
         {"shot.track", "--track"},
     };

@@ -3,6 +3,7 @@
 
 #include "camera.h"
 #include "console.h"
+#include "frames.h"
 #include "guard.h"
 #include "interrupt.h"
 #include "output.h"
@@ -22,6 +23,8 @@ namespace {
 struct MakeFlags {
     std::string name, output, truth, layers;
     bool motion = false;
+    std::optional<int> frame;
+    FrameFlags frames;
     std::optional<int> width, height;
     std::optional<WorldPoint> camera_at, look_at;
     SceneSettings scene;
@@ -59,7 +62,10 @@ void MakeFlags::add_to(Verb& verb) {
                "render so many pixels more on every side, for light that the blur brings in (default 0); the "
                "truth keeps to the frame",
                parse_index, scene.overscan_px)
-        .value("--frame", "N", "frame of a moving scene (default 0)", parse_index, scene.frame)
+        .value("--frame", "N", "frame of a moving scene (default 0)", parse_index, frame)
+        .value("--frames", "LIST",
+               "several frames of a moving scene, such as 0-11; file names hold #### or %04d", parse_frames,
+               frames.frames)
         .value("--samples", "N", "lens samples per pixel of the truth (default 1024)", parse_count,
                scene.truth_samples)
         .value("--pinhole-samples", "N", "samples per pixel of the sharp picture (default 64)", parse_count,
@@ -147,6 +153,14 @@ void MakeFlags::check(const Verb& verb) {
     if (const SceneSummary* known = find_scene(name); motion && (!known || known->frames == 1))
         throw UsageError("--motion has no effect: " + name + " does not move");
     scene.threads = run.threads;
+    refuse_both(frame.has_value(), "--frame", !frames.frames.empty(), "--frames");
+    scene.frame = frame.value_or(0);
+    const bool many = is_sequence(frames, {}, output, run);
+    if (many && frames.frames.empty())
+        throw UsageError("-o " + output + " names many frames: give --frames, such as --frames 0-11");
+    for (const std::string& file : files)
+        if (many && !has_pattern(file))
+            throw UsageError(file + ": the name of many frames holds #### or %04d");
 }
 
 Camera complete(const FoundCamera& found, ImageScale image_scale) {
@@ -259,6 +273,36 @@ Status make_scene(const MakeFlags& all) {
     return finish(flags, camera, image_scale, total, compute_s);
 }
 
+Status make_scenes(const MakeFlags& all) {
+    const auto of_frame = [&](int number) {
+        MakeFlags flags = all;
+        flags.scene.frame = number;
+        put_frame(number, {&flags.output, &flags.truth, &flags.layers, &flags.run.json});
+        flags.run.progress = ProgressMode::Off;
+        return flags;
+    };
+    FrameWork work;
+    work.input = all.output;
+    work.keeps_what_is_there = all.overwrite.no_clobber;
+    work.files = [&](int number) -> Result<FrameWork::Files> {
+        const MakeFlags flags = of_frame(number);
+        FrameWork::Files files{{}, flags.outputs()};
+        if (!flags.run.json.empty()) files.outputs.push_back(flags.run.json);
+        return files;
+    };
+    work.make = [&](int number, bool) -> Result<FrameRecord> {
+        const Stopwatch watch;
+        const MakeFlags flags = of_frame(number);
+        if (Status done = make_scene(flags); !done) return done.error();
+        Json record = new_report("scene make");
+        record["input"] = flags.name;
+        record["output"] = flags.output;
+        record["seconds"]["total"] = watch.seconds();
+        return record_of(Result<Json>(std::move(record)));
+    };
+    return make_frames(all.frames, all.run, work);
+}
+
 Status list_scenes(const RunFlags& run) {
     std::string text;
     Json scenes = Json::array();
@@ -297,12 +341,14 @@ void add_make(Verb& scene, Action& chosen) {
     Verb& verb = add_verb(
         scene, "make", "render a sharp picture with depth and camera numbers, and the ray-traced truth",
         "petzval scene make night -o night.exr\n"
+        "petzval scene make post -o post.####.exr --truth truth.####.exr --frames 20-31\n"
         "petzval scene make fence -o fence.exr --truth truth.exr --width 480 --height 270 --fstop 4");
     auto flags = std::make_shared<MakeFlags>();
     flags->add_to(verb);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
-        chosen = [flags] { return make_scene(*flags); };
+        const bool many = !flags->frames.frames.empty();
+        chosen = [flags, many] { return many ? make_scenes(*flags) : make_scene(*flags); };
     });
 }
 

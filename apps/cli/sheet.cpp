@@ -7,6 +7,7 @@
 #include "console.h"
 #include "frames.h"
 #include "input.h"
+#include "lens/on_picture.h"
 #include "output.h"
 #include "run_flags.h"
 #include "verbs.h"
@@ -31,25 +32,30 @@ struct SheetFlags {
     OverwriteFlags overwrite;
     FrameFlags frames;
     RunFlags run;
+    LensesOnPictureFlags lenses;
 
     bool makes_video() const { return is_video(output); }
 };
 
-// The mean light of the pixels that each pixel of the smaller picture covers; larger ones repeat pixels.
-Picture resized(const Picture& from, int width, int height) {
-    Picture to(width, height);
-    const auto begin = [](int i, int small, int large) { return int(std::int64_t(i) * large / small); };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const int x0 = begin(x, width, from.width()), y0 = begin(y, height, from.height());
-            const int x1 = std::max(x0 + 1, begin(x + 1, width, from.width()));
-            const int y1 = std::max(y0 + 1, begin(y + 1, height, from.height()));
-            Rgba sum;
-            for (int v = y0; v < y1; ++v)
-                for (int u = x0; u < x1; ++u) sum += from(u, v);
-            to(x, y) = (1.0f / float((x1 - x0) * (y1 - y0))) * sum;
-        }
-    return to;
+Status write_sheet(const SheetFlags& flags, const Picture& sheet) {
+    return write_developed(flags.output, sheet.view(),
+                           {.tone = ToneCurve::None, .dither = false, .threads = flags.run.threads},
+                           !flags.overwrite.no_clobber);
+}
+
+Status make_lens_sheet(SheetFlags& flags) {
+    if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
+        note(*reason);
+        return Done{};
+    }
+    const LensViewSheet settings{.cell_width_px = flags.width_px.value_or(480),
+                                 .columns = flags.columns,
+                                 .captions = !flags.no_labels};
+    const auto sheet = flags.lenses.make(flags.input, settings, flags.develop, flags.run);
+    if (!sheet) return sheet.error();
+    if (Status done = write_sheet(flags, *sheet); !done) return done;
+    note("wrote " + flags.output);
+    return Done{};
 }
 
 class Sheet {
@@ -106,15 +112,12 @@ private:
             const int whole = std::clamp(int(std::lround(length)), 2, 65536);
             return all_.makes_video() ? whole / 2 * 2 : whole;
         };
-        width_ = even(wanted), height_ = even(wanted * first.height() / wide);
+        width_ = even(wanted);
+        height_ = even(wanted * first.height() / wide);
     }
 
     Status place(int frame, Picture cell) {
-        if (!all_.no_labels) {
-            const int scale = std::clamp(width_ / 240, 1, 4);
-            draw_text(cell, 4 * scale + 1, 4 * scale + 1, std::to_string(frame), scale, {0, 0, 0, 1});
-            draw_text(cell, 4 * scale, 4 * scale, std::to_string(frame), scale, {0.9f, 0.9f, 0.9f, 1});
-        }
+        if (!all_.no_labels) draw_caption(cell, std::to_string(frame));
         if (!all_.makes_video()) {
             cells_.push_back(std::move(cell));
             return Done{};
@@ -137,26 +140,10 @@ private:
     Status write() {
         if (all_.makes_video() ? !video_ : cells_.empty())
             return Error{ErrorCode::InvalidFile, "no frame could be read"};
-        const Status done = all_.makes_video() ? video_->finish() : write_sheet();
+        const Status done =
+            all_.makes_video() ? video_->finish() : write_sheet(all_, contact_sheet(cells_, all_.columns));
         if (done) note("wrote " + all_.output);
         return done;
-    }
-
-    Status write_sheet() {
-        const int count = int(cells_.size());
-        const int square = int(std::ceil(std::sqrt(double(count) * height_ / width_)));
-        const int columns = std::min(count, all_.columns > 0 ? all_.columns : std::max(1, square));
-        const int rows = (count + columns - 1) / columns;
-        constexpr int kGap = 2;
-        Picture sheet(columns * (width_ + kGap) - kGap, rows * (height_ + kGap) - kGap, {0, 0, 0, 1});
-        for (int i = 0; i < count; ++i)
-            for (int y = 0; y < height_; ++y)
-                std::copy_n(cells_[std::size_t(i)].row(y), width_,
-                            sheet.row(i / columns * (height_ + kGap) + y) +
-                                std::ptrdiff_t(i % columns) * (width_ + kGap));
-        return write_developed(all_.output, sheet.view(),
-                               {.tone = ToneCurve::None, .dither = false, .threads = all_.run.threads},
-                               !all_.overwrite.no_clobber);
     }
 
     const SheetFlags& all_;
@@ -170,12 +157,18 @@ void check(SheetFlags& flags, const Verb& verb) {
     require_argument(verb, flags.output, "-o SHEET.png");
     flags.run.apply();
     flags.overwrite.check();
-    flags.input.read.need_depth = false;
+    flags.lenses.check(verb, flags.input);
     const auto kind = kind_of_output(flags.output);
     if (!flags.makes_video() && (!kind || *kind != FileKind::Png))
         throw UsageError("-o " + flags.output + ": the name must end in .png, or .mp4, .mov, .mkv or .webm");
     if (!flags.makes_video() && flags.rate) throw UsageError("--rate has no effect on a contact sheet");
     if (flags.makes_video() && flags.columns > 0) throw UsageError("--columns has no effect on a video");
+    if (flags.lenses.is_on()) {
+        if (flags.makes_video()) throw UsageError("--lenses makes a sheet of one picture: -o FILE.png");
+        if (!flags.frames.given().empty() || has_pattern(flags.input.path))
+            throw UsageError("--lenses shows one picture: give one frame of " + flags.input.path);
+        return;
+    }
     if (!is_sequence(flags.frames, {flags.input.path}, "", flags.run))
         throw UsageError("no frames: the input has no #### or %04d");
 }
@@ -183,21 +176,26 @@ void check(SheetFlags& flags, const Verb& verb) {
 }  // namespace
 
 void add_sheet(Verb& program, Action& chosen) {
-    Verb& verb = add_verb(program, "sheet", "the frames of a shot on one contact sheet, or as a short video",
+    Verb& verb = add_verb(program, "sheet",
+                          "the frames of a shot, or one picture through several lenses, on a contact sheet",
                           "petzval sheet out.####.exr -o sheet.png\n"
-                          "petzval sheet out.####.exr -o shot.mp4 --frames 1001-1100");
+                          "petzval sheet out.####.exr -o shot.mp4 --frames 1001-1100\n"
+                          "petzval sheet night.exr --lenses doublet,biotar,petzval-portrait -o lenses.png");
     auto flags = std::make_shared<SheetFlags>();
     flags->input.add_to(verb);
     flags->input.add_transfer_to(verb);
+    flags->lenses.add_to(verb, flags->input);
     FlagGroup(verb, "Output")
         .writes("-o,--output", "FILE",
                 "a contact sheet (.png), or a video by ffmpeg (.mp4, .mov, .mkv, .webm)", flags->output)
         .value("--columns", "N", "frames beside each other (default: about as many as below each other)",
                parse_count, flags->columns)
-        .value("--width", "PX", "width of a frame (default 320 on a sheet, its own in a video, 1920 at most)",
-               parse_size_px, flags->width_px)
+        .value(
+            "--width", "PX",
+            "width of a frame (default 320 on a sheet, 480 with --lenses, its own in a video, 1920 at most)",
+            parse_size_px, flags->width_px)
         .value("--rate", "FPS", "frames a second of a video (default 24)", parse_positive, flags->rate)
-        .on("--no-labels", "no frame numbers", flags->no_labels);
+        .on("--no-labels", "no frame numbers or lens names", flags->no_labels);
     flags->overwrite.add_to(verb, false);
     flags->develop.add_to(verb);
     flags->frames.add_to(verb);
@@ -205,7 +203,7 @@ void add_sheet(Verb& program, Action& chosen) {
     flags->run.add_log_to(verb, true);
     when_typed(verb, [flags, &verb, &chosen] {
         check(*flags, verb);
-        chosen = [flags] { return Sheet(*flags)(); };
+        chosen = [flags] { return flags->lenses.is_on() ? make_lens_sheet(*flags) : Sheet(*flags)(); };
     });
 }
 

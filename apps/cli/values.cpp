@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 namespace petzval::cli {
 namespace {
@@ -170,6 +171,18 @@ Result<PixelPosition> parse_pixel(const std::string& text) {
     const auto y = parse_integer(parts ? parts->second : "", -kMost, kMost, "");
     if (!x || !y) return no("must be a pixel, column and row from the top left, as 480,270");
     return PixelPosition{*x, *y};
+}
+
+Result<Rect> parse_region(const std::string& text) {
+    constexpr int kMost = 1 << 24;
+    std::vector<int> ends;
+    std::stringstream parts(text);
+    for (std::string part; std::getline(parts, part, ',');)
+        if (const auto end = parse_integer(part, -kMost, kMost, "")) ends.push_back(*end);
+    const bool fits = std::count(text.begin(), text.end(), ',') == 3 && ends.size() == 4;
+    if (!fits || ends[0] >= ends[2] || ends[1] >= ends[3])
+        return no("must be the part's first column and row and the ones after its last, as 480,270,640,360");
+    return Rect{ends[0], ends[1], ends[2], ends[3]};
 }
 
 Result<WorldPoint> parse_place(const std::string& text) {

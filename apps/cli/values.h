@@ -44,6 +44,8 @@ Result<Interval> parse_range(const std::string& text);
 Result<Interval> parse_range_m(const std::string& text);
 // "480,270".
 Result<PixelPosition> parse_pixel(const std::string& text);
+// "480,270,640,360": two corners, the second beyond the first.
+Result<Rect> parse_region(const std::string& text);
 // "1.5,0,-3": three finite numbers.
 Result<WorldPoint> parse_place(const std::string& text);
 

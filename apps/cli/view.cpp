@@ -1,5 +1,6 @@
 // petzval view: a window. apps/view draws it; this file holds its flags and the services it needs: command
 // lines, frames written like those of defocus, OpenColorIO.
+#include "petzval/lens_facts.h"
 #include "petzval/scene.h"
 
 #include "console.h"
@@ -145,6 +146,18 @@ Result<Picture> ocio_codes(const OcioFlags& flags, View<const Rgba> light) {
     return copy;
 }
 
+// With the widest aperture of the lens as a number, where --fstop open asks for it.
+Result<CameraFlags> camera_of(const ViewFlags& flags) {
+    CameraFlags camera = flags.camera;
+    if (!camera.choice().wide_open) return camera;
+    const auto lens = Lens::open(flags.look.look().lens);
+    if (!lens) return lens.error();
+    const auto widest = widest_f_number(*lens);
+    if (!widest) return widest.error();
+    camera.f_number = *widest;
+    return camera;
+}
+
 Status open_window(const ViewFlags& flags) {
     if (flags.ocio.is_on())
         if (Status fine = flags.ocio.try_out(); !fine) return fine;
@@ -164,9 +177,11 @@ Status open_window(const ViewFlags& flags) {
     // One that stands still has as many: its camera may move.
     for (int frame = 0; !flags.scene.empty() && frame < std::max(48, setup.scene_frames); ++frame)
         setup.frames.push_back(frame);
-    setup.source = flags.input.source(flags.camera);
+    const auto camera = camera_of(flags);
+    if (!camera) return camera.error();
+    setup.source = flags.input.source(*camera);
     setup.source.lights = flags.points;
-    setup.choice.camera = flags.camera.choice();
+    setup.choice.camera = camera->choice();
     setup.choice.look = flags.look.look();
     setup.choice.develop = flags.develop.settings(false, flags.input.transfer, flags.run.threads);
     setup.choice.develop.dither = false;  // the same codes wherever a part of it begins

@@ -6,6 +6,8 @@
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
+#include <vector>
+
 namespace petzval {
 
 struct CompareSettings {
@@ -31,5 +33,21 @@ struct Comparison {
 // Errors: InvalidArgument when sizes differ, a picture or the mask is empty.
 PETZVAL_API Result<Comparison> compare(View<const Rgba> reference, View<const Rgba> test,
                                        const CompareSettings& settings = {});
+
+// A square of a picture that differs more than its surroundings.
+struct WorstPlace {
+    Rect area;
+    double rms = 0;  // of R, G, B as sRGB codes 0…1
+};
+
+struct Difference {
+    Plane error;  // largest |difference| of R, G, B as sRGB codes 0…1; 0 where the mask does not count
+    std::vector<WorstPlace> worst;  // the worst first; squares that differ, none touching another
+};
+
+// The pixels and places that differ. The squares are 1/24 of the longer side, at least 8 pixels. Errors:
+// those of compare().
+PETZVAL_API Result<Difference> difference(View<const Rgba> reference, View<const Rgba> test,
+                                          const CompareSettings& settings = {}, int most_places = 5);
 
 }  // namespace petzval

@@ -5,6 +5,7 @@
 #include "petzval/lens.h"
 #include "petzval/result.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct LensSummary {
 
 // Every lens that --lens knows by name: the ideal one, the curves, the prescriptions.
 PETZVAL_API std::vector<LensSummary> lens_list();
+
+// The smallest f-number that the lens was built or drawn for; none for the ideal lens, which has no limit.
+// Errors: those of lens_facts().
+PETZVAL_API Result<std::optional<double>> widest_f_number(const Lens& lens);
 
 // Third-order sums in mm, Welford's form; undercorrected spherical aberration has s1 > 0. c1, c2: axial and
 // lateral colour between the short and the long wavelength.

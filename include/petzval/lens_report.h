@@ -1,11 +1,18 @@
-// The sheet of a lens: everything it does to light, as one HTML page that needs nothing else; and the sheets
-// that show many lenses side by side. Part of petzval::files.
+// The sheet of a lens: everything it does to light, as one HTML page that needs nothing else; the sheets that
+// show many lenses side by side; and one picture through many lenses. Part of petzval::files.
 #pragma once
 
+#include "petzval/develop.h"
 #include "petzval/export.h"
+#include "petzval/image.h"
+#include "petzval/look.h"
 #include "petzval/result.h"
+#include "petzval/session.h"
+#include "petzval/shot.h"
 #include "petzval/workers.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,5 +42,35 @@ PETZVAL_API std::string lens_index(const std::vector<LensCard>& cards);
 PETZVAL_API std::string lens_comparison(const std::vector<LensCard>& cards);
 // The contact sheet as a separate SVG file.
 PETZVAL_API std::string lens_contact_sheet(const std::vector<LensCard>& cards);
+
+// A picture through one lens.
+struct LensView {
+    Picture light;     // the display window, scene-linear
+    std::string lens;  // as it was asked for
+    double f_number = 0;
+    std::vector<std::string> warnings = {};
+};
+
+// The look with another lens, its own aperture shape and added aberrations kept. f_number: empty for the
+// lens's widest aperture, or the shot's where the lens has no limit; a lens that does not open so far is wide
+// open, with a warning. shot.camera.f_number is changed. Errors: those of Lens::open() and Session::take();
+// InvalidArgument naming missing camera numbers.
+PETZVAL_API Result<LensView> through_lens(Session& session, Shot& shot, Look look, const std::string& lens,
+                                          std::optional<double> f_number = {}, const Control& control = {});
+
+struct LensViewSheet {
+    std::vector<std::string> lenses = {};  // names or lens files; at least one
+    std::optional<double> f_number = {};   // of all; empty: each lens wide open
+    int cell_width_px = 480;               // height by the shape of the picture
+    int columns = 0;                       // 0: a sheet about as wide as high
+    bool captions = true;                  // lens and f-number in each picture
+    DevelopSettings develop = {};
+};
+
+// All lenses on one sheet, display-linear. `seen` is called after each lens; may be empty. Errors: those of
+// through_lens(), with the lens before the message.
+PETZVAL_API Result<Picture> lens_view_sheet(Session& session, Shot& shot, const Look& look,
+                                            const LensViewSheet& sheet, const Control& control = {},
+                                            const std::function<void(const LensView&)>& seen = {});
 
 }  // namespace petzval

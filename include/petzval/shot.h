@@ -48,6 +48,9 @@ struct CameraChoice {
     // Diameter of the entrance pupil, instead of an f-number: f_number is focal_length_mm / this. Ignored
     // beside f_number.
     std::optional<double> aperture_diameter_mm = {};
+    // The widest aperture of the look's lens, where it has one, instead of an f-number: ShotRun and
+    // make_picture() put it into the camera. Ignored beside the two above.
+    bool wide_open = false;
 };
 
 // Location of a shot's files. Messages name these fields as read.layer, depth.kind, shot.behind,

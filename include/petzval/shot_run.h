@@ -80,6 +80,9 @@ struct ShotRunSettings {
     Look look = {};
     ShotView view = ShotView::Beauty;
     std::optional<int> overscan_px = {};
+    // The part of the display window that is rendered and written, counted from its top left: the same pixels
+    // as in the whole frame. For ShotView::Beauty of one view.
+    std::optional<Rect> region = {};
     DisplayChoice display = {};             // of PNG outputs
     std::optional<Transfer> transfer = {};  // of codes, read and written, as the user said it
     // What ShotRunHost::to_display shows, by name; compared by Update. Empty: the display choice.
@@ -110,8 +113,8 @@ struct ShotRunSettings {
 // "focus_at": [x, y], "depth": FILE, "depth_kind", "depth_channel", "layer", "layers": […], "behind",
 // "holdout", "mask", "merge": […], "lights", "track", "rack": […], "focus_speed", "temporal", "existing":
 // "replace" | "keep" | "update", "missing": "fail" | "skip" | "black", "retries", "report", "view",
-// "overscan", "exposure", "contrast", "tone", "threads", "max_memory_bytes"}. Errors: InvalidArgument naming
-// an unknown key or a wrong value.
+// "overscan", "region": [x0, y0, x1, y1], "exposure", "contrast", "tone", "threads", "max_memory_bytes"}.
+// Errors: InvalidArgument naming an unknown key or a wrong value.
 PETZVAL_API Result<ShotRunSettings> shot_run_from_json(const std::string& text);
 
 struct ShotRunHost : FrameLoopHost {

@@ -50,4 +50,17 @@ void draw_text(View<Rgba> picture, int x0, int y0, const std::string& text, int 
 int text_width_px(const std::string& text, int scale);
 int text_height_px(int scale);
 
+// Errors of 0…1 as a heat map, display-linear: black below a tenth of a code of 255, then blue, orange and
+// white on a logarithmic scale, with a legend in codes unless the picture is too small; the places are
+// outlined and numbered from 1.
+Picture heat_map(View<const float> error, const std::vector<Rect>& places);
+
+// Each pixel is the mean light of the pixels that it covers; a larger picture repeats pixels.
+Picture resized(const Picture& from, int width, int height);
+// A caption at the top left of a picture, display-linear, as large as its width allows.
+void draw_caption(View<Rgba> picture, const std::string& text);
+// Pictures of one size beside each other with thin black gaps, row by row. columns 0: a sheet about as wide
+// as high. Requires: a picture.
+Picture contact_sheet(const std::vector<Picture>& cells, int columns = 0);
+
 }  // namespace petzval

@@ -214,10 +214,7 @@ std::string size_text(int width, int height) {
     return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
-}  // namespace
-
-Result<Comparison> compare(View<const Rgba> reference, View<const Rgba> test,
-                           const CompareSettings& settings) {
+Result<Input> checked(View<const Rgba> reference, View<const Rgba> test, const CompareSettings& settings) {
     const auto invalid = [](std::string text) { return Error{ErrorCode::InvalidArgument, std::move(text)}; };
     const std::string size = size_text(reference.width(), reference.height());
     if (reference.empty() || test.empty()) return invalid("compare: a picture has no pixels");
@@ -231,11 +228,81 @@ Result<Comparison> compare(View<const Rgba> reference, View<const Rgba> test,
     if (!(settings.exposure > 0) || !std::isfinite(settings.exposure))
         return invalid("compare: compare.exposure is " + std::to_string(settings.exposure) +
                        "; it must be positive");
+    return Input{reference, test, mask, float(settings.exposure)};
+}
 
-    const Input in{reference, test, mask, float(settings.exposure)};
+// Sums of squares over each square of the grid, and the error of each pixel.
+struct Squares {
+    int side = 0, across = 0, down = 0;
+    std::vector<double> sums;
+};
+
+Squares squares_of(const Input& in, Plane& error) {
+    Squares squares;
+    squares.side = std::max(8, std::max(in.width(), in.height()) / 24);
+    squares.across = (in.width() + squares.side - 1) / squares.side;
+    squares.down = (in.height() + squares.side - 1) / squares.side;
+    squares.sums.assign(std::size_t(squares.across) * std::size_t(squares.down), 0);
+    for (int y = 0; y < in.height(); ++y)
+        for (int x = 0; x < in.width(); ++x) {
+            if (!in.counts(x, y)) continue;
+            const Rgba &a = in.reference(x, y), &b = in.test(x, y);
+            double& sum =
+                squares.sums[std::size_t(y / squares.side * squares.across) + std::size_t(x / squares.side)];
+            for (const auto& [from, to] : {std::pair(a.r, b.r), {a.g, b.g}, {a.b, b.b}}) {
+                const double d = difference(from * in.exposure, to * in.exposure, Transfer::Srgb);
+                sum += d * d;
+                error(x, y) = std::max(error(x, y), float(std::abs(d)));
+            }
+        }
+    return squares;
+}
+
+// The worst squares; a neighbour of a chosen one is left out.
+std::vector<WorstPlace> worst_of(const Squares& squares, const Rect& frame, int most) {
+    std::vector<WorstPlace> worst;
+    std::vector<int> order;
+    for (int i = 0; i < int(squares.sums.size()); ++i)
+        if (squares.sums[std::size_t(i)] > 0) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+        return squares.sums[std::size_t(a)] > squares.sums[std::size_t(b)];
+    });
+    for (const int i : order) {
+        if (int(worst.size()) >= most) break;
+        const int x = i % squares.across * squares.side, y = i / squares.across * squares.side;
+        const Rect area = Rect{x, y, x + squares.side, y + squares.side}.intersected(frame);
+        const bool touches = std::any_of(worst.begin(), worst.end(), [&](const WorstPlace& other) {
+            return !area.grown(1).intersected(other.area).empty();
+        });
+        if (touches) continue;
+        const double values = 3.0 * area.width() * area.height();
+        worst.push_back({area, std::sqrt(squares.sums[std::size_t(i)] / values)});
+    }
+    return worst;
+}
+
+}  // namespace
+
+Result<Difference> difference(View<const Rgba> reference, View<const Rgba> test,
+                              const CompareSettings& settings, int most_places) {
+    const auto in = checked(reference, test, settings);
+    if (!in) return in.error();
+    Difference result;
+    result.error = Plane(in->width(), in->height());
+    const Squares squares = squares_of(*in, result.error);
+    result.worst = worst_of(squares, result.error.rect(), most_places);
+    return result;
+}
+
+Result<Comparison> compare(View<const Rgba> reference, View<const Rgba> test,
+                           const CompareSettings& settings) {
+    const auto input = checked(reference, test, settings);
+    if (!input) return input.error();
+    const Input& in = *input;
     const std::shared_ptr<Workers> workers = workers_of(settings.threads, settings.workers);
     const ChannelSums sums = channel_sums(in, *workers);
-    if (sums.pixels == 0) return invalid("compare: no pixel of the mask is above 0.5");
+    if (sums.pixels == 0)
+        return Error{ErrorCode::InvalidArgument, "compare: no pixel of the mask is above 0.5"};
     Comparison result;
     result.psnr_lin = psnr(sums.squares[std::size_t(Transfer::Linear)], sums.pixels);
     result.psnr_srgb = psnr(sums.squares[std::size_t(Transfer::Srgb)], sums.pixels);

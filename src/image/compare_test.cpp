@@ -1,5 +1,7 @@
 #include "petzval/compare.h"
 
+#include "image/srgb.h"
+
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -134,6 +136,33 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
     EXPECT_NE(message(compare(p.view(), p.view(), {.mask = nothing.view()})).find("mask"), std::string::npos);
     EXPECT_NE(message(compare(p.view(), p.view(), {.exposure = 0})).find("compare.exposure"),
               std::string::npos);
+}
+
+TEST(Difference, IsThatOfTheCodesAndNamesThePlaceThatDiffers) {
+    const Picture a = flat(96, 48, 0.2f);
+    Picture b = a.clone();
+    for (int y = 16; y < 24; ++y)
+        for (int x = 40; x < 48; ++x) b(x, y).g = 0.5f;
+    const auto found = difference(a.view(), b.view()).value();
+    const double codes = double(srgb_code(0.5f)) - double(srgb_code(0.2f));
+    EXPECT_NEAR(found.error(44, 20), codes, 1e-6);
+    EXPECT_EQ(found.error(39, 20), 0);
+    ASSERT_EQ(found.worst.size(), 1u);
+    EXPECT_EQ(found.worst[0].area, (Rect{40, 16, 48, 24}));         // squares of 8: 96 / 24 is less
+    EXPECT_NEAR(found.worst[0].rms, codes / std::sqrt(3.0), 1e-6);  // one channel of three
+}
+
+TEST(Difference, PlacesDoNotTouchAndComeWorstFirst) {
+    const Picture a = noise(240, 120, 1), b = noise(240, 120, 2);
+    const auto found = difference(a.view(), b.view(), {}, 6).value();
+    ASSERT_EQ(found.worst.size(), 6u);
+    for (std::size_t i = 1; i < found.worst.size(); ++i) {
+        EXPECT_LE(found.worst[i].rms, found.worst[i - 1].rms);
+        for (std::size_t k = 0; k < i; ++k)
+            EXPECT_TRUE(found.worst[i].area.grown(1).intersected(found.worst[k].area).empty());
+    }
+    EXPECT_TRUE(difference(a.view(), a.view()).value().worst.empty());
+    EXPECT_FALSE(difference(a.view(), flat(3, 3, 0).view()));
 }
 
 }  // namespace

@@ -174,6 +174,15 @@ std::vector<LensSummary> lens_list() {
     return list;
 }
 
+Result<std::optional<double>> widest_f_number(const Lens& lens) {
+    if (lens.kind() == LensModelKind::Ideal) return std::optional<double>();
+    const lens_files::LensFile& file = *lens.contents().file;
+    if (lens.kind() == LensModelKind::Curves) return std::optional(file.curves->f_number);
+    const auto first = optics::first_order(file.lens, file.lens.primary_um);
+    if (!first) return Error{ErrorCode::InvalidFile, lens.name() + ": " + first.error().message};
+    return std::optional(first->f_number);
+}
+
 Result<LensFacts> lens_facts(const Lens& lens) {
     const lens_files::LensFile& file = *lens.contents().file;
     LensFacts facts;

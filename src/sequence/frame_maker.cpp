@@ -1,5 +1,6 @@
 #include "sequence/frame_maker.h"
 
+#include "petzval/lens_facts.h"
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 #include "petzval/version.h"
@@ -65,6 +66,9 @@ MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context)
         made.add("focus.point", plain(point->x, 9) + "," + plain(point->y, 9) + "," + plain(point->z, 9));
     if (settings.view == ShotView::Focus && settings.permissible_radius_px != 1)
         made.add("focus.permissible_radius_px", settings.permissible_radius_px);
+    if (const auto& r = settings.region)
+        made.add("shot.region", std::to_string(r->x0) + "," + std::to_string(r->y0) + "," +
+                                    std::to_string(r->x1) + "," + std::to_string(r->y1));
     if (settings.overscan_px) made.add("shot.overscan_px", double(*settings.overscan_px));
     if (settings.temporal > 0) {
         made.add("shot.temporal", double(settings.temporal));
@@ -112,7 +116,7 @@ Status FrameMaker::make() {
     return Done{};
 }
 
-// What is there already stays.
+// Leaves an existing output alone.
 Status FrameMaker::leave(const std::string& why) {
     note(why);
     record_["skipped"] = why;
@@ -198,8 +202,19 @@ void FrameMaker::name_track() {
         if (by_track && *found) (*found)->origin = "shot.track";
 }
 
+// Sets the widest aperture of the lens; a lens without a limit keeps the f-number of the file.
+Status FrameMaker::open_wide() {
+    const CameraChoice& choice = settings_.source.camera;
+    if (!choice.wide_open || choice.f_number || choice.aperture_diameter_mm) return Done{};
+    const auto widest = widest_f_number(*lens_);
+    if (!widest) return widest.error();
+    if (*widest) shot_.camera.f_number = FoundNumber{**widest, "the widest aperture of " + lens_->name()};
+    return Done{};
+}
+
 Status FrameMaker::choose_camera() {
     if (!needs_camera()) return Done{};
+    if (Status done = open_wide(); !done) return done;
     if (settings_.focus_pixel)
         if (Status done = focus_on_pixel(shot_, *settings_.focus_pixel); !done) return done;
     if (settings_.focus_point)

@@ -58,6 +58,7 @@ private:
     Status look_around();
     void take_behind(SeenElsewhere seen);
     Status choose_camera();
+    Status open_wide();
     Status grow();
     Result<Rect> wanted_window();
     Status grow_to(const Rect& window);
@@ -65,6 +66,9 @@ private:
     DefocusJob job_of(DefocusJob job) const;
     Status compute();
     Status render(const DefocusJob& job);
+    std::optional<Rect> region() const;
+    Status check_region() const;
+    void crop_to_region();
     void report_frame(const DefocusReport& done, double seconds);
     Result<DefocusReport> take(const DefocusJob& job);
     std::optional<CodesWanted> codes_wanted() const;

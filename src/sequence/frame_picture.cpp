@@ -1,4 +1,4 @@
-// What a frame maker does once all is read: room for light, blur, views, files.
+// The second half of a frame maker: room for light, blur, views, files.
 #include "petzval/look_check.h"
 #include "petzval/look_file.h"
 #include "petzval/look_json.h"
@@ -9,6 +9,7 @@
 #include "sequence/words.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace petzval::sequence {
@@ -107,6 +108,7 @@ Json FrameMaker::parameters(const DefocusJob& job) const {
 }
 
 Status FrameMaker::compute() {
+    if (Status fine = check_region(); !fine) return fine;
     auto sharp = settings_.view == ShotView::Depth ? Result<DefocusJob>(DefocusJob{}) : rendered(shot_);
     if (!sharp) return sharp.error();
     DefocusJob job = job_of(std::move(*sharp));
@@ -133,12 +135,53 @@ Status FrameMaker::compute() {
     return Done{};
 }
 
+// The part that is made, in pixels of the frame.
+std::optional<Rect> FrameMaker::region() const {
+    if (!settings_.region) return std::nullopt;
+    const Rect& display = shot_.place.display_window;
+    return settings_.region->moved(display.x0, display.y0).intersected(display);
+}
+
+Status FrameMaker::check_region() const {
+    const auto part = region();
+    if (!part) return Done{};
+    const auto refuse = [](const std::string& why) {
+        return Error{ErrorCode::InvalidArgument, "shot.region " + why, "shot.region"};
+    };
+    if (!is_beauty()) return refuse("has no effect on job.view " + std::string(name_of(settings_.view)));
+    if (!others_.empty()) return refuse("is for one view of a stereo file");
+    if (part->intersected(shot_.place.data_window).empty())
+        return refuse("lies outside of the picture, whose frame is " +
+                      std::to_string(shot_.place.display_window.width()) + " x " +
+                      std::to_string(shot_.place.display_window.height()) + " pixels");
+    return Done{};
+}
+
+// The picture was made in the region alone; the writer crops what the file has beside it.
+void FrameMaker::crop_to_region() {
+    if (!settings_.region) return;
+    const Rect part = *region(), old = shot_.place.data_window;
+    const Rect now = part.intersected(old);
+    const auto crop = [&](Picture& whole) {
+        if (whole.width() != now.width() || whole.height() != now.height())
+            whole = through_window(whole, old, now, Rgba{});
+    };
+    if (!shot_.colour.empty()) crop(shot_.colour);
+    for (FrameLayer& layer : shot_.layers) crop(layer.colour);
+    if (auto* metres = std::get_if<DepthMetres>(&shot_.depth))
+        metres->plane = through_window(metres->plane, old, now, std::numeric_limits<float>::infinity());
+    shot_.place.data_window = now;
+    if (*kind_of_output(settings_.output) == FileKind::Png) shot_.place.display_window = part;
+}
+
 Result<DefocusReport> FrameMaker::take(const DefocusJob& job) {
-    const Control control{
-        .progress = host_.frame_progress, .cancelled = host_.cancelled, .codes = codes_wanted()};
+    const Control control{.progress = host_.frame_progress,
+                          .cancelled = host_.cancelled,
+                          .region = region(),
+                          .codes = codes_wanted()};
     if (!is_beauty()) return session_.defocus(job, control);
     auto taken = session_.take(job, look(), control);
-    // What the look's file holds in vain was said when it was read.
+    // The reader of the look's file has reported choices without effect.
     if (taken)
         for (const Error& idle : check(look()).idle) std::erase(taken->warnings, idle.message);
     return taken;
@@ -149,7 +192,7 @@ std::optional<CodesWanted> FrameMaker::codes_wanted() const {
     const bool is_png = *kind_of_output(settings_.output) == FileKind::Png;
     if (!is_png || !is_beauty() || !settings_.display_view.empty() || shows_radii(look()))
         return std::nullopt;
-    return CodesWanted{.develop = display()};
+    return CodesWanted{.develop = display(), .window = region().value_or(Rect{})};
 }
 
 void FrameMaker::report_frame(const DefocusReport& done, double seconds) {
@@ -184,6 +227,7 @@ Status FrameMaker::render(const DefocusJob& job) {
     for (std::size_t i = 0; i < shot_.layers.size(); ++i) shot_.layers[i].colour = std::move(done->layers[i]);
     view_.panels = std::move(done->panels), view_.hidden = std::move(done->hidden);
     view_.codes = std::move(done->codes);
+    crop_to_region();
     if (is_beauty() && shows_radii(look())) view_.coc_radius_px = red_of(shot_.colour);
     return Done{};
 }

@@ -95,6 +95,7 @@ void MadeWith::add(const ShotSource& source) {
     add("camera.f_number", camera.f_number);
     add("camera.focus_distance_m", camera.focus_distance_m);
     add("camera.aperture_diameter_mm", camera.aperture_diameter_mm);
+    if (camera.wide_open) add("camera.f_number", "open");
     if (camera.image_scale != ImageScale::Rendered) add("camera.image_scale", name_of(camera.image_scale));
 }
 

@@ -34,7 +34,10 @@ Result<ShotRunSettings> with_track(ShotRunSettings settings, const TrackedFrame&
     CameraChoice& camera = settings.source.camera;
     take(tracked.camera.focus_distance_m, camera.focus_distance_m);
     take(tracked.camera.f_number, camera.f_number);
-    if (tracked.camera.f_number) camera.aperture_diameter_mm.reset();
+    if (tracked.camera.f_number) {
+        camera.aperture_diameter_mm.reset();
+        camera.wide_open = false;
+    }
     take(tracked.camera.focal_length_mm, camera.focal_length_mm);
     if (tracked.focus_pixel) settings.focus_pixel = tracked.focus_pixel;
     if (tracked.focus_point) settings.focus_point = tracked.focus_point;

@@ -100,7 +100,11 @@ constexpr Key kCameraKeys[] = {
      [](const Json& v, ShotRunSettings& s) { s.source.camera.focal_length_mm = number_in(v); }},
     {"sensor_width_mm",
      [](const Json& v, ShotRunSettings& s) { s.source.camera.sensor_width_mm = number_in(v); }},
-    {"f_number", [](const Json& v, ShotRunSettings& s) { s.source.camera.f_number = number_in(v); }},
+    {"f_number",
+     [](const Json& v, ShotRunSettings& s) {
+         s.source.camera.wide_open = v == "open";
+         if (v != "open") s.source.camera.f_number = number_in(v);
+     }},
     {"focus_distance_m",
      [](const Json& v, ShotRunSettings& s) { s.source.camera.focus_distance_m = number_in(v); }},
     {"aperture_diameter_mm",
@@ -188,6 +192,12 @@ constexpr Key kKeys[] = {
     {"record", [](const Json& v, ShotRunSettings& s) { s.record_file = text_in(v); }},
     {"report", [](const Json& v, ShotRunSettings& s) { s.report_file = text_in(v); }},
     {"view", [](const Json& v, ShotRunSettings& s) { s.view = choice_in(v, shot_views()); }},
+    {"region",
+     [](const Json& v, ShotRunSettings& s) {
+         const auto ends = numbers_in(v, 4);
+         if (!(ends[0] < ends[2] && ends[1] < ends[3])) throw WrongValue{"is not x0, y0, x1, y1 with x0 < x1 and y0 < y1"};
+         s.region = Rect{int(ends[0]), int(ends[1]), int(ends[2]), int(ends[3])};
+     }},
     {"overscan",
      [](const Json& v, ShotRunSettings& s) {
          s.overscan_px = v.is_string() ? choice_in<int>(v, {{"fit", kOverscanWithinFrame},

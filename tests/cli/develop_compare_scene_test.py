@@ -83,6 +83,29 @@ class Compare(CommandLineTest):
         write_png(self.path("small.png"), [[255] * 8] * 8, channels=1)
         self.refuse(2, "compare", "a.exr", "b.exr", "--mask", "small.png", says=["small.png", "8 x 8"])
 
+    def test_a_heat_map_is_as_large_as_the_pictures_and_the_worst_places_are_named(self):
+        outcome = self.succeed("compare", "a.exr", "b.exr", "-o", "map.png")
+        self.assertIn("worst place 1", outcome.out)
+        self.assertIn("codes RMS", outcome.out)
+        head = self.content("map.png")[16:24]
+        self.assertEqual(struct.unpack(">II", head), (32, 24))
+        report = self.report("compare", "a.exr", "b.exr")
+        self.assertGreater(report["worst_places"][0]["rms_codes"], 0)
+        self.assertEqual(self.report("compare", "a.exr", "a.exr")["worst_places"], [])
+        self.refuse(2, "compare", "a.exr", "b.exr", "-o", "map.exr", says=[".png"])
+
+    def test_frames_of_a_scene_and_their_heat_maps(self):
+        small = ["--width", "32", "--height", "18", "--pinhole-samples", "1"]
+        self.succeed("scene", "make", "post", "-o", "p.##.exr", "--frames", "20-21", *small)
+        self.succeed("scene", "make", "post", "-o", "one.exr", "--frame", "21", *small)
+        self.assertEqual(self.report("compare", "one.exr", "p.21.exr")["psnr_lin"], math.inf)
+        outcome = self.succeed("compare", "p.##.exr", "one.exr", "-o", "d.##.png")
+        self.assertIn("worst is frame 20", outcome.out)
+        self.assertIn("worst place 1", outcome.out)
+        self.assertTrue(self.content("d.20.png") and self.content("d.21.png"))
+        self.refuse(2, "scene", "make", "post", "-o", "q.exr", "--frames", "20-21", *small, says=["####"])
+        self.refuse(2, "scene", "make", "post", "-o", "q.##.exr", *small, says=["--frames"])
+
     def test_png_and_exr_compare_in_linear_light(self):
         code = round(255 * srgb(0.5))
         write_png(self.path("a.png"), [[code] * 96] * 24)

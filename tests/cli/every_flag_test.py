@@ -34,7 +34,7 @@ VALUES = {
     "--holdout": "front.exr", "--mask": "matte.exr", "--transfer": "linear", "--highlight-peak": "40", "--depth-edges": "snap",
     "--focal-length": "80mm", "--sensor-width": "24mm", "--fstop": "4", "--aperture-diameter": "9mm", "--focus": "1.3m",
     "--breathing": "on", "--focus-at": "20,12", "--focus-point": "1,0,2", "--permissible-radius": "3", "--focus-range": "1m,1.5m",
-    "--focus-falloff": "0.3", "--near-scale": "0.5", "--far-scale": "0.5", "--max-radius": "2", "--look": "look.json",
+    "--focus-falloff": "0.3", "--near-scale": "0.5", "--far-scale": "0.5", "--max-radius": "2", "--look": "look.json", "--preset": "bubble",
     "--save-look": "{o}/saved.json", "--lens": "doublet", "--blades": "5", "--blade-rotation": "20", "--blade-curvature": "0.5",
     "--squeeze": "2", "--cats-eye": "0.8", "--focus-mode": "paraxial", "--focus-shift": "-0.2", "--spherical": "3",
     "--axial-colour": "4", "--lateral-colour": "30", "--add-spherical": "9", "--add-at-fstop": "4", "--add-axial-colour": "-0.5",
@@ -54,11 +54,11 @@ VALUES = {
     "--pinhole-samples": "3", "--scene-camera": "2", "--camera-at": "1,1,-1", "--look-at": "1,1,4", "--lit-in": "codes",
     "--depth-blur": "3", "--depth-bits": "8", "--truth": "{o}/truth.exr", "--horizon": "0.3", "--count": "5", "--bits": "16",
     "--at": "20,12", "--within": "0", "--smooth": "0", "--plot": "{o}/plot.svg", "--columns": "3", "--rate": "12",
-    "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
+    "--lenses": "doublet", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
 }
 # By verb, where the value above would be the verb's own or means something else there.
 VALUES_OF = {
-    "scene make": {"--layers": "{o}/hidden.exr"}, "compare": {"--exposure": "2"}, "scene points": {"--width": "300"},
+    "scene make": {"--layers": "{o}/hidden.exr"}, "compare": {"--exposure": "2", "-o": "{o}/map.png"}, "scene points": {"--width": "300"},
     "lens table": {"--width": "960"}, "lens psf": {"--width": "960"},
     "lens report": {"-o": "{o}/else.html"}, "focus-track": {"-o": "{o}/else.csv"}, "develop": {"-o": "{o}/else.png"},
     "sheet": {"-o": "{o}/else.png"}, "scene points": {"-o": "{o}/else.csv", "--width": "300", "--height": "300"},

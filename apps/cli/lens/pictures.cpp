@@ -30,7 +30,7 @@ struct PictureFlags {
     DevelopFlags develop;
     RunFlags run;
 
-    // idle: flags that change nothing of what the verb draws.
+    // idle: flags without effect in this verb.
     void add_lens_to(Verb& verb, const LookFlags::Idle& idle = {}) {
         FlagGroup(verb, "Lens").argument("LENS", "a name of petzval lens list, or a lens file", lens_name);
         look.add_to(verb, {"Lens", "Lens character", "Pupil"}, "--lens", idle);

@@ -1,4 +1,6 @@
 // petzval lens: the lenses there are, and the numbers of each.
+#include "verbs.h"
+
 #include "petzval/lens_facts.h"
 #include "petzval/lens_json.h"
 
@@ -6,7 +8,6 @@
 #include "report.h"
 #include "run_flags.h"
 #include "values.h"
-#include "verbs.h"
 
 #include <array>
 #include <cmath>

@@ -1,13 +1,13 @@
 // petzval lens report: the sheet of a lens as one HTML page, and sheets of all lenses.
-#include "petzval/lens_report.h"
+#include "report.h"
 
 #include "petzval/lens_facts.h"
+#include "petzval/lens_report.h"
 
 #include "console.h"
 #include "guard.h"
 #include "output.h"
 #include "progress.h"
-#include "report.h"
 #include "run_flags.h"
 #include "values.h"
 #include "verbs.h"
