@@ -66,7 +66,7 @@ class Prober:
                 status, said = self.run("defocus", "in.exr", "-o", "out.exr", *words)
                 rule = re.search(r"must (?:be|lie) ([^\n;]*)", said)
                 if status and rule:
-                    return re.sub(r"^a number |, not -?\d+$", "", rule[1])
+                    return re.sub(r"^a number |, not -?[\d.e+]+$", "", rule[1])
         return ""
 
 

@@ -39,6 +39,23 @@ std::vector<std::string> grouped(const std::string& file, const std::vector<Erro
     return sentences;
 }
 
+// The path of a file, which the guard of the run learns, or a link, whose "#" is no frame number.
+Result<std::string> parse_look(const std::string& text) {
+    auto path = parse_text(text);
+    std::error_code ignored;
+    const bool is_link = text.find("lens=") != std::string::npos && !std::filesystem::exists(text, ignored);
+    if (path && !is_link) run_files().reads(*path);
+    return path;
+}
+
+std::string preset_names() {
+    std::vector<std::string> names;
+    for (const LookPreset& preset : look_presets()) names.push_back(preset.name);
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all;
+}
+
 UsageError refused(const Error& error) { return UsageError(spoken(error), error.code, error.field); }
 
 }  // namespace
@@ -58,8 +75,14 @@ void LookFlags::add_to(Verb& verb, const Headings& headings, const std::string& 
 
 void LookFlags::add_files_to(Verb& verb) {
     FlagGroup(verb, "Look")
-        .reads("--look", "FILE.json", "load all artistic choices from a file; flags on the command line win",
-               file_)
+        .value("--preset", "NAME",
+               "start from a named look: " + preset_names() +
+                   "; or NAME.json in $PETZVAL_PRESETS (default ~/.config/petzval/presets)",
+               parse_text, preset_)
+        .value("--look", "FILE.json|LINK",
+               "load all artistic choices from a file, or a lens from a link of the lens lab; flags on the "
+               "command line win",
+               parse_look, file_)
         .writes("--save-look", "FILE.json", "save the artistic choices of this run, for --look", save_to_);
 }
 
@@ -78,6 +101,12 @@ void LookFlags::apply(const std::string& field, const std::string& json) {
 void LookFlags::settle() {
     for (const auto& [field, why] : idle_)
         if (is_typed(field)) throw UsageError(why, ErrorCode::InvalidArgument, field);
+    refuse_both(!preset_.empty(), "--preset", !file_.empty(), "--look");
+    if (!preset_.empty()) {
+        auto read = read_preset(preset_);
+        if (!read) throw UsageError("--preset " + read.error().message, read.error().code);
+        look_ = std::move(*read);
+    }
     if (!file_.empty()) {
         auto read = read_look(file_);
         if (!read) throw UsageError("--look " + read.error().message, read.error().code);
@@ -112,7 +141,8 @@ std::vector<std::string> LookFlags::given(const Headings& headings) const {
 
 std::vector<std::string> LookFlags::input_files() const {
     std::vector<std::string> files = lens_files();
-    if (!file_.empty()) files.push_back(file_);
+    std::error_code ignored;
+    if (!file_.empty() && std::filesystem::exists(file_, ignored)) files.push_back(file_);
     return files;
 }
 

@@ -53,7 +53,7 @@ private:
     std::map<std::string, std::optional<std::string>> texts_;  // JSON by field
     std::map<std::string, std::optional<bool>> switches_;
     std::map<std::string, std::string> idle_;  // by field, why it is refused
-    std::string file_, save_to_;
+    std::string file_, preset_, save_to_;
     Look look_;
     std::vector<std::string> idle_in_file_;
 };

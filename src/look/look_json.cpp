@@ -3,6 +3,8 @@
 #include "petzval/names.h"
 
 #include "look/fields.h"
+#include "look/limits.h"
+#include "look/look_link.h"
 
 #include <optional>
 #include <set>
@@ -16,6 +18,7 @@ using look::fields;
 using look::Json;
 
 const char* const kVersionKey = "petzval_look";
+const char* const kPresetKey = "preset";
 
 Error no_look(const std::string& why) { return {ErrorCode::InvalidFile, why}; }
 
@@ -68,10 +71,20 @@ Status check_version(const Json& json) {
     return Done{};
 }
 
+// The preset that the text names, or the defaults.
+Result<Look> base_of(const Json& json) {
+    if (!json.contains(kPresetKey)) return Look{};
+    const Json& name = json[kPresetKey];
+    if (!name.is_string()) return no_look("preset: must be a name");
+    auto look = look_preset(name.get<std::string>());
+    return look ? look : no_look("preset: " + look.error().message);
+}
+
 Status set(Look& look, const std::string& path, const Json& json) {
     const Field* const field = look::find_field(path);
     if (!field) return unknown(path);
     Status done = field->set(look, json);
+    if (done) done = look::check_limit(path, json);
     return done ? done : no_look(path + ": " + done.error().message);
 }
 
@@ -87,15 +100,18 @@ std::string look_to_json(const Look& look) {
 }
 
 Result<Look> look_from_json(const std::string& text) {
+    if (look::is_link(text)) return look::look_from_link(text);
     Repetition repetition;
     const Json json = Json::parse(text, std::ref(repetition), false);
     if (json.is_discarded()) return no_look("is no JSON");
     if (!json.is_object()) return no_look("is no look: not an object");
     if (!repetition.found.empty()) return no_look("holds the key " + repetition.found + " twice");
     if (const Status known = check_version(json); !known) return known.error();
-    Look look;
+    auto base = base_of(json);
+    if (!base) return base;
+    Look look = std::move(*base);
     for (const auto& [key, value] : json.items()) {
-        if (key == kVersionKey) continue;
+        if (key == kVersionKey || key == kPresetKey) continue;
         if (!is_section(key)) {
             if (const Status done = set(look, key, value); !done) return done.error();
             continue;
@@ -112,7 +128,10 @@ Result<Look> look_with(Look look, const std::string& path, const std::string& va
     const Field* const field = look::find_field(path);
     if (!field) return refused(unknown(path).message);
     const Json json = Json::parse(value, nullptr, false);
-    if (!json.is_discarded() && field->set(look, json)) return look;
+    if (!json.is_discarded() && field->set(look, json)) {
+        const Status fits = look::check_limit(path, json);
+        return fits ? Result<Look>(std::move(look)) : refused(path + ": " + fits.error().message);
+    }
     const Status as_word = field->set(look, Json(value));
     if (as_word) return look;
     return refused(path + ": " + as_word.error().message);

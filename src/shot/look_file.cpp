@@ -4,6 +4,8 @@
 
 #include "files/output_file.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -43,6 +45,12 @@ void change_files(Look& look, const fs::path& folder, const Change& change) {
 
 Result<Look> read_look(const std::string& path) {
     std::error_code missing;
+    if (path.find("lens=") != std::string::npos && !fs::exists(path, missing)) {
+        auto linked = look_from_json(path);
+        constexpr std::size_t kShown = 60;
+        const std::string shown = path.size() > kShown ? path.substr(0, kShown) + "…" : path;
+        return linked ? linked : not_read(shown, linked.error().message);
+    }
     const auto kind = fs::status(path, missing).type();
     if (kind != fs::file_type::regular && kind != fs::file_type::not_found)
         return not_read(path, "is not a regular file; pipes and devices cannot be read");
@@ -57,6 +65,45 @@ Result<Look> read_look(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     change_files(*look, folder, [&](const std::string& file) { return (folder / file).string(); });
     return look;
+}
+
+std::string preset_folder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::string(value ? value : "");
+    };
+    if (const std::string own = variable("PETZVAL_PRESETS"); !own.empty()) return own;
+    if (const std::string config = variable("XDG_CONFIG_HOME"); !config.empty() && config[0] == '/')
+        return config + "/petzval/presets";
+    const std::string home = variable("HOME");
+    return home.empty() ? "" : home + "/.config/petzval/presets";
+}
+
+Result<Look> read_preset(const std::string& name) {
+    const fs::path folder = preset_folder();
+    std::error_code ignored;
+    const bool is_name = !name.empty() && name.find_first_of("/\\") == std::string::npos;
+    if (is_name && !folder.empty() && fs::is_regular_file(folder / (name + ".json"), ignored))
+        return read_look((folder / (name + ".json")).string());
+    return look_preset(name);
+}
+
+std::vector<LookPreset> all_presets() {
+    std::vector<LookPreset> all;
+    const std::string folder = preset_folder();
+    std::error_code ended;
+    for (fs::directory_iterator file(folder, ended), end; !ended && file != end; file.increment(ended)) {
+        if (file->path().extension() != ".json") continue;
+        if (auto look = read_look(file->path().string()))
+            all.push_back({file->path().stem().string(), file->path().string(), std::move(*look)});
+    }
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+    const std::size_t own = all.size();
+    for (const LookPreset& preset : look_presets()) {
+        const auto same = [&](const LookPreset& other) { return other.name == preset.name; };
+        if (std::none_of(all.begin(), all.begin() + std::ptrdiff_t(own), same)) all.push_back(preset);
+    }
+    return all;
 }
 
 Status write_look(const Look& look, const std::string& path, bool overwrite) {

@@ -1,4 +1,5 @@
 """Looks: what a run chose, written and taken again; flags beside it; what has no effect."""
+import base64
 import json
 import os
 import unittest
@@ -45,6 +46,50 @@ class Looks(CommandLineTest):
         with open(self.path("look.json")) as file:
             self.assertEqual(json.load(file), report["look"])
         self.assertEqual(report["look"]["lens"]["blades"], 5)
+
+    def test_every_preset_has_an_effect(self):
+        names = self.presets()
+        self.assertGreaterEqual(len(names), 8)
+        # A lamp off the axis, behind focus, so that corners, colours and glare have something to show.
+        write_exr(self.path("in.exr"), picture(96, 64, lambda x, y: 60.0 if (x, y) in ((70, 14), (24, 30)) else 0.1,
+                                               lambda x, y: 8.0))
+        made = {name: self.defocus("--preset", name) for name in names}
+        made["none"] = self.defocus()
+        made["night, five blades"] = self.defocus("--preset", "night", "--blades", "5")
+        self.assertEqual(len(set(made.values())), len(made))
+
+    def presets(self):
+        outcome = self.run_program("defocus", "in.exr", "-o", "o.exr", "--preset", "nope")
+        self.assertEqual(outcome.code, 2)
+        return outcome.err.strip().split("there are ")[1].split(", ")
+
+    def test_own_presets_come_from_a_folder(self):
+        os.mkdir(self.path("mine"))
+        self.write("mine/five.json", lens={"blades": 5})
+        self.succeed("defocus", "in.exr", "-o", "five.exr", *CAMERA, "--preset", "five",
+                     env={"PETZVAL_PRESETS": self.path("mine")})
+        self.assertEqual(read_exr(self.path("five.exr"))[0], self.pixels("--blades", "5"))
+        self.refuse(2, "defocus", "in.exr", "-o", "o.exr", *CAMERA, "--preset", "five", says=["--preset", "portrait"])
+        self.write("look.json", lens={"blades": 5})
+        self.refuse(2, "defocus", "in.exr", "-o", "o.exr", *CAMERA, "--preset", "night", "--look", "look.json",
+                    says=["--preset", "--look"])
+
+    def pixels(self, *flags):
+        self.defocus(*flags)
+        return read_exr(self.path("out.exr"))[0]
+
+    def test_a_link_of_the_lens_lab_is_a_look(self):
+        told = {"lens": {"name": "doublet", "text": None, "look": {"blades": 5, "cats_eye": 0.4}}, "camera": {}, "light": {}}
+        link = "lens=1." + base64.urlsafe_b64encode(json.dumps(told).encode()).decode().rstrip("=")
+        by_flags = self.pixels("--lens", "doublet", "--blades", "5", "--cats-eye", "0.4")
+        for look in (link, "https://example.org/lab/#" + link):
+            self.assertEqual(self.pixels("--look", look), by_flags)
+        self.refuse(3, "defocus", "in.exr", "-o", "o.exr", *CAMERA, "--look", link[:-7], says=["--look", "link of the lens lab"])
+
+    def test_numbers_out_of_range_are_refused_as_those_of_flags(self):
+        self.write("look.json", glare={"bloom": -1e30})
+        self.refuse(3, "defocus", "in.exr", "-o", "o.exr", *CAMERA, "--look", "look.json",
+                    says=["look.json", "glare.bloom", "0 to 1"])
 
     def test_flags_beside_a_look_win(self):
         self.write("look.json", lens={"name": "doublet", "blades": 5, "wave": True}, glare={"bloom": 0.1})
