@@ -53,7 +53,7 @@ def nested_ternaries(text):
 
 
 def code_files(root):
-    for folder in ("include", "src", "apps"):
+    for folder in ("include", "src", "apps", "plugins"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in {".h", ".cpp", ".comp", ".glsl"} and not path.name.endswith("_test.cpp"):
                 yield path

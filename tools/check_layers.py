@@ -132,7 +132,7 @@ THIRD_PARTY = {
     r"embree": r"src/scene/",
     r"vulkan/": r"(src/device/vulkan/|src/c/vulkan_pass\.cpp|include/petzval/vulkan\.h)",
     r"tiny_gltf": r"src/scene/",
-    r"nlohmann/": r"(apps/cli|apps/view|src/files|src/lens_facts|src/lens_sheet|src/look|src/sequence|src/c)/",
+    r"nlohmann/": r"(apps/cli|apps/view|plugins/ofx|src/files|src/lens_facts|src/lens_sheet|src/look|src/sequence|src/c)/",
     r"CLI/": r"apps/cli/",
     r"(GLFW/|imgui|backends/imgui)": r"apps/view/",
 }
@@ -160,7 +160,7 @@ def room_of(included):
 
 
 def violations(root):
-    files = [p for d in ("include", "src", "apps") for p in sorted((root / d).rglob("*.[hc]*"))]
+    files = [p for d in ("include", "src", "apps", "plugins") for p in sorted((root / d).rglob("*.[hc]*"))]
     for path in files:
         name = path.relative_to(root).as_posix()
         top = name.split("/")[0]
@@ -186,8 +186,8 @@ def violations(root):
                 yield f"{name}:{number}: {own} must not include {included} ({room})"
             if top == "include" and room and not included.startswith("petzval/"):
                 yield f"{name}:{number}: a public header must not include {included}"
-            if top == "apps" and room and not included.startswith("petzval/"):
-                yield f"{name}:{number}: apps include petzval/ only, not {included}"
+            if top in ("apps", "plugins") and room and not included.startswith("petzval/"):
+                yield f"{name}:{number}: {top} include petzval/ only, not {included}"
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ["include", "src", "apps", "tests", "bench"]
+FOLDERS = ["include", "src", "apps", "plugins", "tests", "bench"]
 JOBS = str(len(os.sched_getaffinity(0)))
 
 

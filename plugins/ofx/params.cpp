@@ -1,0 +1,215 @@
+#include "params.h"
+
+#include "petzval/names.h"
+#include "petzval/petzval_c.h"
+
+#include <array>
+
+namespace petzval::plugin {
+namespace {
+
+struct Number {
+    const char *name, *label, *hint, *group;
+    double Values::*value;
+    double usual, least, most, slider_from, slider_to;
+};
+
+constexpr double kHuge = 1e9;
+constexpr std::array kNumbers{
+    Number{"focalLength", "Focal length", "Focal length of the camera that rendered the picture, in mm.",
+           "camera", &Values::focal_length_mm, 50, 0.01, 1e5, 10, 200},
+    Number{"sensorWidth", "Sensor width", "Width of the sensor that the frame spans, in mm.", "camera",
+           &Values::sensor_width_mm, 36, 0.01, 1e5, 5, 70},
+    Number{"fStop", "f-stop", "Ratio of focal length and aperture: a small number blurs more.", "camera",
+           &Values::f_number, 2.8, 0.01, kHuge, 0.7, 22},
+    Number{"focusDistance", "Focus distance", "Distance of what is sharp, along the optical axis, in metres.",
+           "camera", &Values::focus_distance_m, 3, 1e-4, kHuge, 0.1, 50},
+    Number{"depthUnit", "Metres per unit", "Length of one unit of the depth channel, in metres.", "depth",
+           &Values::depth_unit_m, 1, 1e-9, kHuge, 0.001, 1},
+    Number{"depthNear", "Depth range: near", "Depth kinds with a range: its near end in units; 0: none.",
+           "depth", &Values::depth_near, 0, 0, kHuge, 0, 10},
+    Number{"depthFar", "Depth range: far", "Depth kinds with a range: its far end in units; 0: none.",
+           "depth", &Values::depth_far, 0, 0, kHuge, 0, 100},
+};
+
+struct Text {
+    const char *name, *label, *hint, *group;
+    std::string Values::*value;
+    bool is_file;
+};
+constexpr std::array kTexts{
+    Text{"depthFile", "Depth file", "EXR with depth; '#' stands for digits of the frame: depth.####.exr.",
+         "depth", &Values::depth_file, true},
+    Text{"depthChannel", "Depth channel", "Channel of the depth file, such as Z; empty: found by its name.",
+         "depth", &Values::depth_channel, false},
+    Text{name::kLens, "Lens", "Name of a lens, or the path of a lens file; empty: the look's.", "optics",
+         &Values::lens, false},
+    Text{"look", "Look", "A look: its JSON, the path of a look file, or a link of the lens lab.", "optics",
+         &Values::look, false},
+};
+
+// Words of a menu; the first is its default.
+struct Menu {
+    const char *name, *label, *hint, *group;
+    std::vector<std::string> words;
+};
+
+constexpr const char* kOfTheLook = "as the look says";
+
+std::vector<std::string> engines() {
+    std::vector<std::string> words{kOfTheLook};
+    for (int i = 0; petzval_engine_name(i); ++i) words.emplace_back(petzval_engine_name(i));
+    return words;
+}
+
+template <typename E>
+std::vector<std::string> words_of(std::vector<std::string> words = {}) {
+    for (const auto& named : names<E>()) words.emplace_back(named.name);
+    return words;
+}
+
+std::vector<std::string> lenses() {
+    std::vector<std::string> words{"choose a lens"};
+    for (int i = 0; petzval_lens_name(i); ++i) words.emplace_back(petzval_lens_name(i));
+    return words;
+}
+
+std::vector<Menu> menus() {
+    return {{name::kFocusFrom,
+             "Focus on",
+             "The distance above, or what the picked point shows.",
+             "camera",
+             {"distance", "point"}},
+            {"sensorSpans",
+             "Sensor spans",
+             "The width that the sensor's width stands for.",
+             "camera",
+             {"project", "Source"}},
+            {"depthFrom",
+             "Depth from",
+             "auto: the clip Depth if it is connected, otherwise the depth file.",
+             "depth",
+             {"auto", "clip", "file", "alpha"}},
+            {"depthKind", "Depth kind", "Meaning of the depth channel.", "depth", words_of<DepthKind>()},
+            {name::kLensMenu, "Lens menu", "Writes the name of a lens into Lens.", "optics", lenses()},
+            {"engine", "Engine", "Method that computes the blur.", "optics", engines()},
+            {"quality", "Quality", "Accuracy; the blur keeps its size.", "optics",
+             words_of<Quality>({kOfTheLook})}};
+}
+
+Properties defined(ofx::ParamSet* params, const char* type, const char* name, const char* label,
+                   const char* hint, const char* group) {
+    ofx::PropertySet* set = nullptr;
+    if (suites().parameter->define(params, type, name, &set) != ofx::kOk) set = nullptr;
+    Properties properties(set);
+    properties.set(ofx::kLabel, label).set(ofx::param::kHint, hint).set(ofx::param::kScriptName, name);
+    if (*group) properties.set(ofx::param::kParent, group);
+    return properties;
+}
+
+void define_menus(ofx::ParamSet* params) {
+    for (const Menu& menu : menus()) {
+        Properties p = defined(params, ofx::param::kChoice, menu.name, menu.label, menu.hint, menu.group);
+        for (int i = 0; i < int(menu.words.size()); ++i)
+            p.set(ofx::param::kChoiceOption, menu.words[std::size_t(i)].c_str(), i);
+        p.set(ofx::param::kDefault, 0).set(ofx::param::kAnimates, 0);
+        // Numbers of lenses change between versions; the name in `lens` is what a project keeps.
+        if (std::string(menu.name) == name::kLensMenu)
+            p.set(ofx::param::kPersistent, 0).set(ofx::param::kEvaluates, 0);
+    }
+}
+
+void define_point(ofx::ParamSet* params) {
+    Properties p = defined(params, ofx::param::kDouble2D, name::kFocusPoint, "Focus point",
+                           "The picked point; its depth is the focus distance.", "camera");
+    p.set(ofx::param::kDoubleType, ofx::param::kXYAbsolute)
+        .set(ofx::param::kCoordinates, ofx::param::kNormalised)
+        .set(ofx::param::kDefault, 0.5, 0)
+        .set(ofx::param::kDefault, 0.5, 1);
+}
+
+template <typename T>
+T value_of(ofx::Effect* instance, const char* name, ofx::Time time, T fallback) {
+    ofx::Param* param = param_of(instance, name);
+    T value = fallback;
+    if (!param || suites().parameter->value_at_time(param, time, &value) != ofx::kOk) return fallback;
+    return value;
+}
+
+// The word chosen in a menu; empty for the first where that leaves the choice to the look.
+std::string word_at(ofx::Effect* instance, const std::vector<std::string>& words, const char* name,
+                    ofx::Time time) {
+    const int chosen = value_of(instance, name, time, 0);
+    const std::string& word = words[chosen >= 0 && chosen < int(words.size()) ? std::size_t(chosen) : 0];
+    return word == kOfTheLook ? "" : word;
+}
+
+}  // namespace
+
+void define_params(ofx::Effect* descriptor) {
+    ofx::ParamSet* params = nullptr;
+    if (suites().effect->param_set(descriptor, &params) != ofx::kOk || !params) return;
+    struct Group {
+        const char *name, *label;
+    };
+    for (const Group& group : {Group{"camera", "Camera"}, {"depth", "Depth"}, {"optics", "Lens and look"}})
+        defined(params, ofx::param::kGroup, group.name, group.label, "", "");
+    for (const Number& n : kNumbers)
+        defined(params, ofx::param::kDouble, n.name, n.label, n.hint, n.group)
+            .set(ofx::param::kDefault, n.usual)
+            .set(ofx::param::kMin, n.least)
+            .set(ofx::param::kMax, n.most)
+            .set(ofx::param::kDisplayMin, n.slider_from)
+            .set(ofx::param::kDisplayMax, n.slider_to);
+    for (const Text& t : kTexts) {
+        Properties p = defined(params, ofx::param::kString, t.name, t.label, t.hint, t.group);
+        p.set(ofx::param::kDefault, "");
+        if (t.is_file) p.set(ofx::param::kStringMode, ofx::param::kFilePath).set(ofx::param::kFileExists, 0);
+    }
+    define_menus(params);
+    define_point(params);
+    defined(params, ofx::param::kBoolean, "draft", "Draft while interactive",
+            "Quality draft while the host shows changes as they are made.", "optics")
+        .set(ofx::param::kDefault, 1);
+}
+
+ofx::Param* param_of(ofx::Effect* instance, const char* name) {
+    ofx::ParamSet* params = nullptr;
+    ofx::Param* param = nullptr;
+    if (suites().effect->param_set(instance, &params) != ofx::kOk || !params) return nullptr;
+    if (suites().parameter->handle(params, name, &param, nullptr) != ofx::kOk) return nullptr;
+    return param;
+}
+
+Values values_at(ofx::Effect* instance, ofx::Time time) {
+    Values v;
+    for (const Number& n : kNumbers) v.*n.value = value_of(instance, n.name, time, n.usual);
+    for (const Text& t : kTexts) {
+        const char* text = value_of<const char*>(instance, t.name, time, nullptr);
+        v.*t.value = text ? text : "";
+    }
+    if (ofx::Param* point = param_of(instance, name::kFocusPoint)) {
+        ofx::Point at{};
+        if (suites().parameter->value_at_time(point, time, &at.x, &at.y) == ofx::kOk) v.focus_point = at;
+    }
+    v.focus_from =
+        value_of(instance, name::kFocusFrom, time, 0) == 1 ? FocusFrom::Point : FocusFrom::Distance;
+    v.sensor_spans =
+        value_of(instance, "sensorSpans", time, 0) == 1 ? SensorSpans::Source : SensorSpans::Project;
+    v.draft_when_interactive = value_of(instance, "draft", time, 1) != 0;
+    const int from = value_of(instance, "depthFrom", time, 0);
+    v.depth_from = from >= 0 && from <= int(DepthFrom::Alpha) ? DepthFrom(from) : DepthFrom::Auto;
+    v.depth_kind = *parse<DepthKind>(word_at(instance, words_of<DepthKind>(), "depthKind", time));
+    v.engine = word_at(instance, engines(), "engine", time);
+    v.quality = word_at(instance, words_of<Quality>({kOfTheLook}), "quality", time);
+    return v;
+}
+
+void take_lens_of_menu(ofx::Effect* instance, ofx::Time time) {
+    const int chosen = value_of(instance, name::kLensMenu, time, 0);
+    ofx::Param* lens = param_of(instance, name::kLens);
+    const char* word = chosen > 0 ? petzval_lens_name(chosen - 1) : nullptr;
+    if (lens && word) suites().parameter->set_value(lens, word);
+}
+
+}  // namespace petzval::plugin

@@ -1,0 +1,47 @@
+// Parameters of the effect: their description, and their values at a time.
+#pragma once
+
+#include "petzval/depth.h"
+
+#include "host.h"
+
+#include <string>
+#include <vector>
+
+namespace petzval::plugin {
+
+// Names that scripts and saved projects use; none is ever renamed.
+namespace name {
+inline constexpr const char* kLens = "lens";
+inline constexpr const char* kLensMenu = "lensMenu";
+inline constexpr const char* kFocusPoint = "focusPoint";
+inline constexpr const char* kFocusFrom = "focusFrom";
+}  // namespace name
+
+enum class FocusFrom { Distance, Point };
+enum class DepthFrom { Auto, Clip, File, Alpha };
+enum class SensorSpans { Project, Source };
+
+struct Values {
+    double focal_length_mm = 50, sensor_width_mm = 36, f_number = 2.8, focus_distance_m = 3;
+    FocusFrom focus_from = FocusFrom::Distance;
+    ofx::Point focus_point{};  // canonical
+    SensorSpans sensor_spans = SensorSpans::Project;
+    DepthFrom depth_from = DepthFrom::Auto;
+    std::string depth_file, depth_channel;
+    DepthKind depth_kind = DepthKind::Planar;
+    double depth_unit_m = 1, depth_near = 0, depth_far = 0;
+    std::string lens, look;
+    std::string engine, quality;  // empty: those of the look
+    bool draft_when_interactive = true;
+};
+
+void define_params(ofx::Effect* descriptor);
+// Defaults stand where the host has no value.
+Values values_at(ofx::Effect* instance, ofx::Time time);
+// The user has chosen a lens in the menu: its name becomes the value of `lens`.
+void take_lens_of_menu(ofx::Effect* instance, ofx::Time time);
+
+ofx::Param* param_of(ofx::Effect* instance, const char* name);
+
+}  // namespace petzval::plugin
