@@ -226,6 +226,17 @@ def wheel(*_):
     run(sys.executable, "tools/wheel.py", "build/wheel", "build/portable/lib/libpetzval.so")
 
 
+def ofx(*_):
+    """the OpenFX plug-in: leaves build/ofx/petzval.ofx.bundle and checks it with ofx-check"""
+    make("release", "petzval_ofx", "ofx_check")
+    library = "Contents/Linux-x86-64/petzval.ofx"
+    made, left = (ROOT / f"{folder}/ofx/petzval.ofx.bundle" / library for folder in ("build/release", "build"))
+    left.parent.mkdir(parents=True, exist_ok=True)
+    run("strip", "-o", left, made)
+    run(folder_of("release") / "apps/ofx-check/ofx-check", left.parents[2], "--param", "focalLength=200")
+    print(left.parents[2])
+
+
 def site(*words):
     """[--no-gallery]: static pages of docs/ with a gallery of every lens, in build/site"""
     make("release", "petzval_cli")
@@ -235,7 +246,7 @@ def site(*words):
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
          "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "site": site, "web": web,
-         "web-test": web_test, "wheel": wheel}
+         "web-test": web_test, "wheel": wheel, "ofx": ofx}
 
 
 def help_text():

@@ -1,0 +1,20 @@
+// A picture rendered by a plug-in, from EXR files to an EXR file.
+#pragma once
+
+#include "stage.h"
+
+#include <map>
+#include <string>
+
+namespace ofx_check {
+
+struct RenderJob {
+    std::map<std::string, std::string> clips;  // FILE or FILE:CHANNEL by clip
+    std::string output, context;
+    double time = 1, scale = 1;
+};
+
+// Returns what went wrong; empty if the picture was written.
+std::string render_picture(const Setup& setup, const RenderJob& job);
+
+}  // namespace ofx_check

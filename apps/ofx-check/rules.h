@@ -1,0 +1,34 @@
+// The rules that plug-ins are checked against, and the findings.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace ofx_check {
+
+struct Rule {
+    const char* name;
+    const char* page;  // of the specification's reference manual
+    const char* says;
+};
+std::span<const Rule> rules();
+
+// Findings go to this descriptor as lines; a check runs in a separate process.
+void report_to(int descriptor);
+void held(std::string_view rule);  // it was tried and, so far, held
+void broken(std::string_view rule, const std::string& why);
+void not_tried(std::string_view rule, const std::string& why);
+
+// Findings of all checks, by rule.
+struct Outcome {
+    bool tried = false, is_broken = false;
+    std::string why;    // of the first break, or of why it was not tried
+    std::string check;  // that broke it first
+};
+using Outcomes = std::map<std::string, Outcome, std::less<>>;
+// One line as the three functions above write it.
+void take(Outcomes& outcomes, const std::string& line, const std::string& check);
+
+}  // namespace ofx_check

@@ -1,0 +1,112 @@
+"""The OpenFX plug-in makes the command line's pictures, and breaks no rule of the specification."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PETZVAL, OFX_CHECK = os.environ["PETZVAL"], os.environ["OFX_CHECK"]
+BUNDLE = pathlib.Path(os.environ["PETZVAL_OFX"]).parents[2]
+CAMERA = ["--focal-length", "105", "--sensor-width", "36", "--fstop", "1.4"]
+PARAMS = {"focalLength": 105, "sensorWidth": 36, "fStop": 1.4}
+
+
+def words(params):
+    return [word for name, value in params.items() for word in ("--param", f"{name}={value}")]
+
+
+class Plugin(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="petzval-ofx-")
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        cls.command(PETZVAL, "scene", "make", "night", "-o", "night.exr", "--layers", "plate.exr", "--width", "160",
+                    "--height", "90", "--pinhole-samples", "8")
+        # The scene has half floats; an effect without blur writes them as floats.
+        cls.render("sharp.exr", {"fStop": 1e9}, "--clip", "Source=night.exr", "--clip", "Depth=night.exr:Z")
+
+    @classmethod
+    def command(cls, *args, code=0):
+        done = subprocess.run(list(map(str, args)), cwd=cls.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True, timeout=250, env={**os.environ, "PETZVAL_KERNEL_CACHE": "off"})
+        assert done.returncode == code, f"{args}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+        return done
+
+    @classmethod
+    def render(cls, out, params, *clips, code=0):
+        return cls.command(OFX_CHECK, "render", BUNDLE, "-o", out, *words(params), *clips, code=code)
+
+    CLIPS = ("--clip", "Source=sharp.exr", "--clip", "Depth=night.exr:Z")
+
+    def same(self, params, flags, clips=CLIPS):
+        self.render("host.exr", {**PARAMS, **params}, *clips)
+        self.command(PETZVAL, "defocus", "sharp.exr", "--depth", "night.exr", "-o", "line.exr", *CAMERA, *flags, "--overwrite")
+        report = json.loads(self.command(PETZVAL, "compare", "line.exr", "host.exr", "--json", "-").stdout)
+        self.assertEqual(report["max_error"], 0, (params, report))
+        blurred = json.loads(self.command(PETZVAL, "compare", "sharp.exr", "host.exr", "--json", "-").stdout)
+        self.assertGreater(blurred["max_error"], 0.1, "the pictures differ from the sharp one")
+
+    def test_a_frame_has_the_bits_of_the_command_line(self):
+        self.same({"focusDistance": 4.8}, ["--focus", "4.8m"])
+
+    def test_so_it_has_by_every_engine_and_quality(self):
+        self.same({"focusDistance": 3, "engine": "gaussian"}, ["--focus", "3m", "--engine", "gaussian"])
+        self.same({"focusDistance": 3, "engine": "gather", "quality": "draft"},
+                  ["--focus", "3m", "--engine", "gather", "--quality", "draft"])
+
+    def test_so_it_has_through_a_lens_by_name_and_from_a_file(self):
+        own = pathlib.Path(__file__).parents[2] / "lenses/petzval-laikin.json"
+        for lens in ("doublet", own):
+            self.same({"focusDistance": 4.8, "lens": lens}, ["--focus", "4.8m", "--lens", lens])
+
+    def test_so_it_has_by_a_look_as_text_and_as_file(self):
+        self.command(PETZVAL, "defocus", "sharp.exr", "--depth", "night.exr", "-o", "x.exr", *CAMERA, "--focus", "4.8m",
+                     "--blades", "5", "--cats-eye", "0.7", "--save-look", "own.look", "--overwrite")
+        text = (pathlib.Path(self.folder) / "own.look").read_text()
+        for look in ("own.look", text):
+            self.same({"focusDistance": 4.8, "look": look}, ["--focus", "4.8m", "--look", "own.look"])
+
+    def test_depth_may_come_from_a_file_of_the_frame_where_there_is_one_clip(self):
+        shutil.copy(f"{self.folder}/night.exr", f"{self.folder}/depth.0007.exr")
+        self.same({"focusDistance": 4.8, "depthFile": "depth.####.exr"}, ["--focus", "4.8m"],
+                  ("--context", "filter", "--time", "7", "--clip", "Source=sharp.exr"))
+
+    def test_the_focus_point_counts_from_the_bottom(self):
+        self.same({"focusFrom": "point", "focusPoint": "40.5,30.5"}, ["--focus-at", "40,59"])
+
+    def test_a_mask_and_units_are_those_of_the_command_line(self):
+        self.same({"focusDistance": 2.4, "depthUnit": 0.5, "depthKind": "ray"},
+                  ["--focus", "2.4m", "--unit-scale", "0.5", "--depth-kind", "ray"])
+        self.same({"focusDistance": 4.8}, ["--focus", "4.8m", "--mask", "night.exr:G"],
+                  (*self.CLIPS, "--clip", "Mask=night.exr:G"))
+
+    def test_each_error_is_one_sentence_in_the_hosts_message(self):
+        for params, clips, says in (
+                ({}, self.CLIPS[:2], "no depth"),
+                ({"depthFrom": "file", "depthFile": "none.exr"}, self.CLIPS, "none.exr"),
+                ({"lens": "no-lens"}, self.CLIPS, "no-lens"),
+                ({"look": "{"}, self.CLIPS, "Look: is no JSON"),
+                ({"look": "https://x.org/#lens=1.!!"}, self.CLIPS, "link"),
+                ({"depthKind": "device"}, self.CLIPS, "range"),
+                ({"focusFrom": "point", "focusPoint": "999,0"}, self.CLIPS, "focus point"),
+                ({}, (*self.CLIPS, "--clip", "Plate=sharp.exr"), "PlateDepth")):
+            done = self.render("none.exr", params, *clips, code=2)
+            self.assertIn(says, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_three_names_are_exported(self):
+        listing = self.command("nm", "-D", "--defined-only", os.environ["PETZVAL_OFX"]).stdout
+        self.assertEqual([line.split()[-1] for line in listing.splitlines()],
+                         ["OfxGetNumberOfPlugins", "OfxGetPlugin", "OfxSetHost"])
+
+    def test_no_rule_is_broken(self):
+        for params in ({"focalLength": 200}, {"focalLength": 100, "engine": "gather"}):
+            lines = self.command(OFX_CHECK, BUNDLE, *words(params)).stdout.splitlines()
+            self.assertGreater(sum(line.startswith("ok ") for line in lines), 45)
+            self.assertEqual([line for line in lines if line.startswith("BROKEN")], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
