@@ -35,16 +35,21 @@ void check_rows(const Setup& setup) {
     Scene scene(setup, {"rows.negative", "rows.padding", "bounds.offset"});
     if (!scene) return;
     FrameRequest request;
-    request.layout = {true, 0};
-    expect_same("rows.negative", scene.stage.render(*scene.effect, request), scene.plain.picture,
-                "rows from the top down");
+    trying("rows.padding");
     for (const int padding : {4, 20}) {
-        request.layout = {padding == 20, padding};
+        request.layout = {false, padding};
         expect_same("rows.padding", scene.stage.render(*scene.effect, request), scene.plain.picture,
                     std::to_string(padding) + " bytes after each row");
     }
+    trying("rows.negative");
+    for (const int padding : {0, 12}) {
+        request.layout = {true, padding};
+        expect_same("rows.negative", scene.stage.render(*scene.effect, request), scene.plain.picture,
+                    "rows from the top down");
+    }
     request.layout = {};
     request.output_margin = 3;
+    trying("bounds.offset");
     expect_same("bounds.offset", scene.stage.render(*scene.effect, request), scene.plain.picture,
                 "an output with 3 pixels more on each side");
     Cast moved;
@@ -92,6 +97,7 @@ void check_parts(const Setup& setup) {
     const Picture wanted = part_of(scene.plain.picture, *request.window);
     expect_same("window.part", scene.stage.render(*scene.effect, request), wanted, "a part of the window");
     request.only_needed = true;
+    trying("regions.enough");
     expect_same("regions.enough", scene.stage.render(*scene.effect, request), wanted,
                 "inputs cut to the region of interest");
 }

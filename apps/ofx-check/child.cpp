@@ -51,21 +51,27 @@ void run_check(const Check& check, const Setup& setup, double timeout_s, Outcome
     close(ends[0]);
     int status = 0;
     if (child > 0) waitpid(child, &status, 0);
+    std::string rule = check.rule;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
-        take(outcomes, text.substr(begin, end - begin), check.name);
+        const std::string line = text.substr(begin, end - begin);
+        take(outcomes, line, check.name);
+        if (const std::string tried = tried_rule(line); !tried.empty()) rule = tried;
         begin = end + 1;
     }
-    const auto add = [&](const char* rule, const std::string& why) {
-        take(outcomes, '!' + std::string(rule) + '\t' + why, check.name);
+    const auto add = [&](const std::string& broken_rule, const std::string& why) {
+        take(outcomes, '!' + broken_rule + '\t' + why, check.name);
     };
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
     if (!in_time) {
         add("process.returns", "the check took more than " + std::to_string(int(timeout_s)) + " s");
-        add(check.rule, "it did not return");
-    } else if (WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) != 0)) {
+        add(rule, "it did not return");
+    } else if (code == kMemoryTouched) {
+        add(rule, "memory was used that is not the plug-in's");
+    } else if (WIFSIGNALED(status) || code != 0) {
         const std::string why = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "exit";
         add("process.survives", why);
-        add(check.rule, "the process ended: " + why);
+        add(rule, "the process ended: " + why);
     }
 }
 

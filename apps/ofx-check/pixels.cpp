@@ -45,7 +45,7 @@ void on_fault(int, siginfo_t* fault, void*) {
             default:
                 broken("images.bounds", "memory more than 64 bytes beside an image was used");
         }
-        _exit(0);
+        _exit(kMemoryTouched);
     }
     std::signal(SIGSEGV, SIG_DFL);
     std::raise(SIGSEGV);

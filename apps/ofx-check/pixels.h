@@ -74,6 +74,8 @@ private:
     int row_bytes_ = 0, slot_ = -1;
 };
 
+// Exit status of a process that touched guarded memory.
+inline constexpr int kMemoryTouched = 3;
 // Turns an access to guarded memory into a finding, and ends the process.
 void watch_memory();
 

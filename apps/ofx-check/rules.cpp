@@ -93,9 +93,15 @@ void held(std::string_view rule) { write_line('+', rule, ""); }
 void broken(std::string_view rule, const std::string& why) { write_line('!', rule, why); }
 void not_tried(std::string_view rule, const std::string& why) { write_line('-', rule, why); }
 
+void trying(std::string_view rule) { write_line('?', rule, ""); }
+
+std::string tried_rule(const std::string& line) {
+    return line.starts_with('?') ? line.substr(1, line.find('\t') - 1) : "";
+}
+
 void take(Outcomes& outcomes, const std::string& line, const std::string& check) {
     const auto tab = line.find('\t');
-    if (line.empty() || tab == std::string::npos) return;
+    if (line.empty() || line[0] == '?' || tab == std::string::npos) return;
     Outcome& outcome = outcomes[line.substr(1, tab - 1)];
     const std::string why = line.substr(tab + 1);
     if (line[0] == '+') outcome.tried = true;

@@ -20,6 +20,8 @@ void report_to(int descriptor);
 void held(std::string_view rule);  // it was tried and, so far, held
 void broken(std::string_view rule, const std::string& why);
 void not_tried(std::string_view rule, const std::string& why);
+// Until the next call, a crash or a hang breaks this rule as well.
+void trying(std::string_view rule);
 
 // Findings of all checks, by rule.
 struct Outcome {
@@ -28,7 +30,9 @@ struct Outcome {
     std::string check;  // that broke it first
 };
 using Outcomes = std::map<std::string, Outcome, std::less<>>;
-// One line as the three functions above write it.
+// One line as the functions above write it.
 void take(Outcomes& outcomes, const std::string& line, const std::string& check);
+// The rule of a line that trying() wrote; empty for other lines.
+std::string tried_rule(const std::string& line);
 
 }  // namespace ofx_check

@@ -102,7 +102,7 @@ class Plugin(unittest.TestCase):
                          ["OfxGetNumberOfPlugins", "OfxGetPlugin", "OfxSetHost"])
 
     def test_no_rule_is_broken(self):
-        for params in ({"focalLength": 200}, {"focalLength": 100, "engine": "gather"}):
+        for params in ({"focalLength": 200}, {"focalLength": 100, "engine": "gather", "focusFrom": "point"}):
             lines = self.command(OFX_CHECK, BUNDLE, *words(params)).stdout.splitlines()
             self.assertGreater(sum(line.startswith("ok ") for line in lines), 45)
             self.assertEqual([line for line in lines if line.startswith("BROKEN")], [])
