@@ -24,7 +24,8 @@ def run(*command):
 
 def build(petzval):
     if not (KERNEL / "build.ninja").exists():
-        run("emcmake", "cmake", "-S", "web/kernel", "-B", KERNEL, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
+        run("emcmake", "cmake", "-S", "web/kernel", "-B", KERNEL, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+            *([f"-DCMAKE_{language}_COMPILER_LAUNCHER=ccache" for language in ("C", "CXX")] if shutil.which("ccache") else []))
     run("cmake", "--build", KERNEL)
     shutil.rmtree(SITE, ignore_errors=True)
     shutil.copytree(ROOT / "web/lab", SITE)

@@ -26,9 +26,15 @@ def png(width, height, code):
 
 
 class Picture(Page):
-    def show(self, fragment=""):
-        self.open(fragment)
-        self.assertIsNone(self.done("lab.showPicture()"))
+    def show(self, fragment=None):
+        """The night scene through the doublet, or what a link says; the page of the test before is kept where it can be."""
+        if fragment is None and self.browser.execute_script("return Boolean(globalThis.lab?.picture)"):
+            self.done("""
+                (Object.assign(lab.state.picture, { f_number: 0, focus_m: 0 }),
+                 lab.use({ name: "doublet", text: null, look: {} }).then(() => lab.picture.shot.name === "night" || lab.picture.openNight()))""")
+        else:
+            self.open(fragment or "")
+            self.assertIsNone(self.done("lab.showPicture()"))
         self.assertEqual(self.text("problem"), "")
 
     def rgb(self, expression, shape):
@@ -61,8 +67,7 @@ class Picture(Page):
         for lens, flags, least_live, least_developed in (({"name": "doublet", "look": {}}, ("--lens", "doublet"), 100, 90),
                                                          ({"name": "biotar", "look": {"blades": 6, "cats_eye": 0.6}}, ("--lens", "biotar", "--blades", "6", "--cats-eye", "0.6"), 90, 60)):
             with self.subTest(lens["name"]), tempfile.TemporaryDirectory() as folder:
-                self.browser.execute_script("lab.use({ text: null, ...arguments[0] })", lens)
-                self.done("new Promise((r) => setTimeout(r, 50)).then(() => lab.picture.update())")
+                self.done("lab.use({ text: null, ...args[0] })", lens)
                 shape, files = self.files_of_page(folder)
                 live = self.rgb("lab.picture.livePixels()", shape)
                 apart = decibels(live, self.program(folder, files, "gather", *flags))
@@ -141,7 +146,7 @@ class Picture(Page):
                 said, size = self.opened((name, kind, data))
                 self.assertIn(told, said)
                 self.assertEqual(size, [480, 270])
-        for cut in range(8, len(whole), 97):
+        for cut in range(8, len(whole), 397):
             said, size = self.opened(("cut.exr", "", whole[:cut]))
             self.assertRegex(said, r"cut\.exr was not opened: .*\.$")
         self.assertEqual(self.complaints(), [])
@@ -149,7 +154,7 @@ class Picture(Page):
     def test_it_fits_a_phone_and_asks_nobody_else(self):
         self.narrow(360)
         self.requests()
-        self.show()
+        self.show("#")
         self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), 360)
         self.assertEqual([url for url in self.requests() if not url.startswith((self.origin, "blob:", "data:", "about:"))], [])
 

@@ -68,8 +68,9 @@ async function update({ lensChanged = false } = {}) {
   if (coarse) drawn("disc", "disc", discArgs(state.light.coc_px, coarse), (found, ms) => showDisc(found, ms, coarse), () => {});
   drawn("exact", "disc", discArgs(state.light.coc_px), (found, ms) => showDisc(found, ms, 1), (sentence) => ($("told").textContent = sentence));
   askSection();
-  picture?.update({ moving: !lensChanged });
+  const live = picture?.update({ moving: !lensChanged });
   STRIP_PX.forEach((px, i) => drawn(`strip${i}`, "disc", discArgs(px / 2, 0.5), (found) => drawDisc($("strip").children[i].firstChild, found, px / 4, exposure), () => {}));
+  return live;
 }
 
 async function askFacts() {
@@ -144,7 +145,7 @@ function use(lens) {
   state = { ...state, lens, camera: { ...state.camera, focal_mm: 0, f_number: 0 } };
   facts = null;
   listLenses();
-  update({ lensChanged: true });
+  return update({ lensChanged: true });
 }
 
 function notes(sentences) {

@@ -166,10 +166,15 @@ export class PictureView {
     $("picture-cancel").onclick = () => this.#developing?.end("Cancelled.");
     $("picture-save").onclick = () => saveCanvas($(this.developed ? "picture-developed" : "picture-live"), `${this.shot.name}-${this.#chosen().lens.name}.png`);
     $("picture-file").onchange = () => this.openFiles([...$("picture-file").files]);
-    $("picture-night").onclick = () => builtInScene("night").then((shot) => this.open(shot)).catch((error) => this.#tell(error.message));
+    $("picture-night").onclick = () => this.openNight().catch((error) => this.#tell(error.message));
     const stage = $("picture-stage");
     stage.ondragover = (event) => event.preventDefault();
     stage.ondrop = (event) => (event.preventDefault(), this.openFiles([...event.dataTransfer.files]));
+  }
+
+  async openNight() {
+    this.choose({ f_number: 0, focus_m: 0 });
+    await this.open(await builtInScene("night"));
   }
 
   /** One EXR with depth, or a photograph and its depth map. What cannot be read changes nothing. */
