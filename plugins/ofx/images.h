@@ -12,12 +12,12 @@
 
 namespace petzval::plugin {
 
-// An image of a clip; given back when this ends.
+// An image of a named clip; given back when this ends.
 class LentImage {
 public:
     LentImage() = default;
     // Not there: the clip is not connected, or has no image at that time.
-    LentImage(ofx::Effect* effect, const char* clip, ofx::Time time);
+    LentImage(ofx::Effect* effect, const char* name, ofx::Time time);
     ~LentImage();
     LentImage(const LentImage&) = delete;
     LentImage& operator=(const LentImage&) = delete;
@@ -52,7 +52,7 @@ private:
     double pixel_aspect_ = 1;
 };
 
-bool is_connected(ofx::Effect* effect, const char* clip);
+bool is_connected(ofx::Effect* effect, const char* name);
 
 // Pixels of the host, y up, to pixels of petzval, y down from the top left of the frame.
 struct FrameOfHost {

@@ -97,12 +97,12 @@ std::vector<Menu> menus() {
              words_of<Quality>({kOfTheLook})}};
 }
 
-Properties defined(ofx::ParamSet* params, const char* type, const char* name, const char* label,
+Properties defined(ofx::ParamSet* params, const char* type, const char* id, const char* label,
                    const char* hint, const char* group) {
     ofx::PropertySet* set = nullptr;
-    if (suites().parameter->define(params, type, name, &set) != ofx::kOk) set = nullptr;
+    if (suites().parameter->define(params, type, id, &set) != ofx::kOk) set = nullptr;
     Properties properties(set);
-    properties.set(ofx::kLabel, label).set(ofx::param::kHint, hint).set(ofx::param::kScriptName, name);
+    properties.set(ofx::kLabel, label).set(ofx::param::kHint, hint).set(ofx::param::kScriptName, id);
     if (*group) properties.set(ofx::param::kParent, group);
     return properties;
 }

@@ -43,6 +43,7 @@ int act(std::string_view action, const void* handle, const Properties& in, const
         return ofx::kOk;
     }
     // All others are about an effect, and need the suites of kLoad.
+    // The interface passes all handles as const: NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     auto* effect = static_cast<ofx::Effect*>(const_cast<void*>(handle));
     if (!suites().property || !suites().effect || !suites().parameter) return ofx::kMissingHostFeature;
     if (action == ofx::action::kCreate || action == ofx::action::kDestroy) return ofx::kOk;
@@ -69,6 +70,7 @@ void take_host(ofx::Host* host) { set_host(host); }
 
 }  // namespace
 
+// Names of the specification: NOLINTBEGIN(readability-identifier-naming)
 extern "C" {
 
 #define PETZVAL_OFX_EXPORT __attribute__((visibility("default")))
@@ -86,3 +88,4 @@ PETZVAL_OFX_EXPORT ofx::Plugin* OfxGetPlugin(int nth) {
     return nth == 0 ? &plugin : nullptr;
 }
 }
+// NOLINTEND(readability-identifier-naming)
