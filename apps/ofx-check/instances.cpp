@@ -74,12 +74,12 @@ void take_default(ofx::Param& param, ofx::Point size, ofx::Point origin) {
     param.numbers[1] = origin.y + param.numbers[1] * size.y;
 }
 
-void describe_instance(ofx::Effect& effect, const ofx::Effect& descriptor, const std::string& context,
+void describe_instance(ofx::Effect& effect, ofx::Effect& descriptor, const std::string& context,
                        ofx::Point size, ofx::Point origin) {
     effect.properties.with(ofx::kType, Texts{ofx::kTypeInstance})
         .with(ofx::kContext, Texts{context})
         .with(ofx::kLabel, Texts{descriptor.properties.text(ofx::kLabel)})
-        .with(ofx::kPluginHandle, const_cast<ofx::Effect*>(&descriptor))
+        .with(ofx::kPluginHandle, &descriptor)
         .with(ofx::kInstanceData, nullptr)
         .with(ofx::kProjectSize, std::vector<double>{size.x, size.y})
         .with(ofx::kProjectOffset, std::vector<double>{origin.x, origin.y})
@@ -101,7 +101,7 @@ int option(const ofx::Param& param, const std::string& word) {
 
 }  // namespace
 
-std::unique_ptr<ofx::Effect> instance_of(const ofx::Effect& descriptor, const ofx::Effect& described,
+std::unique_ptr<ofx::Effect> instance_of(ofx::Effect& descriptor, const ofx::Effect& described,
                                          const std::string& context, const Cast& cast, const Setup& setup) {
     auto effect = std::make_unique<ofx::Effect>(true);
     const auto source = cast.pictures.find(ofx::kSource);

@@ -3,7 +3,7 @@
 
 #include <cstdarg>
 #include <cstdio>
-#include <cstdlib>
+#include <new>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -41,11 +41,11 @@ int clear_persistent(void* effect) { return effect ? ofx::kOk : ofx::kBadHandle;
 
 int memory_alloc(void*, std::size_t bytes, void** memory) {
     if (!memory) return ofx::kBadHandle;
-    *memory = std::malloc(bytes ? bytes : 1);
+    *memory = ::operator new(bytes, std::nothrow);
     return *memory ? ofx::kOk : ofx::kMemory;
 }
 int memory_free(void* memory) {
-    std::free(memory);
+    ::operator delete(memory);
     return memory ? ofx::kOk : ofx::kBadHandle;
 }
 

@@ -1,4 +1,5 @@
 """The OpenFX plug-in makes the command line's pictures, and breaks no rule of the specification."""
+import base64
 import json
 import os
 import pathlib
@@ -81,6 +82,20 @@ class Plugin(unittest.TestCase):
                   ["--focus", "2.4m", "--unit-scale", "0.5", "--depth-kind", "ray"])
         self.same({"focusDistance": 4.8}, ["--focus", "4.8m", "--mask", "night.exr:G"],
                   (*self.CLIPS, "--clip", "Mask=night.exr:G"))
+
+    def test_a_clean_plate_is_that_of_the_command_line(self):
+        self.same({"focusDistance": 4.8, "lens": "doublet"}, ["--focus", "4.8m", "--lens", "doublet", "--behind", "night.exr"],
+                  (*self.CLIPS, "--clip", "Plate=night.exr", "--clip", "PlateDepth=night.exr:Z"))
+
+    def test_a_link_of_the_lens_lab_brings_its_lens(self):
+        state = {"lens": {"name": "doublet", "text": None, "look": {"blades": 6, "coma": 0.5}}, "camera": {"f_number": 9}}
+        link = base64.urlsafe_b64encode(json.dumps(state).encode()).decode().rstrip("=")
+        self.same({"focusDistance": 4.8, "look": f"https://example.org/lab/#lens=1.{link}"},
+                  ["--focus", "4.8m", "--lens", "doublet", "--blades", "6", "--coma", "0.5"])
+        own = (pathlib.Path(__file__).parents[2] / "lenses/petzval-laikin.json").read_text()
+        state = {"lens": {"name": "mine", "text": own, "look": {}}}
+        link = base64.urlsafe_b64encode(json.dumps(state).encode()).decode().rstrip("=")
+        self.same({"focusDistance": 4.8, "look": f"lens=1.{link}"}, ["--focus", "4.8m", "--lens", "petzval-laikin"])
 
     def test_each_error_is_one_sentence_in_the_hosts_message(self):
         for params, clips, says in (
