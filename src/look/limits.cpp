@@ -8,7 +8,7 @@
 namespace petzval::look {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kAboveZero = std::numeric_limits<double>::min();
 
 struct Limit {
@@ -19,15 +19,15 @@ struct Limit {
 
 // clang-format off
 constexpr Limit kLimits[] = {
-    {"pupil_points", 1, kInfinity, "at least 1"},
-    {"focus.falloff", 0, kInfinity, "0 or more"},
-    {"focus.near_scale", 0, kInfinity, "0 or more"},
-    {"focus.far_scale", 0, kInfinity, "0 or more"},
-    {"focus.max_radius_px", kAboveZero, kInfinity, "positive"},
+    {"pupil_points", 1, kUnlimited, "at least 1"},
+    {"focus.falloff", 0, kUnlimited, "0 or more"},
+    {"focus.near_scale", 0, kUnlimited, "0 or more"},
+    {"focus.far_scale", 0, kUnlimited, "0 or more"},
+    {"focus.max_radius_px", kAboveZero, kUnlimited, "positive"},
     {"lens.blade_rotation_deg", -1e6, 1e6, "-1e6 to 1e6 degrees"},
     {"lens.blade_curvature", 0, 1, "0 (straight) to 1 (circle)"},
     {"lens.squeeze", 0.1, 10, "0.1 to 10"},
-    {"lens.iris_open", 0, kInfinity, "the f-number at which the iris is round, or 0"},
+    {"lens.iris_open", 0, kUnlimited, "the f-number at which the iris is round, or 0"},
     {"lens.cats_eye", 0, 1, "0 to 1"},
     {"lens.dust", 0, 1, "0 to 1"},
     {"lens.scratches", 0, 1, "0 to 1"},
@@ -47,19 +47,19 @@ constexpr Limit kLimits[] = {
     {"lens.wavelengths", 0, 1000, "0 (as many as needed) to 1000"},
     {"gather.pixel_size_px", 0, 1, "0 or more, and less than 1"},
     {"gather.tap_offset", kAboveZero, 4, "more than 0, and at most 4"},
-    {"gather.blurred_px", kAboveZero, kInfinity, "above 0"},
-    {"gaussian.focus_band", 0, kInfinity, "0 or more"},
-    {"sprites.bright_factor", kAboveZero, kInfinity, "more than 0"},
+    {"gather.blurred_px", kAboveZero, kUnlimited, "above 0"},
+    {"gaussian.focus_band", 0, kUnlimited, "0 or more"},
+    {"sprites.bright_factor", kAboveZero, kUnlimited, "more than 0"},
     {"glare.bloom", 0, 1, "from 0 to 1"},
-    {"glare.bloom_radius", kAboveZero, kInfinity, "above 0"},
-    {"glare.bloom_threshold", 0, kInfinity, "0 or more"},
+    {"glare.bloom_radius", kAboveZero, kUnlimited, "above 0"},
+    {"glare.bloom_threshold", 0, kUnlimited, "0 or more"},
     {"glare.star", 0, 1, "from 0 to 1"},
-    {"glare.star_radius", kAboveZero, kInfinity, "above 0"},
+    {"glare.star_radius", kAboveZero, kUnlimited, "above 0"},
     {"glare.ghosts", 0, 1, "from 0 to 1"},
     {"glare.veil", 0, 1, "from 0 to 1"},
-    {"glare.threshold", 0, kInfinity, "0 or more"},
+    {"glare.threshold", 0, kUnlimited, "0 or more"},
     {"plate.knee", 0, 1, "from 0 to 1"},
-    {"plate.peak", kAboveZero, kInfinity, "above 0"},
+    {"plate.peak", kAboveZero, kUnlimited, "above 0"},
 };
 // clang-format on
 
