@@ -1,4 +1,4 @@
-// What any program of Vulkan has, whatever it draws: a device, memory, images, barriers.
+// The parts that every program of Vulkan needs: a device, memory, images, barriers.
 #pragma once
 
 #include <cstdint>

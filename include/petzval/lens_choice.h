@@ -12,7 +12,7 @@
 
 namespace petzval {
 
-// Polygon inscribed in the f-stop's circle; see docs/conventions.md, "Shapes".
+// Polygon inscribed in the f-stop's circle; see docs/reference/lens-files.md.
 struct ApertureShape {
     int blades = 0;           // 0: round; else >= 3
     double rotation_deg = 0;  // first vertex, counter-clockwise from +x, in the far (upright) disc

@@ -56,9 +56,9 @@ Status read_given_lights(Reading& r) {
     auto lights = read_lights(r.source.lights, r.shot.place.data_window);
     if (!lights) return lights.error();
     if (lights->has_depth && r.depth.kind == DepthKind::CocPx)
-        return Error{ErrorCode::InvalidFile,
-                     r.source.lights +
-                         ": depth is of no use with depth.kind coc-px; give a column coc, radii in pixels"};
+        return Error{ErrorCode::InvalidFile, r.source.lights +
+                                                 ": a column depth has no effect with depth.kind coc-px; "
+                                                 "give a column coc with radii in pixels"};
     r.shot.detected.push_back("lights: " + r.source.lights + ", " + std::to_string(lights->points.size()) +
                               " points by " + (lights->has_depth ? "depth" : "radius"));
     r.shot.lights = std::move(lights->points);
@@ -69,18 +69,18 @@ Status read_given_lights(Reading& r) {
 Status check_meaning(const ShotSource& source, const Frame& frame) {
     const bool has_ends = source.depth.range_near && source.depth.range_far;
     if (frame.depth_is_share && source.depth.kind == DepthKind::CocPx && !has_ends)
-        return Error{
-            ErrorCode::InvalidArgument,
-            source.read.depth_file +
-                ": radii in whole numbers have no unit; give those of black and white as depth.range, "
-                "in pixels, negative in front of focus",
-            "depth.range"};
+        return Error{ErrorCode::InvalidArgument,
+                     source.read.depth_file +
+                         ": integer pixels hold no radii in pixels; set depth.range to the radii of black "
+                         "and white, in "
+                         "pixels, negative in front of focus",
+                     "depth.range"};
     if (!frame.depth_is_share || source.depth_kind_given || source.depth.kind != DepthKind::Planar)
         return Done{};
     return Error{
         ErrorCode::InvalidArgument,
         source.read.depth_file +
-            ": depth in whole numbers is no distance in metres; say what it means, as depth.kind inverse "
+            ": integer pixels are not distances in metres; set their meaning, such as depth.kind inverse "
             "depth.range 1,inf (white is near) or depth.kind normalized depth.range 0.5,20 (black is near)",
         "depth.kind"};
 }
@@ -95,14 +95,14 @@ void advise_on_depth(const ShotSource& source, Shot& shot) {
     const std::string range = number(depth.nearest_m) + " to " + number(depth.farthest_finite_m) + " m";
     if (depth.farthest_finite_m <= kShare)
         shot.warnings.push_back(
-            "depth lies at " + range +
-            ": if these are shares and no metres, say depth.kind normalized and depth.range, or "
-            "depth.kind inverse; if they are metres, depth.kind planar");
+            "depth ranges from " + range +
+            ": for relative depth set depth.kind normalized with depth.range, or depth.kind inverse; for "
+            "metres set depth.kind planar");
     else if (depth.nearest_m >= kFar)
         shot.warnings.push_back(
-            "depth lies at " + range +
-            ": if the unit of the scene is less than the metre, say depth.unit_scale_m, as 0.001 "
-            "for millimetres; if it is the metre, depth.kind planar");
+            "depth ranges from " + range +
+            ": if the scene's unit is smaller than a metre, set depth.unit_scale_m, such as 0.001 for "
+            "millimetres; for metres set depth.kind planar");
 }
 
 Result<Shot> read(const ShotSource& source, Progress& progress, CancellableWorkers& workers) {

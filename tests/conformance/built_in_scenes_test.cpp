@@ -8,7 +8,7 @@ namespace {
 
 class BuiltInScene : public testing::TestWithParam<std::string> {};
 
-// At this size most things are thinner than a pixel, and few pixels show one surface alone.
+// Most objects are thinner than a pixel at this size, and few pixels show a single surface.
 TEST_P(BuiltInScene, IsNoWorseWithHiddenLayers) {
     SceneSettings settings;
     settings.width = 96, settings.height = 54, settings.samples = 64, settings.truth_samples = 32;

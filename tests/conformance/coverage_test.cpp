@@ -15,7 +15,7 @@ bool is_finite(const Picture& image) {
     return true;
 }
 
-// A pixel of a wall that covers ever less is a pixel that covers nothing; dark, or with light of its own.
+// A pixel of a wall whose coverage falls to zero behaves like an empty one, whether dark or luminous.
 TEST_P(CoverageLaw, NextToNoneIsNone) {
     const std::vector<float> few{-5}, many{-5, 0.3f, 7, 33};
     for (const float coc : traces() ? few : many)

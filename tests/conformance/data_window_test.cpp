@@ -4,9 +4,9 @@
 namespace petzval::conformance {
 namespace {
 
-// What an engine looks at around a pixel, for radii up to largest_px: what spreads there, what hides that,
-// and what filling looks at behind it; the neighbourhoods in which lights are told from surfaces; and the
-// tile of scatter that is composited alike.
+// Neighbourhood of a pixel that an engine reads, for radii up to largest_px: sources that spread there, their
+// occluders and the background of these; the neighbourhood in which lights are distinguished from surfaces;
+// and the tile of scatter that is composited as one.
 constexpr int margin_px(int largest_px) { return 4 * largest_px + 96; }
 
 class DataWindow : public EveryDrawer {};

@@ -63,7 +63,7 @@ TEST(DevelopOnDevices, CodesAreThoseOfTheLight) {
     }
 }
 
-// What the session still does to light at home, its codes are made of.
+// Codes include the steps that the session runs on the CPU after the device.
 TEST(DevelopOnDevices, NothingThatFollowsIsLeftOut) {
     const Shot shot = lamps_before_a_bar();
     Plane mask(70, 40, 1);
@@ -121,7 +121,7 @@ TEST(DevelopOnDevices, TheWindowSaysWhatIsShown) {
     }
 }
 
-// Of a region the codes are those of the whole, and black around it, also where glare needs the whole frame.
+// Codes of a region equal those of the whole and are black around it, also if glare needs the whole frame.
 TEST(DevelopOnDevices, ARegionsCodesAreTheWholes) {
     const Shot shot = lamps_before_a_bar();
     const Rect region{12, 8, 40, 30};

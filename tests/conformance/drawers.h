@@ -1,5 +1,5 @@
-// Every engine on every device, and how far each may be from the laws that all are held against: a new one is
-// held to the tightest numbers until it has a row of its own.
+// Every engine on every device, with its tolerance for each law. A new engine has the tightest tolerances
+// until it has its own row.
 #pragma once
 
 #include "petzval/devices.h"
@@ -80,8 +80,7 @@ inline std::vector<std::string> device_names() {
     return names;
 }
 
-// Whether devices that are no CPU draw what an engine plans. (The pass for real time has laws of its own:
-// realtime_test.cpp.)
+// True if GPUs draw the plans of an engine. (realtime_test.cpp holds the laws of the real-time pass.)
 inline bool is_drawn_by_gpus(const std::string& engine) { return engine != "reference"; }
 
 // Keeps devices open from law to law, as drivers take long to start, and lets go of them before the process
@@ -103,7 +102,7 @@ private:
 };
 inline auto& kept_open = dynamic_cast<KeptOpen&>(*testing::AddGlobalTestEnvironment(new KeptOpen));
 
-// What draws: an engine on a device.
+// An engine on a device.
 struct Drawer {
     std::string engine, device;
 
@@ -113,7 +112,7 @@ struct Drawer {
         return {.engine = engine};
     }
     DefocusJob job(const Shot& shot) const { return shot.job(engine); }
-    // What a session on this device is opened with, for jobs like this one.
+    // Settings of a session on this device, for jobs like this one.
     SessionSettings session(const DefocusJob& like = {}) const {
         SessionSettings settings;
         settings.device = device;
@@ -125,7 +124,7 @@ struct Drawer {
         kept_open.keep(device);
         return Session(session(job)).defocus(job);
     }
-    // Of a frame in which nothing is blurred a draft is the picture that came, and the report says so.
+    // True if nothing in the frame is blurred: a draft then returns the input, and the report says so.
     static bool had_nothing_to_draw(const DefocusReport& report) {
         return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& line) {
             return line.find("had nothing to draw") != std::string::npos;
@@ -155,7 +154,7 @@ inline std::vector<Drawer> drawers() {
     return all;
 }
 
-// Those that guess what nothing tells them.
+// Drawers that estimate hidden background.
 inline std::vector<Drawer> guessing_drawers() {
     std::vector<Drawer> some = drawers();
     std::erase_if(some, [](const Drawer& drawer) { return drawer.allows().traces; });

@@ -31,7 +31,7 @@ Picture filled(const Shot& shot, const std::string& engine, Fill fill) {
     return rendered(job);
 }
 
-// Of what the picture does not show: left of the edge.
+// Light of the background that the picture hides, left of the edge.
 double blue_behind_the_edge(const Picture& picture) {
     double sum = 0;
     for (int y = 20; y < kSize - 20; ++y)
@@ -45,7 +45,7 @@ TEST_P(Filling, OffAddsNothingAndLosesNoCoverage) {
     const Picture off = filled(red_before_blue(), GetParam(), Fill::Off),
                   full = filled(red_before_blue(), GetParam(), Fill::Full);
     EXPECT_GT(blue_behind_the_edge(full), 10);
-    // What a pixel of the edge shows of both is taken apart, not made up.
+    // An edge pixel shows both surfaces: its background is separated, not estimated.
     EXPECT_LT(blue_behind_the_edge(off), 0.02 * blue_behind_the_edge(full));
     for (int x = 0; x < kSize; ++x) EXPECT_NEAR(off(x, kSize / 2).a, 1, 1e-4) << x;
     for (int x = 1; x < kEdge - 1; ++x)  // what is known there takes all of the lens
@@ -71,7 +71,7 @@ TEST_P(Filling, DimGoesOnWithoutTheLampThatAnEdgeCuts) {
                 blue_behind_the_edge(filled(plain, GetParam(), Fill::Full)), 1);
 }
 
-// The bright points of sprites, found first, never go on behind edges.
+// The bright points of sprites are found first and never continue behind edges.
 INSTANTIATE_TEST_SUITE_P(Engines, Filling, testing::Values("scatter", "gather", "gaussian"),
                          [](const auto& test) { return std::string(test.param); });
 

@@ -112,7 +112,7 @@ TEST(GatherStages, ThePixelSizeSaysWhatStaysSharp) {
     EXPECT_FALSE(defocus(job));
 }
 
-// As published four texels a whole one off, the corners around each; by default a tent.
+// Published: four taps one texel away, at the corners around each texel. Default: a tent.
 TEST(GatherStages, TheFourTapsStandWhereTheyAreAskedFor) {
     Shot shot = flat(64, 64, {0, 0, 0, 1}, 0);
     for (const int y : {32, 33})
@@ -120,7 +120,7 @@ TEST(GatherStages, TheFourTapsStandWhereTheyAreAskedFor) {
     shot.coc_px(0, 0) = 5e-4f;  // the disc is a point, but there is one
     DefocusJob job = shot.job("gather");
     job.gather.stage = GatherStage::DiscBlur;
-    // Of one cell among black ones, enlarged: a cell's own four pixels hold 9/16 of it.
+    // One bright cell among black ones, enlarged: its own four pixels hold 9/16 of its light.
     const Picture tent = rendered(job);
     EXPECT_NEAR(tent(32, 32).g, 16 * 0.25 * (0.75 * 0.75 + 2 * 0.75 * 0.25 * 0.5 + 0.25 * 0.25 * 0.25), 1e-3);
     job.gather.tap_offset = 1;
@@ -131,7 +131,7 @@ TEST(GatherStages, TheFourTapsStandWhereTheyAreAskedFor) {
     EXPECT_FALSE(defocus(job));
 }
 
-// In combine and in cure, where it is 1.2 for what is far, as published.
+// Stages combine and cure; in cure the radius is 1.2 for far surfaces, as published.
 TEST(GatherStages, FromARadiusThatMayBeChosenOnAllIsBlurred) {
     Shot shot = flat(60, 44, {}, 1.1f);
     paint_noise(shot.colour, 4);
@@ -191,7 +191,8 @@ TEST(Gather, ALensThatDiffersOverTheFieldTearsNoDiscWhereTilesMeet) {
     EXPECT_LT(farthest, 1e-4 * brightest);
 }
 
-// A data window that ends just before the next zone of the lens: nothing beyond it has a kernel of its own.
+// A data window that ends just before the next zone of the lens: pixels beyond it use the kernels of its
+// border.
 TEST(Gather, BeyondTheDataWindowTheLensIsThatOfItsBorder) {
     const Shot shot = flat(60, 90, {0.5f, 0.5f, 0.5f, 1}, 30);
     DefocusJob job = shot.job("gather");

@@ -58,7 +58,7 @@ public:
     static constexpr int kCount = 9;
     Lines(float coc, bool across)
         : coc_(coc), across_(across), radius_(int(std::abs(coc))), apart_(7 * radius_ + 13) {}
-    // Of one blur, or between two: beside a larger radius.
+    // A shot of one blur, or between two blurs, beside a larger radius.
     Shot shot(bool mixed) const {
         const int length = (kCount + 2) * apart_;
         Shot shot = across_ ? flat(length, 2, {0, 0, 0, 1}, coc_) : flat(2, length, {0, 0, 0, 1}, coc_);

@@ -75,7 +75,7 @@ TEST(GlareOnDevices, TakesLightThatIsNoneAsTheCpuDoes) {
     }
 }
 
-// Whether the frame comes home in between decides no bit.
+// The bits do not depend on a transfer to the CPU in between.
 TEST(GlareOnDevices, GoesOnWhereTheFrameWasDrawn) {
     Shot shot = flat(70, 40, {}, 4);
     paint_rectangles(shot.colour, 5);

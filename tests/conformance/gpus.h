@@ -26,7 +26,7 @@ inline Session session_on(const std::string& device) {
     return Session(settings);
 }
 
-// Of all channels, of the brighter picture's peak.
+// PSNR over all channels, relative to the peak of the brighter picture.
 inline double psnr(const Picture& a, const Picture& b) {
     double peak = 0, squares = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {

@@ -1,4 +1,4 @@
-// What no engine on any device may depend on, and what none may die of.
+// Influences that may change no bit of any engine on any device, and inputs that may crash none.
 #include "bottom_up.h"
 #include "drawers.h"
 #include "host_pool.h"
@@ -79,7 +79,7 @@ TEST_P(Endurance, OfAwkwardSizesAndOfLightAndRadiiThatAreNoNumbers) {
         for (std::size_t i = 0; i < shot.coc_px.size(); ++i)
             shot.coc_px.pixels()[i] = float(int(random() % 400)) - 200;  // every pixel at another depth
         shot.coc_px(width / 2, 0) = kNan;
-        // The reference goes on beyond the picture as far as rays come from.
+        // The reference continues the picture as far as rays come from.
         if (!traces() && width * height < 100)
             shot.coc_px(0, height / 2) = kInfinity, shot.coc_px(0, 0) = -kInfinity;
         shot.colour(width - 1, 0) = {-1, 1e30f, 0, kNan};

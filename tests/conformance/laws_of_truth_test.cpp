@@ -47,7 +47,7 @@ TEST(AgainstTheReference, ASurfaceThatLeansThroughFocus) {
 }
 
 TEST(AgainstTheReference, HardEdgesAtRadiiThatGrow) {
-    // From 6 to 20 px: scatter's levels change on the way.
+    // Radii from 6 to 20 px cross levels of scatter.
     Shot shot = flat(220, 120, {}, 0);
     paint_rectangles(shot.colour, 4);
     for (int y = 0; y < 120; ++y)

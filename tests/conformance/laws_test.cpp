@@ -1,4 +1,4 @@
-// What every engine does to light on every device: where it goes, how much of it, and what stays as it was.
+// Laws of light for every engine on every device: its place, its amount, and pixels that stay unchanged.
 #include "drawers.h"
 
 namespace petzval::conformance {
@@ -66,7 +66,7 @@ TEST_P(Law, APixelKeepsItsLightOverADiscOfItsRadius) {
         }
 }
 
-// Where light lands on the mean, from (at, at): of all green.
+// Centroid of all green light, relative to (at, at).
 struct Centre {
     double x = 0, y = 0;
 };
@@ -166,7 +166,7 @@ TEST_P(Law, AtAnEdgeInFrontTheLensSeesAsMuchOfEachAsLiesBeforeIt) {
     expect_as_much_as_the_lens_sees(picture(shot), allows().near_edge);
 }
 
-// Whatever rings, levels or layers the two share.
+// The law holds for any rings, levels or layers that the two share.
 TEST_P(Law, AnOpaqueSheetHidesWhatIsStatedBehindIt) {
     const float pairs[][2] = {{-20, -17.5f}, {-7, -6}, {-6.5f, -2}, {2, 2.3f}, {5.5f, 7}, {16, 20}};
     for (const auto& [sheet, hidden] : pairs) {
@@ -228,7 +228,7 @@ TEST_P(Law, EmptinessStaysEmptyAndCoverageIsBlurredAsColourIs) {
     }
 }
 
-// What nearer things hide, without being told.
+// Laws of the estimated hidden background.
 class Guess : public EveryDrawer {};
 
 TEST_P(Guess, GoesOnBehindAnEdgeInFocus) {

@@ -1,4 +1,4 @@
-// --view levels: what each level of detail of scatter drew; and what engines answer to too little memory.
+// --view levels, the light of each level of scatter; and the errors of engines with too little memory.
 #include "shots.h"
 
 namespace petzval::conformance {

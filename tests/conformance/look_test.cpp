@@ -160,16 +160,16 @@ bool is_idle(const Look& look, const std::string& path) {
     return false;
 }
 
-// What shows in some pictures and not in others: silhouettes that are ramps, discs large enough to be
-// simplified, the radii before focus where a method goes by the largest, light that is still bright after the
-// blur, rims that cut a beam, radii of about a pixel.
+// True if a field has an effect on some pictures only: on soft silhouettes, on discs large enough to be
+// simplified, on radii in front of focus if a method uses the largest, on light that is bright after the
+// blur, on rims that cut a beam, on radii of about a pixel.
 bool depends_on_the_shot(const std::string& path) {
     return path == "quality" || path == "depth.edges" || path == "focus.near_scale" ||
            path == "gather.pixel_size_px" || path == "gather.blurred_px" || path == "glare.ghosts" ||
            path == "lens.name";
 }
 
-// Of the fields whose paths begin so.
+// Checks the fields whose paths begin with the prefix.
 void expect_choices_to_show_or_be_told(const Drawer& drawer, const Look& base,
                                        const std::vector<std::string>& beginnings) {
     static const Plate plate;

@@ -33,7 +33,7 @@ protected:
     }
     void TearDown() override { unsetenv("PETZVAL_MEMORY_APART"); }
 
-    // How often memory for the host was taken apart from the device's, while drivers are open.
+    // Number of allocations of host memory outside the device's, while drivers are open.
     static unsigned allocations_apart() {
         void* const layer = dlopen(PETZVAL_FAULTY_DEVICE "/libpetzval_faulty_device.so", RTLD_NOW);
         if (!layer) return 0;

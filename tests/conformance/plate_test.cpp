@@ -72,7 +72,7 @@ TEST(Plate, StrandsStandBeforeWhatNearlyTouchesThem) {
         EXPECT_GT(Strands(near_px, far_px).known_whole(), 45) << near_px << " before " << far_px;
 }
 
-// Between the strand of a pixel and what lies far behind, the light is of what lies behind.
+// Light between the strand of a pixel and a far background belongs to the background.
 TEST(Plate, LightThatShinesThroughAStrandIsNotTheStrands) {
     Shot shot = flat(60, 40, {0.2f, 0.2f, 0.2f, 1}, 8);
     const Rgba lamp{100, 100, 100, 1}, strand{0.1f, 0.1f, 0.1f, 1};
@@ -98,8 +98,8 @@ TEST(Plate, OneThatHoldsNothingInFrontChangesNothing) {
 }
 
 TEST(Plate, WhatItDoesNotHoldIsFilledIn) {
-    // A card before another before a wall; the plate has no first card, and what it has of the second is
-    // guessed behind.
+    // A card in front of another in front of a wall. The plate does not show the first card; the background
+    // of the second is estimated.
     Shot shot = flat(150, 90, {}, 9);
     paint_rectangles(shot.colour, 5);
     Shot plate = flat(150, 90, {}, 9);

@@ -1,4 +1,4 @@
-// Radii in place of depth, under their old name and their own.
+// Radii instead of depth, under their old name and their own.
 #include "shots.h"
 
 namespace petzval::conformance {

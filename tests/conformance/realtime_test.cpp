@@ -41,7 +41,7 @@ double sum_of(const Picture& p) {
     return sum;
 }
 
-// Of the light of b.
+// Difference as a fraction of the light of b.
 double light_apart(const Picture& a, const Picture& b) {
     double apart = 0;
     for (std::size_t i = 0; i < a.size(); ++i) apart += double(std::abs(a.pixels()[i].g - b.pixels()[i].g));
@@ -134,7 +134,7 @@ TEST_F(Realtime, NothingLeaksAndNothingIsCutAtLargeRadii) {
         for (int x = 1; x < 240; ++x)
             largest_step = std::max(largest_step, std::abs(made(x, 40).g - made(x - 1, 40).g));
         EXPECT_LT(largest_step, 0.02) << "a tile's edge shows";
-        // And the other way round: light far behind focus does not land on what is in focus before it.
+        // Conversely, light far behind focus does not land on surfaces in focus in front of it.
         Shot lit = flat(240, 80, {0.2f, 0.2f, 0.2f, 1}, 60);
         for (int y = 0; y < 80; ++y)
             for (int x = 100; x < 140; ++x) lit.colour(x, y) = {0, 0, 0, 1}, lit.coc_px(x, y) = 0;
@@ -156,7 +156,7 @@ TEST_F(Realtime, JitteredDepthMovesNoLight) {
     }
 }
 
-// Moved by a tenth of a pixel, a picture of smooth things changes by a tenth of what a whole pixel changes.
+// A shift by a tenth of a pixel changes a smooth picture by a tenth of the change of a whole pixel.
 TEST_F(Realtime, IsSteadyUnderACameraThatMovesByATenthOfAPixel) {
     const auto scene = [](float shift) {
         Shot shot = flat(160, 96, {}, 0);
@@ -179,7 +179,7 @@ TEST_F(Realtime, IsSteadyUnderACameraThatMovesByATenthOfAPixel) {
     }
 }
 
-// Light and middle of what a picture has more than its ground.
+// Light and centroid of a spot above a uniform ground.
 struct Spot {
     double light = 0, x = 0, y = 0;
 };
@@ -194,7 +194,7 @@ Spot spot_of(const Picture& p, double ground) {
     return spot;
 }
 
-// Whatever pixel of a cell and of a tile it is in, beside the border of a tile as well (16 pixels).
+// The law holds for any pixel of a cell and of a tile, also beside the border of a tile (16 pixels).
 TEST_F(Realtime, ALampKeepsItsLightAndItsPlace) {
     constexpr double kGround = 0.01, kLamp = 800;
     for (Session& session : sessions_)
@@ -341,7 +341,7 @@ TEST_F(Realtime, ALampBesideALeafHasTheRadiusOfWhatIsBehind) {
     }
 }
 
-// A lamp in focus, its rim filtered over what is behind and with the depth of that: no disc around it.
+// A lamp in focus whose rim is filtered over its background and has the depth of that: no disc around it.
 TEST_F(Realtime, ALampInFocusHasNoHalo) {
     Shot shot = flat(96, 64, {0.02f, 0.02f, 0.02f, 1}, 12);
     for (int y = 26; y < 38; ++y)
@@ -381,7 +381,7 @@ TEST_F(Realtime, SmallBlursAreThoseOfFinalFrames) {
     }
 }
 
-// A thin bar far before focus hides next to nothing: what is beside it goes on behind it.
+// A thin bar far in front of focus hides almost nothing: the surface beside it continues behind it.
 TEST_F(Realtime, WhatAThinThingHidesIsWhatIsBesideIt) {
     Shot shot = flat(160, 80, {0.2f, 0.2f, 0.2f, 1}, 0);
     for (int y = 0; y < 80; ++y)
@@ -391,7 +391,7 @@ TEST_F(Realtime, WhatAThinThingHidesIsWhatIsBesideIt) {
     for (Session& session : sessions_) EXPECT_NEAR(drawn(session, shot)(82, 40).g, 0.2, 0.01);
 }
 
-// No more of them than can be told apart: light that is everywhere is no lamp, and is not lost.
+// Light that is everywhere is not classified as lamps, and is not lost.
 TEST_F(Realtime, GlitterKeepsItsLight) {
     Shot shot = flat(128, 96, {}, 9);
     paint_noise(shot.colour, 5);

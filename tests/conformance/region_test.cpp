@@ -98,7 +98,7 @@ TEST_P(Region, SoItIsWithHiddenLayersAndAWholeLook) {
     }
 }
 
-// The wider the widest disc of a frame, the more parts of it have kernels of their own.
+// The wider the widest disc of a frame, the more parts of it have separate kernels.
 TEST(RegionOfALensThatVaries, IsDrawnAsInTheWholeWhateverLightsAreFarAway) {
     Shot shot = flat(900, 300, {0.1f, 0.1f, 0.1f, 1}, 3);
     for (int y = 0; y < 300; ++y)

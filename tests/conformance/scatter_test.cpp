@@ -1,4 +1,4 @@
-// What scatter does beyond the laws of every engine: slopes, shadows, counters, strips.
+// Properties of scatter beyond the laws of every engine: slopes, shadows, counters, strips.
 #include "shots.h"
 
 namespace petzval::conformance {
@@ -22,8 +22,8 @@ TEST(Scatter, ASlopeThroughFocusHidesWhatIsKnownToBeBehindIt) {
     }
 }
 
-// What is found behind an edge goes on behind the surface, and must not show where its narrow discs become
-// wide.
+// Background estimated at an edge continues behind the surface, and must stay hidden where the surface's
+// narrow discs become wide.
 TEST(Scatter, ASlopeBeforeAWallHidesWhatIsFoundBehindIt) {
     Shot shot = flat(120, 60, {0, 0, 0, 1}, 20);
     for (int y = 0; y < 60; ++y)
@@ -37,7 +37,7 @@ TEST(Scatter, ASlopeBeforeAWallHidesWhatIsFoundBehindIt) {
     }
 }
 
-// Where no ray comes past the slope, what is behind takes no part at all, however finely the pupil is taken.
+// If no ray passes the slope, the background has no effect, for any sampling of the pupil.
 TEST(Scatter, WhatNoRayReachesBehindASlopeDoesNotMatter) {
     Shot shot = flat(100, 90, {}, 0);
     paint_rectangles(shot.colour, 3);

@@ -60,7 +60,7 @@ TEST(Layers, OfAPictureThatKnowsWhatIsHiddenAreThose) {
         [](int, int) { return 12.0f; });
     const DefocusReport report = view_of(shot, ScatterView::Layers);
     EXPECT_EQ(panel(report, 2)(10, 10), (Rgba{0.2f, 0.5f, 0.1f, 1}));
-    // Behind the square what is seen around it goes on, before what is known behind that.
+    // The surroundings of the square continue behind it, in front of the known background.
     EXPECT_NEAR(panel(report, 2)(33, 23).b, kBlue.b, 1e-4);
     EXPECT_EQ(panel(report, 4)(33, 23), (Rgba{0.2f, 0.5f, 0.1f, 1}));
 }
@@ -117,7 +117,7 @@ TEST(Hidden, SurfacesGivenBackAreThePicturesOwn) {
     ASSERT_TRUE(report);
     job.scatter.view = ScatterView::Result;
     job.behind = &report->hidden;
-    // What is given is composited through more sectors of the pupil than what was guessed.
+    // Given hidden layers are composited through more sectors of the pupil than estimated ones.
     EXPECT_LT(largest_difference(rendered(job), expected), 0.025);
 }
 

@@ -16,7 +16,7 @@
 
 namespace petzval::conformance {
 
-// A picture with signed radii in place of depth, through the ideal lens; hidden layers where they are known.
+// A picture with signed radii instead of depth, through the ideal lens, with known hidden layers if any.
 struct Shot {
     Picture colour;
     Plane coc_px;

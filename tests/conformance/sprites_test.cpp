@@ -1,4 +1,4 @@
-// Lights drawn as kernels: their light, size, shape, place and what hides them.
+// Lights drawn as kernels: their light, size, shape, place and occluders.
 #include "shots.h"
 
 #include <limits>
@@ -288,7 +288,7 @@ TEST(Sprites, AWallHidesUpToEveryEdgeOfThePicture) {
         lights.add(x, y, 20, 1000);
         sums.push_back(landed(rendered(lights.job())).sum);
     }
-    // What lands outside came past the edge and is lost, so little is left; and as much at every side.
+    // Light that lands outside is lost, so little is left; all sides lose the same amount.
     for (const double sum : sums) EXPECT_NEAR(sum, sums[0], 1e-3 * 1000);
     Lights middle(width, height, 0);
     middle.add(61.5f, 37.5f, 20, 1000);

@@ -1,5 +1,5 @@
 // The preview engine: rings of the lens's kernels gathered at half resolution, near and far apart
-// (docs/explain/published.md); bright points with kernels of their own.
+// (docs/explain/published.md); each bright point with its own kernel.
 #include "engine/gather/gather.h"
 
 #include "device/device.h"

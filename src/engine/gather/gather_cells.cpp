@@ -61,7 +61,7 @@ private:
         first_.push_back(lights_.size());
     }
 
-    // Which columns have light of this level at all: most have not.
+    // Finds the columns with light of this level: most have none.
     void find_lit(int columns, int cy) {
         const int width = input_.width();
         is_lit_.assign(std::size_t(columns), input_.samples.deep.empty() ? 0 : 1);
@@ -81,7 +81,7 @@ private:
         std::fill(is_lit_.begin() + width, is_lit_.end(), is_lit_[std::size_t(width) - 1]);
     }
 
-    // Beyond the picture its border goes on, in a colour that is not known; or there is nothing.
+    // Pixels beyond the picture continue its border in an unknown colour, or are empty.
     void add_pixel(int x, int y, float weight, std::size_t begin) {
         const int u = std::min(x, input_.width() - 1), v = std::min(y, input_.height() - 1);
         const bool outside_x = u != x, outside_y = v != y, outside = outside_x || outside_y;

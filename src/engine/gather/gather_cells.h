@@ -29,9 +29,8 @@ struct CellLight {
     int entry = 0;      // of RingSizes: a turn, or the skirts of one
 };
 
-// Of a deep pixel, each sample dimmed by what is in front of it: a translucent one always, an opaque one
-// where so little farther away that no ray comes past what is in front. What a straight ray is left with is
-// emptiness.
+// Emits each sample of a deep pixel, dimmed by the samples in front of it: by a translucent one always, by an
+// opaque one if it is so close in front that no ray passes it. The rest of a straight ray is emptiness.
 template <typename Emit>
 void for_each_deep_sample(const EngineView& input, int x, int y, Emit& emit) {
     float open = 1, last_px = input.samples.coc_px(x, y), front_px = -1e30f;

@@ -94,7 +94,7 @@ RingSizes::RingSizes(float nearest_px, float farthest_px, const RingRule& rule, 
         const int below = std::max(0, i - 1), above = std::min(i, count() - 1);
         const int inner = i <= zero_of_rings ? above : below, outer = i <= zero_of_rings ? below : above;
         const float apart = squared(outer) - squared(inner);
-        // Beyond the largest radius there is nothing but that.
+        // The largest radius holds everything beyond it.
         intervals_.push_back({inner, outer, apart > 0 ? squared(inner) : -1, apart > 0 ? 1 / apart : 1e30f});
     }
     constexpr int kSteps = 4096;
@@ -133,7 +133,7 @@ RingSizes::Sizes RingSizes::light_of(int level) const {
     for (int ring = 0; ring < count(); ++ring) {
         if (this->level(ring) != level && (level == 0 || skirt_level(ring) != level)) continue;
         if (radius_px(ring) == 0) sizes.above_px = -1;  // light in focus belongs to it
-        // As far as the rings beside it, or without end.
+        // A ring extends to the rings beside it, the outermost without end.
         for (const int beside : {ring - 1, ring + 1}) {
             const float r = beside < 0 || beside == count() ? std::numeric_limits<float>::infinity()
                                                             : std::abs(radius_px(beside));

@@ -2,7 +2,7 @@
 //
 // A source of any radius is handed to the two rings around it,
 //     share of the outer = (c^2 - inner^2) / (outer^2 - inner^2),
-// so that the second moment of what arrives is that of the source's own disc.
+// so that the second moment of the light equals that of the source's own disc.
 #pragma once
 
 #include "device/kernels.h"
@@ -30,8 +30,8 @@ struct RingRule {
 };
 RingRule ring_rule(Quality quality);
 
-// Radii of the rings: 0, and steps of `ratio` down from the largest radius on either side, so that what lies
-// at infinity has a ring of its own. Numbered from the nearest (most negative) to the farthest.
+// Radii of the rings: 0, and steps of `ratio` down from the largest radius on either side, so that infinity
+// has its own ring exactly. Numbered from the nearest (most negative) to the farthest.
 class RingSizes {
 public:
     RingSizes(float nearest_px, float farthest_px, const RingRule& rule, const LensOnPicture& lens);
@@ -88,8 +88,8 @@ public:
         return skirt > 0 && skirt == level ? skirt_entry(turn) : -1;
     }
 
-    // What a source hands to rings, as emit(turn, share). Hidden light between two levels goes to the farther
-    // ring alone, since it cannot wait for that.
+    // Calls emit(turn, share) for the rings of a source. Hidden light between two levels goes to the farther
+    // ring alone: the nearer one is composited before it is known.
     template <typename Emit>
     void hand_out(float coc_px, bool hidden, const Emit& emit) const {
         Mix to = mix(coc_px);
@@ -104,8 +104,8 @@ public:
 private:
     void put_in_order();
 
-    // What is handed out between two radii, with the smaller one's c^2 and 1 / (outer^2 - inner^2). What a
-    // pixel holds anyway is not blurred: no c^2 counts as less than that of a disc within its pixel.
+    // Two radii between which light is shared, with the smaller one's c^2 and 1 / (outer^2 - inner^2). A disc
+    // within its pixel is not blurred: no c^2 counts as less than that of such a disc.
     struct Interval {
         int inner, outer;
         float low, scale;
@@ -127,7 +127,7 @@ struct Zones {
     int columns = 1, rows = 1;
     Rect frame;  // the display window, in pixels of a picture
     int count() const { return columns * rows; }
-    // Of a place in the picture.
+    // Column of the grid at a place in the picture.
     int column_of(double x) const { return at(x - frame.x0, frame.width(), columns); }
     int row_of(double y) const { return at(y - frame.y0, frame.height(), rows); }
 

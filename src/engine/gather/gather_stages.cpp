@@ -65,13 +65,13 @@ public:
     explicit Article(const EngineView& input)
         : in_(input), disc_(disc_of(input.options.of<GatherOwn>().gather.taps)) {
         // CoC = clamp(1 - F/z, -1, 1) * largest: with `largest` the radius at infinity that is the metric
-        // one, but for near things closer than half the focus distance.
+        // one, except for objects closer than half the focus distance.
         largest_px_ = input.lens.radius_at_infinity_px;
         if (largest_px_ <= 0)
             largest_px_ = std::max(-input.samples.nearest_coc_px, input.samples.farthest_coc_px);
     }
 
-    // What was drawn up to the stage, timed.
+    // The picture of the last stage that was drawn, with its time.
     Picture stage(Stopwatch watch) const {
         const GatherStage stage = in_.options.of<GatherOwn>().gather.stage;
         const auto timed = [&](const char* pass, auto made) {
@@ -137,7 +137,7 @@ private:
         Rgba colour;
         float coc_px;
     };
-    // At a place of the disc round a cell, (x, y) in cells.
+    // Reads a place of the disc around a cell, (x, y) in cells.
     Read read(const HalfPicture& half, float x, float y, const Place& p) const {
         const View<const Rgba> colour = half.colour;
         const View<const float> radii = half.coc_px;

@@ -10,10 +10,10 @@ constexpr Rgba kNear{0.024f, 0.275f, 0.745f, 1}, kFar{0.896f, 0.332f, 0.006f, 1}
 constexpr float kDimmed = 0.25f, kIdle = 0.35f;
 constexpr int kDown = 2;  // discs one above the other
 
-// How much of a pixel at this distance from an edge lies inside, the distance negative there.
+// Fraction of a pixel inside an edge at this distance; the distance is negative inside.
 float inside(float distance) { return std::clamp(0.5f - distance, 0.0f, 1.0f); }
 
-// From (px, py) to the line between a and b.
+// Distance of (px, py) from the line between a and b.
 float to_line(float px, float py, float ax, float ay, float bx, float by) {
     const float dx = bx - ax, dy = by - ay, squared = dx * dx + dy * dy;
     const float t = squared > 0 ? std::clamp(((px - ax) * dx + (py - ay) * dy) / squared, 0.0f, 1.0f) : 0;
@@ -25,7 +25,7 @@ struct Disc {
     float radius;  // as drawn
 };
 
-// What is drawn at (x, y) from the middle of the disc over what was there.
+// Colour at (x, y) from the middle of the disc, drawn over `under`.
 Rgba drawn_at(float x, float y, float radius, Rgba under, const std::vector<DrawnTap>& taps) {
     const float dot = std::max(1.2f, radius / 30), line = std::max(0.5f, radius / 120);
     Rgba seen = under;

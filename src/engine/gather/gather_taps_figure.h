@@ -19,7 +19,7 @@ struct DrawnTap {
 
 struct TapsFigure {
     Picture picture;  // drawn upon
-    // What the disc round a pixel holds at a place of the unit disc; its samples.
+    // Light in the disc around a pixel at a place of the unit disc; its samples.
     std::function<Rgba(int x, int y, float u, float v)> light;
     std::function<std::vector<DrawnTap>(int x, int y)> taps;
 };

@@ -37,13 +37,13 @@ bool is_opaque(const EngineView& part) {
     return true;
 }
 
-// True if the lens draws what is in focus as it is, but for a trace: aberrations blur it too.
+// True if the lens leaves objects in focus nearly sharp; aberrations blur them too.
 bool keeps_pixels(const LensOnPicture& lens) {
     constexpr double kOwnPixelPx = 1;
     return lens.level(0).reach_px(0) <= kOwnPixelPx;
 }
 
-// Whether blurred light from any tile can land in this one; largest: of each.
+// True if blurred light from any tile can land in this one; largest: radius of each tile.
 bool is_reached(const EngineView& input, const std::vector<Rect>& tiles, const std::vector<float>& largest,
                 const Rect& tile) {
     for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -54,8 +54,8 @@ bool is_reached(const EngineView& input, const std::vector<Rect>& tiles, const s
     return false;
 }
 
-// At full resolution all kernels, as they are small and light is everywhere; of coarser levels those of rings
-// that have light in a zone.
+// Requests all kernels of full resolution, which are small and used everywhere, and of coarser levels the
+// kernels of rings with light in a zone.
 void ask_for_kernels(const RingKernels& kernels, GatherPlan& plan) {
     const int rings = plan.sizes.count();
     std::vector<bool> asked(std::size_t(2 * rings * plan.zones.count()));

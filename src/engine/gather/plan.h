@@ -1,4 +1,4 @@
-// What a gather draws: light by ring on every level, and the tiles that gather it.
+// The plan of a gather: light by ring on every level, and the tiles that gather it.
 #pragma once
 
 #include "device/kernels.h"
@@ -15,11 +15,10 @@
 
 namespace petzval::engine {
 
-// Rings are taken from the nearest to the farthest, in the order of RingSizes::turns(). Each takes of every
-// pixel's lens the area it arrives with, or what is left: what is near hides what is far, whatever its
-// colour. What nothing took goes to what
-// was seen, in proportion. Rings of one level that follow each other are combined on that level's grid and
-// enlarged together (bilinear, the tent).
+// Rings are taken from the nearest to the farthest, in the order of RingSizes::turns(). Each takes the
+// area it arrives with from every pixel's lens, or the rest: near light hides far light, whatever its colour.
+// Area that no ring took goes to the visible surfaces in proportion. Rings of one level that follow each
+// other are combined on that level's grid and enlarged together (bilinear, the tent).
 struct GatherPlan {
     static constexpr int kTile = laws::kGatherTile;
     static constexpr int kTentBorder = laws::kGatherBorder;  // cells around a tile that enlarging reads

@@ -1,4 +1,4 @@
-// What is planned, told from the plan alone: nothing is drawn here.
+// Plans of gather, tested without drawing.
 #include "engine/gather/plan.h"
 
 #include "kernel/lenses/make_lens.h"
@@ -52,7 +52,7 @@ private:
     EngineView input_;
 };
 
-// Wide open, this lens spreads light of what is in focus over 60 px and more.
+// Wide open, this lens spreads light of objects in focus over 60 px and more.
 LensChoice wide_open() {
     LensChoice lens;
     lens.name = "doublet";

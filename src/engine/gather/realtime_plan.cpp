@@ -63,7 +63,7 @@ void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t b
                                                      float(cell * cell)));
                 sum += fours.back();
             }
-        // What a shape throws farther than its square stays in it.
+        // Light that a shape throws beyond its square stays in it.
         for (std::size_t k = first; k < fours.size(); ++k) {
             Rgba& f = fours[k];
             f = {f.r / sum.r, f.g / sum.g, f.b / sum.b, f.a / sum.a};
@@ -71,8 +71,8 @@ void add_lamp_kernels(const PointSpread& spread, double radius_px, std::size_t b
     }
 }
 
-// What a tap counts of something blurred by a share of the disc's radius. Of the smallest only a few taps
-// count, which a shape with a dark middle must not lose: they are even discs. As realtime_gather.comp has it.
+// Weight of a tap for a surface blurred by a fraction of the disc's radius. Few taps count for the smallest
+// radii, so these are even discs: a shape with a dark middle would lose them. Same as realtime_gather.comp.
 float weight_of(const std::vector<Rgba>& fours, std::size_t shape, float u, float v, float share) {
     const int x = int(std::floor((u / kHalf * 0.5f + 0.5f) * kSide));
     const int y = int(std::floor((v / kHalf * 0.5f + 0.5f) * kSide));
@@ -83,7 +83,7 @@ float weight_of(const std::vector<Rgba>& fours, std::size_t shape, float u, floa
     return even + shaped * (own - even);
 }
 
-// What taps over a disc count, together, of a plane that is blurred by a share of its radius.
+// Sum of the taps' weights over a disc, for a plane that is blurred by a fraction of its radius.
 float counted(const std::vector<Rgba>& fours, std::size_t shape, float share) {
     float sum = 0;
     for (int i = 0; i < RealtimeLens::kTaps; ++i) {

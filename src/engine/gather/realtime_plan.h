@@ -1,4 +1,4 @@
-// What the pass for real time is given (docs/explain/real-time.md): a lens's shape in front of focus and
+// Input of the real-time pass (docs/explain/real-time.md): a lens's shape in front of focus and
 // behind it, as a device's programs read it, and a picture.
 #pragma once
 

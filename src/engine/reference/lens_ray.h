@@ -20,7 +20,7 @@ RaySource ray_source(const Surfaces& surfaces, int x, int y, double coc_px, doub
 // Follows the ray that leaves the source through pupil point (u, v) (pixel orientation, y down) towards the
 // lens. Where it has come to radius c it is at
 //     q(c) = (x, y) + (coc_px - c) (u, v)
-// (docs/conventions.md, "Which way up a kernel is", seen from the source). Returns the share of it that gets
+// (docs/conventions.md, "The definition", seen from the source). Returns the share of it that gets
 // there. Facets nearer than the source that cross it stop it; a partly covering one stops its share where
 // facets dim what is behind them, else all of it if its coverage exceeds `chance` (0…1).
 float share_seen(const Surfaces& surfaces, const RaySource& source, double u, double v, float chance);

@@ -18,7 +18,7 @@ Rgba ratio(Rgba of, Rgba to) {
     return {divide(of.r, to.r), divide(of.g, to.g), divide(of.b, to.b), 0};
 }
 
-// What the layer is a share of.
+// The quantity that the layer is a fraction of: the light, or the coverage.
 Rgba guide(Rgba colour, bool is_light) {
     return is_light ? colour : Rgba{colour.a, colour.a, colour.a, colour.a};
 }
@@ -100,7 +100,7 @@ private:
         return ratio(layer.colour(x, y), guide(input_.samples.colour(x, y), layer.is_light));
     }
 
-    // The mean of what the pixel shows becomes the layer's own share.
+    // Scales the fractions so that their mean over the visible samples is the layer's own.
     void meet(std::span<const CocSample> samples, Rgba own, std::size_t i, Rgba* shares) const {
         const bool is_light = all_layers_[i].is_light;
         Rgba shown, of_layer;  // the light of what the pixel shows, and the layer's by the shares so far

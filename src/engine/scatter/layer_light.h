@@ -15,10 +15,10 @@
 
 namespace petzval::engine {
 
-// The share that each of some layers has of every sample: 1 where it is all of the light (or of the coverage,
-// for what is no light). `complete` are the samples of input.samples.colour before highlights were taken. A
-// sample that is all that its pixel shows has the pixel's share; what was found behind it, that of the pixels
-// around which show the same surface; shares of what a pixel shows together meet its own.
+// Fraction of every sample that belongs to each layer: 1 if the layer is all of the light (of the coverage
+// for a matte). `complete` are the samples of input.samples.colour before highlights were removed. A sample
+// that fills its pixel has the pixel's fraction; a hidden sample has the fraction of the surrounding pixels
+// that show the same surface; the fractions of several visible samples average to the pixel's.
 class LayerShares {
 public:
     // Layers are done several at once, which costs memory.
@@ -34,7 +34,7 @@ private:
 
 // The layer's light in the place of the beauty's; coverage stays.
 CocSamples lit_by(const CocSamples& base, const std::vector<Rgba>& shares, const SampleLayer& layer);
-// The same of highlights, which were taken of `base`. Empty for what is no light.
+// The same for highlights, which were removed from `base`. Empty for mattes.
 std::vector<Highlight> lit_by(const std::vector<Highlight>& highlights, const CocSamples& base,
                               const std::vector<Rgba>& shares, const SampleLayer& layer);
 

@@ -15,7 +15,7 @@
 namespace petzval::engine {
 namespace {
 
-// What one tile takes, found on its own: kernels by their number in ScatterKernels, places from 0.
+// The sources of one tile, found by itself: kernels by their number in ScatterKernels, places from 0.
 struct TileDraft {
     int sectors = 1;
     std::vector<TileLayer> layers;
@@ -29,7 +29,7 @@ struct TileDraft {
     }
 };
 
-// Which of all kernels there can be are asked for.
+// Marks the kernels that are requested, among all possible ones.
 class AskMarks {
 public:
     explicit AskMarks(std::size_t count) : asked_(count) {}
@@ -52,7 +52,7 @@ private:
     std::vector<std::atomic<bool>> asked_;
 };
 
-// How many surfaces, one behind the other, reach a tile.
+// Number of surfaces, one behind the other, that reach a tile.
 class SurfaceCount {
 public:
     explicit SurfaceCount(int another_surface) : apart_(another_surface - kNextLayer) {}
@@ -118,7 +118,7 @@ private:
         }
         sort_by_layer();
     }
-    // By those bits of the layer that differ, a few at a time; the order found stays.
+    // Radix sort by the bits of the layer that differ; the order of equal layers stays.
     void sort_by_layer() {
         std::uint64_t differ = 0;
         for (const std::uint64_t key : keys_) differ |= key ^ keys_.front();
@@ -185,7 +185,7 @@ private:
     std::vector<std::uint64_t> keys_, sorted_;
 };
 
-// Where the draft of a tile goes in the plan's lists.
+// Position of a tile's draft in the plan's lists.
 struct TilePlace {
     std::uint32_t layer = 0, run = 0, arrival = 0;
 };
@@ -221,7 +221,7 @@ void append(std::span<const TileDraft> drafts, std::size_t first, Workers& worke
                  [&](int i) { write_tile(drafts[std::size_t(i)], at[std::size_t(i)], plan); });
 }
 
-// In place of their numbers among all kernels, those in the plan's set.
+// Replaces the numbers of kernels among all kernels by those in the plan's set.
 void name_kernels(const std::vector<std::uint32_t>& places, Workers& workers, ScatterPlan& plan) {
     constexpr std::size_t kAtOnce = 1 << 16;
     const std::size_t count = plan.arrivals.size();
@@ -240,7 +240,7 @@ void list_tiles(ScatterPlan& plan) {
             plan.tiles.push_back({Rect{x, y, x + kTile, y + kTile}.intersected(rows), 0, 1});
 }
 
-// So many tiles are found at a time, that what is drafted is little beside the plan's lists.
+// Tiles drafted at a time: few enough that the drafts are small beside the plan's lists.
 constexpr std::size_t kTilesAtOnce = 256;
 
 void fill_tiles(const ScatterKernels& kernels, Progress& progress, Workers& workers, ScatterPlan& plan) {

@@ -1,4 +1,4 @@
-// What the scatter engine decides before anything is drawn: flat data, no pixels of the result.
+// The decisions of the scatter engine before drawing: flat data, no pixels of the result.
 //
 // A plan is of a strip: rows of the frame with those around them that can influence them. Rows in a plan
 // count from the strip's first. Lists that belong to an element of another list lie one after the other: the
@@ -20,7 +20,7 @@
 
 namespace petzval::engine {
 
-// How finely sources are spread.
+// Resolution at which sources are spread.
 struct LevelRule {
     float largest_cells = 8;  // no source covers more than this radius, in cells of its level…
     float fade = 0.15f;       // …but for the fade: across this share of a level it is spread on two
@@ -66,7 +66,7 @@ struct Source {
     Rgba light;        // r, g, b: premultiplied colour; a: share of its cell's lens area it takes up, 0…1
     float radius = 0;  // signed, in cells of its level
     float tilt_x = 0, tilt_y = 0;  // change of the weight per cell away from the source: slope / radius
-    // Where in its cell the middle of what it gathers lies, -0.5…0.5: 0 where the cell is evenly filled.
+    // Centroid of the cell's light within the cell, -0.5…0.5: 0 if the cell is evenly filled.
     float off_x = 0, off_y = 0;
     int layer = 0;  // its place in the order of compositing
     int x = 0;      // cell on the level's grid, may lie outside the picture; its row: y()
@@ -102,7 +102,7 @@ struct LevelRun {
     std::uint32_t first_arrival;
     int level;
 };
-// What is composited as one: light, and after it the emptiness at its depth.
+// A unit of compositing: light, and after it the emptiness at its depth.
 struct TileLayer {
     std::uint32_t first_run, first_empty_run;
     int layer;  // its place in the order of compositing
@@ -138,8 +138,8 @@ struct ScatterPlan {
 
 class ScatterKernels;
 
-// The plan of a strip: its sources, and what of them reaches which tile. `strip` is what the samples were
-// made from, by rows; rows: the pixels of it to be drawn; first_row: the frame's row that is its row 0.
+// The plan of a strip: its sources, and the tiles that they reach. The samples were made from the rows of
+// `strip`; rows: the pixels of it to be drawn; first_row: the frame's row that is its row 0.
 ScatterPlan make_plan(const EngineView& strip, SampleSource samples, View<const unsigned char> connected,
                       const Rect& rows, int first_row, const LevelRule& rule, const ScatterKernels& kernels);
 

@@ -1,4 +1,4 @@
-// Looks at what a run of the scatter engine makes on its way, in place of its result.
+// Reads the plans of a run of the scatter engine instead of its result.
 #pragma once
 
 #include "device/device.h"

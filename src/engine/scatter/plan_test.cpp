@@ -1,4 +1,4 @@
-// What is planned, told from the plan alone: nothing is drawn here.
+// Plans of scatter, tested without drawing.
 #include "engine/scatter/plan.h"
 
 #include "engine/samples/complete_testing.h"
@@ -15,7 +15,7 @@
 namespace petzval::engine {
 namespace {
 
-// A picture with its radii, and what a plan of it is made with.
+// A picture with its radii, and the other inputs of its plan.
 class Planned {
 public:
     Planned(int width, int height, const LensChoice& choice = {}, Quality quality = Quality::Standard)
@@ -120,7 +120,7 @@ TEST(ScatterPlan, EveryAskIsUsedAndEveryArrivalHasItsAsk) {
         }
 }
 
-// What a cell gathered, all layers together.
+// Sum of a cell over all layers.
 struct CellSum {
     double area = 0, light = 0, radius = 0, tilt = 0, off = 0;
     void add(const Source& s) {

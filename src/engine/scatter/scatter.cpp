@@ -28,7 +28,7 @@
 namespace petzval::engine {
 namespace {
 
-// Sizes of what stages are given and leave behind.
+// Sizes of the inputs and outputs of stages.
 template <typename T>
 std::size_t bytes_of(View<T> pixels) {
     return std::size_t(pixels.width()) * std::size_t(pixels.height()) * sizeof(T);
@@ -50,15 +50,15 @@ struct StripPlan {
     int rows = 0, halo = 0;
 };
 
-// Of working memory: 80 to 120 a pixel were measured on the built-in scenes, given as flat pictures.
+// Working memory: 80 to 120 bytes a pixel were measured on the built-in scenes as flat pictures.
 constexpr std::size_t kBytesPerPixel = 20, kBytesPerSample = 110;
 // Kernels, tables, code: of aberrated lenses 20M more than of the ideal one.
 constexpr std::size_t kFixedWorkingBytes = std::size_t(56) << 20;
 // Strips of wide frames that are narrower are mostly halo.
 constexpr std::size_t kDefaultWorkingBytes = std::size_t(2000) << 20;
 
-// The share of pixels that are cut from a neighbour: they are kept taken apart, and what they hide has
-// samples and sources of its own.
+// Fraction of pixels at silhouettes: they are separated from a neighbour, and the surfaces they hide need
+// more samples and sources.
 double share_at_silhouettes(const EngineView& input) {
     const Image<unsigned char> connected = connections(input.samples.coc_px, *input.services.workers);
     std::atomic<std::ptrdiff_t> cut = 0;
@@ -69,9 +69,9 @@ double share_at_silhouettes(const EngineView& input) {
     return double(cut) / (double(input.width()) * double(input.height()));
 }
 
-// What a flat picture takes that is done at once, as whole commands did at their peak
-// (docs/journal/2026-11-23-memory-and-file-writing.md, Fewer bytes). Of strips, and of what is more than
-// flat, less is known and more is reckoned with.
+// Peak memory of a flat picture in one strip, as measured on whole commands
+// (docs/journal/2026-11-23-memory-and-file-writing.md, Fewer bytes). The estimate for several strips, and for
+// deep pictures, is less certain and larger.
 std::size_t bytes_at_once(const EngineView& input, bool has_spare) {
     constexpr double kPerPixel = 50, kPerSilhouettePixel = 345, kFixed = 52 << 20, kAberrated = 28 << 20;
     const bool flat = input.samples.deep.empty() && input.samples.plate.empty() &&
@@ -108,15 +108,15 @@ Result<StripPlan> plan_strips(const EngineView& input, const LevelRule& rule, co
         return (int(std::min(rows, 1e6)) + unit - 1) / unit * unit;
     };
     StripPlan plan;
-    // What is spread onto a row, and beyond that what decides what lies hidden there: the other end of a lamp
-    // comes from as far again.
+    // Rows around a row that can change it: sources that spread onto it, and the neighbourhood that decides
+    // which surfaces lie hidden there. The other end of a lamp is as far again.
     constexpr int kLookedAtPx = std::max(2 * kWidestLampPx + 16, kOutlineReachPx);
     const double reach = std::min(input.lens.level(0).reach_px(largest), double(input.height()));
     plan.halo = whole_units(1.2 * reach + 4.0 * (1 << coarsest) +
                             2 * std::min(largest, double(input.height())) + kLookedAtPx);
     const std::size_t pixels = std::size_t(input.width()) * std::size_t(input.height());
     // The caller's colour and depth, the radii and the result exist besides.
-    // Of each layer too, but for the radii.
+    // Each layer needs the same except the radii.
     const std::size_t held = pixels * (2 * sizeof(Rgba) + 2 * sizeof(float)) +
                              input.samples.layers.size() * pixels * 2 * sizeof(Rgba) + kFixedWorkingBytes +
                              input.services.beside_bytes;
@@ -162,7 +162,7 @@ public:
         watch_.lap("split", {bytes_of(frame.samples.colour) + bytes_of(frame.samples.coc_px)});
     }
     Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_, !spare_.colour.empty()); }
-    // Of all the frame; its colour is not asked for after this where it is done as one strip.
+    // Memory of the whole frame; one strip may reuse that of the colour, which is no longer needed.
     Picture memory_for_result(bool one_strip) {
         if (one_strip && spare_.colour.rect() == frame_.samples.colour.rect())
             return std::move(spare_.colour);
@@ -218,7 +218,7 @@ private:
         return strip;
     }
 
-    // What is found on the way from a strip's samples to its sources.
+    // Intermediate results between a strip's samples and its sources.
     struct Found {
         explicit Found(const EngineView& strip)
             : highlights(std::size_t(strip.height() / SampleSource::kRows + 1)),
@@ -285,13 +285,13 @@ private:
         strip.services.progress->advance(0.1 * share);
     }
 
-    // What nobody asks for once the only plan of a strip is made.
+    // Releases the data that nothing needs once the only plan of a strip is made.
     void let_go(Strip& strip, bool is_all) {
         strip.connected = {};
         if (is_all && spare_.coc_px.rect() == frame_.samples.colour.rect()) spare_.coc_px = {};
     }
 
-    // The same plan with a layer's light in place of the beauty's.
+    // Draws the same plan with a layer's light instead of the beauty's.
     void draw_layers(const Strip& strip, const PlannedStrip& beauty, ScatterPlan& plan,
                      const CocSamples& seen, double share, std::vector<Picture>& out) {
         const std::span<const SampleLayer> layers = strip.input.samples.layers;

@@ -11,8 +11,8 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kStepsPerCell = 16;
-// What a narrow disc leaves in its own pixel changes fast: coarse steps would make one row of a slope cover
-// 2 % too little, and let what is hidden show through. Below kNarrowCells steps are finer.
+// The light that a narrow disc keeps in its own pixel changes fast with the radius: with coarse steps one row
+// of a slope covers 2 % too little and the hidden surface shows through. Below kNarrowCells steps are finer.
 constexpr float kNarrowCells = 2, kNarrowSteps = 64;
 constexpr float kMadePerCell = 4;  // of lenses that take long; rims a quarter cell apart blend
 constexpr int kZonesX = 9, kZonesY = 6;
@@ -25,7 +25,7 @@ constexpr float kNegligible = 0.001f;  // share of light in all that is cut away
 constexpr int kBlurredCells = 8;
 constexpr float kBlurredSteps = 4;
 
-// Of a radius >= 0, on the scale of steps; and back.
+// Position of a radius >= 0 on the scale of steps; and back.
 float place_of(float radius, bool blurred) {
     if (blurred) return radius * kBlurredSteps;
     return radius < kNarrowCells ? radius * kNarrowSteps
@@ -160,7 +160,7 @@ kernel::PointSpread ScatterKernels::whole(const Place& at_place) const {
     const float asked = radius_of(at_place), side = at_place.step < 0 ? -1 : 1;
     const float place = std::abs(asked) * kMadePerCell, first = std::floor(place);
     if (lens.is_quick() || place == first) return made(asked);
-    // What takes long is made at some radii and mixed between them.
+    // Slow kernels are computed at some radii and interpolated between them.
     const auto at = [&](float step) {
         return std::make_shared<const kernel::PointSpread>(made(side * step / kMadePerCell));
     };
@@ -173,7 +173,7 @@ kernel::PointSpread ScatterKernels::core(const kernel::PointSpread& whole, const
     if (skirt_levels(place.level, radius_of(place)) > 0)
         return kernel::cut(whole, longest,
                            [&](float distance) { return kernel::fade(distance, core_begin_, core_end_); });
-    // What little is cut away is made up for.
+    // The kernel is scaled to make up for the light that is cut away.
     kernel::PointSpread rest = kernel::cut(whole, longest, [](float) { return 1.0f; });
     const Rgba sum = kernel::sum_of(rest);
     kernel::scale(rest, {1 / sum.r, 1 / sum.g, 1 / sum.b, 1 / sum.a});
@@ -191,7 +191,7 @@ Rgba ScatterKernels::light_of_core(const Place& place) const {
     return light_of_core_[place] = sum;
 }
 
-// A skirt with just the light that its core lacks.
+// The skirt: the light of the kernel outside its core.
 kernel::PointSpread ScatterKernels::skirt(const kernel::PointSpread& whole, const Place& place,
                                           int skirt_of) const {
     const float share = 1 / float(1 << skirt_of);
@@ -261,7 +261,7 @@ int ScatterKernels::coarsest_for(int level) const {
     return coarsest;
 }
 
-// As many as make the skirt as small as a core, wherever in the picture it is largest.
+// The number of levels that makes the skirt as small as a core where it is largest in the picture.
 int ScatterKernels::find_skirt_levels(int level, int step) const {
     int levels = 0;
     const int centre = zones_y_ / 2 * zones_x_ + zones_x_ / 2, corner = 0;

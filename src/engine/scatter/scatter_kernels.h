@@ -28,7 +28,7 @@ namespace petzval::engine {
 class ScatterKernels final : public device::KernelSource, public device::Memory::Thing {
 public:
     ScatterKernels(const LensOnPicture& lens, const LevelRule& rule);
-    // Of one lens and quality.
+    // Name of the set of one lens and quality.
     static std::string name_for(const LevelRule& rule);
 
     // The zones whose kernels the source in cell (x, y) of a level takes, in a picture with this frame, so
@@ -61,7 +61,7 @@ public:
 
     std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
 
-    // How many levels coarser the skirt of this kernel is stamped; 0: it has none.
+    // Number of levels by which the skirt of this kernel is stamped coarser; 0: it has no skirt.
     int skirt_levels(int level, float radius) const;
     static constexpr int kMostSkirtLevels = 3;
     // The coarsest level that sources of levels 0…level are stamped on, skirts included.
@@ -76,7 +76,7 @@ public:
 private:
     int pieces() const { return has_skirts_ ? 1 + kMostSkirtLevels : 1; }
     int step_of(int level, float radius) const;
-    // Of a level, a zone and a signed step (steps in front of focus are ~n).
+    // Place in the set: level, zone and signed step (steps in front of focus are ~n).
     struct Place {
         int level = 0, zone = 0, step = 0;
         friend auto operator<=>(const Place&, const Place&) = default;  // NOLINT(modernize-use-nullptr)

@@ -9,8 +9,8 @@ namespace petzval::engine {
 
 namespace {
 
-// Grains of a pixel. Of many sectors each is but a few grains: their cuts must not jump from radius to
-// radius, or a slope does not quite fill every sector and shows what is behind it.
+// Grains of a pixel. If there are many sectors, each has only a few grains: their cuts must not jump from
+// radius to radius, or a slope leaves part of a sector empty and shows the surface behind it.
 int points_per_side(int width, int sectors) {
     const int finer = sectors > 6 ? 2 : 1;
     return finer * (width < 8 ? 4 : width < 14 ? 2 : 1);

@@ -7,7 +7,7 @@
 
 namespace petzval::engine {
 
-// What comes through each sector, times their number. Sectors are of equal light: `inner` in the middle,
+// Light through each sector, times the number of sectors. Sectors are of equal light: `inner` in the middle,
 // `outer` around them, cut across by angle; taps that lie in several give to each. In front of focus the
 // pupil appears turned by 180 degrees: `turned`.
 std::vector<kernel::PointSpread> sectors_of(const kernel::PointSpread& all, int inner, int outer,

@@ -23,14 +23,14 @@ Slope tilt_of(Slope slope, float coc_px) {
 // coverage, which far below this are no longer finite. (Thick smoke dims what is behind it to any number.)
 constexpr float kLeastCoverage = 1e-20f;
 
-// What a cell gathers from its pixels for one source. Requires: coverage from kLeastCoverage on.
+// Light that a cell gathers from its pixels for one source. Requires: coverage from kLeastCoverage on.
 struct Gathered {
     int layer = 0, skirt_of = 0;
     Rgba light;                             // summed over pixels
     float coc = 0, tilt_x = 0, tilt_y = 0;  // summed times light.a
     float x = 0, y = 0;                     // the same, from the cell's first pixel
     Gathered() = default;
-    // Of a square of so many pixels on a side, each of which gives this light.
+    // A square of `side` x `side` pixels, each with this light.
     Gathered(int in_layer, Rgba pixel, float coc_px, Slope tilt, int side)
         : layer(in_layer),
           light(float(side * side) * pixel),
@@ -52,7 +52,7 @@ struct Gathered {
         moved.x += light.a * float(dx), moved.y += light.a * float(dy);
         return moved;
     }
-    // As a source at cell cell_x of a row of a level.
+    // The source at cell cell_x of a row of a level.
     Source source(int cell_x, int cell_y, int level) const {
         const float mean = 1 / light.a, size = float(1 << level);
         const auto off = [&](float sum) {
@@ -224,7 +224,7 @@ struct Rows {
 };
 
 // One level: the rows of all bands, with `margin` cells more around the picture. A source of an outermost
-// cell is repeated there: beyond an open edge the picture goes on, beyond a closed one there is emptiness.
+// cell is repeated there: beyond an open edge the picture continues, beyond a closed one is emptiness.
 class LevelBuilder {
 public:
     LevelBuilder(int width, int height, int margin, const OpenEdges& open)
@@ -250,7 +250,7 @@ public:
                 array_.first[std::size_t(i)] + counts_[std::size_t(std::clamp(i - margin_, 0, height_ - 1))];
         array_.sources.resize(array_.first.back());
     }
-    // From row `first` of the picture on.
+    // Fills the rows from row `first` of the picture.
     void fill(const Rows& rows, int first) {
         std::uint32_t begin = 0;
         for (std::size_t i = 0; i < rows.ends.size(); ++i) {
@@ -316,7 +316,7 @@ public:
           rows_(levels.size()),
           cells_(levels.size()),
           of_row_(levels.size()) {
-        // As many cells as the coarsest level spans: those beyond the picture give to larger ones.
+        // The cells that the coarsest level spans: those beyond the picture feed larger cells.
         const int coarsest = int(levels.size()) - 1;
         for (int l = 1; l <= coarsest; ++l)
             cells_[std::size_t(l)].resize(std::size_t(cells_across(coarsest)) << (coarsest - l));
@@ -326,8 +326,7 @@ public:
         for (int l = kWideLevel; l <= coarsest; ++l)
             of_row_[std::size_t(l)].resize(cells_[std::size_t(l)].size());
     }
-    // What column x of the row under way gives to a level; columns beyond the picture only fill its last
-    // cells.
+    // Adds column x of the current row to a level; columns beyond the picture only fill its last cells.
     void put(int level, int x, int y, const Gathered& g) {
         if (level > 0) return add_to_cell(level, x, y, g);
         const Source source = g.source(x, y, 0);
@@ -355,7 +354,7 @@ public:
 
 private:
     int cells_across(int level) const { return ((width_ - 1) >> level) + 1; }
-    // What lies in (a cell that begins at) pixel (x, y).
+    // Adds light to the cell that begins at pixel (x, y).
     void add_to_cell(int level, int x, int y, const Gathered& g) {
         const int within = (1 << level) - 1;
         auto& cells = level < kWideLevel ? cells_ : of_row_;
@@ -380,8 +379,8 @@ private:
     int width_;
     std::vector<Rows> rows_;                // per level
     std::vector<std::vector<Cell>> cells_;  // per coarse level, of the row of cells under way
-    // Of wide cells, what the row of pixels under way gives: one sum of millions in single precision would
-    // lose some of them.
+    // Sums of the current row of pixels, for wide cells: one sum of millions in single precision would lose
+    // light.
     static constexpr int kWideLevel = 6;
     std::vector<std::vector<Cell>> of_row_;
 };

@@ -20,7 +20,8 @@ struct Circle {
 
 // The f-stop itself: a disc, or a polygon inscribed in the unit circle whose sides bulge by
 // `curvature` times the sagitta of the circle; then squeezed so that it stays inside the unit disc.
-// Source: docs/conventions.md, "Shapes". tolerance: largest distance of a chord from its arc, pupil radii.
+// Source: docs/reference/lens-files.md, "Shapes and scale". tolerance: largest distance of a chord from its
+// arc, pupil radii.
 std::vector<Point> aperture_outline(const ApertureShape& shape, double tolerance);
 
 // The part of a convex outline inside a circle; order and convexity are kept. Empty if nothing is inside.
