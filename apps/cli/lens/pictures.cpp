@@ -225,6 +225,23 @@ struct TableFlags : PictureFlags {
     bool even = false;
 };
 
+// Everything that a program needs to draw with the table, and to scale it to another picture.
+std::vector<std::pair<std::string, std::string>> table_attributes(const TableFlags& flags,
+                                                                  const LensMount& mount,
+                                                                  const BokehTexture& texture) {
+    const Camera& camera = mount.camera;
+    return {{"petzval:lens", texture.lens},
+            {"petzval:coc", "signed radius, px, + is far"},
+            {"petzval:columns", plain(flags.table.columns)},
+            {"petzval:columnSpacing", flags.even ? "even" : "square root of the radius"},
+            {"petzval:largestRadius", plain(flags.table.largest_coc_px, 9)},
+            {"petzval:rowsPerPixel", plain(flags.table.rows_per_px)},
+            {"petzval:pictureWidth", plain(mount.width_px)},
+            {"petzval:focalLength", plain(camera.focal_length_mm, 9)},
+            {"petzval:fNumber", plain(camera.f_number, 9)},
+            {"petzval:sensorWidth", plain(camera.sensor_width_mm, 9)}};
+}
+
 Status make_table(TableFlags& flags) {
     const Stopwatch watch;
     const auto mounted = prepared(flags);
@@ -256,9 +273,8 @@ Status make_table(TableFlags& flags) {
         planes.add("", texture->energy, false);
         planes.add("view", texture->view, false);
         planes.add("coc.radius", std::move(coc));
-        const Status done = planes.write(
-            flags.output, {{"petzval:lens", texture->lens}, {"petzval:coc", "signed radius, px, + is far"}},
-            !flags.overwrite.no_clobber);
+        const Status done =
+            planes.write(flags.output, table_attributes(flags, mount, *texture), !flags.overwrite.no_clobber);
         if (!done) return done;
     }
     return finish(flags, std::move(report), mount, texture->lens, watch);
