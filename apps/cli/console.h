@@ -36,4 +36,9 @@ bool print(const std::string& text);
 // "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& words);
 
+// A check that found something to doubt: exit code 5.
+struct DoubtsFound {
+    std::string message;
+};
+
 }  // namespace petzval::cli

@@ -151,6 +151,8 @@ int main(int argc, char** argv) {
         return run(argc, argv);
     } catch (const FramesFailed& failed) {
         return fail(4, failed.message);
+    } catch (const DoubtsFound& found) {
+        return fail(5, found.message);
     } catch (const std::bad_alloc&) {
         say_out_of_memory();
         return 1;

@@ -16,9 +16,14 @@ struct LensSummary {
     std::string title;                  // what it is, in one line
     std::string kind;                   // "triplet", "double gauss", …; may be empty
     std::string year, source, history;  // may be empty
+    std::vector<std::string> names;     // others that people use, which --lens knows too
     LensModelKind model = LensModelKind::Prescription;
     double focal_length_mm = 0, f_number = 0;  // as built; it may be scaled to any focal length. 0: any
 };
+
+// Lenses that match every word, in their name, other names, title, kind, year or history, in any case.
+PETZVAL_API std::vector<LensSummary> matching(const std::vector<LensSummary>& lenses,
+                                              const std::vector<std::string>& words);
 
 // Every lens that --lens knows by name: the ideal one, the curves, the prescriptions.
 PETZVAL_API std::vector<LensSummary> lens_list();
@@ -59,6 +64,11 @@ struct LensFacts {
     std::string format;  // of the file it was read from
     std::vector<std::string> notes, warnings;
     bool has_prescription = false;
+    // Printed beside the surfaces; 0: nothing is.
+    double printed_efl_mm = 0, printed_f_number = 0;
+    // Why the surfaces cannot be those that were printed: overlaps, edges too thin, another focal length or
+    // f-number. One sentence each; the last ones of the warnings.
+    std::vector<std::string> doubts;
 
     double efl_mm = 0, bfl_mm = 0, f_number = 0;
     double sensor_width_mm = 0;          // of the format it was made for: as stated, or of the 3:2 frame that

@@ -5,7 +5,15 @@
 #include "lens_files/expected_values.h"
 #include "lens_files/shelf.h"
 #include "optics/aberrations.h"
+#include "optics/buildable.h"
 #include "optics/seidel.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <utility>
 
 namespace petzval {
 namespace {
@@ -41,6 +49,7 @@ LensSummary summary_of(const optics::Prescription& lens, const optics::FirstOrde
     summary.year = lens.year;
     summary.source = lens.source;
     summary.history = lens.history;
+    summary.names = lens.names;
     summary.focal_length_mm = first.focal_length_mm;
     summary.f_number = first.f_number;
     return summary;
@@ -135,6 +144,30 @@ LensFacts facts_of(const kernel::AberrationCurves& curves) {
     return facts;
 }
 
+std::string differs(const char* what, double printed, double ours, const char* unit) {
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), "the table prints %s of %g%s; these surfaces have %.4g%s", what,
+                  printed, unit, ours, unit);
+    return text.data();
+}
+
+std::vector<std::string> doubts_about(const LensFacts& facts, const optics::Prescription& lens,
+                                      const optics::FirstOrder& first) {
+    constexpr double kDiffers = 0.01;  // more than patents round by
+    const auto is_off = [](double ours, double printed) {
+        return printed > 0 && std::abs(ours / printed - 1) > kDiffers;
+    };
+    std::vector<std::string> doubts;
+    if (is_off(first.focal_length_mm, facts.printed_efl_mm))
+        doubts.push_back(differs("a focal length", facts.printed_efl_mm, first.focal_length_mm, " mm"));
+    if (is_off(first.f_number, facts.printed_f_number))
+        doubts.push_back(differs("an f-number", facts.printed_f_number, first.f_number, ""));
+    if (const std::string problem = lens_files::f_number_problem(lens); !problem.empty())
+        doubts.push_back(problem);
+    for (std::string& doubt : optics::build_doubts(lens)) doubts.push_back(std::move(doubt));
+    return doubts;
+}
+
 Result<LensFacts> facts_of(const lens_files::LensFile& file) {
     const optics::Prescription& lens = file.lens;
     const auto first = optics::first_order(lens, lens.primary_um);
@@ -145,8 +178,10 @@ Result<LensFacts> facts_of(const lens_files::LensFile& file) {
     facts.notes = lens.notes;
     facts.warnings = file.warnings;
     facts.has_prescription = true;
-    if (const std::string problem = lens_files::f_number_problem(lens); !problem.empty())
-        facts.warnings.push_back(problem);
+    facts.printed_efl_mm = file.printed_focal_length_mm;
+    facts.printed_f_number = file.printed_f_number;
+    facts.doubts = doubts_about(facts, lens, *first);
+    facts.warnings.insert(facts.warnings.end(), facts.doubts.begin(), facts.doubts.end());
     add_first_order(facts, lens, *first);
     add_seidel(facts, lens, *first);
     const auto lsa = optics::longitudinal_aberration(lens, *first, wavelengths_of(lens), zones());
@@ -156,6 +191,26 @@ Result<LensFacts> facts_of(const lens_files::LensFile& file) {
 }
 
 }  // namespace
+
+std::vector<LensSummary> matching(const std::vector<LensSummary>& lenses,
+                                  const std::vector<std::string>& words) {
+    const auto lower = [](std::string text) {
+        for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+        return text;
+    };
+    std::vector<LensSummary> found;
+    for (const LensSummary& lens : lenses) {
+        std::string text = lens.name;
+        for (const std::string& more : {lens.title, lens.kind, lens.year, lens.history}) text += "\n" + more;
+        for (const std::string& name : lens.names) text += "\n" + name;
+        text = lower(std::move(text));
+        const auto is_there = [&](const std::string& word) {
+            return text.find(lower(word)) != std::string::npos;
+        };
+        if (std::all_of(words.begin(), words.end(), is_there)) found.push_back(lens);
+    }
+    return found;
+}
 
 std::vector<LensSummary> lens_list() {
     std::vector<LensSummary> list{ideal_summary()};

@@ -55,6 +55,7 @@ Json summary_json(const LensSummary& lens) {
             {"year", text(lens.year)},
             {"source", text(lens.source)},
             {"history", text(lens.history)},
+            {"names", lens.names},
             {"efl_mm", known(lens.focal_length_mm)},
             {"f_number", known(lens.f_number)}};
 }
@@ -123,12 +124,16 @@ Json path_json(const std::vector<SectionPoint>& points) {
 }  // namespace
 
 std::string lens_facts_json(const LensFacts& facts) {
-    Json json{{"lens", summary_json(facts.summary)},
-              {"format", facts.format.empty() ? Json(nullptr) : Json(facts.format)},
-              {"warnings", facts.warnings},
-              {"notes", facts.notes},
-              {"efl_mm", facts.efl_mm > 0 || facts.has_prescription ? number(facts.efl_mm) : Json(nullptr)},
-              {"f_number", facts.f_number > 0 ? number(facts.f_number) : Json(nullptr)}};
+    Json json{
+        {"lens", summary_json(facts.summary)},
+        {"format", facts.format.empty() ? Json(nullptr) : Json(facts.format)},
+        {"warnings", facts.warnings},
+        {"doubts", facts.doubts},
+        {"notes", facts.notes},
+        {"printed_efl_mm", facts.printed_efl_mm > 0 ? number(facts.printed_efl_mm) : Json(nullptr)},
+        {"printed_f_number", facts.printed_f_number > 0 ? number(facts.printed_f_number) : Json(nullptr)},
+        {"efl_mm", facts.efl_mm > 0 || facts.has_prescription ? number(facts.efl_mm) : Json(nullptr)},
+        {"f_number", facts.f_number > 0 ? number(facts.f_number) : Json(nullptr)}};
     if (facts.has_prescription) add_prescription(json, facts);
     json["longitudinal_aberration_mm"] = longitudinal_json(facts.longitudinal_aberration);
     return written(json);

@@ -26,11 +26,12 @@
 namespace petzval::lens_files {
 
 struct LensFile {
-    optics::Prescription lens;                       // of a lens drawn as curves only the texts
-    std::optional<optics::AberrationCurves> curves;  // instead of surfaces
-    std::string format;                              // as in the list above
-    std::vector<std::string> warnings;               // one sentence each, for the user
-    std::string content_key;                         // names the bytes it was read from
+    optics::Prescription lens;                                 // of a lens drawn as curves only the texts
+    std::optional<optics::AberrationCurves> curves;            // instead of surfaces
+    std::string format;                                        // as in the list above
+    std::vector<std::string> warnings;                         // one sentence each, for the user
+    double printed_focal_length_mm = 0, printed_f_number = 0;  // beside the surfaces; 0: none
+    std::string content_key;                                   // names the bytes it was read from
 };
 
 inline constexpr std::size_t kLargestLensFile = 2 << 20;  // bytes

@@ -18,6 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::set<std::string> kDescriptive = {"expected",
                                             "recomputed",
                                             "also",
+                                            "names",
                                             "dispersion_known",
                                             "semi_aperture_note",
                                             "published_image_distance",
@@ -35,6 +36,7 @@ private:
     using Check = Status;
 
     Check top_level(const Json& root);
+    void printed(const Json& check);
     Check texts(const Json& root);
     Check scale(const Json& value);
     Check object(const Json& value);
@@ -68,6 +70,14 @@ bool is_infinite_word(const Json& value) {
     return value.is(Json::Type::String) && std::isinf(parse_number(value.string).value_or(0));
 }
 
+// A published focal length or f-number among the "expected" values.
+void Reader::printed(const Json& check) {
+    const Json *quantity = check.find("quantity"), *value = check.find("value");
+    if (!quantity || !value || !value->is(Json::Type::Number)) return;
+    if (quantity->string == "EFL") file_.printed_focal_length_mm = value->number;
+    if (quantity->string == "f_number") file_.printed_f_number = value->number;
+}
+
 Status Reader::texts(const Json& root) {
     optics::Prescription& lens = file_.lens;
     for (const auto& [key, to] : {std::pair<const char*, std::string*>{"id", &lens.id},
@@ -81,6 +91,10 @@ Status Reader::texts(const Json& root) {
         if (!value->is(Json::Type::String)) return at_line(value->line, quoted(key) + " must be text");
         *to = value->string;
     }
+    if (const Json* names = root.find("names"))
+        for (const Json& name : names->items) lens.names.push_back(name.string);
+    if (const Json* expected = root.find("expected"))
+        for (const Json& check : expected->items) printed(check);
     if (const Json* notes = root.find("notes"))
         for (const Json& note : notes->items) lens.notes.push_back(note.string);
     return Done{};

@@ -187,6 +187,8 @@ Status Reader::row(const Line& line) {
 }
 
 Status Reader::finish() {
+    file_.printed_focal_length_mm = variable("Focal Length").value_or(0);
+    file_.printed_f_number = variable("F-Number").value_or(0);
     optics::Prescription& lens = file_.lens;
     if (lens.surfaces.empty()) return at_line(1, "[lens data] holds no surface");
     if (!has_stop_) file_.warnings.emplace_back("no aperture stop (AS) is given; the first surface is taken");

@@ -5,12 +5,10 @@
 // Columns are parted by tabs, commas, semicolons, bars or blanks; ∞, "inf", "plano" and 0 are flat; "air", 1
 // or nothing is air. The heading may state "f = 50" and "F/2". Every guess is a warning.
 #include "lens_files/readers.h"
-#include "optics/paraxial.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace petzval::lens_files {
 namespace {
@@ -176,16 +174,6 @@ Status set_aperture(optics::Prescription& lens, double f_number) {
     return Done{};
 }
 
-void compare_focal_length(LensFile& file, double printed) {
-    const auto first = optics::first_order(file.lens, file.lens.primary_um);
-    if (!first || printed == 0 || std::abs(first->focal_length_mm / printed - 1) < 0.01) return;
-    std::array<char, 120> text{};
-    std::snprintf(text.data(), text.size(),
-                  "the table prints a focal length of %g mm; these surfaces have %.4g mm", printed,
-                  first->focal_length_mm);
-    file.warnings.emplace_back(text.data());
-}
-
 }  // namespace
 
 // A table needs words: those of an f-number or of the stop. A pbrt lens is numbers alone.
@@ -226,14 +214,13 @@ Result<LensFile> read_table(const std::string& text) {
     for (const Row& row : rows)
         if (const Status added = reader.add(row); !added) return added.error();
     reader.guess_stop();
-    if (const Status aperture = set_aperture(
-            file.lens, stated(lines, first_row, {"F/", "f/", "F=", "FNO=", "Fno=", "F-number="}));
-        !aperture)
-        return aperture.error();
+    const double f_number = stated(lines, first_row, {"F/", "f/", "F=", "FNO=", "Fno=", "F-number="});
+    if (const Status aperture = set_aperture(file.lens, f_number); !aperture) return aperture.error();
     reader.report();
     warn_of_models(file);
     assume_field(file);
-    compare_focal_length(file, stated(lines, first_row, {"f=", "EFL=", "efl="}));
+    file.printed_focal_length_mm = stated(lines, first_row, {"f=", "EFL=", "efl="});
+    file.printed_f_number = f_number;
     return file;
 }
 

@@ -2,15 +2,32 @@
 
 #include "lens_files/json.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 namespace petzval::lens_files {
 namespace {
 
-bool is_also_called(const ShelfItem& item, const std::string& id) {
+// Letters and digits alone, in lower case: "Helios 44-2" and "helios-44-2" are one name.
+std::string plain(std::string_view name) {
+    std::string letters;
+    for (const char c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            letters += char(std::tolower(static_cast<unsigned char>(c)));
+    return letters;
+}
+
+bool is_also_called(const ShelfItem& item, const std::string& given) {
     const auto json = parse_json(item.text);
-    const Json* also = json ? json->find("also") : nullptr;
-    return also && also->string == id;
+    if (!json) return false;
+    const std::string wanted = plain(given);
+    if (wanted.empty()) return false;
+    const Json* also = json->find("also");
+    if ((also && also->string == given) || plain(item.name) == wanted) return true;
+    const Json* names = json->find("names");
+    return names && std::any_of(names->items.begin(), names->items.end(),
+                                [&](const Json& name) { return plain(name.string) == wanted; });
 }
 
 }  // namespace

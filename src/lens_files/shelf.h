@@ -22,7 +22,8 @@ std::span<const ShelfItem> shelf();
 // The content of lenses/glasses.json.
 std::string_view glasses_text();
 
-// A lens of the shelf by name (or by the id it has in its source), else the file of that path.
+// A lens of the shelf by name, else the file of that path, else a lens of the shelf by the id that it has in
+// its source or by one of its "names", whatever their case, blanks and hyphens.
 // Errors: InvalidArgument when it is neither (the message lists the shelf); those of load_lens_file.
 Result<LensFile> find_lens(const std::string& name_or_path);
 

@@ -56,6 +56,29 @@ TEST(Shelf, ALensIsFoundByItsIdAtTheSourceToo) {
     EXPECT_EQ(find_lens("petzval-projection")->lens.id, "petzval-projection");
 }
 
+TEST(Shelf, ALensIsFoundByTheNamesThatPeopleUse) {
+    for (const auto& [given, id] : {std::pair("Biotar", "biotar"),
+                                    {"helios", "biotar"},
+                                    {"Helios 44-2", "biotar"},
+                                    {"speed panchro", "speed-panchro"},
+                                    {"Planar", "planar"},
+                                    {"SONNAR", "sonnar-fe-55"},
+                                    {"Super-Takumar", "takumar"},
+                                    {"Nikkor 50mm f/1.4", "nikkor-50-14"}})
+        EXPECT_EQ(find_lens(given).value().lens.id, id) << given;
+}
+
+TEST(Shelf, NoTwoLensesShareAName) {
+    std::set<std::string> all;
+    for (const ShelfItem& item : shelf()) {
+        const auto lens = find_lens(std::string(item.name)).value().lens;
+        for (const std::string& name : lens.names) {
+            EXPECT_TRUE(all.insert(name).second) << name;
+            EXPECT_EQ(find_lens(name).value().lens.id, lens.id) << name;
+        }
+    }
+}
+
 TEST(Shelf, AnUnknownNameIsRefusedWithTheListOfKnownOnes) {
     const auto refused = find_lens("sonar");
     ASSERT_FALSE(refused);

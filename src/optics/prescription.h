@@ -46,6 +46,7 @@ enum class FieldKind {
 struct Prescription {
     std::string id, name, kind;  // kind: "triplet", "double gauss", …
     std::string source, year, history;
+    std::vector<std::string> names;  // others that people use for it
     std::vector<std::string> notes;
 
     std::vector<Surface> surfaces;  // without object and image

@@ -20,7 +20,7 @@ COMMANDS = {
     "focus-track": "in.####.exr -o {o}/out.csv --at 3,3",
     "sheet": "in.####.exr -o {o}/out.png",
     "lens list": "", "devices": "",
-    "lens show": "doublet",
+    "lens show": "doublet", "lens check": "tessar",
     "lens psf": "doublet -o {o}/out.exr --width 480 --defocus 9",
     "lens table": "doublet -o {o}/out.exr --width 480 --columns 5 --defocus 9",
     "lens report": "ideal -o {o}/out.html",
@@ -54,7 +54,7 @@ VALUES = {
     "--pinhole-samples": "3", "--scene-camera": "2", "--camera-at": "1,1,-1", "--look-at": "1,1,4", "--lit-in": "codes",
     "--depth-blur": "3", "--depth-bits": "8", "--truth": "{o}/truth.exr", "--horizon": "0.3", "--count": "5", "--bits": "16",
     "--at": "20,12", "--within": "0", "--smooth": "0", "--plot": "{o}/plot.svg", "--columns": "3", "--rate": "12",
-    "--lenses": "doublet", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
+    "--lenses": "doublet", "--sort": "name", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
 }
 # By verb, where the value above would be the verb's own or means something else there.
 VALUES_OF = {

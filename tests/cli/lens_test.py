@@ -54,6 +54,78 @@ class LensList(CommandLineTest):
         self.assertIn("double-gauss", self.succeed("lens", "list").out)
 
 
+    def names(self, *words):
+        return [lens["name"] for lens in self.report("lens", "list", *words)["lenses"]]
+
+    def test_lenses_are_found_by_the_names_people_use(self):
+        for word, name in (("Helios", "biotar"), ("Speed Panchro", "speed-panchro"), ("planar", "planar"),
+                           ("Sonnar", "sonnar-fe-55"), ("Biotar", "biotar")):
+            self.assertIn(name, self.names(*word.split()))
+            self.assertEqual(self.report("lens", "show", word)["lens"]["name"], name)
+        self.assertGreaterEqual(len(self.names()), 60)
+        self.refuse(2, "lens", "list", "xyzzy", says=["xyzzy"])
+
+    def test_the_list_can_be_sorted(self):
+        lenses = self.report("lens", "list", "--sort", "fstop")["lenses"]
+        numbers = [lens["f_number"] for lens in lenses if lens["f_number"]]
+        self.assertEqual(numbers, sorted(numbers))
+        self.assertEqual(self.names("--sort", "name"), sorted(self.names()))
+        years = [lens["year"] for lens in self.report("lens", "list", "--sort", "year")["lenses"] if lens["year"]]
+        self.assertEqual(years, sorted(years))
+
+
+TABLE = """Tronnier, f = 50 F/2
+1 29.475 3.76 1.67 47.1
+2 84.83 0.12
+3 19.275 4.025 1.67 47.1
+4 40.77 3.275 1.699 30.1
+5 12.75 5.705
+6 stop 4.5
+7 -14.495 1.18 1.603 38.0
+8 40.77 6.065 1.658 57.3
+9 -20.385 0.19
+10 437.065 3.22 1.717 48.0
+11 -39.73 0
+"""
+
+
+class LensCheck(CommandLineTest):
+    def write(self, text):
+        with open(self.path("table.txt"), "w") as file:
+            file.write(text)
+
+    def test_a_pasted_table_is_held_against_what_it_prints(self):
+        self.write(TABLE)
+        outcome = self.succeed("lens", "check", "table.txt")
+        self.assertIn("table of surfaces, 11 surfaces", outcome.out)
+        self.assertRegex(outcome.out, r"focal length  (49|50)\.\d+ mm  \(printed 50 mm")
+        self.assertIn("no doubts", outcome.out)
+
+    def test_doubts_have_an_exit_code_of_their_own(self):
+        for change, says in ((("f = 50", "f = 75"), "prints a focal length of 75 mm"),
+                             (("2 84.83 0.12", "2 84.83 -3"), "surfaces 2 and 3 overlap"),
+                             (("1 29.475 3.76", "1 29.475 0.5"), "surfaces 1 and 2")):
+            self.write(TABLE.replace(*change))
+            outcome = self.run_program("lens", "check", "table.txt")
+            self.assertEqual(outcome.code, 5, outcome)
+            self.assertIn("doubt: ", outcome.out)
+            self.assertIn(says, outcome.out)
+            report = json.loads(self.run_program("lens", "check", "table.txt", "--json", "-").out)
+            self.assertTrue(any(says in doubt for doubt in report["doubts"]), report["doubts"])
+
+    def test_a_glass_without_a_catalogue_entry_is_said_to_be_assumed(self):
+        self.write(TABLE)
+        report = self.report("lens", "check", "table.txt")
+        self.assertTrue(report["warnings"])
+        self.assertEqual(report["printed_efl_mm"], 50)
+        self.assertEqual(report["printed_f_number"], 2)
+
+    def test_what_is_no_lens_is_refused(self):
+        self.write("nothing\n")
+        self.refuse(3, "lens", "check", "table.txt", says=["table.txt"])
+        self.refuse(2, "lens", "check", "doublet", says=["no surfaces"])
+
+
 class LensShow(CommandLineTest):
     def test_fixed_keys_of_a_lens_that_ships(self):
         report = self.report("lens", "show", "triplet-sample")

@@ -9,6 +9,7 @@
 #include "run_flags.h"
 #include "values.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdarg>
@@ -45,9 +46,46 @@ std::string wrapped(const std::string& text, const std::string& indent, std::siz
     return line.empty() ? out : out + indent + line + "\n";
 }
 
-Status list_lenses(const RunFlags& run) {
+enum class LensOrder { Shelf, Name, Year, FocalLength, FNumber };
+const NameTable<LensOrder> kOrders{{"shelf", LensOrder::Shelf},
+                                   {"name", LensOrder::Name},
+                                   {"year", LensOrder::Year},
+                                   {"focal-length", LensOrder::FocalLength},
+                                   {"fstop", LensOrder::FNumber}};
+
+struct ListFlags {
+    std::vector<std::string> words;
+    LensOrder order = LensOrder::Shelf;
+    RunFlags run;
+};
+
+// Lenses without the number come last.
+void sort(std::vector<LensSummary>& lenses, LensOrder order) {
+    const auto number = [order](const LensSummary& lens) {
+        const double size = order == LensOrder::FNumber ? lens.f_number : lens.focal_length_mm;
+        return size > 0 ? size : INFINITY;
+    };
+    std::stable_sort(lenses.begin(), lenses.end(), [&](const LensSummary& a, const LensSummary& b) {
+        if (order == LensOrder::Name) return a.name < b.name;
+        if (order == LensOrder::Year)
+            return (a.year.empty() ? "~" : a.year) < (b.year.empty() ? "~" : b.year);
+        return order != LensOrder::Shelf && number(a) < number(b);
+    });
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+    return all;
+}
+
+Status list_lenses(const ListFlags& flags) {
     std::string text;
-    const std::vector<LensSummary> lenses = lens_list();
+    std::vector<LensSummary> lenses = matching(lens_list(), flags.words);
+    if (lenses.empty())
+        return Error{ErrorCode::InvalidArgument,
+                     "no lens matches " + joined(flags.words) + "; petzval lens list names them all"};
+    sort(lenses, flags.order);
     for (const LensSummary& lens : lenses) {
         const std::string size = lens.focal_length_mm > 0
                                      ? plain(lens.focal_length_mm, 4) + " mm f/" + plain(lens.f_number, 3)
@@ -55,10 +93,11 @@ Status list_lenses(const RunFlags& run) {
         text += row("%-30s %-17s %-24s %s", lens.name.c_str(), size.c_str(), lens.kind.c_str(),
                     lens.year.c_str());
         text += wrapped(printable(lens.title), "    ");
+        if (!lens.names.empty()) text += wrapped("also: " + printable(joined(lens.names)), "    ");
     }
     Json report = new_report("lens list");
     report["lenses"] = json_of(lens_list_json(lenses));
-    return tell(text, std::move(report), run.json);
+    return tell(text, std::move(report), flags.run.json);
 }
 
 Json facts_json(const LensFacts& facts, const std::string& input) {
@@ -165,10 +204,18 @@ Status show_lens(const std::string& name, const RunFlags& run) {
 }
 
 void add_lens_list(Verb& lens, Action& chosen) {
-    Verb& verb = add_verb(lens, "list", "every lens that --lens knows by name", "petzval lens list");
-    auto run = std::make_shared<RunFlags>();
-    run->add_json_to(verb);
-    when_typed(verb, [run, &chosen] { chosen = [run] { return list_lenses(*run); }; });
+    Verb& verb = add_verb(lens, "list", "lenses that --lens knows by name, all or those that match words",
+                          "petzval lens list\n"
+                          "petzval lens list helios\n"
+                          "petzval lens list double gauss --sort fstop");
+    auto flags = std::make_shared<ListFlags>();
+    FlagGroup(verb, "Lenses")
+        .arguments("WORD…", "only lenses whose names, title, kind, year or history hold every word",
+                   flags->words)
+        .choice("--sort", "order of the list (default shelf: ideal, curves, prescriptions)", kOrders,
+                flags->order);
+    flags->run.add_json_to(verb);
+    when_typed(verb, [flags, &chosen] { chosen = [flags] { return list_lenses(*flags); }; });
 }
 
 void add_lens_show(Verb& lens, Action& chosen) {
@@ -195,12 +242,13 @@ void add_lens_show(Verb& lens, Action& chosen) {
 }  // namespace
 
 void add_lens(Verb& program, Action& chosen) {
-    Verb& lens = add_verb(program, "lens", "lenses: list, show, psf, table and report",
+    Verb& lens = add_verb(program, "lens", "lenses: list, show, check, psf, table and report",
                           "petzval lens list\n"
                           "petzval lens show double-gauss\n"
                           "petzval lens psf doublet --defocus 40 -o disc.exr");
     add_lens_list(lens, chosen);
     add_lens_show(lens, chosen);
+    add_lens_check(lens, chosen);
     add_lens_pictures(lens, chosen);
     add_lens_report(lens, chosen);
     when_typed(lens, [&lens] { require_verb(lens); });

@@ -1,0 +1,84 @@
+// petzval lens check: can this lens be what was printed?
+#include "petzval/lens_facts.h"
+#include "petzval/lens_json.h"
+
+#include "console.h"
+#include "report.h"
+#include "run_flags.h"
+#include "values.h"
+#include "verbs.h"
+
+#include <cmath>
+#include <memory>
+
+namespace petzval::cli {
+namespace {
+
+// "focal length  50.02 mm  (printed 50 mm, +0.04 %)"
+std::string beside(const std::string& label, double ours, double printed, const std::string& unit) {
+    std::string text =
+        label + std::string(label.size() < 14 ? 14 - label.size() : 1, ' ') + plain(ours, 5) + unit;
+    if (printed > 0)
+        text += "  (printed " + plain(printed, 6) + unit + ", " + (ours < printed ? "" : "+") +
+                plain(100 * (ours / printed - 1), 2) + " %)";
+    return text + "\n";
+}
+
+std::string check_text(const LensFacts& facts, const std::string& input) {
+    std::string text = input + ": " + (facts.format.empty() ? "ships with petzval" : facts.format) + ", " +
+                       std::to_string(facts.seidel_per_surface.size()) + " surfaces\n";
+    text += beside("focal length", facts.efl_mm, facts.printed_efl_mm, " mm");
+    text += beside("f-number", facts.f_number, facts.printed_f_number, "");
+    const std::size_t guesses = facts.warnings.size() - facts.doubts.size();
+    for (std::size_t i = 0; i < guesses; ++i) text += "assumed: " + facts.warnings[i] + "\n";
+    for (const std::string& doubt : facts.doubts) text += "doubt: " + doubt + "\n";
+    if (facts.doubts.empty()) text += "no doubts\n";
+    return printable(text);
+}
+
+Status check_lens(const std::string& input, const RunFlags& run) {
+    const Stopwatch watch;
+    const auto facts = lens_facts(input);
+    if (!facts) return facts.error();
+    if (!facts->has_prescription)
+        return Error{ErrorCode::InvalidArgument, input + ": has no surfaces to check"};
+    Json report = new_report("lens check");
+    report["input"] = input;
+    for (const char* key :
+         {"lens", "format", "warnings", "doubts", "printed_efl_mm", "printed_f_number", "efl_mm", "f_number"})
+        report[key] = json_of(lens_facts_json(*facts))[key];
+    report["seconds"]["compute"] = report["seconds"]["total"] = watch.seconds();
+    report["peak_memory_bytes"] = peak_memory_bytes();
+    if (Status told = tell(check_text(*facts, input), std::move(report), run.json); !told) return told;
+    if (!facts->doubts.empty())
+        throw DoubtsFound{input + ": " + std::to_string(facts->doubts.size()) +
+                          (facts->doubts.size() == 1 ? " doubt" : " doubts")};
+    return Done{};
+}
+
+}  // namespace
+
+void add_lens_check(Verb& lens, Action& chosen) {
+    Verb& verb = add_verb(lens, "check",
+                          "check a lens file or a pasted patent table: printed numbers, overlaps, thin edges",
+                          "petzval lens check my_lens.txt\n"
+                          "petzval lens check takumar --json - | jq .doubts");
+    auto name = std::make_shared<std::string>();
+    auto run = std::make_shared<RunFlags>();
+    FlagGroup(verb, "Lens")
+        .argument(
+            "LENS",
+            "a lens file: a table of radii, thicknesses, glasses or nd and Vd as patents print it, JSON, "
+            ".zmx, .seq, pbrt .dat, Optical Bench text; or a name of petzval lens list. Exit code 5: "
+            "there are doubts",
+            *name);
+    run->add_json_to(verb);
+    run->add_log_to(verb, false);
+    when_typed(verb, [name, run, &verb, &chosen] {
+        require_argument(verb, *name, "a lens file, or a lens, as tessar");
+        run->apply();
+        chosen = [name, run] { return check_lens(*name, *run); };
+    });
+}
+
+}  // namespace petzval::cli
