@@ -111,7 +111,8 @@ PETZVAL_C_API const char* petzval_device_name(int index);
 typedef struct petzval_look petzval_look;
 
 PETZVAL_C_API petzval_status petzval_look_new(petzval_look** look); /* the defaults */
-/* A look as `petzval defocus --save-look` writes it. Errors: invalid_file. */
+/* A look as `petzval defocus --save-look` writes it; its key "preset" names a look to start from. Or a link
+ * of the lens lab, the URL or its fragment. Errors: invalid_file. */
 PETZVAL_C_API petzval_status petzval_look_from_json(const char* json, petzval_look** look);
 /* Sets one field, as in the JSON: petzval_look_set(look, "engine", "gather"), (look, "lens.blades",
  * "5"). The value is JSON, or a plain word where a name is wanted. The look is unchanged if it is refused. */

@@ -29,7 +29,7 @@ class Look:
 
     @classmethod
     def from_json(cls, text: str) -> Look:
-        """A look as Look.to_json and `petzval defocus --save-look` write it. Raises InvalidFile."""
+        """A look as Look.to_json and `petzval defocus --save-look` write it, or a link of the lens lab. Raises InvalidFile."""
         look = cls.__new__(cls)
         look._lens = None
         look._handle = ctypes.POINTER(_declared.petzval_look)()

@@ -1,4 +1,5 @@
 """Sessions, looks and lenses from Python: results, errors, threads, Ctrl-C."""
+import base64
 import json
 import pathlib
 import signal
@@ -61,6 +62,17 @@ class Looks(unittest.TestCase):
             petzval.Look(**{"lens.blade": 5})
         with self.assertRaises(petzval.InvalidFile):
             petzval.Look.from_json("{")
+
+    def test_a_link_of_the_lens_lab_and_a_preset_are_looks(self):
+        told = json.dumps({"lens": {"name": "tessar", "text": None, "look": {"blades": 5}}}).encode()
+        link = "lens=1." + base64.urlsafe_b64encode(told).decode().rstrip("=")
+        for text in (link, "https://example.org/lab/#" + link):
+            look = json.loads(petzval.Look.from_json(text).to_json())
+            self.assertEqual((look["lens"]["name"], look["lens"]["blades"]), ("tessar", 5))
+        with self.assertRaisesRegex(petzval.InvalidFile, "link of the lens lab"):
+            petzval.Look.from_json(link[:-5])
+        night = json.loads(petzval.Look.from_json('{"petzval_look": 1, "preset": "night"}').to_json())
+        self.assertEqual(night["lens"]["blades"], 8)
         with self.assertRaises(KeyError):
             petzval.Look()["lens.nothing"]
 

@@ -136,7 +136,7 @@ function moved(event) {
 
 function listLenses() {
   const wanted = $("search").value.trim().toLowerCase();
-  const found = lenses.filter((lens) => !wanted || `${lens.name} ${lens.title} ${lens.class} ${lens.year} ${lens.history}`.toLowerCase().includes(wanted));
+  const found = lenses.filter((lens) => !wanted || `${lens.name} ${lens.names.join(" ")} ${lens.title} ${lens.class} ${lens.year} ${lens.history}`.toLowerCase().includes(wanted));
   $("lens").replaceChildren(...(state.lens.text ? [new Option(`${state.lens.name} (yours)`, "")] : []), ...found.map((lens) => new Option(`${lens.name}: ${lens.title}`, lens.name)));
   $("lens").value = state.lens.text ? "" : state.lens.name;
 }
