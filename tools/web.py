@@ -43,13 +43,18 @@ def build(petzval):
 class Quiet(http.server.SimpleHTTPRequestHandler):
     extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".wasm": "application/wasm"}
 
+    def log_request(self, *_):
+        self.server.asked.append(self.path)
+
     def log_message(self, *_):
         pass
 
 
 def server_of(folder):
-    """A server of the folder on loopback, at a port that is free."""
-    return http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=folder))
+    """A server of the folder on loopback, at a port that is free; `asked`: the paths that were asked for."""
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=folder))
+    server.asked = []
+    return server
 
 
 def serve():

@@ -1,22 +1,29 @@
 // Sliders of the lens, made from the table of controls.
+import { valueIn } from "./state.js";
 
 const changers = new Map();
 
-function control({ field, label, unit, min, max, step, type, help, value }, changed) {
-  const made = document.createElement("label"), input = document.createElement("input"), shown = document.createElement("output");
+function control(how, changed) {
+  const { field, key = field, label, unit, min, max, step, type, choices, help, value } = how;
+  const made = document.createElement("label"), input = document.createElement(choices ? "select" : "input"), shown = document.createElement("output");
   made.title = help;
-  input.dataset.field = field;
+  input.dataset.field = key;
   if (type === "check") {
     input.type = "checkbox";
-    input.oninput = () => changed(field, input.checked);
+    input.oninput = () => changed(how, input.checked);
     made.append(input, ` ${label}`);
+  } else if (choices) {
+    input.append(...choices.map((choice) => new Option(choice, choice)));
+    input.oninput = () => changed(how, input.value);
+    made.append(label, input);
   } else {
     Object.assign(input, { type: "range", min, max, step });
-    input.oninput = () => changed(field, Number(input.value));
+    input.oninput = () => changed(how, Number(input.value));
     made.append(label, shown, input);
   }
-  made.oncontextmenu = (event) => (event.preventDefault(), changed(field, value));
-  changers.set(field, (now) => {
+  made.oncontextmenu = (event) => (event.preventDefault(), changed(how, value));
+  changers.set(key, (look) => {
+    const now = valueIn(look, how);
     if (type === "check") input.checked = now;
     else (input.value = now), (shown.textContent = `${now}${unit ? ` ${unit}` : ""}`);
     made.classList.toggle("changed", now !== value);
@@ -24,7 +31,7 @@ function control({ field, label, unit, min, max, step, type, help, value }, chan
   return made;
 }
 
-/** One fieldset a group. @param {(field: string, value: number|boolean) => void} changed */
+/** One fieldset a group. @param {(how: object, value: number|boolean|string) => void} changed */
 export function buildControls(parent, controls, changed) {
   const groups = Map.groupBy ? Map.groupBy(controls, (c) => c.group) : controls.reduce((all, c) => all.set(c.group, [...(all.get(c.group) ?? []), c]), new Map());
   for (const [group, members] of groups) {
@@ -39,8 +46,9 @@ export function buildControls(parent, controls, changed) {
 export function showControls(state, facts) {
   for (const input of document.querySelectorAll("[data-field]")) {
     const { field } = input.dataset;
-    changers.get(field)(state.lens.look[field] ?? (input.type === "checkbox" ? false : defaultOf(field)));
-    input.disabled = ["spherical", "axial_colour"].includes(field) && facts?.lens?.model !== "curves";
+    changers.get(field)(state.lens.look);
+    const isDrawn = facts?.lens?.model === "curves", isTraced = facts?.lens?.model === "prescription";
+    input.disabled = (["spherical", "axial_colour"].includes(field) && !isDrawn) || (field === "lateral_colour" && !isTraced);
   }
   const widest = facts?.f_number || 1, now = state.camera.f_number || widest;
   document.getElementById("f_number").value = Math.log2(now / widest) / 5;
@@ -48,5 +56,3 @@ export function showControls(state, facts) {
   document.getElementById("focal_mm").value = state.camera.focal_mm || Math.round(facts?.efl_mm ?? 50);
   document.getElementById("sensor_mm").value = state.camera.sensor_mm;
 }
-
-const defaultOf = (field) => (["squeeze", "spherical", "axial_colour"].includes(field) ? 1 : 0);

@@ -10,6 +10,11 @@ export function shape(name, attributes, ...children) {
   return made;
 }
 
+/** A place that can be dragged, by the name of what it moves. */
+export function handle(x, y, radius, name, title) {
+  return shape("circle", { cx: x, cy: y, r: radius, class: "handle", tabindex: 0, role: "slider", "aria-label": title, "aria-valuenow": y.toFixed(2), "data-handle": name, "data-x": x, "data-y": y });
+}
+
 export const line = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(3)} ${y.toFixed(3)}`).join("");
 
 /** Replaces a drawing; `title` is what screen readers say of it. */

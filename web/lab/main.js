@@ -1,18 +1,20 @@
 // The page: what is chosen goes to the kernel, and what the kernel gives is drawn.
 import { Kernel, Replaced } from "./kernel.js";
-import { CONTROLS, LIGHT, freshState, fromFragment, toFragment } from "./state.js";
+import { CONTROLS, LIGHT, freshState, fromFragment, setIn, toFragment } from "./state.js";
 import { drawDisc } from "./disc-view.js";
 import { drawSection } from "./section-view.js";
 import { drawCurves } from "./curves-view.js";
 import { buildControls, showControls } from "./controls.js";
+import { Beside } from "./beside.js";
+import { dragHandles, movedCurve, pointsOf } from "./dragging.js";
 import { saveCanvas, saveText } from "./saving.js";
 
 const $ = (id) => document.getElementById(id);
 const STRIP_PX = [-60, -40, -20, -8, 8, 20, 40, 60];
-const kernel = new Kernel();
+const kernel = new Kernel(), beside = new Beside(kernel);
 
 let { state, problem } = fromFragment(location.hash.slice(1));
-let lenses = [], facts = null, factsAsked = null, section = null, disc = null, spot = null, exposure = 0, picture = null;
+let lenses = [], facts = null, factsAsked = null, section = null, disc = null, spot = null, exposure = 0, picture = null, curveSpan = null, isDragged = false;
 
 function complain(sentence) {
   $("problem").textContent = sentence ?? "";
@@ -25,9 +27,9 @@ const summaryOf = (name) => lenses.find((lens) => lens.name === name);
  * The camera that the lens is seen on: 0 stands for the lens's own numbers. It is focused so that a light of this circle of
  * confusion exists: in front of focus the camera looks to infinity, behind it the light is as far as the stars.
  */
-function camera(coc_px, scale = 1) {
-  const own = facts ?? {}, { camera: c } = state;
-  const focal_mm = c.focal_mm || own.efl_mm || 50, f_number = c.f_number || own.f_number || 2;
+function camera(coc_px, scale = 1, own = facts ?? {}) {
+  const { camera: c } = state;
+  const focal_mm = c.focal_mm || own.efl_mm || 50, f_number = Math.max(c.f_number, own === facts ? 0 : own.f_number ?? 0) || own.f_number || 2;
   const radius_mm = (Math.abs(coc_px) * c.sensor_mm) / c.width_px, far_m = (focal_mm + (focal_mm * focal_mm) / (2 * f_number * radius_mm || 1e-9)) / 1000;
   return {
     focal_mm, f_number, sensor_mm: c.sensor_mm, focus_m: coc_px > 0 ? far_m : 0, light_m: coc_px > 0 ? Infinity : far_m,
@@ -68,9 +70,39 @@ async function update({ lensChanged = false } = {}) {
   if (coarse) drawn("disc", "disc", discArgs(state.light.coc_px, coarse), (found, ms) => showDisc(found, ms, coarse), () => {});
   drawn("exact", "disc", discArgs(state.light.coc_px), (found, ms) => showDisc(found, ms, 1), (sentence) => ($("told").textContent = sentence));
   askSection();
+  showBeside();
   const live = picture?.update({ moving: !lensChanged });
   STRIP_PX.forEach((px, i) => drawn(`strip${i}`, "disc", discArgs(px / 2, 0.5), (found) => drawDisc($("strip").children[i].firstChild, found, px / 4, exposure), () => {}));
   return live;
+}
+
+function showBeside() {
+  const { coc_px, x, y } = state.light;
+  beside.show(state.beside, { look: state.lens.look, coc_px, x, y, exposure, camera: (own) => camera(coc_px, 1, own) });
+}
+
+/** The curves, with points to drag where the lens is drawn by them. */
+function showCurves() {
+  const isDrawn = facts?.lens?.model === "curves" && facts.longitudinal_aberration_mm;
+  $("curve-hint").hidden = !isDrawn;
+  curveSpan = drawCurves($("curves"), facts?.longitudinal_aberration_mm, isDrawn ? pointsOf(facts.longitudinal_aberration_mm) : [], isDragged ? curveSpan : null);
+}
+
+/** A point of the curve goes to x of the drawing, 0 to 100; the lens becomes one of the user's own. */
+function curveDragged({ x }, index) {
+  const point = pointsOf(facts.longitudinal_aberration_mm)[index], mm = ((Math.max(0, Math.min(100, x)) - 50) / 50) * curveSpan;
+  isDragged = true;
+  const name = state.lens.text ? state.lens.name : `${state.lens.name}-drawn`;
+  state.lens = { name, text: movedCurve(facts, Number(index), mm - point.mm, facts.sensor_width_mm ?? 36), look: state.lens.look };
+  listLenses();
+  return update({ lensChanged: true });
+}
+
+/** The edge of the stop goes to this height: the f-number follows. */
+function stopDragged({ y }) {
+  const widest = facts?.f_number || 1, now = state.camera.f_number || widest, wide = Math.max(Math.abs(y), section.stop_radius_mm / 8, 1e-3);
+  state.camera.f_number = Number(Math.max(widest, Math.min(64, (now * section.stop_radius_mm) / wide)).toPrecision(3));
+  update();
 }
 
 async function askFacts() {
@@ -79,7 +111,7 @@ async function askFacts() {
   const told = facts?.lens ?? {};
   $("about").textContent = [told.title, told.year, facts?.efl_mm ? `${facts.efl_mm.toPrecision(3)} mm` : null,
     facts?.f_number ? `f/${facts.f_number.toPrecision(2)}` : null].filter(Boolean).join(", ") + (told.history ? `. ${told.history}` : ".");
-  drawCurves($("curves"), facts?.longitudinal_aberration_mm);
+  showCurves();
   const length = state.lens.text && facts?.efl_mm ? [`Focal length ${facts.efl_mm.toFixed(2)} mm.`] : [];
   notes([...(facts?.warnings ?? []), ...length]);
 }
@@ -182,12 +214,7 @@ async function showPicture() {
 }
 
 function wire() {
-  buildControls($("controls"), CONTROLS, (field, value) => {
-    const usual = CONTROLS.find((control) => control.field === field).value;
-    if (value === usual) delete state.lens.look[field];
-    else state.lens.look[field] = value;
-    update();
-  });
+  buildControls($("controls"), CONTROLS, (how, value) => (setIn(state.lens.look, how, value), update()));
   $("strip").replaceChildren(...STRIP_PX.map((px) => {
     const button = document.createElement("button");
     button.type = "button";
@@ -201,7 +228,11 @@ function wire() {
     exposure = Number($("exposure").value);
     $("exposure-value").textContent = `${exposure > 0 ? "+" : ""}${exposure.toFixed(1)} stops`;
     if (disc) drawDisc($("disc"), disc, disc.coc_px, exposure);
+    showBeside();
   };
+  dragHandles($("curves"), curveDragged, () => ((isDragged = false), factsAsked?.then(showCurves)));
+  dragHandles($("section"), stopDragged);
+  $("beside").onchange = () => ((state.beside = $("beside").value || null), update());
   $("picture-open").onclick = showPicture;
   $("search").oninput = listLenses;
   $("lens").onchange = () => $("lens").value && use({ name: $("lens").value, text: null, look: {} });
@@ -231,6 +262,7 @@ function wire() {
   addEventListener("hashchange", () => {
     ({ state, problem } = fromFragment(location.hash.slice(1)));
     listLenses();
+    beside.list(lenses, state.beside);
     update({ lensChanged: true }).then(() => problem && complain(problem));
   });
 }
@@ -250,6 +282,7 @@ async function start() {
   }
   wire();
   listLenses();
+  beside.list(lenses, state.beside);
   await update({ lensChanged: true });
   if (problem) complain(problem);
   $("lab").setAttribute("aria-busy", "false");

@@ -1,5 +1,5 @@
 // The lens cut open, with the rays of the light that makes the disc. Rays near the clicked spot of the disc light up.
-import { line, shape, show } from "./drawing.js";
+import { handle, line, shape, show } from "./drawing.js";
 
 /** @param section as petzval_lens_section() gives it @param {?{x: number, y: number, reach: number}} spot of the disc, pixels */
 export function drawSection(svg, section, spot) {
@@ -19,6 +19,7 @@ export function drawSection(svg, section, spot) {
     ...lit.map(ray("ray lit")),
     shape("path", { d: `M${section.stop_z_mm} ${-reach}V${-section.stop_radius_mm}M${section.stop_z_mm} ${section.stop_radius_mm}V${reach}`, class: "stop" }),
     plane(section.sensor_z_mm, 0.9 * reach, "sensor"),
+    ...[-1, 1].map((side) => handle(section.stop_z_mm, side * section.stop_radius_mm, 0.018 * width, "stop", "Edge of the stop")),
   ]);
   return lit.length;
 }

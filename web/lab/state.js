@@ -1,11 +1,13 @@
 // Everything that can be chosen in the lab, as one value; and that value as the fragment of a link.
 
-/** Controls of the lens: a field of petzval's look, its range and what it does, in the order of the page. */
+/** Controls of the lens: a field of petzval's look, its range and what it does, in the order of the page. Of a field that holds
+ *  more than one number, `key` tells its controls apart, `get` and `set` say where the number is. */
 export const CONTROLS = [
   { group: "Aperture", field: "blades", label: "Blades", min: 0, max: 16, step: 1, value: 0, help: "0: round. 3 to 16: straight blades." },
   { group: "Aperture", field: "blade_rotation_deg", label: "Blade rotation", unit: "°", min: -180, max: 180, step: 1, value: 0,
     help: "Angle of the first corner, counter-clockwise from the right, in a background disc." },
   { group: "Aperture", field: "blade_curvature", label: "Blade curvature", min: 0, max: 1, step: 0.01, value: 0, help: "0: straight edges. 1: a circle." },
+  { group: "Aperture", field: "iris_open", label: "Iris round at f/", min: 0, max: 16, step: 0.1, value: 0, help: "Blades show as the iris closes from here on. 0: always." },
   { group: "Aperture", field: "squeeze", label: "Anamorphic squeeze", unit: "×", min: 0.5, max: 2, step: 0.05, value: 1, help: "How many times taller than wide the disc is." },
   { group: "Aperture", field: "cats_eye", label: "Cat's eye", min: 0, max: 1, step: 0.01, value: 0, help: "How far the barrel covers the pupil towards the corners." },
   { group: "Aberrations", field: "spherical", label: "Spherical, own", unit: "×", min: -2, max: 2, step: 0.05, value: 1, curveOnly: true,
@@ -20,14 +22,55 @@ export const CONTROLS = [
     help: "How much larger the blue picture is than the red one." },
   { group: "Aberrations", field: "added_field_curvature_mm", label: "Field curvature, added", unit: "mm", min: -1, max: 1, step: 0.02, value: 0,
     help: "Where the corners focus, measured from the middle." },
+  { group: "Aberrations", field: "lateral_colour", label: "Lateral colour, own", unit: "×", min: -2, max: 2, step: 0.05, value: 1,
+    help: "Multiplies the lateral colour of a lens with surfaces." },
+  { group: "Aberrations", field: "distortion", label: "Distortion", min: -0.3, max: 0.3, step: 0.01, value: 0, help: "Stretches the corners of the picture and their discs." },
   { group: "Aberrations", field: "coma", label: "Coma", min: -5, max: 5, step: 0.1, value: 0, help: "Tails that point outwards in the corners." },
   { group: "Aberrations", field: "astigmatism", label: "Astigmatism", min: -5, max: 5, step: 0.1, value: 0, help: "Discs in the corners become ellipses; positive values swirl." },
   { group: "Pupil", field: "dust", label: "Dust", min: 0, max: 1, step: 0.01, value: 0, help: "Specks on the glass, seen in large discs." },
   { group: "Pupil", field: "scratches", label: "Scratches", min: 0, max: 1, step: 0.01, value: 0, help: "Fine lines across the disc." },
   { group: "Pupil", field: "onion_rings", label: "Onion rings", min: 0, max: 1, step: 0.01, value: 0, help: "Turning marks of moulded aspheres." },
+  { group: "Pupil", field: "texture_seed", label: "Specks and marks, number", min: 1, max: 30, step: 1, value: 1, help: "Other dust, scratches and rings." },
+  ...["radius_mm", "distance_mm"].map((part, i) => ({
+    group: "Barrel", field: "barrel", key: `barrel_${part}`, label: ["Rim, radius", "Rim, in front of the pupil"][i], unit: "mm", min: -80 * i, max: [40, 80][i], step: 0.5, value: 40 * i,
+    help: ["A rim of the barrel that cuts discs towards the edges. 0: none.", "Negative: behind the pupil, it cuts the other side."][i],
+    get: (look) => look.barrel?.[0]?.[part] ?? 40 * i,
+    set: (look, value) => {
+      const rim = { radius_mm: 0, distance_mm: 40, ...look.barrel?.[0], [part]: value };
+      if (rim.radius_mm > 0) look.barrel = [rim];
+      else delete look.barrel;
+    },
+  })),
+  ...["left", "right", "top", "bottom"].map((side, i) => ({
+    group: "Barrel", field: "barn_doors", key: `barn_doors_${side}`, label: `Barn door, ${side}`, min: 0, max: 1, step: 0.02, value: 0,
+    help: "How far a door of the matte box covers the pupil from this side, in pupil radii.",
+    get: (look) => look.barn_doors?.[i] ?? 0,
+    set: (look, value) => {
+      const doors = Object.assign([...(look.barn_doors ?? [0, 0, 0, 0])], { [i]: value });
+      if (doors.some((door) => door > 0)) look.barn_doors = doors;
+      else delete look.barn_doors;
+    },
+  })),
+  { group: "Light", field: "light", label: "Lamp", choices: ["daylight", "sodium", "mercury", "neon", "led"], value: "daylight", help: "The lines of a lamp focus separately." },
   { group: "Light", field: "wavelengths", label: "Wavelengths", min: 0, max: 64, step: 1, value: 0, help: "Bands of the spectrum. 0: as many as the disc needs." },
   { group: "Light", field: "wave", label: "Wave optics", type: "check", value: false, help: "Diffraction: rings and the spikes of blades. Slow." },
 ];
+
+/** A control's value in a look. */
+export const valueIn = (look, { field, value, get }) => (get ? get(look) : (look[field] ?? value));
+
+/** Puts a value into a look, which holds what differs from the default. */
+export function setIn(look, { field, value: usual, set }, value) {
+  if (set) set(look, value);
+  else if (value === usual) delete look[field];
+  else look[field] = value;
+}
+
+const isNumbers = (value) => Object.values(value).every(Number.isFinite);
+const FITS = {
+  barrel: (value) => Array.isArray(value) && value.every((rim) => rim && typeof rim === "object" && isNumbers(rim)),
+  barn_doors: (value) => Array.isArray(value) && value.length === 4 && isNumbers(value),
+};
 
 /** The camera: millimetres, metres and pixels; 0 stands for what the lens was built for. */
 export const CAMERA = { focal_mm: 0, sensor_mm: 36, f_number: 0, focus_m: 0, width_px: 1920, height_px: 1080 };
@@ -41,7 +84,7 @@ export const PICTURE = { f_number: 0, focus_m: 0 };
 /** @typedef {{name: string, text: ?string, look: Object<string, number|boolean>}} LensChoice */
 
 export function freshState() {
-  return { lens: { name: "doublet", text: null, look: {} }, camera: { ...CAMERA }, light: { ...LIGHT }, picture: { ...PICTURE } };
+  return { lens: { name: "doublet", text: null, look: {} }, camera: { ...CAMERA }, light: { ...LIGHT }, picture: { ...PICTURE }, beside: null };
 }
 
 const VERSION = 1;
@@ -58,7 +101,7 @@ const differing = (value, usual) => Object.fromEntries(Object.entries(value).fil
 
 /** The fragment of a link, without "#": "lens=1." and base64url of JSON that holds what differs from the default. */
 export function toFragment(state) {
-  const told = { lens: state.lens, camera: differing(state.camera, CAMERA), light: differing(state.light, LIGHT), picture: differing(state.picture, PICTURE) };
+  const told = { lens: state.lens, camera: differing(state.camera, CAMERA), light: differing(state.light, LIGHT), picture: differing(state.picture, PICTURE), ...(state.beside ? { beside: state.beside } : {}) };
   return `lens=${VERSION}.${toBase64Url(JSON.stringify(told))}`;
 }
 
@@ -90,11 +133,12 @@ function checked(told) {
   if (typeof lens.name !== "string" || !(lens.text == null || typeof lens.text === "string")) throw new BadState("it names no lens");
   const known = new Map(CONTROLS.map((control) => [control.field, control]));
   for (const [field, value] of Object.entries(lens.look ?? {}))
-    if (!known.has(field) || typeof value !== typeof known.get(field).value) throw new BadState(`'${field}' is no control of this page`);
+    if (!known.has(field) || !(FITS[field]?.(value) ?? typeof value === typeof known.get(field).value)) throw new BadState(`'${field}' is no control of this page`);
   return {
     lens: { name: lens.name, text: lens.text ?? null, look: lens.look ?? {} },
     camera: numbers(told.camera, CAMERA),
     light: numbers(told.light, LIGHT),
     picture: numbers(told.picture, PICTURE),
+    beside: typeof told.beside === "string" ? told.beside : null,
   };
 }
