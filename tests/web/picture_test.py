@@ -3,6 +3,7 @@
 Usage: pages.py says it.
 """
 import pathlib
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -10,7 +11,7 @@ import unittest
 import zlib
 
 import numpy
-from pages import PETZVAL, By, Page
+from pages import PETZVAL, SITE, By, Page
 from pictures import camera_attributes, exr_bytes, picture, png_chunk, read_exr, write_exr
 
 
@@ -168,6 +169,22 @@ class WithoutWebGL(Page):
         self.assertRegex(self.text("picture-told"), r"no WebGL2.*Develop works")
         self.done("lab.picture.develop()")
         self.assertRegex(self.text("picture-told"), r"^Developed in \d")
+
+
+class WithoutWebAssembly(Page):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.site = pathlib.Path(shutil.copytree(SITE, folder.name, dirs_exist_ok=True))
+        (cls.site / "petzval-picture.wasm").write_bytes(b"no program")
+        super().setUpClass()
+
+    def test_the_page_says_so_and_stays_as_it_was(self):
+        self.open()
+        self.done("lab.showPicture()")
+        self.assertRegex(self.text("problem"), r"^The picture cannot be shown: .")
+        self.assertFalse(self.browser.execute_script("return document.getElementById('picture-open').disabled"))
 
 
 if __name__ == "__main__":

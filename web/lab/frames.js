@@ -1,7 +1,7 @@
 // The worker of frames as promises.
 
 export class Frames {
-  #worker; #open = new Map(); #last = 0;
+  #worker; #open = new Map(); #last = 0; #ended = null;
 
   constructor() {
     this.#worker = new Worker(new URL("./picture-worker.js", import.meta.url), { type: "module" });
@@ -11,6 +11,7 @@ export class Frames {
 
   /** @returns {Promise<{result: any, ms: number}>} of a call of picture-worker.js */
   ask(call, args, progressed = null) {
+    if (this.#ended) return Promise.reject(new Error(this.#ended));
     const id = ++this.#last;
     return new Promise((resolve, reject) => {
       this.#open.set(id, { resolve, reject, progressed });
@@ -21,6 +22,7 @@ export class Frames {
   /** Ends the thread whatever it does; what it was asked is refused with this sentence. */
   end(sentence) {
     this.#worker.terminate();
+    this.#ended = sentence;
     for (const { reject } of this.#open.values()) reject(new Error(sentence));
     this.#open.clear();
   }
