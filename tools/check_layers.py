@@ -132,7 +132,7 @@ THIRD_PARTY = {
     r"embree": r"src/scene/",
     r"vulkan/": r"(src/device/vulkan/|src/c/vulkan_pass\.cpp|include/petzval/vulkan\.h)",
     r"tiny_gltf": r"src/scene/",
-    r"nlohmann/": r"(apps/cli|apps/view|plugins/ofx|src/files|src/lens_facts|src/lens_sheet|src/look|src/sequence|src/c)/",
+    r"nlohmann/": r"(apps/cli|apps/view|src/files|src/lens_facts|src/lens_sheet|src/look|src/sequence|src/c)/",
     r"CLI/": r"apps/cli/",
     r"(GLFW/|imgui|backends/imgui)": r"apps/view/",
 }

@@ -5,12 +5,8 @@
 #include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 namespace petzval::plugin {
 namespace {
-
-using Json = nlohmann::json;
 
 Error refused(std::string why) { return {ErrorCode::InvalidArgument, std::move(why)}; }
 Error last_error() { return refused(petzval_error_text()); }
@@ -39,19 +35,16 @@ Result<LookHandle> named_look(const std::string& text) {
 
 }  // namespace
 
-Result<LookHandle> look_of(const Values& values, bool draft) try {
+Result<LookHandle> look_of(const Values& values, bool draft) {
     auto look = named_look(values.look);
     if (!look) return look;
     const auto choose = [&](const char* field, const std::string& value) {
-        return value.empty() ||
-               petzval_look_set(look->get(), field, Json(value).dump().c_str()) == PETZVAL_OK;
+        return value.empty() || petzval_look_set(look->get(), field, value.c_str()) == PETZVAL_OK;
     };
     if (!choose("lens.name", values.lens) || !choose("engine", values.engine) ||
         !choose("quality", draft ? "draft" : values.quality))
         return last_error();
     return look;
-} catch (const Json::exception& wrong) {  // text that is not UTF-8, members of another type
-    return refused(std::string("Look: ") + wrong.what());
 }
 
 }  // namespace petzval::plugin
