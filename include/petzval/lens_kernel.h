@@ -84,4 +84,27 @@ PETZVAL_API Result<int> most_texture_rows(const Lens& lens, const LensMount& mou
 PETZVAL_API Result<BokehTexture> bokeh_texture(const LensChoice& lens, const LensMount& mount,
                                                const BokehTextureSettings& settings = {});
 
+struct BokehVolumeSettings {
+    int slices = 32;             // 2…1024
+    int side_px = 128;           // of a slice, 16…1024
+    double largest_coc_px = 64;  // the first slice is nearly that far in front of focus, the last behind
+    double field_x = 0, field_y = 0;
+};
+
+// Radius of the circle of confusion in every slice, in sides of the slice.
+inline constexpr double kVolumeRadius = 0.35;
+
+// The bokeh texture with a third dimension: whole discs, for apertures that are not round (blades,
+// dust, cat's eye). Slices are as large as their discs: light outside of a slice is lost. Radii grow with the
+// square of the distance from the middle of the volume, where there is no slice.
+struct BokehVolume {
+    std::vector<Picture> slices;  // r, g, b each sum to 1, less what is lost
+    std::vector<double> coc_radius_px;
+    std::string lens;
+};
+
+// Errors: those of lens_point_spread(); InvalidArgument for settings out of range.
+PETZVAL_API Result<BokehVolume> bokeh_volume(const Lens& lens, const LensMount& mount,
+                                             const BokehVolumeSettings& settings = {});
+
 }  // namespace petzval

@@ -249,4 +249,30 @@ Result<BokehTexture> bokeh_texture(const LensChoice& choice, const LensMount& mo
     return bokeh_texture(*lens, mount, settings);
 }
 
+Result<BokehVolume> bokeh_volume(const Lens& lens, const LensMount& mount,
+                                 const BokehVolumeSettings& settings) {
+    if (settings.slices < 2 || settings.slices > 1024) return refuse("disc.slices must be 2 to 1024");
+    if (settings.side_px < 16 || settings.side_px > 1024) return refuse("disc.side_px must be 16 to 1024");
+    if (!(settings.largest_coc_px > 0 && settings.largest_coc_px < kLargestDiscPx))
+        return refuse("disc.coc_radius_px must be above 0, and no larger than a disc can be");
+    BokehVolume volume;
+    for (int i = 0; i < settings.slices; ++i) {
+        const double t = (2.0 * i + 1) / settings.slices - 1;
+        const double radius = settings.largest_coc_px * t * std::abs(t);
+        // The same disc on a picture of so many more pixels that it fills the slice.
+        const double finer = kVolumeRadius * settings.side_px / std::abs(radius);
+        LensMount fine = mount;
+        fine.width_px = std::max(1, int(std::lround(mount.width_px * finer)));
+        fine.height_px = std::max(1, int(std::lround(mount.height_px * finer)));
+        const double coc_px = radius * fine.width_px / mount.width_px;
+        auto disc =
+            lens_point_spread(lens, fine, coc_px, settings.field_x, settings.field_y, settings.side_px | 1);
+        if (!disc) return disc.error();
+        volume.lens = disc->lens;
+        volume.coc_radius_px.push_back(radius);
+        volume.slices.push_back(std::move(disc->weights));
+    }
+    return volume;
+}
+
 }  // namespace petzval

@@ -167,5 +167,36 @@ TEST(BokehTexture, IsOfTheRoundApertureOnTheAxisWhateverTheBlades) {
     for (int u = 0; u < 9; ++u) EXPECT_EQ(a->energy(u, 5), b->energy(u, 5));
 }
 
+TEST(BokehVolume, HoldsTheDiscsOfBladesTurnedInFrontOfFocus) {
+    LensChoice choice;
+    choice.aperture.blades = 5;
+    choice.aperture.rotation_deg = 90;
+    const Lens lens = Lens::open(choice).value();
+    const LensMount mount{.camera = own_camera(lens).value()};
+    const auto volume = bokeh_volume(lens, mount, {.slices = 8, .side_px = 64}).value();
+    ASSERT_EQ(volume.slices.size(), 8u);
+    for (std::size_t i = 0; i < 8; ++i) {
+        const Picture& slice = volume.slices[i];
+        EXPECT_EQ(slice.width(), 65);
+        double light = 0;
+        for (std::size_t k = 0; k < slice.size(); ++k) light += double(slice.pixels()[k].g);
+        EXPECT_NEAR(light, 1, 1e-3) << i;
+        // In front of focus the pentagon is that behind it, turned by 180 degrees.
+        const Picture& twin = volume.slices[7 - i];
+        EXPECT_DOUBLE_EQ(volume.coc_radius_px[7 - i], -volume.coc_radius_px[i]);
+        double difference = 0, upright = 0;
+        for (int y = 0; y < 65; ++y)
+            for (int x = 0; x < 65; ++x) {
+                difference += double(std::abs(slice(x, y).g - twin(64 - x, 64 - y).g));
+                upright += double(std::abs(slice(x, y).g - twin(x, y).g));
+            }
+        EXPECT_LT(difference, 0.01) << i;
+        EXPECT_GT(upright, 0.1) << i;
+    }
+    EXPECT_FALSE(bokeh_volume(lens, mount, {.slices = 1}));
+    EXPECT_FALSE(bokeh_volume(lens, mount, {.side_px = 9000}));
+    EXPECT_FALSE(bokeh_volume(lens, mount, {.largest_coc_px = -1}));
+}
+
 }  // namespace
 }  // namespace petzval

@@ -23,6 +23,7 @@ COMMANDS = {
     "lens show": "doublet", "lens check": "tessar",
     "lens psf": "doublet -o {o}/out.exr --width 480 --defocus 9",
     "lens table": "doublet -o {o}/out.exr --width 480 --columns 5 --defocus 9",
+    "lens volume": "doublet -o {o}/out.exr --width 480 --slices 2 --side 17 --defocus 9",
     "lens report": "ideal -o {o}/out.html",
 }
 # Flags that say how a verb works and never what it makes; those that name the default.
@@ -54,12 +55,12 @@ VALUES = {
     "--pinhole-samples": "3", "--scene-camera": "2", "--camera-at": "1,1,-1", "--look-at": "1,1,4", "--lit-in": "codes",
     "--depth-blur": "3", "--depth-bits": "8", "--truth": "{o}/truth.exr", "--horizon": "0.3", "--count": "5", "--bits": "16",
     "--at": "20,12", "--within": "0", "--smooth": "0", "--plot": "{o}/plot.svg", "--columns": "3", "--rate": "12",
-    "--lenses": "doublet", "--sort": "name", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
+    "--slices": "3", "--side": "21", "--lenses": "doublet", "--sort": "name", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
 }
 # By verb, where the value above would be the verb's own or means something else there.
 VALUES_OF = {
     "scene make": {"--layers": "{o}/hidden.exr"}, "compare": {"--exposure": "2", "-o": "{o}/map.png"}, "scene points": {"--width": "300"},
-    "lens table": {"--width": "960"}, "lens psf": {"--width": "960"},
+    "lens table": {"--width": "960"}, "lens volume": {"--width": "960"}, "lens psf": {"--width": "960"},
     "lens report": {"-o": "{o}/else.html"}, "focus-track": {"-o": "{o}/else.csv"}, "develop": {"-o": "{o}/else.png"},
     "sheet": {"-o": "{o}/else.png"}, "scene points": {"-o": "{o}/else.csv", "--width": "300", "--height": "300"},
 }
@@ -83,6 +84,8 @@ BESIDE = {
 BESIDE_OF = {
     "lens table": {"--focus": "--lens tessar"},
     "lens psf": {"--focus": "--lens tessar", "--height": "--field 0.7,0.4 --barrel 9,20", **{flag: "--field 0.7,0.4" for flag in ("--cats-eye", "--add-field-curvature", "--add-lateral-colour", "--coma",
+                                                     "--astigmatism", "--distortion", "--barrel")}},
+    "lens volume": {"--focus": "--lens tessar", "--field": "--cats-eye 0.8", "--height": "--field 0.7,0.4 --barrel 9,20", **{flag: "--field 0.7,0.4" for flag in ("--cats-eye", "--add-field-curvature", "--add-lateral-colour", "--coma",
                                                      "--astigmatism", "--distortion", "--barrel")}},
     "scene make": {"--samples": "--truth {o}/truth.exr"},
 }

@@ -37,11 +37,12 @@ struct PictureFlags {
         camera.add_to(verb, "lens");
     }
     // A table is of the middle of the picture, wherever its upper edge lies; and it takes its time.
-    void add_output_to(Verb& verb, bool is_table) {
+    void add_output_to(Verb& verb, bool is_table, bool has_raw = true) {
         FlagGroup(verb, "Output")
             .writes("-o,--output", "FILE", "EXR for the numbers, or PNG to look at", output)
             .value("--width", "PX", "width of the picture that the camera takes (default 1920)",
-                   parse_size_px, width_px)
+                   parse_size_px, width_px);
+        FlagGroup(verb, has_raw ? "Output" : "")
             .on("--raw", "keep colours that no screen has: negative values in fringes", raw);
         FlagGroup(verb, is_table ? "" : "Output")
             .value("--height", "PX", "its height (default 9/16 of the width)", parse_size_px, height_px);
@@ -280,6 +281,58 @@ Status make_table(TableFlags& flags) {
     return finish(flags, std::move(report), mount, texture->lens, watch);
 }
 
+struct VolumeFlags : PictureFlags {
+    BokehVolumeSettings volume;
+    Interval field;
+};
+
+// The slices below each other.
+Picture stacked(const std::vector<Picture>& slices) {
+    const int side = slices[0].width();
+    Picture all(side, side * int(slices.size()));
+    for (std::size_t i = 0; i < slices.size(); ++i)
+        for (int y = 0; y < side; ++y) std::copy_n(slices[i].row(y), side, all.row(int(i) * side + y));
+    return all;
+}
+
+Status make_volume(VolumeFlags& flags) {
+    const Stopwatch watch;
+    const auto mounted = prepared(flags);
+    if (!mounted) return mounted.error();
+    if (!*mounted) return Done{};
+    const auto& [mount, lens] = **mounted;
+    flags.volume.field_x = flags.field.low;
+    flags.volume.field_y = flags.field.high;
+    auto volume = bokeh_volume(lens, mount, flags.volume);
+    if (!volume) return volume.error();
+    note(volume->lens + " (" + camera_text(mount.camera) + ")");
+    Json report = new_report("lens volume");
+    report["coc_radius_px"] = volume->coc_radius_px;
+    report["size"] = volume->slices[0].width();
+    Picture all = stacked(volume->slices);
+    if (*kind_of_output(flags.output) == FileKind::Png) {
+        if (Status done = write_view(flags, std::move(all)); !done) return done;
+    } else {
+        Planes planes;
+        planes.add("", all, false);
+        std::string radii;
+        for (const double radius : volume->coc_radius_px)
+            radii += (radii.empty() ? "" : ",") + plain(radius, 9);
+        const Status done = planes.write(flags.output,
+                                         {{"petzval:lens", volume->lens},
+                                          {"petzval:radii", radii},
+                                          {"petzval:radiusInSides", plain(kVolumeRadius)},
+                                          {"petzval:slices", plain(double(volume->slices.size()))},
+                                          {"petzval:pictureWidth", plain(mount.width_px)},
+                                          {"petzval:focalLength", plain(mount.camera.focal_length_mm, 9)},
+                                          {"petzval:fNumber", plain(mount.camera.f_number, 9)},
+                                          {"petzval:sensorWidth", plain(mount.camera.sensor_width_mm, 9)}},
+                                         !flags.overwrite.no_clobber);
+        if (!done) return done;
+    }
+    return finish(flags, std::move(report), mount, volume->lens, watch);
+}
+
 // True for choices that show only off the middle of the picture.
 bool is_off_axis(const LookRow& row) {
     for (const char* flag : {"--cats-eye", "--lateral-colour", "--add-lateral-colour",
@@ -292,8 +345,8 @@ bool shapes_the_pupil(const LookRow& row) {
     return heading == "Lens" || heading == "Pupil";
 }
 
-void refuse_on_axis(const PsfFlags& flags) {
-    if (flags.field.low != 0 || flags.field.high != 0) return;
+void refuse_on_axis(const PictureFlags& flags, const Interval& field) {
+    if (field.low != 0 || field.high != 0) return;
     for (const LookRow& row : look_rows())
         if (is_off_axis(row) && flags.look.is_typed(row.field))
             throw UsageError(std::string(row.flag) +
@@ -316,7 +369,7 @@ void add_psf(Verb& lens, Action& chosen) {
     flags->add_output_to(verb, false);
     when_typed(verb, [flags, &verb, &chosen] {
         flags->check(verb);
-        refuse_on_axis(*flags);
+        refuse_on_axis(*flags, flags->field);
         chosen = [flags] { return make_psf(*flags); };
     });
 }
@@ -346,11 +399,37 @@ void add_table(Verb& lens, Action& chosen) {
     });
 }
 
+void add_volume(Verb& lens, Action& chosen) {
+    Verb& verb =
+        add_verb(lens, "volume", "whole discs as slices, for apertures that are not round: blades, dust",
+                 "petzval lens volume doublet --blades 5 --dust 0.4 -o volume.exr");
+    auto flags = std::make_shared<VolumeFlags>();
+    flags->add_lens_to(verb);
+    FlagGroup(verb, "Volume")
+        .value("--defocus", "PX", "signed radii from minus this to plus this (default 64)", parse_positive,
+               flags->volume.largest_coc_px)
+        .value("--slices", "N", "number of slices, one below the other, 2 to 1024 (default 32)", parse_count,
+               flags->volume.slices)
+        .value("--side", "PX", "side of a slice, made odd (default 128)", parse_size_px,
+               flags->volume.side_px)
+        .value("--field", "X,Y", "place in the picture, in half diagonals from the middle, x right, y up",
+               parse_range, flags->field);
+    flags->add_output_to(verb, false, false);
+    when_typed(verb, [flags, &verb, &chosen] {
+        flags->check(verb);
+        if (flags->raw)
+            throw UsageError("--raw has no effect in lens volume; lens psf and lens table have it");
+        refuse_on_axis(*flags, flags->field);
+        chosen = [flags] { return make_volume(*flags); };
+    });
+}
+
 }  // namespace
 
 void add_lens_pictures(Verb& lens, Action& chosen) {
     add_psf(lens, chosen);
     add_table(lens, chosen);
+    add_volume(lens, chosen);
 }
 
 }  // namespace petzval::cli
