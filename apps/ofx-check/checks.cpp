@@ -13,6 +13,7 @@ double seconds_now() {
 
 Scene::Scene(const Setup& setup, std::initializer_list<const char*> rules, const Cast& cast) : stage(setup) {
     std::string why;
+    trying("process.survives");  // a plain frame is no check of a rule
     if (stage.begin()) effect = stage.create(cast);
     if (effect) {
         const double start = seconds_now();
@@ -27,6 +28,7 @@ Scene::Scene(const Setup& setup, std::initializer_list<const char*> rules, const
     }
     for (const char* rule : rules)
         if (!is_ready) not_tried(rule, why);
+    trying(*rules.begin());
 }
 
 Scene::~Scene() { stage.destroy(std::move(effect)); }

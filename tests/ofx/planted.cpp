@@ -62,7 +62,7 @@ struct Image {
     }
     float* at(int x, int y) const {
         return reinterpret_cast<float*>(data + std::ptrdiff_t(y - bounds[1]) * row_bytes +
-                                        (x - bounds[0]) * 16);
+                                        std::ptrdiff_t(x - bounds[0]) * 16);
     }
     bool holds(int x, int y) const {
         return x >= bounds[0] && x < bounds[2] && y >= bounds[1] && y < bounds[3];
@@ -96,7 +96,8 @@ void blur_pixel(const Image& source, const Image& like, int x, int y, int radius
             const Image& where = same_bounds ? like : source;
             if (!source.holds(u, v)) continue;
             const char* row = source.data + std::ptrdiff_t(v - where.bounds[1]) * source.row_bytes;
-            const float* from = reinterpret_cast<const float*>(row + (u - where.bounds[0]) * 16);
+            const float* from =
+                reinterpret_cast<const float*>(row + std::ptrdiff_t(u - where.bounds[0]) * 16);
             for (int c = 0; c < 4; ++c) sum[c] += from[c];
         }
     const float count = float(2 * radius + 1) * float(2 * radius + 1);
@@ -275,6 +276,7 @@ int load() {
 
 int main_entry(const char* name, const void* handle, PropertySet* in, PropertySet* out) {
     const std::string_view a = name;
+    // The interface passes all handles as const: NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     auto* effect = static_cast<Effect*>(const_cast<void*>(handle));
     if (a == action::kLoad) return load();
     if (a == action::kUnload) was_unloaded = true;
@@ -294,6 +296,7 @@ void take_host(Host* given) { host = given; }
 
 }  // namespace
 
+// Names of the specification: NOLINTBEGIN(readability-identifier-naming)
 #define EXPORTED extern "C" __attribute__((visibility("default")))
 
 #ifdef PLANTED_EXPORT
@@ -310,3 +313,4 @@ EXPORTED ofx::Plugin* OfxGetPlugin(int nth) {
                               main_entry};
     return nth == 0 ? &plugin : nullptr;
 }
+// NOLINTEND(readability-identifier-naming)
