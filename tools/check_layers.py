@@ -47,6 +47,7 @@ ALLOWED = {
     "shot": PIXELS | {"laws", "optics", "depth", "names", "look", "session", "files"},
     "sequence": PIXELS | {"optics", "depth", "colour", "names", "views", "engine/waist", "lens_facts", "look", "session", "shot", "files"},
     "lens_facts": LENS,
+    "farm": {"base", "sequence"},
     "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session"},
     "c/files": PIXELS | {"c", "names", "scene", "session", "sequence", "shot", "files"},
     "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "device/webgl", "depth", "views", "look", "glare"},
@@ -74,6 +75,7 @@ PUBLIC = {
     "engine_options": "engine/waist",
     "engine_report": "engine/waist",
     "export": "base",
+    "farm/jobs": "farm",
     "files": "files",
     "glare": "glare",
     "image": "image",
@@ -132,13 +134,13 @@ THIRD_PARTY = {
     r"embree": r"src/scene/",
     r"vulkan/": r"(src/device/vulkan/|src/c/vulkan_pass\.cpp|include/petzval/vulkan\.h)",
     r"tiny_gltf": r"src/scene/",
-    r"nlohmann/": r"(apps/cli|apps/view|src/files|src/lens_facts|src/lens_sheet|src/look|src/sequence|src/c)/",
+    r"nlohmann/": r"(apps/cli|apps/view|src/files|src/lens_facts|src/lens_sheet|src/look|src/sequence|src/farm|src/c)/",
     r"CLI/": r"apps/cli/",
     r"(GLFW/|imgui|backends/imgui)": r"apps/view/",
 }
 # What a library says must not depend on the program around it: it names fields, not flags.
 FLAG = re.compile(r'"(?:[^"\\]|\\.)*?(?<![\w-])--[a-z][a-z-]+')
-SAYS_FLAGS = {"lens_sheet"}  # shows commands
+SAYS_FLAGS = {"lens_sheet", "farm"}  # shows commands, writes them
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]')
 
 

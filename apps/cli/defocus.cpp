@@ -45,7 +45,8 @@ Status make_shot(const DefocusFlags& flags) {
     Session session(flags.session());
     ShotRun run(session, flags.settings(), with_picture(loop_host(flags.frames, flags.run), flags));
     if (Status planned = run.plan(&run_files()); !planned) return planned;
-    return ended(run.run(), run.frames(), run.failed());
+    const Status done = run.run();
+    return ended(done, run.frames(), run.failed(), run.failure());
 }
 
 }  // namespace

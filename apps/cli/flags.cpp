@@ -202,6 +202,12 @@ FlagGroup& FlagGroup::arguments(const std::string& name, const std::string& help
     return *this;
 }
 
+FlagGroup& FlagGroup::words(const std::string& name, const std::string& help,
+                            std::vector<std::string>& target) {
+    verb_.add_option(name, target, help)->option_text(" ")->group(heading_);
+    return *this;
+}
+
 std::string FlagGroup::long_name(const std::string& names) { return names.substr(0, names.find(',')); }
 
 std::vector<std::string> typed_words(const Verb& verb, const std::vector<std::string>& headings,
@@ -218,6 +224,20 @@ std::vector<std::string> typed_words(const Verb& verb, const std::vector<std::st
             for (const std::string& value : flag->results()) words.push_back(value);
     }
     return words;
+}
+
+void read_words(const std::string& name, const std::function<void(Verb&)>& add,
+                const std::vector<std::string>& words) {
+    CLI::App program("", "petzval");
+    Verb& verb = add_verb(program, name, "", "");
+    add(verb);
+    std::vector<std::string> reversed(words.rbegin(), words.rend());  // as CLI11 takes them
+    reversed.push_back(name);
+    try {
+        program.parse(reversed);
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(usage_message(error, program));
+    }
 }
 
 void require_argument(const Verb& verb, const std::string& given, const std::string& name) {

@@ -94,6 +94,8 @@ public:
     FlagGroup& argument(const std::string& name, const std::string& help, std::string& target);
     // All plain arguments, the same.
     FlagGroup& arguments(const std::string& name, const std::string& help, std::vector<std::string>& target);
+    // Plain arguments that name no files: another command line, after "--".
+    FlagGroup& words(const std::string& name, const std::string& help, std::vector<std::string>& target);
 
 private:
     void add(const std::string& name, const std::string& placeholder, const std::string& help,
@@ -104,6 +106,10 @@ private:
     Verb& verb_;
     std::string heading_;
 };
+
+// Reads words as the command line of a verb. Throws UsageError, in the words of `name`.
+void read_words(const std::string& name, const std::function<void(Verb&)>& add,
+                const std::vector<std::string>& words);
 
 // Flags, values and arguments typed under these headings, as words of a command line.
 std::vector<std::string> typed_words(const Verb& verb, const std::vector<std::string>& headings,

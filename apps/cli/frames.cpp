@@ -100,10 +100,15 @@ FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run) {
     return host;
 }
 
-Status ended(const Status& done, const std::vector<int>& frames, const std::vector<int>& failed) {
+Status ended(const Status& done, const std::vector<int>& frames, const std::vector<int>& failed,
+             std::optional<ErrorCode> why) {
     if (!done || failed.empty()) return done;
+    int code = 4;
+    if (why == ErrorCode::OutputFailed) code = 6;
+    if (why == ErrorCode::OutOfMemory) code = 1;
     throw FramesFailed{std::to_string(failed.size()) + " of " + std::to_string(frames.size()) +
-                       " frames failed: " + frames_text(failed)};
+                           " frames failed: " + frames_text(failed),
+                       code};
 }
 
 Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work) {
@@ -112,7 +117,8 @@ Status make_frames(const FrameFlags& frames, const RunFlags& run, FrameWork work
                      "--missing black is for pictures that are made: fail or skip"};
     FrameLoop loop(frames.loop(), std::move(work), loop_host(frames, run));
     if (Status planned = loop.plan(&run_files()); !planned) return planned;
-    return ended(loop.run(), loop.frames(), loop.failed());
+    const Status done = loop.run();
+    return ended(done, loop.frames(), loop.failed(), loop.failure());
 }
 
 }  // namespace petzval::cli

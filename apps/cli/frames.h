@@ -27,9 +27,11 @@ struct FrameFlags {
     FrameLoopSettings loop() const;
 };
 
-// Frames of a shot that failed where others were made: exit code 4.
+// Frames of a shot that failed while others may have been made. Exit code 6: outputs could not be written; 1:
+// trying again may help; 4: it does not.
 struct FramesFailed {
     std::string message;
+    int exit_code = 4;
 };
 
 // Throw UsageError for a name that is no pattern and looks like one.
@@ -50,7 +52,8 @@ Result<FrameRecord> record_of(const Result<Json>& report);
 // Messages and questions of the loop on this program's terminal.
 FrameLoopHost loop_host(const FrameFlags& frames, const RunFlags& run);
 // Once a loop has ended: throws FramesFailed where some of its frames failed.
-Status ended(const Status& done, const std::vector<int>& frames, const std::vector<int>& failed);
+Status ended(const Status& done, const std::vector<int>& frames, const std::vector<int>& failed,
+             std::optional<ErrorCode> why);
 
 // Makes all frames in order; a failing frame does not stop the others. Errors: those of the list and of
 // missing files, before any frame is made; Cancelled. Throws FramesFailed.

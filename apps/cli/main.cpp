@@ -101,6 +101,7 @@ Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
     add_sheet(program, chosen);
     add_lens(program, chosen);
     add_devices(program, chosen);
+    add_farm(program, chosen);
     add_view(program, chosen);
     add_help(program, chosen);
     const auto said = [](const std::string& text) {
@@ -150,7 +151,7 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const FramesFailed& failed) {
-        return fail(4, failed.message);
+        return fail(failed.exit_code, failed.message);
     } catch (const DoubtsFound& found) {
         return fail(5, found.message);
     } catch (const std::bad_alloc&) {

@@ -12,6 +12,7 @@ void add_scene(Verb& program, Action& chosen);
 void add_scene_points(Verb& scene, Action& chosen);
 void add_compare(Verb& program, Action& chosen);
 void add_devices(Verb& program, Action& chosen);
+void add_farm(Verb& program, Action& chosen);
 void add_develop(Verb& program, Action& chosen);
 void add_focus_track(Verb& program, Action& chosen);
 void add_sheet(Verb& program, Action& chosen);

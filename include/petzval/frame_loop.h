@@ -91,6 +91,9 @@ public:
     Status run();
     const std::vector<int>& frames() const;  // after plan()
     const std::vector<int>& failed() const;
+    // Why frames failed: OutputFailed if that holds for any of them, otherwise an error that may pass,
+    // otherwise that of the first.
+    std::optional<ErrorCode> failure() const;
 
 private:
     struct State;

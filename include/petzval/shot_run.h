@@ -154,6 +154,7 @@ public:
     Status run();
     // Frames that failed.
     const std::vector<int>& failed() const;
+    std::optional<ErrorCode> failure() const;  // as FrameLoop says it
 
 private:
     struct State;

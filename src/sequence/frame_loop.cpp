@@ -56,9 +56,9 @@ bool contains(const std::vector<int>& frames, int frame) {
 }
 
 // Trying again changes nothing about what the user gave.
-bool may_pass(const Error& error) {
-    return error.code != ErrorCode::InvalidArgument && error.code != ErrorCode::InvalidFile &&
-           error.code != ErrorCode::Unsupported && error.code != ErrorCode::Cancelled;
+bool may_pass(ErrorCode code) {
+    return code != ErrorCode::InvalidArgument && code != ErrorCode::InvalidFile &&
+           code != ErrorCode::Unsupported && code != ErrorCode::Cancelled;
 }
 
 }  // namespace
@@ -69,6 +69,7 @@ struct FrameLoop::State {
     FrameLoopHost host;
     bool is_planned = false;
     std::vector<int> frames, black, failed;
+    std::optional<ErrorCode> worst = {};
     std::ofstream report;
     std::set<std::string> warned;
     double made_s = 0;
@@ -191,7 +192,7 @@ Result<FrameRecord> FrameLoop::State::made(int frame, const FrameWork::Files& fi
     if (again) say(Say::Warning, files.outputs.front() + ": damaged or cut off; made again");
     if (host.around_frame) host.around_frame(true);
     Result<FrameRecord> record = work.make(frame, again);
-    for (int left = settings.retries; left > 0 && !record && may_pass(record.error()) && !is_cancelled();
+    for (int left = settings.retries; left > 0 && !record && may_pass(record.error().code) && !is_cancelled();
          --left)
         record = work.make(frame, again);
     if (host.around_frame) host.around_frame(false);
@@ -206,6 +207,9 @@ Result<FrameRecord> FrameLoop::State::made(int frame, const FrameWork::Files& fi
 
 FrameRecord FrameLoop::State::failure(int frame, const FrameWork::Files& files, const Error& error) {
     failed.push_back(frame);
+    const bool is_worse =
+        error.code == ErrorCode::OutputFailed || (worst != ErrorCode::OutputFailed && may_pass(error.code));
+    if (!worst || is_worse) worst = error.code;
     say(Say::Failure, "frame " + std::to_string(frame) + ": " + error.message);
     FrameRecord record;
     record.state = FrameRecord::State::Failed;
@@ -302,5 +306,6 @@ Status FrameLoop::run() {
 
 const std::vector<int>& FrameLoop::frames() const { return state_->frames; }
 const std::vector<int>& FrameLoop::failed() const { return state_->failed; }
+std::optional<ErrorCode> FrameLoop::failure() const { return state_->worst; }
 
 }  // namespace petzval

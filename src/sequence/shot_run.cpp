@@ -212,6 +212,10 @@ const std::vector<int>& ShotRun::failed() const {
     return state_->loop ? state_->loop->failed() : none;
 }
 
+std::optional<ErrorCode> ShotRun::failure() const {
+    return state_->loop ? state_->loop->failure() : std::nullopt;
+}
+
 Result<FrameRecord> ShotRun::make(int frame) {
     if (Status ready = state_->prepare(); !ready) return ready.error();
     if (!state_->is_begun)

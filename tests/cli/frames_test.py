@@ -146,7 +146,7 @@ class Shots(CommandLineTest):
         write_exr(self.path("in.0003.exr"), picture(200, 150, lambda x, y: (x * 31 + y * 17) % 101 / 50, lambda x, y: 2.0))
         limits = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))  # noqa: E731
         outcome = self.run_program("defocus", "in.####.exr", "-o", "out.####.exr", *CAMERA, limits=limits)
-        self.assertEqual(outcome.code, 4, outcome)
+        self.assertEqual(outcome.code, 6, outcome)
         self.assertIn("frames failed: 3", outcome.lines[-1])
         self.assertEqual(self.outputs(), ["out.%04d.exr" % n for n in (1, 2, 5)])
         self.no_leftovers()
@@ -161,7 +161,7 @@ class Shots(CommandLineTest):
         for frame in range(6, 40):
             self.make(frame)
         outcome = self.run_program("defocus", "in.####.exr", "-o", "disk/out.####.exr", *CAMERA)
-        self.assertEqual(outcome.code, 4, outcome)
+        self.assertEqual(outcome.code, 6, outcome)
         self.assertIn("No space left", outcome.err)
         made = sorted(os.listdir(disk))
         self.assertTrue(0 < len(made) < 38, made)

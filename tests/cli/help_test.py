@@ -13,7 +13,7 @@ PAGE = (ROOT / "docs/reference/command-line.md").read_text()
 NOT_YET = re.search(r"Reserved, and refused:(.*?)\n", PAGE).group(1)
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 VERBS = ["defocus", "inspect", "scene list", "scene make", "scene points", "compare", "develop", "lens list", "lens show",
-         "lens psf", "lens table", "lens report", "devices", "help"]
+         "lens psf", "lens table", "lens report", "devices", "farm write", "help"]
 
 
 class Help(CommandLineTest):

@@ -1,0 +1,201 @@
+// petzval farm write: a shot as a job for a render farm.
+#include "petzval/farm/jobs.h"
+#include "petzval/shot_run.h"
+
+#include "console.h"
+#include "defocus_flags.h"
+#include "guard.h"
+#include "interrupt.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <sys/resource.h>
+#include <utility>
+
+namespace petzval::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct WriteFlags {
+    std::vector<std::string> words;  // of petzval defocus, as typed
+    std::string folder;
+    std::optional<FarmSystem> system;
+    int chunk = 0;  // 0: measured
+    DefocusFlags shot;
+};
+
+constexpr const char* kExample =
+    "petzval farm write --for slurm -o job -- beauty.####.exr -o out.####.exr --frames 1001-1100 --fstop 2";
+
+constexpr std::size_t kLeastMemory = std::size_t(256) << 20;
+
+// The words without `name` and, where it has one, its value.
+std::vector<std::string> without(const std::vector<std::string>& words, const std::string& name) {
+    std::vector<std::string> left;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] == name)
+            ++i;
+        else if (!words[i].starts_with(name + "="))
+            left.push_back(words[i]);
+    }
+    return left;
+}
+
+void check(WriteFlags& flags, const Verb& verb) {
+    if (!flags.system)
+        throw UsageError(std::string("farm write needs --for SYSTEM; for example: ") + kExample);
+    require_argument(verb, flags.folder, "-o FOLDER");
+    if (flags.words.empty())
+        throw UsageError(std::string("farm write needs the shot after --; for example: ") + kExample);
+    read_words(
+        "defocus", [&](Verb& defocus) { flags.shot.add_to(defocus); }, flags.words);
+    DefocusFlags& shot = flags.shot;
+    require_argument(verb, shot.input.path, "an input picture after --");
+    shot.check(verb);
+    if (!is_sequence(shot))
+        throw UsageError("a farm renders frames: neither the input nor -o holds #### or %04d");
+    if (!shot.frames.report.empty())
+        throw UsageError("--report: the job keeps its records itself, in the folder records");
+    if (shot.overwrite.overwrite)
+        throw UsageError(
+            "--overwrite: a chunk that runs again keeps complete frames; remove old frames first");
+}
+
+// The name of the job's folder: at least three letters, digits, _ and -, as all systems take it.
+std::string job_name(const fs::path& folder) {
+    std::string name = folder.filename().string();
+    const auto is_odd = [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '-'; };
+    std::replace_if(name.begin(), name.end(), is_odd, '_');
+    return name.size() < 3 ? "petzval_" + name : name;
+}
+
+// The command of a chunk: this program, the words, and that complete frames are kept.
+std::vector<std::string> command_of(const WriteFlags& flags) {
+    std::error_code unknown;
+    const fs::path self = fs::read_symlink("/proc/self/exe", unknown);
+    std::vector<std::string> words = without(without(flags.words, "--frames"), "--threads");
+    words.insert(words.begin(), {unknown ? "petzval" : self.string(), "defocus"});
+    const ExistingOutputs existing = flags.shot.overwrite.existing();
+    if (existing == ExistingOutputs::Replace) words.emplace_back("--no-clobber");
+    return words;
+}
+
+// Seconds and bytes of the middle frame, which is rendered into the job's folder.
+Status measure(const WriteFlags& flags, FarmShot& shot) {
+    const int frame = shot.frames[shot.frames.size() / 2];
+    ShotRunSettings settings = flags.shot.settings();
+    const std::string kind = fs::path(settings.output).extension().string();
+    settings.output = shot.folder + "/measured.####" + kind;
+    settings.record_file.clear();
+    settings.save_look_file.clear();
+    settings.existing = ExistingOutputs::Replace;
+    Session session(flags.shot.session());
+    ShotRunHost host;
+    host.cancelled = [] { return interrupted_by() != 0; };
+    ShotRun run(session, settings, host);
+    const auto start = std::chrono::steady_clock::now();
+    const auto made = run.make(frame);
+    if (!made) return made.error();
+    shot.seconds_per_frame = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::error_code ignored;
+    fs::remove(at_frame(settings.output, frame), ignored);
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    // A quarter more than the peak of one frame, as frames differ.
+    const std::size_t measured = std::size_t(used.ru_maxrss) * 1024 / 4 * 5;
+    if (shot.memory_bytes == 0) shot.memory_bytes = std::max(measured, kLeastMemory);
+    shot.chunk = farm_chunk(shot.seconds_per_frame, shot.frames.size());
+    note("frame " + std::to_string(frame) + ": " + plain(shot.seconds_per_frame, 3) + " s, so " +
+         std::to_string(shot.chunk) + (shot.chunk == 1 ? " frame" : " frames") + " per process");
+    return Done{};
+}
+
+Status put(const FarmShot& shot, const std::vector<FarmFile>& files) {
+    for (const FarmFile& file : files) {
+        const std::string path = shot.folder + "/" + file.name;
+        if (Status done = petzval::write_text(path, file.text); !done) return done;
+        std::error_code error;
+        if (file.is_program)
+            fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                            fs::perm_options::add, error);
+        if (error) return Error{ErrorCode::OutputFailed, path + ": " + error.message()};
+        note("wrote " + path);
+    }
+    return Done{};
+}
+
+Result<FarmShot> facts(const WriteFlags& flags) {
+    FarmShot shot;
+    shot.folder = fs::absolute(flags.folder).lexically_normal().string();
+    if (shot.folder.ends_with("/")) shot.folder.pop_back();
+    shot.name = job_name(shot.folder);
+    shot.working_folder = fs::current_path().string();
+    shot.command = command_of(flags);
+    shot.threads = flags.shot.run.threads;
+    shot.memory_bytes = flags.shot.max_memory_bytes;
+    shot.input = flags.shot.input.path;
+    shot.output = flags.shot.output;
+    const auto& words = flags.words;
+    const auto look = std::find(words.begin(), words.end(), "--look");
+    if (look != words.end() && look + 1 != words.end()) shot.look = *(look + 1);
+    shot.track = flags.shot.track.file;
+    ShotRunSettings settings = flags.shot.settings();
+    settings.existing = ExistingOutputs::Keep;
+    Session session(flags.shot.session());
+    ShotRun run(session, settings, {});
+    if (Status planned = run.plan(&run_files()); !planned) return planned.error();
+    shot.frames = run.frames();
+    std::sort(shot.frames.begin(), shot.frames.end());
+    return shot;
+}
+
+Status write(const WriteFlags& flags) {
+    auto shot = facts(flags);
+    if (!shot) return shot.error();
+    shot->chunk = std::max(flags.chunk, 1);
+    // Refused before a frame is rendered.
+    if (auto early = farm_files(*shot, *flags.system); !early) return early.error();
+    std::error_code error;
+    fs::create_directories(shot->folder, error);
+    if (error) return Error{ErrorCode::OutputFailed, "-o " + flags.folder + ": " + error.message()};
+    if (flags.chunk == 0)
+        if (Status done = measure(flags, *shot); !done) return done;
+    const auto files = farm_files(*shot, *flags.system);
+    if (!files) return files.error();
+    return put(*shot, *files);
+}
+
+}  // namespace
+
+static void add_farm_write(Verb& farm, Action& chosen) {
+    Verb& verb = add_verb(farm, "write", "write a shot as a job for a render farm", kExample);
+    auto flags = std::make_shared<WriteFlags>();
+    FlagGroup(verb, "Job")
+        .words("SHOT", "after --: the arguments of petzval defocus", flags->words)
+        .choice(
+            "--for",
+            "the farm: list, one command per line for make, xargs or cuecmd; slurm; flamenco; openjd, Open "
+            "Job Description; opencue",
+            farm_systems(), flags->system)
+        .value("-o,--output", "FOLDER", "folder of the job, on a disk that all machines see", parse_text,
+               flags->folder)
+        .value("--chunk", "N",
+               "frames that one process renders (default: as many as take a minute; the middle frame is "
+               "rendered to measure that, and the memory)",
+               parse_count, flags->chunk);
+    when_typed(verb, [flags, &verb, &chosen] {
+        check(*flags, verb);
+        chosen = [flags] { return write(*flags); };
+    });
+}
+
+void add_farm(Verb& program, Action& chosen) {
+    Verb& verb = add_verb(program, "farm", "write jobs for render farms", kExample);
+    add_farm_write(verb, chosen);
+    when_typed(verb, [&verb] { require_verb(verb); });
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,48 @@
+// A shot as a job for a render farm: one table of facts, and a writer for each farm system. Every system runs
+// the same script, run.sh, with a list of frames. Component petzval::files.
+#pragma once
+
+#include "petzval/export.h"
+#include "petzval/result.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petzval {
+
+// List: one command per line, for make, xargs, GNU parallel, cuecmd, Deadline, Afanasy.
+enum class FarmSystem { List, Slurm, Flamenco, OpenJd, OpenCue };
+// Each with its name, in the order in which people should read them.
+PETZVAL_API const std::vector<std::pair<std::string, FarmSystem>>& farm_systems();
+
+struct FarmShot {
+    std::string name;                  // letters, digits, _ and -; at least 3 characters
+    std::string folder;                // absolute: job files and records, on a disk that all machines see
+    std::string working_folder;        // absolute: paths of `command` start here
+    std::vector<std::string> command;  // program and arguments, without frames, report and threads
+    std::vector<int> frames;           // ascending
+    int chunk = 1;                     // frames that one process makes
+    double seconds_per_frame = 0;      // measured; 0: unknown
+    int threads = 0;                   // asked for by the user; 0: the farm system decides
+    std::size_t memory_bytes = 0;      // of one process; 0: unknown
+    std::string input, output;         // patterns
+    std::string look, track;           // files; empty: none
+};
+
+struct FarmFile {
+    std::string name;  // below FarmShot::folder
+    std::string text;
+    bool is_program = false;
+};
+
+// Frames that take about a minute: the start of a process is then below 1 % of the work, and a machine that
+// dies loses little. `seconds_per_frame` above 0.
+PETZVAL_API int farm_chunk(double seconds_per_frame, std::size_t frames);
+
+// shot.json with all facts, run.sh, and the files of the system. Errors: InvalidArgument if the system
+// cannot express the shot, such as negative frames in Flamenco.
+PETZVAL_API Result<std::vector<FarmFile>> farm_files(const FarmShot& shot, FarmSystem system);
+
+}  // namespace petzval

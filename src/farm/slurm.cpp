@@ -1,0 +1,48 @@
+// A job array for sbatch. Facts: Slurm 22.05, sbatch(1) and scontrol(1).
+#include "farm/writers.h"
+
+#include <algorithm>
+
+namespace petzval::farm {
+namespace {
+
+// MaxArraySize is 1001 unless a site raises it; the number of an element is below it.
+constexpr std::size_t kMostElements = 1000;
+
+// A requeued element begins again with the same number. A full disk can last all night, other failures are
+// tried five times.
+constexpr const char* kRetry = R"(code=$?
+retries=${SLURM_RESTART_COUNT:-0}
+case $code in
+0 | 2 | 3 | 4) exit $code ;;
+6) sleep "${PETZVAL_FARM_WAIT:-60}" ;;
+*) [ "$retries" -lt 5 ] || exit $code ;;
+esac
+scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
+sleep 60 # until Slurm ends this element
+exit $code
+)";
+
+}  // namespace
+
+Result<FarmFile> slurm_file(const FarmShot& shot) {
+    const int size = std::max(shot.chunk, int((shot.frames.size() + kMostElements - 1) / kMostElements));
+    const auto lists = chunks(shot, size);
+    std::string text = "#!/bin/bash\n";
+    const auto option = [&](const std::string& line) { text += "#SBATCH --" + line + "\n"; };
+    option("job-name=" + shot.name);
+    option("array=0-" + std::to_string(lists.size() - 1));
+    if (shot.threads > 0) option("cpus-per-task=" + std::to_string(shot.threads));
+    if (shot.memory_bytes > 0) option("mem=" + std::to_string(memory_mib(shot)) + "M");
+    option("requeue");
+    option("open-mode=append");
+    option("output=\"" + shot.folder + "/log.%a.txt\"");
+    text += "chunks=(\n";
+    for (const std::string& frames : lists) text += "    " + frames + "\n";
+    text += ")\n";
+    text +=
+        quoted(shot.folder + "/run.sh") + " \"${chunks[${SLURM_ARRAY_TASK_ID:?an element of an array}]}\"\n";
+    return FarmFile{"petzval.sbatch", text + kRetry};
+}
+
+}  // namespace petzval::farm
