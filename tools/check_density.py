@@ -16,7 +16,6 @@ CROWDED = {
     "src/engine/samples": 66,
     "src/device/vulkan": 62,
     "include/petzval": 58,
-    "apps/view": 51,
     "src/device/cpu": 45,
     "src/device/vulkan/shaders": 41,
 }

@@ -62,10 +62,28 @@ void add_number(std::vector<std::string>& words, const char* flag, const std::op
     if (value) words.insert(words.end(), {flag, plain(*value, 9)});
 }
 
+// The files as typed, unless others were chosen in the window.
+std::vector<std::string> input_words(const ViewFlags& flags, const view::InputChoice& input) {
+    if (input == view::input_of(flags.input.source())) return flags.files;
+    std::vector<std::string> words{input.path};
+    const auto add = [&](const char* flag, const std::string& text) {
+        if (!text.empty()) words.insert(words.end(), {flag, text});
+    };
+    add("--layer", input.layer);
+    add("--view-name", input.view_name);
+    add("--depth", input.depth_file);
+    add("--depth-channel", input.depth_channel);
+    if (input.depth_kind) add("--depth-kind", name_of(*input.depth_kind));
+    if (input.depth_near && input.depth_far)
+        add("--depth-range", plain(*input.depth_near, 9) + "," + plain(*input.depth_far, 9));
+    if (input.unit_scale_m != 1) add_number(words, "--unit-scale", input.unit_scale_m);
+    return words;
+}
+
 std::vector<std::string> command_words(const ViewFlags& flags, const view::Choice& choice,
                                        const std::string& output) {
     std::vector<std::string> words{"petzval", "defocus"};
-    for (const std::string& word : flags.files)
+    for (const std::string& word : input_words(flags, choice.input))
         words.push_back(choice.frame ? at_frame(word, *choice.frame) : word);
     words.insert(words.end(), {"-o", output});
     if (flags.device != "cpu") words.insert(words.end(), {"--device", flags.device});
@@ -115,6 +133,7 @@ Status save(DefocusFlags flags, Session& session, const view::Choice& choice, co
     flags.develop.tone = choice.develop.tone;
     if (!choice.ocio || *kind != FileKind::Png) flags.ocio = {};
     ShotRunSettings settings = flags.settings();
+    settings.source = view::with_input(settings.source, choice.input);
     if (choice.frame) settings.source = at_frame(std::move(settings.source), *choice.frame);
     const auto done = make_picture(session, settings, picture_host(flags));
     if (!done) return Error{done.error().code, in_flags(done.error().message), done.error().field};

@@ -27,8 +27,22 @@ struct FieldRow {
     std::function<std::string(const std::string&)> from_json;
 };
 
+// Files of the shot and the meaning of their depth. Empty names and values: the files say it.
+struct InputChoice {
+    std::string path = {}, layer = {}, view_name = {}, depth_file = {}, depth_channel = {};
+    std::optional<DepthKind> depth_kind = {};
+    std::optional<double> depth_near = {}, depth_far = {};  // range of the kinds that have one
+    double unit_scale_m = 1;
+
+    bool operator==(const InputChoice&) const = default;
+};
+InputChoice input_of(const ShotSource& source);
+// The source with these files. Another path leaves out all files that stand beside the source's own.
+ShotSource with_input(ShotSource source, const InputChoice& input);
+
 // Choices made in the window; everything else keeps the command line's values.
 struct Choice {
+    InputChoice input;
     CameraChoice camera;
     Look look;
     std::optional<int> frame;  // of a shot; nothing: a single picture

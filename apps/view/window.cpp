@@ -61,6 +61,15 @@ bool& is_exposed() {
 }
 void on_expose(GLFWwindow*) { is_exposed() = true; }
 
+// A file that was dropped on the window; empty: none.
+std::string& dropped_file() {
+    static std::string path;
+    return path;
+}
+void on_drop(GLFWwindow*, int count, const char** paths) {
+    if (count > 0) dropped_file() = paths[0];
+}
+
 // Hash of everything to be painted: equal hashes look alike.
 std::uint64_t fingerprint(const ImDrawData& drawn) {
     std::uint64_t print = Texture::loads();
@@ -124,6 +133,7 @@ public:
         glfwSwapInterval(1);
         glfwSetKeyCallback(window_, on_key);  // ImGui's calls it as well
         glfwSetWindowRefreshCallback(window_, on_expose);
+        glfwSetDropCallback(window_, on_drop);
         start_imgui(setup.scale);
         return Done{};
     }
@@ -143,6 +153,7 @@ private:
         const float size = float(scale > 0 ? scale : double(std::clamp(across, 0.5f, 8.0f)));
         ImGui::GetStyle().ScaleAllSizes(size);
         ImGui::GetStyle().WindowRounding = 0;
+        ImGui::GetStyle().Colors[ImGuiCol_PopupBg].w = 1;
         load_letters(size);
         ImGui_ImplGlfw_InitForOpenGL(window_, true);
         ImGui_ImplOpenGL3_Init("#version 150");
@@ -156,6 +167,9 @@ private:
             ImGui::GetIO().Fonts->AddFontFromFileTTF(file, std::round(14 * scale), nullptr, letters);
         else
             ImGui::GetIO().FontGlobalScale = scale;
+        const char* bold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";  // of changed values
+        if (std::filesystem::exists(file, ignored) && std::filesystem::exists(bold, ignored))
+            ImGui::GetIO().Fonts->AddFontFromFileTTF(bold, std::round(14 * scale), nullptr, letters);
     }
 
     GLFWwindow* window_ = nullptr;
@@ -168,6 +182,7 @@ void move_hand(GLFWwindow* window, const Hand& hand) {
     if (hand.resize) glfwSetWindowSize(window, hand.resize->first, hand.resize->second);
     io.MousePos = {float(hand.x), float(hand.y)};
     io.MouseDown[0] = hand.button;
+    io.MouseDown[1] = hand.right;
     io.MouseWheel = float(hand.wheel);
     if (!hand.key.empty()) pressed_keys().push_back(key_press(hand.key));
 }
@@ -227,11 +242,13 @@ void draw(App& app) {
     app.screen_height = double(size.y);
     if (app.state.panels) {
         place(size.x - panel, 0, panel, size.y);
-        ImGui::Begin("panels", nullptr, flags & ~ImGuiWindowFlags_NoScrollbar);
+        ImGui::Begin("panels", nullptr, (flags & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_MenuBar);
+        draw_menu(app);
         draw_panels(app);
         ImGui::End();
     }
     if (app.state.help) draw_help(app);
+    if (app.state.opening) draw_open(app);
 }
 
 class Loop {
@@ -242,6 +259,7 @@ public:
     Status operator()() {
         while (!glfwWindowShouldClose(window_) && !app_.quit) {
             tick();
+            if (app_.unopened) return *app_.unopened;
             if (!script_) continue;
             report_error();
             if (script_->failure()) return *script_->failure();
@@ -288,8 +306,12 @@ private:
         if (script_) move_hand(window_, script_->tick(app_));
         ImGui::NewFrame();
         take_keys(app_);
+        if (!dropped_file().empty())
+            static_cast<void>(act(app_, "open \"" + std::exchange(dropped_file(), "") + "\""));
         draw(app_);
+        if (!ImGui::IsAnyItemActive()) app_.settle_choice();
         app_.ask();
+        name_window();
         if (!app_.copied.empty() && app_.copied != clipboard_)
             glfwSetClipboardString(window_, (clipboard_ = app_.copied).c_str());
         ImGui::Render();
@@ -301,6 +323,14 @@ private:
         if (is_asked || print != painted_) paint();
         painted_ = print, is_exposed() = false;
         std::this_thread::sleep_until(start + kFrame);  // where swapping does not wait for the display
+    }
+
+    // The title follows the file that is open.
+    void name_window() {
+        const std::string& path = app_.state.choice.input.path;
+        if (path == named_) return;
+        named_ = path;
+        glfwSetWindowTitle(window_, (path.empty() ? "petzval" : path + " - petzval").c_str());
     }
 
     void paint() {
@@ -318,7 +348,7 @@ private:
     GLFWwindow* window_;
     App app_;
     std::optional<Script> script_;
-    std::string clipboard_, reported_;
+    std::string clipboard_, reported_, named_;
     int lively_ticks_ = 10, ticks_ = 0;
     std::uint64_t painted_ = 0;
 };

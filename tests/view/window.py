@@ -76,7 +76,8 @@ class WindowTest(unittest.TestCase):
                 yield file.read()
 
     def start(self, *arguments, display=None):
-        env = {**os.environ, "PETZVAL_KERNEL_CACHE": "off", "DISPLAY": display or DISPLAY.name}
+        env = {**os.environ, "PETZVAL_KERNEL_CACHE": "off", "DISPLAY": display or DISPLAY.name,
+               "XDG_STATE_HOME": os.path.join(self.shared, "state")}
         window = subprocess.Popen([PETZVAL, "view", *arguments, "--window", "1000x850"], cwd=self.shared, env=env,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(lambda: (window.kill(), window.communicate()))

@@ -4,6 +4,7 @@
 #include "petzval/look_json.h"
 #include "petzval/names.h"
 
+#include "field_list.h"
 #include "lens_panel.h"
 
 #include <charconv>
@@ -22,12 +23,6 @@ using Json = nlohmann::ordered_json;
 
 Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
-struct Field {
-    std::string name;
-    std::function<std::string(const App&)> get;
-    std::function<Status(App&, const std::string&)> set;  // null: can only be known
-};
-
 // A number of the window, within limits.
 Field number(const char* name, double& (*of)(State&), double least, double most) {
     return {name, [of](const App& app) { return text_of(of(const_cast<State&>(app.state)), 6); },  // NOLINT
@@ -40,6 +35,11 @@ Field number(const char* name, double& (*of)(State&), double least, double most)
                 of(app.state) = *value;
                 return Done{};
             }};
+}
+
+Field with_default(Field field, std::string standard) {
+    field.standard = std::move(standard);
+    return field;
 }
 
 Field toggle(const char* name, bool& (*of)(State&)) {
@@ -71,7 +71,8 @@ Field camera_number(const char* name, std::optional<double> CameraChoice::*chose
                 if (!(*value > 0)) return invalid(std::string(name) + " " + text + ": not more than 0");
                 app.state.choice.camera.*chosen = *value;
                 return Done{};
-            }};
+            },
+            "file"};
 }
 
 // The aperture's diameter instead of the f-number.
@@ -117,6 +118,19 @@ Field own_camera() {
             app.turn_to({});
             return Done{};
         }};
+}
+
+// The focus stays on the scene's subject, from now on.
+Field follow() {
+    Field field = toggle(
+        "scene.follow", +[](State& s) -> bool& { return s.following; });
+    field.set = [set = field.set](App& app, const std::string& text) -> Status {
+        if (Status done = set(app, text); !done) return done;
+        if (app.state.following && app.shot() && app.shot()->subject_m)
+            app.state.choice.camera.focus_distance_m = app.shot()->subject_m;
+        return Done{};
+    };
+    return field;
 }
 
 template <typename E>
@@ -224,12 +238,18 @@ std::vector<Field> choices() {
         camera_number("camera.f_number", &CameraChoice::f_number, &FoundCamera::f_number),
         camera_number("camera.focus_distance_m", &CameraChoice::focus_distance_m,
                       &FoundCamera::focus_distance_m),
-        word<ImageScale>(
-            "camera.image_scale", +[](State& s) -> ImageScale& { return s.choice.camera.image_scale; }),
-        number(
-            "view.exposure", +[](State& s) -> double& { return s.choice.develop.exposure_stops; }, -30, 30),
-        number(
-            "view.contrast", +[](State& s) -> double& { return s.choice.develop.contrast; }, 0.1, 10),
+        with_default(
+            word<ImageScale>(
+                "camera.image_scale", +[](State& s) -> ImageScale& { return s.choice.camera.image_scale; }),
+            name_of(ImageScale::Rendered)),
+        with_default(number(
+                         "view.exposure",
+                         +[](State& s) -> double& { return s.choice.develop.exposure_stops; }, -30, 30),
+                     "0"),
+        with_default(
+            number(
+                "view.contrast", +[](State& s) -> double& { return s.choice.develop.contrast; }, 0.1, 10),
+            "1"),
         word<ToneCurve>(
             "view.tone", +[](State& s) -> ToneCurve& { return s.choice.develop.tone; }),
         toggle(
@@ -238,6 +258,8 @@ std::vector<Field> choices() {
             "view.overlay", +[](State& s) -> bool& { return s.overlay; }),
         toggle(
             "view.final", +[](State& s) -> bool& { return s.final_quality; }),
+        toggle(
+            "view.open", +[](State& s) -> bool& { return s.opening; }),
         toggle(
             "view.panels", +[](State& s) -> bool& { return s.panels; }),
         toggle(
@@ -248,8 +270,7 @@ std::vector<Field> choices() {
             "shot.easing", +[](State& s) -> bool& { return s.timeline.easing; }),
         aperture(),
         own_camera(),
-        toggle(
-            "scene.follow", +[](State& s) -> bool& { return s.following; }),
+        follow(),
         toggle(
             "scene.recording", +[](State& s) -> bool& { return s.path.recording; }),
         toggle(
@@ -274,12 +295,16 @@ const Field* find(const std::string& name) {
         std::vector<Field> fields = choices();
         for (Field& one : facts()) fields.push_back(std::move(one));
         for (Field& one : more_facts()) fields.push_back(std::move(one));
+        for (Field& one : input_fields()) fields.push_back(std::move(one));
         return fields;
     }();
     for (const Field& field : all)
         if (field.name == name) return &field;
     return nullptr;
 }
+
+// The value of a look's field as text.
+Result<std::string> text_in(const App& app, const Json& look, const std::string& path);
 
 // The look as JSON, kept while it is the same: every widget asks for its field at every tick.
 const Json& json_of(const Look& look) {
@@ -333,16 +358,61 @@ std::string full_path(const std::string& name) {
 Result<std::string> field_text(const App& app, const std::string& name) {
     const std::string path = full_path(name);
     if (const Field* field = find(path)) return field->get(app);
-    const Json& look = json_of(app.state.choice.look);
+    return text_in(app, json_of(app.state.choice.look), path);
+}
+
+namespace {
+
+Result<std::string> text_in(const App& app, const Json& look, const std::string& path) {
     const std::size_t dot = path.find('.');
     const Json* value = look.contains(path) ? &look[path] : nullptr;
     if (dot != std::string::npos && look.contains(path.substr(0, dot))) {
         const Json& section = look[path.substr(0, dot)];
         if (section.contains(path.substr(dot + 1))) value = &section[path.substr(dot + 1)];
     }
-    if (!value) return invalid("nothing is called " + name);
+    if (!value) return invalid("nothing is called " + path);
     if (const FieldRow* row = row_of(app, path)) return row->from_json(value->dump());
     return value->is_string() ? value->get<std::string>() : value->dump();
+}
+
+// A camera number is the file's until it is chosen, whatever its value.
+bool is_chosen(const CameraChoice& camera, const std::string& path) {
+    return (path == "camera.focal_length_mm" && camera.focal_length_mm) ||
+           (path == "camera.sensor_width_mm" && camera.sensor_width_mm) ||
+           (path == "camera.f_number" && camera.f_number) ||
+           (path == "camera.focus_distance_m" && camera.focus_distance_m);
+}
+
+const Json& standard_look() {
+    static const Json standard = Json::parse(look_to_json(Look{}));
+    return standard;
+}
+
+}  // namespace
+
+bool is_changed(const App& app, const std::string& name) {
+    const std::string path = full_path(name);
+    if (const Field* field = find(path)) {
+        if (field->standard == "file" && path.starts_with("camera."))
+            return is_chosen(app.state.choice.camera, path);
+        return !field->standard.empty() && field->get(app) != field->standard;
+    }
+    const auto standard = text_in(app, standard_look(), path);
+    const auto now = text_in(app, json_of(app.state.choice.look), path);
+    return standard && now && *standard != *now;
+}
+
+Status reset_field(App& app, const std::string& name) {
+    const std::string path = full_path(name);
+    if (path == "look") {
+        app.state.choice.look = {};
+        return Done{};
+    }
+    const Field* field = find(path);
+    if (field && field->standard.empty()) return invalid(name + " has no default");
+    const auto standard = field ? Result<std::string>(field->standard) : text_in(app, standard_look(), path);
+    if (!standard) return standard.error();
+    return set_field(app, path, *standard);
 }
 
 Status set_field(App& app, const std::string& name, const std::string& text) {

@@ -3,14 +3,24 @@
 
 #include "app.h"
 
+#include <cstdint>
 #include <string>
 
 namespace petzval::view {
 
+inline constexpr std::uint32_t kAmber = 0xff3cb4ffU;  // ABGR: what is assumed
+
 // A number that is dragged, by shares of itself where `is_scale`, else by `speed`.
 void number_widget(App& app, const std::string& path, const std::string& label, double speed, bool is_scale);
-// The same between two ends.
-void slider_widget(App& app, const std::string& path, const std::string& label, double least, double most);
+// Ends of a slider, and its number as printf() writes it, with its unit.
+struct Ends {
+    double least = 0, most = 1;
+    const char* format = "%.3g";
+    bool is_scale = false;  // the same way for the same factor
+};
+// The same between two ends; Ctrl-click types a number beyond them.
+void slider_widget(App& app, const std::string& path, const std::string& label, const Ends& ends,
+                   const std::string& help = "");
 // On or off.
 void switch_widget(App& app, const std::string& path, const std::string& label);
 // A row of the table of look flags: switch, choice, number or text, as its placeholder says.

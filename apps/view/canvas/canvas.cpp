@@ -187,7 +187,7 @@ void take_mouse(App& app) {
 
 // In the middle of an empty window: what is waited for, or what is wrong.
 void draw_empty(const App& app, const ImVec2& min, const ImVec2& size) {
-    const std::string words = !app.trouble.empty() ? app.trouble : app.waits_for();
+    const std::string words = !app.trouble.empty() ? plain_words(app, app.trouble) : app.waits_for();
     const float wide = std::max(1.0f, 0.8f * size.x);
     const ImVec2 text = ImGui::CalcTextSize(words.c_str(), nullptr, false, wide);
     ImGui::GetWindowDrawList()->AddText(

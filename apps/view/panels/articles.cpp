@@ -46,7 +46,7 @@ Article wgld() {
             {{"engine", "gaussian"},
              {"gaussian.style", "wgld"},
              {"gaussian.depth_band_range_m", "0.1m,30m"},
-             {"gaussian.depth_offset", "0.3"}},
+             {"gaussian.depth_offset", "0.45"}},
             {{"gaussian.depth_offset", "depth offset", -0.5, 0.5},
              {"gaussian.focus_band", "band", 0, 1},
              {"gaussian.depth_along", "depth along", 0, 0},
@@ -94,7 +94,7 @@ bool is_shown(const App& app, const ArticleBuffer& buffer) {
 }
 
 void control(App& app, const ArticleControl& of) {
-    if (of.least < of.most) return slider_widget(app, of.path, of.label, of.least, of.most);
+    if (of.least < of.most) return slider_widget(app, of.path, of.label, {of.least, of.most});
     for (const FieldRow& row : app.setup().fields)
         if (row.path == of.path) return row_widget(app, row, of.label);
     switch_widget(app, of.path, of.label);

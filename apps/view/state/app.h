@@ -6,6 +6,7 @@
 #include "bench.h"
 #include "curve_edit.h"
 #include "darkroom.h"
+#include "history.h"
 #include "maker.h"
 #include "state.h"
 #include "tev.h"
@@ -57,6 +58,17 @@ struct Mapping {
     Rect seen() const;  // whole pixels of the frame
 };
 
+// Seconds of drafts by their coarseness, 1…4: some are for every pixel, some for every draft.
+class DraftTimes {
+public:
+    static constexpr int kCoarsest = 4;
+    void note(int coarse, double seconds);
+    double expected_s(int coarse) const;  // 0: nothing is known
+
+private:
+    std::array<double, kCoarsest + 1> seconds_{};  // 0: unknown
+};
+
 // Longest times so far, in milliseconds.
 struct Slowest {
     double tick = 0;           // work of the window's thread between two events
@@ -84,7 +96,8 @@ public:
     Mapping mapping;  // of the last tick
     // Messages in the window; empty: none. About the last command, the frame, and notices.
     std::string error, trouble, notice;
-    std::string copied;  // by the command `copy`, for the clipboard
+    std::string copied;             // by the command `copy`, for the clipboard
+    std::optional<Error> unopened;  // the first file cannot be shown at all
     bool quit = false;
     Slowest slowest;
     std::map<std::string, Rect> widgets;  // where fields were drawn, by path
@@ -109,6 +122,12 @@ public:
     std::string waits_for() const;       // while nothing is open
     bool is_busy() const;                // something is being read, made, developed or saved
     void read_again(bool anew = false);  // anew: a scene's file as well
+    void open(const std::string& path);  // another file, or a shot's frames by their pattern
+    // One step back, or forward again. Errors: InvalidArgument where there is none.
+    Status undo(bool again);
+    void settle_choice();  // a change since the last call becomes a step to undo
+    // The choice, with the camera numbers that are assumed: the command line needs them.
+    Choice full_choice() const;
     void go_to(int frame);
     bool is_live() const { return !setup_.scene.empty(); }
     // The scene at a frame as its camera looks at it now, or on its path. Requires: is_live().
@@ -145,6 +164,7 @@ private:
     std::string of_this_frame(const std::string& path) const;  // #### filled in
     void has_frames(int count);
     void take_shot(ReadShot read);
+    void forget_frames();
     void take_frame(MadeFrame made);
     void take_print(Print print);
     void ask_frame(int index, const Side& side);
@@ -156,6 +176,9 @@ private:
     void clear_print(int target);
 
     Setup setup_;
+    Chosen chosen() const;
+    History history_;
+    InputChoice opened_, shown_;  // the last that was read, and the last that could be shown
     ShotPointer shot_, against_;
     std::array<SideFrames, 2> sides_;
     std::array<Shown, Darkroom::kTargets> on_screen_;
@@ -166,7 +189,7 @@ private:
     bool reading_ = false;
     std::optional<FoundCamera> home_;  // of a scene: its own view
     bool coarse_ = false;              // it is to be seen with few rays, as it moves
-    double draft_s_ = 0;               // what a draft takes at full size, as the last ones say
+    DraftTimes draft_times_;
     std::chrono::steady_clock::time_point moved_;
     std::chrono::steady_clock::time_point shown_since_;  // the frame, while it is played
     LensMade lens_made_;

@@ -6,6 +6,7 @@
 #include "petzval/output.h"
 
 #include "articles.h"
+#include "command_list.h"
 #include "fields.h"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ Status focus(App& app, const Words& words) {
     if (Status done = set_field(app, "focus", text_of(*depth, 6)); !done) return done;
     app.notice = "focus " + text_of(*depth, 4) + " m";
     Timeline& line = app.state.timeline;
+    if (line.rack_clicks > 0) return rack_to(app, *app.state.choice.camera.focus_distance_m);
     if (line.is_shot() && line.keying) line.keys[line.frame] = *app.state.choice.camera.focus_distance_m;
     return Done{};
 }
@@ -218,7 +220,7 @@ Status save(App& app, const Words& words) {
 }
 Status copy(App& app, const Words&) {
     if (app.shot() && app.shot()->is_pushed) return invalid("what was pushed is no file; save it first");
-    app.copied = app.setup().command_line(app.state.choice, "out.exr");
+    app.copied = app.setup().command_line(app.full_choice(), "out.exr");
     if (app.is_live()) {
         std::string make;
         for (const std::string& word : scene_words(app.scene_wish(), app.setup().scene + ".exr"))
@@ -259,111 +261,6 @@ Status save_lens(App& app, const Words& words) {
     app.notice = "wrote " + words[0];
     return Done{};
 }
-Status no_scene() { return invalid("this is a picture; --scene NAME is seen from anywhere"); }
-
-Status orbit(App& app, const Words& words) {
-    const auto yaw = number_of(words[0]), pitch = number_of(words[1]);
-    if (!app.is_live()) return no_scene();
-    if (!yaw || !pitch) return invalid("orbit: not two angles");
-    Orbit turned = app.state.orbit;
-    turned.yaw_deg += *yaw, turned.pitch_deg += *pitch;
-    app.turn_to(turned);
-    return Done{};
-}
-Status dolly(App& app, const Words& words) {
-    const auto factor = number_of(words[0]);
-    if (!app.is_live()) return no_scene();
-    if (!factor || !(*factor > 0.01 && *factor < 100)) return invalid("dolly " + words[0] + ": not a factor");
-    Orbit nearer = app.state.orbit;
-    nearer.distance = std::clamp(nearer.distance * *factor, 0.01, 100.0);
-    app.turn_to(nearer);
-    return Done{};
-}
-Status home(App& app, const Words&) {
-    if (!app.is_live()) return no_scene();
-    app.turn_to({});
-    return Done{};
-}
-Status save_path(App& app, const Words& words) {
-    if (!app.is_live()) return no_scene();
-    if (app.state.path.keys.empty()) return invalid("no camera path yet; set scene.recording on, and turn");
-    if (Status fine = app.may_write(words[0]); !fine) return fine;
-    if (Status done = write_text(words[0], app.state.path.text()); !done) return done;
-    app.notice = "wrote " + words[0];
-    return Done{};
-}
-Status load_path(App& app, const Words& words) {
-    if (!app.is_live()) return no_scene();
-    auto path = CameraPath::read(words[0]);
-    if (!path) return path.error();
-    app.state.path = std::move(*path);
-    app.notice = "camera path: " + words[0];
-    app.go_to(app.state.timeline.frame);
-    return Done{};
-}
-Status forget_path(App& app, const Words&) {
-    app.state.path = {};
-    return Done{};
-}
-Status record(App& app, const Words& words) {
-    if (!app.is_live()) return no_scene();
-    app.error.clear();
-    app.record(words[0]);
-    return app.error.empty() ? Status(Done{}) : Status(invalid(app.error));
-}
-Status no_shot() { return invalid("this is one picture; give names with #### for the frames of a shot"); }
-
-// A number, or so many steps on: +1, -1; first, last.
-Status frame(App& app, const Words& words) {
-    const Timeline& line = app.state.timeline;
-    if (!line.is_shot()) return no_shot();
-    const auto number = number_of(words[0]);
-    const bool steps = words[0].starts_with('+') || words[0] == "-1";
-    int wanted = words[0] == "first" ? line.first : line.last;
-    if (number)
-        wanted = steps ? line.stepped(int(*number)) : int(*number);
-    else if (words[0] != "first" && words[0] != "last")
-        return invalid("frame " + words[0] + ": not a number, first or last");
-    if (!has(line.frames, wanted)) return invalid("frame " + words[0] + " is not there");
-    if (wanted != line.frame) app.go_to(wanted);
-    return Done{};
-}
-Status range(App& app, const Words& words) {
-    Timeline& line = app.state.timeline;
-    if (!line.is_shot()) return no_shot();
-    const auto first = number_of(words[0]), last = number_of(words[1]);
-    if (!first || !last || *first > *last) return invalid("range: not two frames, the first before the last");
-    line.first = int(*first), line.last = int(*last);
-    return Done{};
-}
-Status key_focus(App& app, const Words&) {
-    Timeline& line = app.state.timeline;
-    const auto focus = app.found_camera().focus_distance_m;
-    if (!line.is_shot()) return no_shot();
-    if (!focus) return invalid("no focus yet; click on what is to be sharp");
-    line.keys[line.frame] = focus->value;
-    return Done{};
-}
-Status remove_key(App& app, const Words&) {
-    Timeline& line = app.state.timeline;
-    if (line.keys.erase(line.frame) == 0) return invalid("there is no key at this frame");
-    return Done{};
-}
-Status save_track(App& app, const Words& words) {
-    if (app.state.timeline.keys.empty()) return invalid("there are no keys yet");
-    if (Status fine = app.may_write(words[0]); !fine) return fine;
-    if (Status done = write_text(words[0], app.state.timeline.as_track()); !done) return done;
-    app.notice = "wrote " + words[0] + "; defocus --track takes it";
-    return Done{};
-}
-Status load_track(App& app, const Words& words) {
-    if (!app.state.timeline.is_shot()) return no_shot();
-    auto track = Track::read(words[0]);
-    if (!track) return track.error();
-    app.use_track(std::move(*track));
-    app.notice = "track: " + words[0];
-    return Done{};
-}
 // A zone of the pupil, millimetres along the axis, and of one wavelength alone if it is named.
 Status bend(App& app, const Words& words) {
     std::vector<double> numbers;
@@ -391,6 +288,14 @@ Status reload(App& app, const Words&) {
     app.read_again(true);
     return Done{};
 }
+Status open(App& app, const Words& words) {
+    app.error.clear();
+    app.open(words[0]);
+    return app.error.empty() ? Status(Done{}) : Status(invalid(app.error));
+}
+Status undo(App& app, const Words&) { return app.undo(false); }
+Status redo(App& app, const Words&) { return app.undo(true); }
+Status reset(App& app, const Words& words) { return reset_field(app, words[0]); }
 Status quit(App& app, const Words&) {
     app.quit = true;
     return Done{};
@@ -432,6 +337,8 @@ const std::vector<Command>& commands() {
         {"frame", "N|+1|-1|first|last", "another frame of the shot", frame},
         {"range", "FIRST LAST", "what is played", range},
         {"key_focus", "", "this focus at this frame", key_focus},
+        {"move_key", "FRAME TO METRES", "a key to another frame and distance", move_key},
+        {"rack", "", "focus by two clicks: at the first frame that is played, and at the last", rack},
         {"remove_key", "", "of this frame", remove_key},
         {"save_track", "FILE", "the focus over the frames, as defocus --track takes it", save_track},
         {"load_track", "FILE", "what defocus --track takes", load_track},
@@ -443,6 +350,10 @@ const std::vector<Command>& commands() {
         {"save_path", "FILE", "where the camera of a scene went, by frames", save_path},
         {"load_path", "FILE", "the same again", load_path},
         {"forget_path", "", "", forget_path},
+        {"undo", "", "take back the last choice", undo},
+        {"redo", "", "do it again", redo},
+        {"reset", "FIELD|look", "to its default", reset},
+        {"open", "FILE", "another picture, or a shot by its pattern", open},
         {"reload", "", "read the files again", reload},
         {"quit", "", "", quit},
     };

@@ -15,6 +15,16 @@ Result<std::string> field_text(const App& app, const std::string& name);
 // Errors: InvalidArgument for an unknown name, or a text that is none of its values; nothing is changed then.
 Status set_field(App& app, const std::string& name, const std::string& text);
 
+// True if the field has a default and another value now.
+bool is_changed(const App& app, const std::string& name);
+// To its default; "look": all of the look. Errors: InvalidArgument for a field without one.
+Status reset_field(App& app, const std::string& name);
+
+// The text with the window's labels instead of field names.
+std::string plain_words(const App& app, std::string text);
+// The flag in words, with its unit.
+std::string label_of(const FieldRow& row);
+
 // A number with so many digits as say it again exactly, or with `digits`.
 std::string text_of(double value, int digits = 17);
 // "2.76 px": to a hundredth, as nobody sees less.

@@ -3,6 +3,7 @@
 #include "petzval/names.h"
 
 #include "first_look.h"
+#include "input.h"
 #include "warmup.h"
 
 #include <algorithm>
@@ -49,16 +50,6 @@ std::optional<std::filesystem::file_time_type> time_of(const std::string& path) 
     std::error_code missing;
     const auto time = std::filesystem::last_write_time(path, missing);
     return missing ? std::nullopt : std::optional(time);
-}
-
-// No camera numbers are pushed: those of a usual one, focused on the middle of the picture.
-FoundCamera assumed_camera(const Plane& depth_m) {
-    const auto number = [](double value) { return FoundNumber{value, "the window"}; };
-    FoundCamera camera;
-    camera.focal_length_mm = number(50), camera.sensor_width_mm = number(36), camera.f_number = number(2.8);
-    const float middle = depth_m.empty() ? 1 : depth_m(depth_m.width() / 2, depth_m.height() / 2);
-    camera.focus_distance_m = number(std::isfinite(middle) && middle > 0 ? double(middle) : 1);
-    return camera;
 }
 
 // The wish's numbers take the place of the shot's: where those are missing, any will do.
@@ -235,7 +226,6 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
     } else if (reading.pushed) {
         const Pushed& pushed = *reading.pushed;
         open.is_pushed = true;
-        open.shot.camera = open.shot.camera_of_file = assumed_camera(pushed.depth_m);
         open.shot.path = pushed.name;
         open.shot.place = Place::whole(pushed.colour.rect());
         open.shot.colour = pushed.colour.clone();
@@ -245,11 +235,17 @@ Result<OpenShot> Maker::opened(const Reading& reading) {
         if (!pushed.depth_m.empty())
             open.shot.warnings = {pushed.name +
                                   ": no camera comes with it; 50 mm on 36 mm at f/2.8 are assumed"};
-    } else {
+    } else if (reading.is_against) {
         auto shot = read_shot(reading.source);
         if (!shot) return shot.error();
         open.shot = std::move(*shot);
+    } else {
+        auto opened = read_anything(reading.source);
+        if (!opened) return opened.error();
+        open.shot = std::move(opened->shot);
+        open.no_depth = std::move(opened->no_depth);
     }
+    if (!reading.is_against && !reading.scene) assume_missing_numbers(open.shot, reading.source.camera);
     if (reading.focus_point)
         if (Status focused = focus_on_point(open.shot, *reading.focus_point); !focused)
             return focused.error();

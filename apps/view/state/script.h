@@ -28,6 +28,7 @@ namespace petzval::view {
 // Input events of one tick.
 struct Hand {
     double x = -1, y = -1, wheel = 0;
+    bool right = false;
     bool button = false;
     std::string key;  // "shift+e"
     std::optional<std::pair<int, int>> resize;

@@ -34,6 +34,7 @@ struct State {
     Channel channel = Channel::Colour;
     bool overlay = false;  // what is in focus, near and far, tinted
     bool final_quality = false;
+    bool opening = false;                            // a file is being chosen
     bool help = false, panels = true, lens = false;  // lens: in section, with its discs
     // A place in the disc of the picked pixel, pixels from its middle: rays that land there are lit.
     std::optional<std::array<double, 2>> lit;

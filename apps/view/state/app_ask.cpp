@@ -21,6 +21,7 @@ bool holds(const Rect& outer, const Rect& inner) { return inner.intersected(oute
 void App::ask() {
     play();
     refine_scene();
+    if (!(state.choice.input == opened_)) read_again();
     if (!shot_) return;
     ask_frame(0, state.left);
     ask_prints(0, state.left);
@@ -58,6 +59,7 @@ std::optional<Rect> App::region_for(const SideFrames& frames, const Wish& wish) 
 void App::ask_frame(int index, const Side& side) {
     SideFrames& frames = sides_[std::size_t(index)];
     if (!is_made(side.shown) && index == 1) return;
+    if (shot_->shot.depth_plane().empty()) return;  // the sharp picture is shown
     const auto numbers = camera();
     if (!numbers) {
         trouble = numbers.error().message;

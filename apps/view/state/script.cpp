@@ -22,9 +22,10 @@ struct Verb {
     const char* name;
     std::size_t least, most;  // words after it
 };
-constexpr Verb kVerbs[]{{"click", 1, 2}, {"drag", 2, 4},   {"move", 1, 2},   {"wheel", 1, 1},
-                        {"key", 1, 1},   {"wait", 0, 1},   {"until", 2, 2},  {"sleep", 1, 1},
-                        {"shot", 1, 2},  {"resize", 2, 2}, {"expect", 1, 7}, {"say", 1, 1}};
+constexpr Verb kVerbs[]{{"click", 1, 2}, {"right_click", 1, 2}, {"drag", 2, 4},   {"move", 1, 2},
+                        {"wheel", 1, 1}, {"key", 1, 1},         {"wait", 0, 1},   {"until", 2, 2},
+                        {"sleep", 1, 1}, {"shot", 1, 2},        {"resize", 2, 2}, {"expect", 1, 7},
+                        {"say", 1, 1}};
 
 const Verb* verb_called(const std::string& name) {
     for (const Verb& verb : kVerbs)
@@ -156,15 +157,16 @@ void Script::begin(App& app, const Line& line) {
     const Words& words = line.words;
     const std::string& verb = words[0];
     Hand next = hand_;
-    if (verb == "click" || verb == "move") {
+    if (verb == "click" || verb == "right_click" || verb == "move") {
         const auto where = place_of(app, words, 1);
         if (!where) return;
         next.x = where->first, next.y = where->second;
         moves_ = {next, next};
         if (verb == "move") return;
-        next.button = true;
+        bool& pressed = verb == "click" ? next.button : next.right;
+        pressed = true;
         moves_.push_back(next);
-        next.button = false;
+        pressed = false;
         moves_.push_back(next);
     } else if (verb == "drag") {
         begin_drag(app, words);

@@ -18,17 +18,6 @@ void say(App& app, const std::string& path, const std::string& value) {
     static_cast<void>(act(app, "set " + path + " \"" + value + "\""));
 }
 
-// The flag in words, with its unit.
-std::string label_of(const FieldRow& row) {
-    static const std::map<std::string, std::string> units{
-        {"DEG", "°"},       {"MM", "mm"},     {"M", "m"},        {"M,M", "m"},      {"PX", "px"},
-        {"WAVES", "waves"}, {"PERCENT", "%"}, {"NEAR,FAR", "m"}, {"STOPS", "stops"}};
-    std::string label = row.flag.substr(2);
-    std::replace(label.begin(), label.end(), '-', ' ');
-    const auto unit = units.find(row.placeholder);
-    return unit == units.end() ? label : label + ", " + unit->second;
-}
-
 std::vector<std::string> choices_of(const std::string& placeholder) {
     std::vector<std::string> words;
     std::istringstream in(placeholder);
@@ -36,10 +25,37 @@ std::vector<std::string> choices_of(const std::string& placeholder) {
     return words;
 }
 
+// Until its end, what is drawn is bold if the field differs from its default.
+class Marked {
+public:
+    Marked(const App& app, const std::string& path) : is_on_(is_changed(app, path)) {
+        const auto& fonts = ImGui::GetIO().Fonts->Fonts;
+        if (is_on_) ImGui::PushFont(fonts[fonts.Size - 1]);
+    }
+    ~Marked() {
+        if (is_on_) ImGui::PopFont();
+    }
+    Marked(const Marked&) = delete;
+    Marked& operator=(const Marked&) = delete;
+
+private:
+    bool is_on_;
+};
+
+// Why the value cannot be used here; empty: it can.
+std::string why_not(const App& app, const FieldRow& row, const std::string& word) {
+    const bool is_of_gpu = row.path == "engine" && word == "realtime";
+    return is_of_gpu && !app.setup().cpu_session ? "needs a GPU: start the window with --device gpu" : "";
+}
+
 void choice_widget(App& app, const FieldRow& row, const std::string& label, const std::string& now) {
     if (ImGui::BeginCombo(label.c_str(), now.c_str())) {
-        for (const std::string& word : choices_of(row.placeholder))
-            if (ImGui::Selectable(word.c_str(), word == now)) say(app, row.path, word);
+        for (const std::string& word : choices_of(row.placeholder)) {
+            const std::string why = why_not(app, row, word);
+            const auto flags = why.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+            if (ImGui::Selectable(word.c_str(), word == now, flags)) say(app, row.path, word);
+            if (!why.empty()) is_field(app, row.path + " " + word, why);
+        }
         ImGui::EndCombo();
     }
     is_field(app, row.path, row.help);
@@ -66,8 +82,8 @@ NumberNow number_now(const App& app, const std::string& path) {
     return {number ? *number : 0, bool(number), text ? *text : "?"};
 }
 
-void say_number(App& app, const std::string& path, bool changed, double value) {
-    is_field(app, path);
+void say_number(App& app, const std::string& path, bool changed, double value, const std::string& help = "") {
+    is_field(app, path, help);
     if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
 }
 
@@ -76,6 +92,8 @@ void say_number(App& app, const std::string& path, bool changed, double value) {
 void is_field(App& app, const std::string& path, const std::string& help) {
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     app.widgets[path] = {int(from.x), int(from.y), int(to.x), int(to.y)};
+    if (ImGui::IsItemClicked(ImGuiMouseButton_Right) && is_changed(app, path))
+        static_cast<void>(act(app, "reset " + path));
     if (help.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
@@ -86,18 +104,23 @@ void is_field(App& app, const std::string& path, const std::string& help) {
 
 void number_widget(App& app, const std::string& path, const std::string& label, double speed, bool is_scale) {
     NumberNow now = number_now(app, path);
+    const Marked marked(app, path);
     const double step = is_scale ? std::max(std::abs(now.value), 1e-3) * 0.005 : speed;
     const bool changed = ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &now.value, float(step),
                                            nullptr, nullptr, now.is_known ? "%.5g" : now.text.c_str());
     say_number(app, path, changed, now.value);
 }
 
-void slider_widget(App& app, const std::string& path, const std::string& label, double least, double most) {
+void slider_widget(App& app, const std::string& path, const std::string& label, const Ends& ends,
+                   const std::string& help) {
     NumberNow now = number_now(app, path);
-    if (!now.is_known) now.value = least;
-    const bool changed = ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &now.value, &least, &most,
-                                             now.is_known ? "%.3g" : "auto");
-    say_number(app, path, changed, now.value);
+    if (!now.is_known) now.value = ends.least;
+    const Marked marked(app, path);
+    const bool changed =
+        ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &now.value, &ends.least, &ends.most,
+                            now.is_known ? ends.format : "auto",
+                            ends.is_scale ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    say_number(app, path, changed, now.value, help);
 }
 
 void flow(float width) {
@@ -121,6 +144,7 @@ void row_widget(App& app, const FieldRow& row, const std::string& called) {
     const auto now = field_text(app, row.path);
     if (!now) return;
     const std::string label = called.empty() ? label_of(row) : called;
+    const Marked marked(app, row.path);
     if (row.placeholder.empty() || row.placeholder == "off|on") {
         bool on = *now == "true" || *now == "on";
         const char* words[] = {row.placeholder.empty() ? "false" : "off",
@@ -133,12 +157,14 @@ void row_widget(App& app, const FieldRow& row, const std::string& called) {
     if (!number || !std::isfinite(*number)) return text_widget(app, row, label, *now);
     double value = *number;
     const bool whole = row.placeholder == "N" && value == std::round(value);
-    const float speed = row.placeholder == "DEG" ? 0.5f : whole ? 0.05f : 0.005f;
+    if (row.placeholder == "FRACTION" && *number >= 0 && *number <= 1)
+        return slider_widget(app, row.path, label, {0, 1, "%.3g"}, row.help);
+    if (row.placeholder == "DEG") return slider_widget(app, row.path, label, {-180, 180, "%.4g°"}, row.help);
+    const float speed = whole ? 0.05f : 0.005f;
     const bool changed = ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, speed, nullptr,
                                            nullptr, whole ? "%.0f" : "%.5g");
     is_field(app, row.path, row.help);
     if (!changed) return;
-    if (row.placeholder == "SHARE" && *number >= 0 && *number <= 1) value = std::clamp(value, 0.0, 1.0);
     const double wanted = whole ? std::round(value) : value;
     // Numbers of blades between 0 and 3 are invalid.
     const double fitting =

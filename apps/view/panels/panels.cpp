@@ -28,38 +28,6 @@ void command_button(App& app, const char* label, const std::string& line) {
     if (ImGui::Button(label)) say(app, line);
 }
 
-// Cameras of a file that has several.
-void own_cameras(App& app) {
-    if (!app.shot() || app.shot()->cameras.size() < 2) return;
-    const std::string now = field_text(app, "scene.camera").value();
-    if (ImGui::BeginCombo("camera", now.c_str())) {
-        for (const std::string& name : app.shot()->cameras)
-            if (ImGui::Selectable(name.c_str(), name == now)) say(app, "set scene.camera \"" + name + "\"");
-        ImGui::EndCombo();
-    }
-    is_field(app, "scene.camera");
-}
-
-void camera_panel(App& app) {
-    own_cameras(app);
-    number_widget(app, "camera.f_number", "f-number", 0, true);
-    if (app.shot() && app.shot()->shot.has_radii())
-        ImGui::TextWrapped("the file has blur radii: aperture and focus are in them already");
-    number_widget(app, "camera.focus_distance_m", "focus, m", 0, true);
-    number_widget(app, "camera.focal_length_mm", "focal length, mm", 0, true);
-    number_widget(app, "camera.sensor_width_mm", "sensor width, mm", 0, true);
-    const ImageScale scale = app.state.choice.camera.image_scale;
-    if (ImGui::BeginCombo("image scale", name_of(scale))) {
-        for (const auto& known : names<ImageScale>())
-            if (ImGui::Selectable(known.name, known.value == scale))
-                say(app, std::string("set camera.image_scale ") + known.name);
-        ImGui::EndCombo();
-    }
-    if (ImGui::Button("reset to file"))
-        for (const char* number : {"f_number", "focus_distance_m", "focal_length_mm", "sensor_width_mm"})
-            say(app, std::string("set camera.") + number + " file");
-}
-
 void shelf_panel(App& app) {
     static const std::vector<LensSummary> shelf = lens_list();
     const std::string& now = app.state.choice.look.lens.name;
@@ -74,24 +42,24 @@ void shelf_panel(App& app) {
     ImGui::EndListBox();
 }
 
-void look_panel(App& app) {
-    std::string heading;
-    bool open = false;
-    for (const FieldRow& row : app.setup().fields) {
-        if (row.heading != heading) {
-            if (open) ImGui::TreePop();
-            heading = row.heading;
-            open = ImGui::TreeNode(heading.c_str());
-            is_field(app, "heading " + heading);
-        }
-        if (open) row_widget(app, row);
-    }
-    if (open) ImGui::TreePop();
-}
-
 void display_panel(App& app) {
-    number_widget(app, "view.exposure", "exposure, stops", 0.02, false);
-    number_widget(app, "view.contrast", "contrast", 0.005, false);
+    slider_widget(app, "view.exposure", "exposure", {-8, 8, "%+.3g stops"});
+    slider_widget(app, "view.contrast", "contrast", {0.25, 4, "%.3g", true});
+    const struct {
+        const char *word, *label;
+        Channel channel;
+    } channels[] = {{"rgb", "RGB", Channel::Colour},
+                    {"r", "R", Channel::Red},
+                    {"g", "G", Channel::Green},
+                    {"b", "B", Channel::Blue},
+                    {"a", "A", Channel::Alpha}};
+    for (const auto& one : channels) {
+        if (ImGui::RadioButton(one.label, app.state.channel == one.channel) &&
+            app.state.channel != one.channel)
+            say(app, std::string("channel ") + one.word);
+        ImGui::SameLine();
+    }
+    ImGui::TextUnformatted("channel");
     const ToneCurve tone = app.state.choice.develop.tone;
     if (ImGui::BeginCombo("tone", name_of(tone))) {
         for (const auto& known : names<ToneCurve>())
@@ -114,9 +82,10 @@ void compare_panel(App& app) {
         is_field(app, "wipe " + what);
     };
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("wipe with");
+    ImGui::TextUnformatted("compare with");
     ImGui::SameLine();
-    command_button(app, "off", "wipe off");
+    if (ImGui::RadioButton("nothing", !app.state.wiping)) say(app, "wipe off");
+    is_field(app, "wipe off");
     wipe_button("sharp");
     if (app.against()) ImGui::SameLine(), wipe_button("against");
     if (app.setup().cpu_session) ImGui::SameLine(), wipe_button("cpu");
@@ -127,7 +96,11 @@ void compare_panel(App& app) {
     int count = 0;
     for (const std::string& engine : engine_names()) {
         if (count++ % 3 != 0) ImGui::SameLine();
+        const bool lacks_gpu = engine == "realtime" && !app.setup().cpu_session;
+        ImGui::BeginDisabled(lacks_gpu);
         wipe_button(engine);
+        ImGui::EndDisabled();
+        if (lacks_gpu) is_field(app, "wipe " + engine, "needs a GPU: start the window with --device gpu");
     }
     if (ImGui::BeginCombo("shown", app.state.left.shown.c_str())) {
         std::vector<std::string> names = shown_names();
@@ -147,7 +120,7 @@ void compare_panel(App& app) {
 void files_panel(App& app) {
     static char frame[512] = "", look[512] = "look.json", lens[512] = "lens.json";
     if (frame[0] == 0) {
-        const std::string stem = std::filesystem::path(app.setup().source.path).stem().string();
+        const std::string stem = std::filesystem::path(app.state.choice.input.path).stem().string();
         (stem + "_focus.exr").copy(frame, sizeof frame - 1);
     }
     ImGui::InputText("##frame", frame, sizeof frame);
@@ -322,6 +295,9 @@ void draw_panels(App& app) {
     ImGui::PushItemWidth(-11 * ImGui::GetFontSize());
     const bool is_article = article_of(app.setup().scene) != nullptr;
     if (is_article) section(app, "Article", true, article_panel);
+    const bool has_depth = !app.shot() || !app.shot()->shot.depth_plane().empty();
+    if (app.shot() && !app.is_live())
+        section(app, has_depth ? "Input" : "Input: no depth", !has_depth, input_panel);
     section(app, "Camera", !is_article, camera_panel);
     if (app.shot()) section(app, "Depth", !is_article, depth_panel);
     section(app, "Lenses", false, shelf_panel);
@@ -345,15 +321,33 @@ std::string state_words(const App& app) {
     return app.is_busy() ? words + " …" : words;
 }
 
+// File, size, zoom, frame and display.
+std::string file_words(const App& app) {
+    if (!app.shot()) return "H: help";
+    const Rect& frame = app.shot()->shot.place.display_window;
+    const DevelopSettings& develop = app.state.choice.develop;
+    std::string words = std::filesystem::path(app.state.choice.input.path).filename().string();
+    words += "   " + std::to_string(frame.width()) + " × " + std::to_string(frame.height());
+    words += "   zoom " + text_of(std::round(100 * app.mapping.scale_y), 4) + " %";
+    if (app.state.timeline.is_shot()) words += "   frame " + std::to_string(app.state.timeline.frame);
+    words += app.state.choice.ocio
+                 ? "   OpenColorIO"
+                 : std::string("   ") + name_of(develop.transfer) + ", tone " + name_of(develop.tone);
+    if (develop.exposure_stops != 0) words += "   exposure " + text_of(develop.exposure_stops, 3);
+    if (develop.contrast != 1) words += "   contrast " + text_of(develop.contrast, 3);
+    return words + "   H: help";
+}
+
 // Messages longer than a line also replace the values under the pointer.
 void draw_status_line(App& app) {
-    const std::string& wrong = app.error.empty() ? app.trouble : app.error;
-    const std::string& said = wrong.empty() ? app.notice : wrong;
+    const std::string wrong = plain_words(app, app.error.empty() ? app.trouble : app.error);
+    const std::string said = wrong.empty() ? plain_words(app, app.notice) : wrong;
+    const std::string facts = file_words(app);
     const ImVec4 colour = !wrong.empty() ? ImVec4(1, 0.45f, 0.35f, 1)
                           : said.empty() ? ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)
                                          : ImGui::GetStyleColorVec4(ImGuiCol_Text);
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", said.empty() ? "H: help" : said.c_str());
+    ImGui::TextWrapped("%s", said.empty() ? facts.c_str() : said.c_str());
     ImGui::PopStyleColor();
     if (ImGui::GetItemRectSize().y > 1.5f * ImGui::GetTextLineHeight()) return;
     const std::string state = state_words(app);
@@ -362,7 +356,8 @@ void draw_status_line(App& app) {
         ImGui::SameLine(place);
         ImGui::TextDisabled("%s", state.c_str());
     }
-    ImGui::TextUnformatted(under_pointer(app).c_str());
+    const std::string pointed = under_pointer(app);
+    ImGui::TextUnformatted(pointed.empty() && !said.empty() ? facts.c_str() : pointed.c_str());
 }
 
 }  // namespace petzval::view

@@ -14,6 +14,7 @@ struct Timeline {
     int first = 0, last = 0;     // of what is played
     std::map<int, double> keys;  // focus distance in metres by frame
     bool keying = false;         // a click sets a key
+    int rack_clicks = 0;         // that a rack still waits for: 2, 1; 0: none is being made
     bool easing = false;         // slow at keys, faster between
     bool playing = false;
     double focus_speed = 0;  // at most, dioptres a frame; 0: whatever the keys ask for
@@ -32,9 +33,5 @@ struct Timeline {
 private:
     double wanted_at(int at) const;  // by the keys alone, of which there are some
 };
-
-class App;
-// Fills ImGui's current window.
-void draw_timeline(App& app);
 
 }  // namespace petzval::view

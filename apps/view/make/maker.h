@@ -34,6 +34,7 @@ struct OpenShot {
     // Hidden surfaces and the holdout, samples composited over one another; null: none.
     std::shared_ptr<const Picture> hidden, holdout;
     bool is_pushed = false;  // by another program: there is no file
+    std::string no_depth;    // why the shot is shown without its depth; empty: it has it
     // Fields of a scene:
     bool is_live = false, is_moving = false;  // moving: its drafts alone are made
     int samples = 0, coarse = 1;              // rays a pixel; so many by so many pixels are one

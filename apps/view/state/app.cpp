@@ -5,11 +5,11 @@
 #include "petzval/output.h"
 
 #include "articles.h"
+#include "input.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <unistd.h>
 #include <utility>
 
@@ -34,6 +34,7 @@ App::App(const Setup& setup, const std::function<void()>& wake)
       bench_(wake),
       maker_(setup.session, setup.cpu_session, wake) {
     state.choice = setup.choice;
+    state.choice.input = opened_ = input_of(setup.source);
     Timeline& line = state.timeline;
     line.frames = setup.frames;
     if (line.is_shot()) {
@@ -58,7 +59,7 @@ App::~App() {
 }
 
 ShotSource App::source() const {
-    ShotSource source = setup_.source;
+    ShotSource source = with_input(setup_.source, state.choice.input);
     if (!state.timeline.is_shot()) return source;
     std::vector<std::string*> paths{&source.path, &source.read.depth_file, &source.behind, &source.holdout,
                                     &source.lights};
@@ -73,6 +74,7 @@ std::string App::of_this_frame(const std::string& path) const {
 }
 
 void App::go_to(int frame) {
+    settle_choice();
     state.timeline.frame = frame;
     state.choice.frame = frame;
     take_track(frame);
@@ -81,13 +83,16 @@ void App::go_to(int frame) {
     if (is_live()) coarse_ = state.timeline.playing, moved_ = Clock::now();
     if (state.path.recording) state.path.keys[frame] = state.orbit;
     shown_since_ = Clock::now();
+    history_.follow(chosen());
     read_again();
 }
 
 void App::use_track(Track track) {
     constexpr int kMostFrames = 100'000;
     Timeline& line = state.timeline;
-    if (const Status measured = measure_focus(track, line.frames, setup_.source); !measured)
+    if (const Status measured =
+            measure_focus(track, line.frames, with_input(setup_.source, state.choice.input));
+        !measured)
         return void(error = measured.error().message);
     line.keys.clear(), line.easing = false;
     const int last = std::min(track.last(), track.first() + kMostFrames);
@@ -142,7 +147,7 @@ Status App::bend_lens(double zone, double by_mm, double only_nm) {
 Status App::push(int port) {
     const auto picture = sides_[0].whole;
     if (!picture) return Error{ErrorCode::InvalidArgument, "nothing has been made yet"};
-    const std::string name = "petzval: " + setup_.source.path;
+    const std::string name = "petzval: " + state.choice.input.path;
     start_saving("127.0.0.1:" + std::to_string(port),
                  [picture, port, name] { return push_to_tev(port, name, *picture); });
     return Done{};
@@ -154,8 +159,7 @@ void App::take_pushed() {
     TevListener::News news = listener_->news();
     if (!news.wrong.empty()) error = news.wrong;
     if (!news.path.empty()) {
-        setup_.source.path = news.path;
-        read_again();
+        open(news.path);
     }
     for (auto& picture : news.pictures) {
         Reading reading;
@@ -169,7 +173,7 @@ void App::take_pushed() {
 
 // Without a file of its own the window shows whatever comes.
 bool App::waits_for_pictures() const {
-    return setup_.source.path.empty() && (!shot_ || shot_->shot.depth_plane().empty());
+    return state.choice.input.path.empty() && (!shot_ || shot_->shot.depth_plane().empty());
 }
 
 // On to the next frame when something of this one was to be seen, 24 a second at most.
@@ -182,8 +186,9 @@ void App::play() {
 }
 
 void App::read_again(bool anew) {
-    if (setup_.source.path.empty()) return;  // nothing has been pushed yet
+    if (state.choice.input.path.empty()) return;  // nothing has been pushed yet
     reading_ = true;
+    opened_ = state.choice.input;
     Reading reading{source(), false, setup_.focus_point};
     if (is_live()) {
         reading.scene = scene_wish();
@@ -265,16 +270,15 @@ bool App::is_coarse() const { return is_live() && coarse_ && !state.timeline.pla
 // A draft must appear within 80 ms: it has as many pixels as that allows.
 int App::coarse_by() const {
     constexpr double kWanted_s = 0.080;
-    constexpr int kCoarsest = 4;
-    return std::clamp(int(std::ceil(std::sqrt(draft_s_ / kWanted_s))), 1, kCoarsest);
+    int by = 1;
+    while (by < DraftTimes::kCoarsest && draft_times_.expected_s(by) > kWanted_s) ++by;
+    return by;
 }
 
 void App::time_draft(const MadeFrame& made) {
     if (!shot_ || made.step != 0 || state.left.shown != "result") return;
-    const auto all_of = [](double seconds, int coarse) { return seconds * coarse * coarse; };
-    double now = all_of(made.seconds, made.coarse);
-    if (shot_->is_live) now += all_of(shot_->render_s / shot_->samples, shot_->coarse);
-    draft_s_ = draft_s_ > 0 ? 0.5 * (draft_s_ + now) : now;
+    const double rays_s = shot_->is_live ? shot_->render_s / shot_->samples : 0;
+    draft_times_.note(std::max(made.coarse, shot_->coarse), made.seconds + rays_s);
 }
 
 // Once the camera rests and its picture stands, the scene is looked at with more rays.
@@ -286,7 +290,8 @@ void App::refine_scene() {
 }
 
 std::string App::waits_for() const {
-    if (!setup_.source.path.empty() || !listener_) return "reading " + setup_.source.path + " …";
+    const std::string& path = state.choice.input.path;
+    if (!path.empty() || !listener_) return "reading " + path + " …";
     return "waiting for a picture: a renderer that pushes to tev at 127.0.0.1:" +
            std::to_string(setup_.listen_port) + " shows here; with a channel Z in metres it can be focused";
 }
@@ -319,7 +324,7 @@ void App::save(const std::string& name) {
             return save_result(shot->shot, camera, choice, *session, path);
         });
     }
-    start_saving(path, [save = setup_.save, session = setup_.session, choice = state.choice, path] {
+    start_saving(path, [save = setup_.save, session = setup_.session, choice = full_choice(), path] {
         return save(*session, choice, path);
     });
 }
@@ -384,95 +389,6 @@ void App::take_news() {
         const Status done = saving_.get();
         notice = done ? "wrote " + saving_to_ : "";
         if (!done) error = done.error().message;
-    }
-}
-
-// Sets the frame count of an animated file, known once it was read.
-void App::has_frames(int count) {
-    setup_.scene_frames = count;
-    Timeline& line = state.timeline;
-    const bool is_all = line.last == line.frames.back();
-    line.frames.resize(std::size_t(count));
-    std::iota(line.frames.begin(), line.frames.end(), 0);
-    if (is_all || line.last >= count) line.last = count - 1;
-    if (line.frame >= count) go_to(count - 1);
-}
-
-void App::take_shot(ReadShot read) {
-    if (read.error) trouble = read.error->message;  // what is shown stays
-    if (read.is_against) {
-        if (read.shot) against_ = read.shot;
-        return;
-    }
-    reading_ = false;
-    if (read.error) return;
-    trouble.clear();
-    shot_ = std::move(read.shot);
-    if (state.orbit.is_home()) home_ = shot_->shot.camera_of_file;
-    if (shot_->frames > setup_.scene_frames) has_frames(shot_->frames);
-    if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
-    notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
-    if (state.following && shot_->subject_m) state.choice.camera.focus_distance_m = shot_->subject_m;
-    if (setup_.focus_at) {
-        state.pick = *setup_.focus_at;
-        if (const auto depth = depth_near(*setup_.focus_at)) state.choice.camera.focus_distance_m = *depth;
-        setup_.focus_at.reset();
-    }
-    if (setup_.focus_point) {
-        if (const auto& focus = shot_->shot.camera.focus_distance_m)
-            state.choice.camera.focus_distance_m = focus->value;
-        setup_.focus_point.reset();
-    }
-    for (SideFrames& side : sides_) {  // what was made of the frame before stays until there is something new
-        side.wish.reset(), side.radii.reset();
-        if ((side.whole || side.codes) && side.whole_area != shot_->shot.place.data_window) side = {};
-    }
-    note_action();
-}
-
-void App::take_frame(MadeFrame made) {
-    SideFrames& frames = sides_[std::size_t(made.side)];
-    if (made.wish != frames.number) return;
-    frames.complete = made.last;
-    trouble = made.error ? made.error->message : "";
-    if (made.error) return;
-    if (made.side == 0) time_draft(made);
-    if (made.radii) frames.radii = made.radii;
-    if (made.codes) {
-        frames.codes = std::move(made.codes), frames.whole_area = made.area, frames.whole_is_old = false;
-        frames.whole.reset(), frames.detail.reset(), frames.numbers.reset(), frames.panels.reset();
-    }
-    if (made.picture) {
-        const bool is_part = made.is_part;
-        (is_part ? frames.detail : frames.whole) = made.picture;
-        (is_part ? frames.detail_area : frames.whole_area) = made.area;
-        (is_part ? frames.detail_is_old : frames.whole_is_old) = false;
-        if (!is_part) frames.detail.reset(), frames.codes.reset();
-        frames.numbers = made.numbers;
-        frames.panels =
-            made.panels.empty() ? nullptr : std::make_shared<const std::vector<Panel>>(made.panels);
-    }
-    made.picture.reset(), made.radii.reset();
-    frames.last = std::move(made);
-}
-
-void App::take_print(Print print) {
-    Shown& shown = on_screen_[std::size_t(print.target)];
-    if (print.error) trouble = print.error->message;
-    if (print.rgba.empty() || !shown.asked) return;
-    shown.texture.load(print.width, print.height, print.rgba);
-    print.rgba = {};
-    shown.print = std::move(print);
-    const SideFrames& left = sides_[0];
-    const auto& picture = shown.print.of.picture;
-    const auto& codes = shown.print.of.codes;
-    const bool is_new = (codes && codes == left.codes && !left.whole_is_old) ||
-                        (picture && ((picture == left.whole && !left.whole_is_old) ||
-                                     (picture == left.detail && !left.detail_is_old)));
-    if (changed_ && is_new) {
-        const double ms = std::chrono::duration<double, std::milli>(Clock::now() - *changed_).count();
-        slowest.first_picture = std::max(slowest.first_picture, ms), slowest.last_picture = ms;
-        changed_.reset();
     }
 }
 
