@@ -214,7 +214,7 @@ void draw(App& app) {
     };
     const float lens = app.state.lens ? 0.45f * size.y : 0;
     const float frames =
-        app.state.timeline.is_shot() ? std::min((app.is_live() ? 9.0f : 7.5f) * letter, 0.3f * size.y) : 0;
+        app.state.timeline.is_shot() ? std::min((app.is_live() ? 12.0f : 10.5f) * letter, 0.35f * size.y) : 0;
     place(0, 0, size.x - panel, size.y - status - lens - frames);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);

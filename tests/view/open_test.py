@@ -213,6 +213,8 @@ class OpenTest(window.WindowTest):
             right_click lens.cats_eye
             sleep 0.1
             expect lens.cats_eye 0
+            preset nothing
+            expect error nothing
             set lens.blades 6
             set glare.bloom 0.2
             reset look

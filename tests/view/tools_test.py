@@ -224,7 +224,7 @@ class ToolsTest(window.WindowTest):
         port = free_port()
         with open(os.path.join(self.shared, "wait.txt"), "w") as file:
             file.write("sleep 0.2\nshot waiting.png\nsay error\nsave early.exr\nexpect error\n"
-                       "until frame.width 24\nset exposure 0\nwait\nsay error\n"
+                       "until frame.width 24\nset exposure 0\nwait\nsay notice\n"
                        "until frame.engine gaussian\nwait\nexpect frame.width 40\nexpect focus 2\nexpect notice assum\n"
                        "set fstop 1\nwait\nsave pushed.exr\nwait\nexpect notice wrote\ncopy\nexpect error pushed\n"
                        "reload\nwait\nexpect frame.width 40\n")

@@ -10,7 +10,11 @@ namespace petzval::view {
 int thinning_of(const Wish& wish) {
     constexpr double kFirstPixels = 4e5;
     const double pixels = double(wish.shot->shot.colour.size());
-    return std::max({wish.shot->coarse, wish.coarse, int(std::ceil(std::sqrt(pixels / kFirstPixels)))});
+    // Discs keep their shape while a scene's camera moves: its blur has at least every other pixel, its rays
+    // fewer.
+    constexpr int kCoarsestBlur = 2;
+    return std::max({std::min(wish.shot->coarse, kCoarsestBlur), wish.coarse,
+                     int(std::ceil(std::sqrt(pixels / kFirstPixels)))});
 }
 
 Result<DefocusReport> first_look(Session& session, const DefocusJob& rendered, Look look, int by,

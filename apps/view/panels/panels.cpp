@@ -2,6 +2,8 @@
 
 #include "petzval/defocus.h"
 #include "petzval/lens_facts.h"
+#include "petzval/look_file.h"
+#include "petzval/look_json.h"
 #include "petzval/names.h"
 
 #include "articles.h"
@@ -28,14 +30,44 @@ void command_button(App& app, const char* label, const std::string& line) {
     if (ImGui::Button(label)) say(app, line);
 }
 
-void shelf_panel(App& app) {
+// Lenses that match the words, in the order asked for: as they stand on the shelf, by year, the fastest
+// first.
+std::vector<LensSummary> sorted_shelf(const char* words, int order) {
     static const std::vector<LensSummary> shelf = lens_list();
+    std::vector<LensSummary> found = matching(shelf, words_of(words));
+    const auto speed = [](const LensSummary& lens) { return lens.f_number > 0 ? lens.f_number : 1e9; };
+    if (order == 1)
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& a, const auto& b) { return a.year < b.year; });
+    if (order == 2)
+        std::stable_sort(found.begin(), found.end(),
+                         [&](const auto& a, const auto& b) { return speed(a) < speed(b); });
+    return found;
+}
+
+void preset_choice(App& app) {
+    if (!ImGui::BeginCombo("preset", "a whole look")) return;
+    for (const LookPreset& preset : all_presets())
+        if (ImGui::Selectable(preset.name.c_str())) say(app, "preset " + preset.name);
+    ImGui::EndCombo();
+}
+
+void shelf_panel(App& app) {
+    static char words[128] = "";
+    static int order = 0;
     const std::string& now = app.state.choice.look.lens.name;
+    preset_choice(app);
+    ImGui::InputTextWithHint("find", "planar, 1954, triplet", words, sizeof words);
+    is_field(app, "find lens", "words of its name, other names, year or kind");
+    ImGui::Combo("sort", &order, "as listed\0by year\0fastest first\0");
     if (!ImGui::BeginListBox("##shelf", {-1, 9 * ImGui::GetTextLineHeightWithSpacing()})) return;
-    for (const LensSummary& lens : shelf) {
+    for (const LensSummary& lens : sorted_shelf(words, order)) {
         if (ImGui::Selectable(lens.name.c_str(), lens.name == now)) say(app, "set lens " + lens.name);
-        const std::string title = lens.title + (lens.year.empty() ? "" : ", " + lens.year);
-        is_field(app, "lens " + lens.name, title);
+        std::string title = lens.title + (lens.year.empty() ? "" : ", " + lens.year);
+        if (lens.f_number > 0) title = "f/" + text_of(lens.f_number, 3) + "  " + title;
+        std::string known_as;
+        for (const std::string& name : lens.names) known_as += (known_as.empty() ? "\nalso " : ", ") + name;
+        is_field(app, "lens " + lens.name, title + known_as);
         ImGui::SameLine(11 * ImGui::GetFontSize());
         ImGui::TextDisabled("%s", title.c_str());
     }

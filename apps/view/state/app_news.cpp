@@ -48,8 +48,10 @@ void App::take_shot(ReadShot read) {
     if (shot_->frames > setup_.scene_frames) has_frames(shot_->frames);
     if (!setup_.tone_is_chosen && shot_->shot.display_referred) state.choice.develop.tone = ToneCurve::None;
     notice = shot_->shot.warnings.empty() ? "" : shot_->shot.warnings.back();
-    if (!shot_->no_depth.empty()) notice = "no depth: the sharp picture is shown; the panel Input says why";
-    if (shot_->shot.depth_plane().empty()) forget_frames();
+    if (shot_->shot.depth_plane().empty()) {
+        notice = "no depth: the sharp picture is shown; the panel Input says why";
+        forget_frames();
+    }
     if (state.following && shot_->subject_m) state.choice.camera.focus_distance_m = shot_->subject_m;
     if (setup_.focus_at) {
         state.pick = *setup_.focus_at;

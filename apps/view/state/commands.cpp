@@ -237,6 +237,13 @@ Status load_look(App& app, const Words& words) {
     app.notice = "look: " + words[0];
     return Done{};
 }
+Status preset(App& app, const Words& words) {
+    auto look = read_preset(words[0]);
+    if (!look) return look.error();
+    app.state.choice.look = std::move(*look);
+    app.notice = "preset: " + words[0];
+    return Done{};
+}
 Status save_look(App& app, const Words& words) {
     if (Status fine = app.may_write(words[0]); !fine) return fine;
     if (Status done = write_look(app.state.choice.look, words[0]); !done) return done;
@@ -327,6 +334,7 @@ const std::vector<Command>& commands() {
         {"save", "FILE", "the frame at the look's quality, as defocus writes it", save},
         {"copy", "", "the command that makes this frame, to the clipboard", copy},
         {"load_look", "FILE", "", load_look},
+        {"preset", "NAME", "a look that ships, or one of your own", preset},
         {"save_look", "FILE", "", save_look},
         {"light", "X Y", "light up the rays that land there in the disc, pixels from its middle", light},
         {"bend", "ZONE MM [NM]", "bend the lens's curves: focus of a zone of the pupil, + away from the lens",
