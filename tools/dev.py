@@ -5,6 +5,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -220,6 +221,17 @@ def web_test(*words):
         run("/usr/bin/python3", test, program(), *words)  # Debian's: selenium is its package
 
 
+def farm_test(*words):
+    """[ARGS…]: jobs for render farms, run by openjd-cli and by a Slurm cluster on this machine; ARGS go to unittest"""
+    make("release", "petzval_cli")
+    with tempfile.TemporaryDirectory(prefix="petzval-farm-") as folder:
+        run(sys.executable, "-m", "venv", folder)
+        run(f"{folder}/bin/pip", "-q", "install", "openjd-cli==0.8.0")
+        for test in sorted(ROOT.glob("tests/farm/*_test.py")):
+            run(sys.executable, "-B", test, "-v", *words,
+                env={**os.environ, "PETZVAL": str(program()), "OPENJD": f"{folder}/bin/openjd"})
+
+
 def wheel(*_):
     """the Python package for any Python 3: builds the preset portable, leaves build/wheel/petzval-…-linux_x86_64.whl"""
     make("portable", "petzval_shared")
@@ -246,7 +258,7 @@ def site(*words):
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
          "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "site": site, "web": web,
-         "web-test": web_test, "wheel": wheel, "ofx": ofx}
+         "web-test": web_test, "wheel": wheel, "farm-test": farm_test, "ofx": ofx}
 
 
 def help_text():
