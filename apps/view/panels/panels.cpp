@@ -24,10 +24,10 @@
 namespace petzval::view {
 namespace {
 
-void say(App& app, const std::string& line) { static_cast<void>(act(app, line)); }
+void run_line(App& app, const std::string& line) { static_cast<void>(act(app, line)); }
 
 void command_button(App& app, const char* label, const std::string& line) {
-    if (ImGui::Button(label)) say(app, line);
+    if (ImGui::Button(label)) run_line(app, line);
 }
 
 // Lenses that match the words, in the order asked for: as they stand on the shelf, by year, the fastest
@@ -48,7 +48,7 @@ std::vector<LensSummary> sorted_shelf(const char* words, int order) {
 void preset_choice(App& app) {
     if (!ImGui::BeginCombo("preset", "a whole look")) return;
     for (const LookPreset& preset : all_presets())
-        if (ImGui::Selectable(preset.name.c_str())) say(app, "preset " + preset.name);
+        if (ImGui::Selectable(preset.name.c_str())) run_line(app, "preset " + preset.name);
     ImGui::EndCombo();
 }
 
@@ -62,7 +62,7 @@ void shelf_panel(App& app) {
     ImGui::Combo("sort", &order, "as listed\0by year\0fastest first\0");
     if (!ImGui::BeginListBox("##shelf", {-1, 9 * ImGui::GetTextLineHeightWithSpacing()})) return;
     for (const LensSummary& lens : sorted_shelf(words, order)) {
-        if (ImGui::Selectable(lens.name.c_str(), lens.name == now)) say(app, "set lens " + lens.name);
+        if (ImGui::Selectable(lens.name.c_str(), lens.name == now)) run_line(app, "set lens " + lens.name);
         std::string title = lens.title + (lens.year.empty() ? "" : ", " + lens.year);
         if (lens.f_number > 0) title = "f/" + text_of(lens.f_number, 3) + "  " + title;
         std::string known_as;
@@ -88,7 +88,7 @@ void display_panel(App& app) {
     for (const auto& one : channels) {
         if (ImGui::RadioButton(one.label, app.state.channel == one.channel) &&
             app.state.channel != one.channel)
-            say(app, std::string("channel ") + one.word);
+            run_line(app, std::string("channel ") + one.word);
         ImGui::SameLine();
     }
     ImGui::TextUnformatted("channel");
@@ -96,12 +96,12 @@ void display_panel(App& app) {
     if (ImGui::BeginCombo("tone", name_of(tone))) {
         for (const auto& known : names<ToneCurve>())
             if (ImGui::Selectable(known.name, known.value == tone))
-                say(app, std::string("set view.tone ") + known.name);
+                run_line(app, std::string("set view.tone ") + known.name);
         ImGui::EndCombo();
     }
     if (!app.setup().ocio_codes) return;
     bool ocio = app.state.choice.ocio;
-    if (ImGui::Checkbox("OpenColorIO", &ocio)) say(app, "toggle view.ocio");
+    if (ImGui::Checkbox("OpenColorIO", &ocio)) run_line(app, "toggle view.ocio");
 }
 
 void compare_panel(App& app) {
@@ -110,13 +110,13 @@ void compare_panel(App& app) {
                 what.c_str(),
                 app.state.wiping && (name_of_side(app, app.state.right) == what ||
                                      (app.state.right.engine.empty() && app.state.right.shown == what))))
-            say(app, "wipe " + what);
+            run_line(app, "wipe " + what);
         is_field(app, "wipe " + what);
     };
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("compare with");
     ImGui::SameLine();
-    if (ImGui::RadioButton("nothing", !app.state.wiping)) say(app, "wipe off");
+    if (ImGui::RadioButton("nothing", !app.state.wiping)) run_line(app, "wipe off");
     is_field(app, "wipe off");
     wipe_button("sharp");
     if (app.against()) ImGui::SameLine(), wipe_button("against");
@@ -141,11 +141,11 @@ void compare_panel(App& app) {
                 for (const std::string& kind : {kLayer, kSharpLayer}) names.push_back(kind + name_of(layer));
         for (const std::string& name : names)
             if (ImGui::Selectable(name.c_str(), name == app.state.left.shown))
-                say(app, "show \"" + name + "\"");
+                run_line(app, "show \"" + name + "\"");
         ImGui::EndCombo();
     }
     bool overlay = app.state.overlay;
-    if (ImGui::Checkbox("focus overlay", &overlay)) say(app, "toggle view.overlay");
+    if (ImGui::Checkbox("focus overlay", &overlay)) run_line(app, "toggle view.overlay");
     is_field(app, "view.overlay");
 }
 
@@ -175,9 +175,9 @@ void files_panel(App& app) {
         command_button(app, "record", "record \"" + std::string(recorded) + "\"");
     }
     command_button(app, "copy command", "copy");
-    if (flowing_button("load look")) say(app, "load_look \"" + std::string(look) + "\"");
-    if (flowing_button("reload")) say(app, "reload");
-    if (flowing_button("to tev")) say(app, "tev");
+    if (flowing_button("load look")) run_line(app, "load_look \"" + std::string(look) + "\"");
+    if (flowing_button("reload")) run_line(app, "reload");
+    if (flowing_button("to tev")) run_line(app, "tev");
 }
 
 std::string words_for(const char* name, const Rgba& p) {
