@@ -17,7 +17,7 @@ COMMANDS = {
     "scene points": "glints -o {o}/out.csv --count 9",
     "compare": "in.exr other.exr",
     "develop": "in.exr -o {o}/out.png",
-    "focus-track": "in.####.exr -o {o}/out.csv --at 3,3",
+    "focus-track": "in.####.exr -o {o}/out.csv --at 14,3",
     "sheet": "in.####.exr -o {o}/out.png",
     "lens list": "", "devices": "",
     "lens show": "doublet", "lens check": "tessar",
@@ -54,7 +54,7 @@ VALUES = {
     "--ocio-space": "a", "--device": "gpu:99", "--width": "24", "--height": "40", "--frame": "3", "--samples": "4",
     "--pinhole-samples": "3", "--scene-camera": "2", "--camera-at": "1,1,-1", "--look-at": "1,1,4", "--lit-in": "codes",
     "--depth-blur": "3", "--depth-bits": "8", "--truth": "{o}/truth.exr", "--horizon": "0.3", "--count": "5", "--bits": "16",
-    "--at": "20,12", "--within": "0", "--smooth": "0", "--plot": "{o}/plot.svg", "--columns": "3", "--rate": "12",
+    "--at": "20,12", "--within": "20", "--smooth": "0", "--plot": "{o}/plot.svg", "--columns": "3", "--rate": "12",
     "--slices": "3", "--side": "21", "--lenses": "doublet", "--sort": "name", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
 }
 # By verb, where the value above would be the verb's own or means something else there.
