@@ -22,7 +22,7 @@ class Look:
 
     @classmethod
     def from_json(cls, text: str) -> Look:
-        """A look as Look.to_json and `petzval defocus --save-look` write it. Raises InvalidFile."""
+        """A look as Look.to_json and `petzval defocus --save-look` write it, or a link of the lens lab. Raises InvalidFile."""
 
     def to_json(self) -> str:
         """Every field, as JSON."""

@@ -85,10 +85,9 @@ static void test_a_look_shapes_a_lens(void) {
                petzval_lens_disc(shaped, NULL, &disc, &of_triangle, NULL) == PETZVAL_OK,
            "discs of both");
     expect(memcmp(round, triangle, sizeof round) != 0, "which differ");
-    expect(petzval_look_set(look, "lens.blades", "2") == PETZVAL_OK &&
-               petzval_lens_with(lens, look, &shaped) == PETZVAL_INVALID_ARGUMENT && shaped == NULL,
-           "two blades are refused");
+    expect(petzval_look_set(look, "lens.blades", "2") == PETZVAL_INVALID_ARGUMENT, "two blades are refused");
     petzval_look_close(look);
+    petzval_lens_close(shaped);
     petzval_lens_close(lens);
 }
 

@@ -7,7 +7,7 @@ from program import CommandLineTest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIELD = re.compile(r"(?<![\w/.])(?:job|shot|read|session|lens|camera|focus|depth|scene|disc|develop|glare)\.[a-z_]+(?:\.[a-z_]+)*")
-NO_FLAG = {"disc.exr"}  # names of files
+NO_FLAG = {"disc.exr", "shot.json"}  # names of files
 
 
 def messages():
