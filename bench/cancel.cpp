@@ -1,7 +1,8 @@
-// How long a frame goes on after it was told to stop: what `./dev bench cancel` prints.
+// Measures how long a frame continues after a request to stop, for `./dev bench cancel`.
 //
-// cancel FILE.exr LENS ENGINE TIMES: reads once, makes the frame once (kernels stay in the session), then as
-// often as asked tells it to stop at an even spread of instants. Prints the seconds that each took to return.
+// cancel FILE.exr LENS ENGINE TIMES: reads once and makes the frame once (kernels stay in the session). Then
+// it makes the frame TIMES more times and cancels it at an even spread of instants. Prints the seconds that
+// each took to return.
 #include "petzval/files.h"
 #include "petzval/session.h"
 

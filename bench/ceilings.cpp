@@ -1,6 +1,6 @@
-// What this machine can do at most: bytes per second from memory and from the nearest cache, multiply-adds
-// per second from registers. Small loops, on one thread and on all, read on each thread's own clock; the hot
-// stages of an engine are held against these.
+// Limits of this machine: bytes per second from memory and from the nearest cache, multiply-adds per second
+// from registers. Small loops, on one thread and on all, timed by each thread's own clock; the hot stages of
+// an engine are compared with these.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -16,7 +16,8 @@ namespace {
 // A vector of floats as wide as the widest registers there are; GCC and clang split it where they are not.
 using Wide [[gnu::vector_size(64)]] = float;
 constexpr int kLanes = 16;
-// As many sums as hide an FMA's latency of four or five cycles on two units and still fit the registers.
+// Enough sums to hide an FMA's latency of four or five cycles on two units, and few enough to fit the
+// registers.
 constexpr int kSums = 12;
 
 // The loops, compiled for each set of instructions by the functions they are inlined into.
@@ -84,8 +85,8 @@ double thread_cpu_seconds() {
     return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-// How often a second that many threads together can run body(thread), best of five rounds. By the CPU time of
-// each thread: on a machine shared with others, wall time says how busy they are.
+// Calls of body(thread) per second by that many threads together, the best of five rounds. The CPU time of
+// each thread counts: on a shared machine, elapsed time shows only how busy the others are.
 double rate(int threads, const std::function<void(int)>& body) {
     double best = 0;
     for (int round = 0; round < 5; ++round) {

@@ -28,7 +28,7 @@ Picture read(const char* path) {
     return std::move(frame->colour);
 }
 
-// As it is compared: linear light clipped to 0…1.
+// Linear light clipped to 0…1, as it is compared.
 Rgba shown(Rgba c, float exposure) {
     const auto clip = [&](float v) { return std::clamp(v * exposure, 0.0f, 1.0f); };
     return {clip(c.r), clip(c.g), clip(c.b), 1};

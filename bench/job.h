@@ -1,4 +1,4 @@
-// What programs of `./dev bench` that draw one picture share: what they are asked, and the picture as a job.
+// Shared by the programs of `./dev bench` that draw one picture: their arguments, and the picture as a job.
 #pragma once
 
 #include "petzval/defocus.h"
@@ -74,7 +74,7 @@ inline DefocusJob job_of(const Picture& colour, const Plane& depth_m, const Foun
     return job;
 }
 
-// As a member of a JSON object.
+// Prints the stages as a member of a JSON object.
 inline void print_stages(const std::vector<StageTime>& stages) {
     std::printf("\"stages\": {");
     const char* separator = "";

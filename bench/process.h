@@ -1,4 +1,4 @@
-// What programs of `./dev bench` share as processes: how they give up, and what they took.
+// Shared by the programs of `./dev bench`: their exit on errors, their CPU time and memory.
 #pragma once
 
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace petzval::bench {
     std::exit(2);
 }
 
-// Of all threads, since the program began.
+// CPU time of all threads since the program began.
 inline double cpu_seconds() {
     std::timespec t{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

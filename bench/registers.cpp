@@ -1,5 +1,5 @@
-// What a driver says of our programs when it has made them: registers, shared memory, what was spilled. None
-// is run, so that a driver without its hardware serves as well: bench/gpu.py names one. Prints a JSON object.
+// Prints, as a JSON object, a driver's report on each compiled program: registers, shared memory, spills. No
+// program runs, so a driver without its hardware serves as well: bench/gpu.py names one.
 #include "device/failure.h"
 #include "device/vulkan/pipeline.h"
 #include "process.h"
@@ -53,7 +53,7 @@ VkDevice open_device(const Functions& vk, const Candidate& candidate) {
 }
 
 PFN_vkCreateComputePipelines create_pipelines = nullptr;
-// As the library asks for a program, and for what is said of it.
+// Creates the pipelines as the library asks, and requests the driver's report on them too.
 VKAPI_ATTR VkResult VKAPI_CALL create_told(VkDevice device, VkPipelineCache cache, std::uint32_t count,
                                            const VkComputePipelineCreateInfo* info,
                                            const VkAllocationCallbacks* memory, VkPipeline* made) {

@@ -143,8 +143,8 @@ void record_frame(VkCommandBuffer commands, const Renderer& r, const Frame& f, p
     frame.depth_scale = 1 / double(kNearM), frame.depth_bias = 0;  // reversed, infinite
     frame.camera = &camera, frame.largest_radius_px = 48;
     must(petzval_pass_record(pass, &frame));
-    // (5) Release: the result was written by a compute shader, in the layout GENERAL. Here it is copied; a
-    // game would go on with its tone curve.
+    // (5) Release: a compute shader wrote the result, in the layout GENERAL. This example copies it; a game
+    // would continue with its tone curve.
     barrier(commands, f.result.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
             VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
             VK_PIPELINE_STAGE_TRANSFER_BIT);
@@ -191,7 +191,7 @@ void render_shot(const Host& host, const Renderer& renderer, const Frame& frame,
     for (VkFence f : done) vkDestroyFence(host.device, f, nullptr);
 }
 
-// Scene-linear light as sRGB, by a simple curve for what is brighter than the screen.
+// Writes scene-linear light as sRGB, with a simple curve for light above the screen's white.
 void write_png(const char* path, const float* pixels) {
     std::vector<std::uint8_t> bytes;
     for (std::size_t i = 0; i < std::size_t(kWidth) * kHeight; ++i)

@@ -16,7 +16,7 @@ vec4 all_levels(vec2 pixel, bool near) {
     return sum;
 }
 
-// What a near thing hides: the mean of what is farther, just outside of what its own disc covers.
+// The estimated light behind a near pixel: the mean of farther pixels just outside of the near pixel's own disc.
 vec4 hidden(ivec2 pixel, float wide, vec4 near) {
     vec4 sum = vec4(0);
     for (int i = 0; i < 8; ++i) {

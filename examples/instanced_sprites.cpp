@@ -1,14 +1,14 @@
-// HexaDrive's way of 2009 (docs/explain/published.md), on Vulkan: one instanced draw, one sprite for each
-// pixel. The vertex shader reads depth, makes size, flip and level of it, and shifts the sprite into one
+// HexaDrive's method of 2009 (docs/explain/published.md), on Vulkan: one instanced draw, one sprite for each
+// pixel. The vertex shader reads depth, derives size, flip and level from it, and shifts the sprite into one
 // oversized atlas that holds all levels; the fragment shader cuts five blades and the barrel's rims; a
-// composite lays the levels over what is sharp. It is what the engines of petzval are measured against, and a
-// frame of a program of Vulkan that draws.
+// composite lays the levels over the sharp picture. petzval's engines are compared with it, and it shows one
+// frame of a Vulkan program that draws.
 //
 //     instanced_sprites picture.exr result.exr [--every N] [--at-least DB]
 //
-// --every: one sprite for each square of so many pixels, as the demo had one for each of 640 x 360. It says
-// how far its picture is from engine scatter's with the same lens, and ends with 1 where that is less than
-// DB, or where a second drawing is not the same bits.
+// --every: one sprite for each square of N pixels, as the demo had one for each of 640 x 360. The program
+// prints its PSNR against engine scatter with the same lens. It ends with 1 if that is below DB, or if a
+// second drawing differs in any bit.
 #include "petzval/compare.h"
 #include "petzval/files.h"
 #include "petzval/session.h"
@@ -243,7 +243,7 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits of, VkShaderModule m
     return info;
 }
 
-// What is blended adds up, in the order of the sprites: Vulkan keeps to it, and so the bits are the same.
+// Blending adds in the order of the sprites, which Vulkan guarantees; therefore the bits repeat.
 void make_sprites(const Host& host, Drawing& d) {
     const std::array stages{
         stage(VK_SHADER_STAGE_VERTEX_BIT, make_shader(host, kVertex, sizeof kVertex)),

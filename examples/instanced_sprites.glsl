@@ -1,4 +1,4 @@
-// What the programs of instanced_sprites.cpp share.
+// Shared by the programs of instanced_sprites.cpp.
 layout(push_constant) uniform Push {
     ivec2 size;      // pixels of the picture
     int every;       // one sprite for each square of so many pixels

@@ -37,7 +37,7 @@ inline Host open_host() {
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, application.apiVersion = VK_API_VERSION_1_2;
     VkInstanceCreateInfo instance = {};
     instance.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, instance.pApplicationInfo = &application;
-    // For the test: the layer that checks every call, and what overlaps in time, prints what it finds.
+    // For the test: the validation layer prints every wrong call and every hazard that it finds.
     const VkValidationFeatureEnableEXT checks = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features = {};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
@@ -113,7 +113,7 @@ inline void destroy(const Host& host, const GpuImage& image) {
     vkFreeMemory(host.device, image.memory, nullptr);
 }
 
-// What an image was last used for, and what for next: a barrier of Vulkan.
+// A barrier between an image's last use and its next one.
 inline void barrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to,
                     VkAccessFlags done, VkAccessFlags next, VkPipelineStageFlags done_at,
                     VkPipelineStageFlags next_at) {

@@ -1,8 +1,8 @@
-// Plain gather: every pixel averages the pixels round it that reach it. After the rule that compositors and
-// games share (e.g. Riguer, Tatarchuk, Isidoro, "Real-Time Depth of Field Simulation", ShaderX2, 2003): a
-// nearer candidate counts if its own disc covers the centre; one that lies behind, only within the smaller of
-// both discs, so that what is in focus does not take colour from what is behind it. Weight: 1/area of the
-// disc that decided.
+// Plain gather: every pixel averages the pixels around it whose discs reach it, by the rule that compositors
+// and games share (e.g. Riguer, Tatarchuk, Isidoro, "Real-Time Depth of Field Simulation", ShaderX2, 2003). A
+// nearer candidate counts if its own disc covers the centre. A candidate behind the centre counts only within
+// the smaller of the two discs, so that a pixel in focus takes no colour from the background. Weight: 1/area
+// of the deciding disc.
 #include "baselines/baseline.h"
 
 #include <numbers>
@@ -23,7 +23,8 @@ Plane block_radii(View<const float> coc_px) {
     return most;
 }
 
-// How far pixels of this block have to look: the largest radius among blocks whose pixels could reach it.
+// The search radius for the pixels of this block: the largest radius among blocks whose pixels could reach
+// it.
 int reach_of_block(const Plane& most, int bx, int by) {
     float reach = 0;
     for (int y = 0; y < most.height(); ++y)

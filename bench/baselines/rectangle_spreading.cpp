@@ -23,7 +23,7 @@ struct Sum {
 };
 
 void add_corner(Image<Sum>& sums, double x, double y, const Sum& value, double sign) {
-    // Beyond the border nothing is seen, but a square that begins there reaches in.
+    // Pixels beyond the border are not seen, but a square that begins there reaches in.
     const double cx = std::clamp(x + kBorder, 0.0, double(sums.width() - 2));
     const double cy = std::clamp(y + kBorder, 0.0, double(sums.height() - 2));
     const int ix = int(cx), iy = int(cy);

@@ -1,5 +1,5 @@
-// Plain scatter: every pixel becomes a disc of its radius whose light is spread evenly, and what arrives is
-// divided by the weight that arrives (Potmesil, Chakravarty, "A Lens and Aperture Camera Model for Synthetic
+// Plain scatter: every pixel becomes a disc of its radius whose light is spread evenly, and the sum of light
+// is divided by the sum of weights (Potmesil, Chakravarty, "A Lens and Aperture Camera Model for Synthetic
 // Image Generation", SIGGRAPH 1981). Nothing hides anything. Threads own bands of rows.
 #include "baselines/baseline.h"
 

@@ -1,4 +1,4 @@
-// The bits of one type as another: std::bit_cast, which the libc++ of Debian 12's Emscripten lacks.
+// The bits of one type as another: std::bit_cast, which is missing in the libc++ of Debian 12's Emscripten.
 #pragma once
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// What was linked: a different program has a different id.
+// An id of the linked program: different programs have different ids.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How a frame that nobody wants any more ends: at the next piece of work, wherever that is.
+// Cancellation: a frame that nobody wants any more ends at the next piece of work, wherever that is.
 #pragma once
 
 #include "petzval/workers.h"

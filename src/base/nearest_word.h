@@ -6,7 +6,8 @@
 
 namespace petzval {
 
-// That which needs the fewest single-letter edits, or which the given word begins; empty where none is near.
+// The known word that needs the fewest single-letter edits or that the given word begins; empty if none is
+// near.
 std::string nearest_word(const std::string& given, const std::vector<std::string>& known);
 
 }  // namespace petzval

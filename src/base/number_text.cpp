@@ -50,7 +50,7 @@ std::from_chars_result number_by_stream(std::string_view text, double& value) {
     stream.imbue(std::locale::classic());
     double found = 0;
     stream >> found;
-    // Libraries differ in what they call a failure where the number is tiny.
+    // Libraries differ in how they report a failure for tiny numbers.
     const bool lost = std::isinf(found) || std::abs(found) == std::numeric_limits<double>::max();
     if ((stream.fail() && lost) || (found == 0 && !is_zero(number)))
         return {text.data() + length, std::errc::result_out_of_range};

@@ -11,8 +11,8 @@
 namespace petzval {
 namespace {
 
-// Whether this thread runs a body: then a loop stays on it. Hosts need not nest, and a thread that waits for
-// an inner loop never picks up another body half way through its own.
+// True while this thread runs a body: an inner loop then stays on this thread. Hosts need not nest, and a
+// thread that waits for an inner loop never picks up another body half way through its own.
 thread_local bool t_inside_a_body = false;
 
 struct InsideABody {

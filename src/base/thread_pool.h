@@ -10,8 +10,8 @@
 
 namespace petzval {
 
-// So many threads, the calling one counted; the others start with the first loop. Where the system gives
-// fewer, those do the work.
+// A pool of that many threads, the calling one included; the others start with the first loop. If the system
+// grants fewer, those do the work.
 class ThreadPool : public Workers {
 public:
     explicit ThreadPool(int width) : width_(width) {}

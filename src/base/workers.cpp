@@ -39,7 +39,7 @@ public:
                     [&] { oneapi::tbb::parallel_for(0, count, 1, body, oneapi::tbb::simple_partitioner()); });
             });
         } catch (const std::runtime_error& error) {
-            // What oneTBB throws when a thread's stack does not fit into memory has no type of its own.
+            // oneTBB throws an error without a type when a thread's stack does not fit into memory.
             if (std::string_view(error.what()).starts_with("pthread_create")) throw std::bad_alloc();
             throw;
         }

@@ -1,4 +1,4 @@
-// From scene-linear light to code values: exposure, tone curve, sRGB, dither.
+// Developing turns scene-linear light into code values: exposure, tone curve, sRGB, dither.
 #include "base/parallel.h"
 #include "colour/develop_plan.h"
 #include "colour/dither.h"

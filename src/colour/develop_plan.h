@@ -23,7 +23,7 @@ struct DevelopPlan {
 // The exponent of the code that is light; 0: sRGB's curve, which is none.
 double power_of(Transfer transfer);
 
-// As petzval::develop().
+// Does the work of petzval::develop().
 std::vector<std::uint16_t> develop(View<const Rgba> picture, const DevelopPlan& plan, Workers& workers);
 
 }  // namespace petzval::colour

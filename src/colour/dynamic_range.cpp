@@ -94,7 +94,7 @@ DynamicRange nothing_lit(const Tally& t) {
     return range;
 }
 
-// What a picture's levels call for, in words.
+// Adds advice in words about the picture's levels.
 void add_advice(DynamicRange& range, bool low, bool display_referred) {
     if (range.looks_encoded)
         range.advice.push_back(

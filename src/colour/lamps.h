@@ -14,7 +14,7 @@ struct LampLine {
 
 // Rising; empty for light that is no set of lines.
 std::vector<LampLine> lines_of(LightSpectrum light);
-// Of a white diode, of any unit.
+// Spectral power of a white diode, in any unit.
 double led_power(double wavelength_nm);
 
 }  // namespace petzval::colour

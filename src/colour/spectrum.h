@@ -1,5 +1,5 @@
-// From wavelengths to linear Rec.709: what each part of the spectrum adds to the red, green and blue of a
-// white point of light.
+// Turns wavelengths into linear Rec.709: the share of each part of the spectrum in the red, green and blue of
+// a white point of light.
 #pragma once
 
 #include "petzval/light_spectrum.h"

@@ -1,4 +1,4 @@
-// A frame on its way from what draws it to who wants it.
+// A frame on its way from the device that draws it to the host that reads it.
 #pragma once
 
 #include "petzval/image.h"
@@ -7,11 +7,11 @@
 
 namespace petzval::device {
 
-// Pixels at home, in the host's memory, or away, on the device that draws them. What is away stays there
-// until somebody asks for it.
+// Pixels in the host's memory, or on the device that draws them. Pixels on a device stay there until somebody
+// asks for them.
 class Canvas {
 public:
-    // In this memory, once at home; what it holds is no picture yet.
+    // Host memory to draw into; its content is no picture yet.
     explicit Canvas(Picture memory) : memory_(std::move(memory)) {}
     virtual ~Canvas() = default;
     Canvas(const Canvas&) = delete;
@@ -19,8 +19,8 @@ public:
 
     int width() const { return memory_.width(); }
     int height() const { return memory_.height(); }
-    // At home, for reading and writing: comes there if it was away, and stays until a device draws again.
-    // Throws Failed.
+    // The pixels in the host's memory, for reading and writing. Copies them from the device if they are
+    // there; they stay in the host's memory until a device draws again. Throws Failed.
     View<Rgba> view() {
         come_home();
         return memory_.view();
@@ -35,7 +35,7 @@ protected:
     Picture memory_;
 };
 
-// Where a verb draws: on a canvas, or in memory of the host.
+// The place that a verb draws to: a canvas, or memory of the host.
 class Target {
 public:
     Target(View<Rgba> pixels) : pixels_(pixels) {}

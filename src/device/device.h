@@ -42,7 +42,7 @@ public:
 // Told the name of each pass when it is done, by devices that do one after the other; may be empty.
 using Passed = std::function<void(const char* pass)>;
 
-// How a piece of work is done.
+// Settings of one piece of work.
 struct Control {
     Workers& workers;
     Progress& progress;
@@ -50,8 +50,8 @@ struct Control {
     Passed passed = {};
 };
 
-// What drawing took, as plan and kernels tell it: what is clipped at the edges of tiles counts as if it were
-// not. docs/reference/report.md ("The report") says what is counted.
+// The work that drawing took, counted from plan and kernels; taps clipped at the edges of tiles count in
+// full. docs/reference/report.md ("The report") lists the counts.
 struct Work {
     std::uint64_t bytes = 0, multiply_adds = 0;
     // Kernels of `taps` pixels in all, added to sums: RGBA weights and sums read, sums written.
@@ -99,10 +99,10 @@ public:
     // Moves the plan's light within a picture. False: this device cannot, and nothing was done.
     virtual bool add_glare(const glare::GlarePlan& plan, Canvas& picture, Workers& workers,
                            const Passed& passed) const = 0;
-    // The part of a picture's light that stands above a threshold, at home. Empty: this device cannot.
+    // The part of a picture's light above a threshold, in host memory. Empty: this device cannot compute it.
     virtual Picture highlights(Canvas& picture, float threshold, Workers& workers) const = 0;
-    // The plan's part of a picture as codes of a display (petzval/develop.h), which alone come home. Empty:
-    // this device cannot, or the picture is at home.
+    // The plan's part of a picture as codes of a display (petzval/develop.h); only the codes are copied to
+    // the host. Empty: this device cannot compute them, or the picture is in host memory.
     virtual std::vector<std::uint16_t> develop(const colour::DevelopPlan& plan, Canvas& picture,
                                                Workers& workers) const = 0;
 };

@@ -1,4 +1,4 @@
-// How a frame ends whose device cannot go on.
+// The failure of a frame whose device cannot continue.
 #pragma once
 
 #include "petzval/result.h"

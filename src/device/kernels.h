@@ -21,7 +21,7 @@ struct KernelAsk {
     int piece = 0;  // 0: the whole kernel or its core; n: what was cut away from the one n levels finer
     bool by_sector = false;  // one kernel for each sector of the pupil, one after the other
     friend auto operator<=>(const KernelAsk&, const KernelAsk&) = default;  // NOLINT(modernize-use-nullptr)
-    // Whether both are cut from one kernel of the lens.
+    // True if both are cut from one kernel of the lens.
     bool is_cut_from(const KernelAsk& other) const {
         return level == other.level && zone == other.zone && step == other.step;
     }
@@ -32,12 +32,12 @@ struct KernelSet {
     std::vector<KernelAsk> asks;
 };
 
-// How kernels are drawn: many small ones on top of each other; few that may be wide, shaded pixel by pixel;
-// or read tap by tap for every pixel of a tile.
-// Masked: stamped as well, each through what is seen of the pupil.
+// Ways of drawing kernels. Stamped: many small ones on top of each other. ByPixel: few that may be wide,
+// shaded pixel by pixel. Gathered: read tap by tap for every pixel of a tile. Masked: stamped, each through
+// the visible part of the pupil.
 enum class KernelUse { Stamped, ByPixel, Gathered, Masked };
 
-// Where kernels come from. Safe to use from many threads; what it makes depends on the ask alone.
+// A source of kernels. Safe to use from many threads; a kernel depends on the ask alone.
 class KernelSource {
 public:
     // name: says everything that decides the kernels; those of one name are the same.

@@ -2,8 +2,8 @@
 
 namespace petzval::device {
 
-// What was not asked for longest first: it shrinks to what the others leave it, and goes where that is
-// nothing.
+// The entries that were unused for longest go first: each shrinks to the bytes that the others leave it, and
+// is dropped if that is nothing.
 void Memory::trim(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     const std::size_t most = std::min(bytes, max_bytes_);

@@ -1,4 +1,4 @@
-// What may outlive a frame: kernels, ready for a device or on their way there.
+// Things that may outlive a frame: kernels, ready for a device or on their way there.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace petzval::device {
 
-// Things by name under one budget of bytes; what was not asked for longest goes first. Nothing that is drawn
-// depends on what is kept. Thread-safe; a thing stays alive as long as somebody holds it.
+// Things by name under one budget of bytes; the one that was unused for longest goes first. No result depends
+// on whether a thing was kept. Thread-safe; a thing stays alive as long as somebody holds it.
 class Memory {
 public:
     explicit Memory(std::size_t max_bytes) : max_bytes_(max_bytes) {}

@@ -285,7 +285,7 @@ void write_parts(Imf::OStream& stream, ExrFile& exr, const Plan& plan,
     for (std::size_t p = 0; p < headers.size(); ++p) {
         const auto out = plan.parts.find(std::size_t(source[p]));
         if (out == plan.parts.end()) {
-            // What fails here is the input: of writing the output knows itself (exr_output.h).
+            // An error here is the input's: the output reports its own errors (exr_output.h).
             const Status copied = guarded(exr.file->path(), [&] {
                 copy_part(*exr.parts, source[p], *output, int(p));
                 return Status(Done{});

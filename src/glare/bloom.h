@@ -1,7 +1,7 @@
 // Bloom: light scattered in glass and on dust, as Gaussian layers over the octaves (M. Kawase, CEDEC 2004:
 // several Gaussians of doubling width, made on reduced pictures).
 //
-// Beyond the frame the picture is taken to go on as its mirror image, so that a flat picture stays flat.
+// Beyond the frame the picture continues as its mirror image, so that a flat picture stays flat.
 #pragma once
 
 #include "glare/plan.h"

@@ -80,8 +80,8 @@ void draw(kernel::CoverageBuffer<Light>& buffer, const GhostShape& ghost, Point 
     if (outline.size() >= 3) buffer.add_polygon(outline, 1 / area * light);
 }
 
-// Where a copy stands (times the light's distance from the middle, negative: beyond it), how large it is and
-// what it takes of red, green and blue. Chosen by eye after the flares of 1970s zooms; columns are scaled to
+// One ghost: its position (times the light's distance from the middle; negative: on the other side), its size
+// and its red, green and blue fractions. Chosen by eye after the flares of 1970s zooms; columns are scaled to
 // sum to 1.
 struct Sprite {
     double place, radius;  // radius: share of the frame's height

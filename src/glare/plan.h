@@ -12,7 +12,7 @@
 namespace petzval::glare {
 
 // Gaussians of a pyramid. Halving averages with weights 1 3 3 1 along each axis, doubling interpolates with
-// the same; beyond its border a level goes on as its mirror image, the border pixel repeated.
+// the same; beyond its border a level continues as its mirror image, the border pixel repeated.
 struct BloomPlan {
     struct Blur {
         int level = 0;                    // pixels 2^level wide

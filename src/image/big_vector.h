@@ -13,7 +13,8 @@
 
 namespace petzval {
 
-// As allocate_pixels: a mapping of its own if it has so many bytes, which the system has back at once.
+// Allocates like allocate_pixels: blocks of own_from bytes or more get a separate mapping, which returns to
+// the system at once.
 void* allocate_block(std::size_t bytes, std::size_t own_from);
 
 template <typename T>

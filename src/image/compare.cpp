@@ -1,11 +1,10 @@
-// How far a picture is from another; the measures are defined in petzval/compare.h and
-// docs/reference/report.md.
+// Measures the difference between two pictures; petzval/compare.h and docs/reference/report.md define the
+// measures.
 //
 // SSIM: Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, "Image quality assessment: from error
 // visibility to structural similarity", IEEE Transactions on Image Processing 13(4), 2004: 11 x 11 Gaussian
-// window of sigma 1.5, K1 = 0.01, K2 = 0.03, mean over the windows that lie wholly inside the picture. Where
-// no such window is asked for (a picture or a mask narrower than that) windows are cut at the border and
-// renormalised.
+// window of sigma 1.5, K1 = 0.01, K2 = 0.03, mean over the windows that lie wholly inside the picture. If the
+// picture or the mask is narrower than a window, windows are cut at the border and renormalised.
 #include "petzval/compare.h"
 
 #include "base/parallel.h"
@@ -112,7 +111,7 @@ ChannelSums channel_sums(const Input& in, Workers& workers) {
     return total;
 }
 
-// What SSIM needs of a window: weighted means of a, b, a a, b b, a b.
+// The moments of a window for SSIM: weighted means of a, b, a a, b b, a b.
 using Moments = std::array<float, 5>;
 
 std::array<float, 2 * kWindowRadius + 1> gaussian_window() {

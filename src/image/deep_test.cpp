@@ -123,7 +123,7 @@ TEST(Deep, APixelOfAHundredThousandSamplesIsSummedUpInABlink) {
     }
     std::vector<float> cuts;
     for (int i = 1; i < 200; ++i) cuts.push_back(0.1f * float(i));
-    // Of this process alone: the machine may be busy.
+    // CPU time of this process alone: the machine may be busy.
     const std::clock_t start = std::clock();
     const auto parts = tidied(pixel, cuts);
     EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5);

@@ -61,7 +61,7 @@ std::uint16_t to_half(float value) {
     if (std::isnan(value)) return std::uint16_t(sign | 0x7e00u);
     if (size >= kInfinite) return std::uint16_t(sign | 0x7c00u);
     if (size < kLeastNormal) return std::uint16_t(sign | std::uint16_t(std::nearbyint(size * (1 << 24))));
-    // The 13 bits that a half lacks are rounded away, ties to even; a carry goes into the exponent. The bias
+    // A half has 13 bits less: they are rounded away, ties to even; a carry goes into the exponent. The bias
     // of a float is 127, that of a half 15.
     auto bits = bits_as<std::uint32_t>(size);
     bits += 0xfffu + ((bits >> 13) & 1u);

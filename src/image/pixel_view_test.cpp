@@ -101,7 +101,7 @@ TEST(PixelView, EveryHalfComesBackAsItself) {
 }
 
 TEST(PixelView, AFloatBecomesTheNearestHalfTiesToEven) {
-    // Between every two halves that follow each other: what lies nearer to one becomes that one.
+    // Every float between two neighbouring halves becomes the nearer one.
     for (std::uint16_t bits = 0; bits < 0x7bffu; ++bits) {
         const float low = from_half(bits), high = from_half(std::uint16_t(bits + 1));
         const float middle = low + (high - low) / 2;  // exact: a float has 13 more bits

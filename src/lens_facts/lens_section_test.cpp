@@ -43,8 +43,8 @@ TEST(LensSection, APerfectLensPutsEachRayWhereThePupilPointLiesInTheDisc) {
     }
 }
 
-// What is drawn and what the disc is made of are traced apart: where a path ends on the sensor, its ray lands
-// in the disc. Outward in the picture is up on the sensor (image_y_mm >= 0).
+// The drawn paths and the disc are traced separately: a path that ends on the sensor at a point lands in the
+// disc there. Outward in the picture is up on the sensor (image_y_mm >= 0).
 TEST(LensSection, PathsThroughSurfacesEndWhereTheDiscIsLit) {
     const double px_per_mm = kMount.width_px / kMount.camera.sensor_width_mm;
     for (const double depth_m : {1.5, 6.0}) {

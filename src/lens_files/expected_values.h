@@ -24,8 +24,8 @@ struct ExpectedCheck {
     bool passed() const;
 };
 
-// What is wrong with a lens that has not the f-number it states: its clear apertures cut the light of the
-// middle of the field first. Empty: nothing, or it could not be traced.
+// The fault of a lens whose f-number differs from the stated one: its clear apertures cut the light of the
+// middle of the field first. Empty: no fault, or the lens could not be traced.
 std::string f_number_problem(const optics::Prescription& lens);
 
 // Allowed is the entry's "tolerance"; else |its "difference"| + half the last printed digit; 5e-6 for Seidel

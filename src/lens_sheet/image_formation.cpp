@@ -1,4 +1,4 @@
-// How images form: magnification by distance, and the effect of the stop on points out of focus.
+// Figures of image formation: magnification by distance, and the effect of the stop on points out of focus.
 #include "base/parallel.h"
 #include "lens_sheet/figures.h"
 

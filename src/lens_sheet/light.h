@@ -20,7 +20,7 @@ struct SpectralLine {
 };
 std::span<const SpectralLine> spectral_lines();  // g, F, e, d, C
 
-// That many slices of the visible spectrum; 3: red, green and blue, at the primaries of Rec.709.
+// Divides the visible spectrum into that many slices; 3: red, green and blue, at the primaries of Rec.709.
 std::vector<colour::SpectralBand> slices(int count);
 
 // Colour of a slice of the spectrum on black: "rgb(255,120,0)". r, g, b: as in colour::SpectralBand.

@@ -1,4 +1,4 @@
-// What a page is about: one lens, its numbers, and ways to ask it for rays and discs in micrometres.
+// The subject of a page: one lens, its numbers, and functions that trace its rays and discs in micrometres.
 //
 // The lens stands at its own focal length before a 3:2 frame that its field fills, wide open unless said
 // otherwise, focused at infinity where the blur of an axial point is least.
@@ -42,7 +42,7 @@ public:
     std::function<double(double rho)> height_um(double wavelength_nm, double coc_um) const;
     // Largest distance from the axis of light of 440 to 660 nm.
     double reach_um(double coc_um) const;
-    // That many slices of the spectrum.
+    // Axial rays in that many slices of the spectrum.
     AxialBands bands(int count) const;
     // The disc of all colours, in pixels of um_per_px.
     kernel::PointSpread disc(double coc_um, double um_per_px) const;

@@ -21,8 +21,8 @@ struct WaveMap {
     std::vector<Point> outline;  // of the pupil, in its unit disc
 };
 
-// Wavefront aberration in waves at a point of the pupil: rays are its gradient, so it is the integral of what
-// they miss by, from the middle outwards, over 2 N (Welford 1986, ch. 7). Nodes of Gauss and Legendre.
+// Wavefront aberration in waves at a point of the pupil: rays are its gradient, so it is the integral of the
+// rays' errors, from the middle outwards, over 2 N (Welford 1986, ch. 7). Nodes of Gauss and Legendre.
 double wavefront(const std::function<Point(Point)>& landing, Point u, double f_number) {
     constexpr double kNode[] = {0.0469100770, 0.2307653449, 0.5, 0.7692346551, 0.9530899230};
     constexpr double kWeight[] = {0.1184634425, 0.2393143352, 0.2844444444, 0.2393143352, 0.1184634425};

@@ -1,4 +1,4 @@
-// What has no effect with what: one table, walked for every field that was chosen.
+// Finds choices without effect: one table of pairs, checked for every chosen field.
 #include "petzval/look_check.h"
 #include "petzval/names.h"
 
@@ -161,7 +161,7 @@ bool adds_colour(const AddedAberrations& added) {
 
 constexpr const char* kStandIn = "with lens.kernel_image, which stands in for the lens";
 
-// What discs alone show: never glare.
+// Fields that change discs only, never glare.
 const std::vector<std::string> kTexture{"lens.aperture_image", "lens.dust", "lens.scratches",
                                         "lens.onion_rings", "lens.texture_seed"};
 const std::vector<std::string> kCharacter{"lens.focus_mode",

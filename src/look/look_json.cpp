@@ -45,7 +45,8 @@ Error unknown(const std::string& path) {
     return no_look("unknown key " + path + near);
 }
 
-// Of text that holds a key twice nobody knows which was meant. The path of the second, if there is one.
+// A key that occurs twice in the text, which makes its meaning ambiguous: the path of the second, if there is
+// one.
 struct Repetition {
     std::vector<std::set<std::string>> open;  // keys of the objects that are being read
     std::string found;

@@ -16,7 +16,7 @@ namespace OCIO = OCIO_NAMESPACE;
 
 Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
 
-// What OpenColorIO says runs over several lines.
+// The first line of a message; OpenColorIO's run over several.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 template <typename Name>
@@ -33,7 +33,7 @@ bool holds(int count, const Name& name, const std::string& wanted) {
     return false;
 }
 
-// From scene-linear Rec.709 to what the config calls `space`.
+// The conversion from scene-linear Rec.709 to the config's colour space `space`.
 struct Source {
     std::string space;
     OCIO::GroupTransformRcPtr before = OCIO::GroupTransform::Create();

@@ -14,8 +14,8 @@ namespace petzval::optics {
 
 struct AberrationCurves {
     std::string name, description;
-    // What the curves were drawn for. Wider apertures than f_number stretch the curves' heights so that the
-    // rim keeps its shift; smaller ones use their inner part alone.
+    // The camera for which the curves were drawn. Wider apertures than f_number stretch the curves' heights
+    // so that the rim keeps its shift; smaller ones use their inner part alone.
     double focal_length_mm = 50, f_number = 2, sensor_width_mm = 36;
     std::vector<double> wavelength_nm;  // rising, 1…kMostCurves
     std::vector<double> pupil_height;   // rising from 0, 2…kMostHeights; the last at least 1/(2 f_number)

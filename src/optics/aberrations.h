@@ -14,8 +14,8 @@
 namespace petzval::optics {
 
 // The ray from the field angle (degrees, going up) that would pass (px, py) of the unit disc of the PARAXIAL
-// entrance pupil at the primary wavelength: not aimed at the real stop. This is how most published ray data
-// are made; use Beam for what a lens does. In the frame of the first vertex.
+// entrance pupil at the primary wavelength: not aimed at the real stop. Most published ray data are made like
+// this; Beam traces the rays that a lens lets through. In the frame of the first vertex.
 Ray paraxial_pupil_ray(const Prescription& lens, const FirstOrder& first, double field_deg, double px,
                        double py);
 

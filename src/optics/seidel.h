@@ -1,4 +1,4 @@
-// Third-order (Seidel) sums per surface, and what is made of them.
+// Third-order (Seidel) sums per surface, and the aberrations that follow from them.
 //
 // Welford's form (Aberrations of Optical Systems, 1986, ch. 8), S_V without a division by A as ray-optics has
 // it. With the marginal ray (y, u), the chief ray (yb, ub), A = n (y c + u), Ab = n (yb c + ub), D() = behind

@@ -1,7 +1,8 @@
 // A table by a window: a room at 500 lux that looks out on shade at 7 000 and sun at 70 000, with the sun
 // glittering on water beyond. The steps are those of a bright day as M. Kawase lists them ("Renderist
 // training course 2.0", CEDEC 2008): sun to shade 10 to 100, shade to room about 10. Exposed for the room,
-// most of the view lies far above white, and what a lens makes of it depends on whether that was kept.
+// most of the view lies far above white, and the lens's picture of it depends on whether those values were
+// kept.
 #include "scene/plants.h"
 #include "scene/scenes.h"
 #include "scene/textures.h"

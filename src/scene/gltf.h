@@ -22,16 +22,21 @@ struct GltfScene {
     std::vector<std::string> cameras, warnings;
 };
 
-// Fills an empty world with the triangles of the file's scene, its base colours and emission, shaded as
-// shading.h has it by the file's lights (KHR_lights_punctual), or where it has none by a day's. Lux, candela
-// and nits are taken for light as it is; where the lights make the middle of the scene brighter than a day
-// does, all that glows is dimmed alike, with a warning that says how far. The world is x right, y up, z away:
-// a file's z turned round. Its nodes stand where its animations have them at that frame; skins and morph
-// targets stay as they are, with a warning. The camera is that of this name, or number from 1, of the file's
-// with a perspective, of an empty name the first, of a sensor 36 mm wide at 16:9; where it has none, one that
-// sees all of it. It focuses on the middle of what is there. Pictures that are missing are left white, with a
-// warning. Errors: InvalidFile with the path, in one line; InvalidArgument where there is no such camera;
-// Unsupported where this petzval has no tinygltf.
+// Fills an empty world with the triangles of the file's scene, its base colours and emission.
+//
+// Light: the file's lights (KHR_lights_punctual) shade them as in shading.h; without lights, a day's light
+// does. Lux, candela and nits become scene-linear light without conversion. If the lights make the middle of
+// the scene brighter than a day does, everything that glows is dimmed by one factor, which a warning states.
+//
+// Space: the world is x right, y up, z away; a file's z is turned round. Nodes stand where their animations
+// put them at that frame; skins and morph targets stay as they are, with a warning.
+//
+// Camera: the file's perspective camera of this name or number from 1; of an empty name the first; its sensor
+// is 36 mm wide at 16:9. A file without cameras gets one that sees the whole scene. It focuses on the middle
+// of the scene.
+//
+// Missing pictures are left white, with a warning. Errors: InvalidFile with the path, in one line;
+// InvalidArgument if the camera does not exist; Unsupported if this petzval was built without tinygltf.
 Result<GltfScene> add_gltf(World& world, const std::string& path, int frame, const std::string& camera);
 
 }  // namespace petzval::scene

@@ -1,8 +1,9 @@
-// What the lens records: rays through every part of the aperture, averaged over each pixel's square.
+// Renders the lens's true picture: rays through every part of the aperture, averaged over each pixel's
+// square.
 //
 // Surfaces are sampled by rays through (pixel, lens) points, in tiles that stop early once doubling the
-// samples no longer changes them. A lamp is a needle in that haystack, so lamps are black there and are added
-// on their own (lamp_light.h).
+// samples no longer changes them. Rays would hardly ever hit a lamp, so lamps are black there and are added
+// separately (lamp_light.h).
 #include "base/parallel.h"
 #include "scene/lamp_light.h"
 #include "scene/tracing.h"

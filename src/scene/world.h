@@ -102,10 +102,10 @@ public:
     void add(Mesh mesh, Paint paint, Sides sides, Cutout cutout = nullptr);
     void add(Tubes tubes, Paint paint);
     void add_lamp(Vec3 centre, float radius_m, Vec3 radiance);
-    // As programs did that took display codes (of gamma 2.2) for light, and where lights were set by eye:
-    // paints, sky and lamps have the codes of their colours, and a light is as bright as makes a white sheet
-    // that it alone lights (from 1 m where it is near) the code of what it would be. Radiance then is codes.
-    // Requires: is_baked; before commit().
+    // Lights the scene in display codes (gamma 2.2), as programs did that took codes for light and set lights
+    // by eye. Paints, sky and lamps have the codes of their colours; a light's strength is the one at which a
+    // white sheet lit by it alone (from 1 m if it is near) has the code of its true brightness. Radiance then
+    // is codes. Requires: is_baked; before commit().
     void light_in_codes();
 
     // Builds the ray tracing structure and bakes light. Errors: OutOfMemory.

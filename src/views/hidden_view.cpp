@@ -7,8 +7,8 @@
 namespace petzval::views {
 namespace {
 
-// What a pixel's surfaces over one another miss of what it shows, mostly light of lamps, which engines keep
-// apart, goes to the surface that is seen most. What it was given.
+// Gives the light of a pixel that its surfaces do not explain, mostly lamps, which engines keep separate, to
+// the most visible surface. Returns that light.
 Rgba complete_light(std::span<DeepSample> surfaces, Rgba shown) {
     Rgba missing = shown;
     DeepSample* most = nullptr;

@@ -48,7 +48,7 @@ constexpr std::array<Strip, 3> kStrips{{
 }};
 // clang-format on
 
-// Lower case is drawn as upper case; what the font lacks is blank.
+// Lower case is drawn as upper case; characters without a glyph are blank.
 bool is_ink(char letter, int column, int row) {
     const char upper = char(std::toupper(static_cast<unsigned char>(letter)));
     for (const Strip& strip : kStrips) {

@@ -36,7 +36,7 @@ std::string name_of_level(int level, const LevelRule& rule) {
            std::to_string(largest) + " PX";
 }
 
-// Where everything lies in the oversized picture.
+// The places of all levels in the oversized picture.
 struct Layout {
     std::vector<Rect> levels;
     Rect highlights, map, all;

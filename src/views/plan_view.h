@@ -1,4 +1,4 @@
-// Pictures of what the scatter engine makes on its way, read from the plan of the run that happens.
+// Pictures of the scatter engine's intermediate results, read from the plan of the current run.
 #pragma once
 
 #include "petzval/deep.h"

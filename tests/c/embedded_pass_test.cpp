@@ -24,7 +24,7 @@ constexpr float kNearM = 0.1f, kFarM = 50;
 constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                                kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
 
-// What a host rendered: RGBA, metres along the axis, and what is above all; no layer where that is empty.
+// A host's frame: RGBA, metres along the axis, and a layer above everything; an empty layer is not used.
 struct Scene {
     VkExtent2D size;
     Floats colour, metres, layer;
@@ -98,7 +98,7 @@ public:
         const float* const first = static_cast<const float*>(buffer_.mapped);
         return {first, first + floats_};
     }
-    // What was filled in is there for the pass, in `layout`.
+    // Uploads the filled memory for the pass, in `layout`.
     void upload(VkCommandBuffer commands, VkImageLayout layout) const {
         barrier(commands, image_.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,
                 VK_ACCESS_TRANSFER_WRITE_BIT, kTransfer, kTransfer);
@@ -158,7 +158,7 @@ public:
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    // Where things are, as depth that means this.
+    // Stores distances as depth of this meaning.
     void place(const Floats& metres, DepthMeaning meaning) {
         Floats depth;
         for (const float z : metres) depth.push_back(float((1 / double(z) - meaning.bias) / meaning.scale));
@@ -232,7 +232,7 @@ float largest_difference(const Floats& a, const Floats& b) {
     return largest;
 }
 
-// Of light of 1.
+// Peak signal to noise ratio for a peak of 1.
 double difference_db(const Floats& a, const Floats& b) {
     double squares = 0;
     for (std::size_t i = 0; i < a.size(); ++i) squares += double(a[i] - b[i]) * double(a[i] - b[i]);

@@ -38,7 +38,7 @@ static petzval_disc disc_of(double radius_px, double field_x) {
 
 static double light_of(const float* rgba, int size, int channel) {
     double sum = 0;
-    int i;
+    int i = 0;
     for (i = 0; i < size * size; ++i) sum += rgba[4 * i + channel];
     return sum;
 }
@@ -47,8 +47,8 @@ static void test_a_disc_lands_in_the_callers_floats(void) {
     const petzval_disc disc = disc_of(9, 0.5);
     petzval_disc_report report = {0};
     petzval_lens* lens = NULL;
-    int size = 0, small;
-    float* rgba;
+    int size = 0, small = 0;
+    float* rgba = NULL;
     petzval_pixels out;
     report.size = sizeof report;
     expect(petzval_lens_open("triplet-cooke", &lens) == PETZVAL_OK, "a lens by name");
@@ -122,7 +122,7 @@ static void test_a_texture_holds_all_discs(void) {
     petzval_texture texture = {0};
     petzval_lens* lens = NULL;
     petzval_pixels out;
-    float* rgba;
+    float* rgba = NULL;
     int rows = 0, used = 0;
     texture.size = sizeof texture;
     texture.columns = COLUMNS;

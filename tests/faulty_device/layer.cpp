@@ -35,7 +35,7 @@ bool is_too_much(VkDeviceSize more) {
     return most && more > std::strtoull(most, nullptr, 10);
 }
 
-// Where memory is apart: the driver's first type that the host sees, and the type added for it.
+// Memory that is apart: the driver's first host-visible memory type, and the type added for it.
 struct {
     bool is_on = false;
     uint32_t seen = 0, added = 0;
@@ -164,7 +164,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL of_instance(VkInstance of, const char* 
 
 }  // namespace
 
-// How often memory was taken that the host sees, since memory is apart.
+// The number of host-visible allocations since memory is apart.
 extern "C" VK_LAYER_EXPORT unsigned petzval_allocations_apart() {
     const std::lock_guard lock(mutex);
     return apart.allocations;

@@ -1,8 +1,8 @@
-// Whether a moving picture is as steady as it should be: shots of several frames, and how the error of each
-// frame changes to the next. Shared by the test and by `./dev bench flicker`.
+// Measures the steadiness of moving pictures: shots of several frames, and how the error of each frame
+// changes to the next. Shared by the test and by `./dev bench flicker`.
 //
-// A constant error is not seen to move. What is seen is its change d = e(t+1) - e(t), e = result - truth, in
-// linear light clipped to 0…1:
+// A constant error is not seen to move. Its change is seen: d = e(t+1) - e(t), e = result - truth, in linear
+// light clipped to 0…1:
 //   change_db  -20 log10 rms(d) over all pixels and frames
 //   worst_pop  the largest mean of d over 8 x 8 pixels and three channels: how much a patch changes from one
 //              frame to the next beyond the change of the truth

@@ -21,7 +21,8 @@ Frames with_jumping_blurs(const Shot& shot) {
     return frames;
 }
 
-// What was measured, with a little room; a perfect engine would have no change, no jump and a shake of 1.
+// Limits: the measured values with a little room; a perfect engine would have no change, no jump and a shake
+// of 1.
 struct Limits {
     double least_change_db, most_pop, most_shake;
 };
@@ -56,13 +57,14 @@ TEST(Flicker, AFocusPullAlongATableIsSteady) {
 }
 
 TEST(Flicker, ACameraMoveBehindAFenceIsSteady) {
-    // What wires hide is guessed anew in every frame: three times the truth's shake, the weakest point there
-    // is. These wires are narrower than a pixel, so that one depth per pixel sees them come and go.
+    // The background behind wires is estimated anew in every frame: three times the truth's shake, the
+    // weakest shot of all. These wires are narrower than a pixel, so one depth per pixel sees them come and
+    // go.
     Shot shot = camera_move("fence", {}, 20, 6, 256);
     const Frames truth = truths_of(shot);
     const Steadiness alone = measure(defocused(shot, "scatter"), truth);
     expect_steady(alone, {36.7, 0.01, 2.9});
-    // Nor do the frames around make it worse, which see behind some pixels of a wire and not behind others.
+    // The frames around see behind some pixels of a wire and not behind others; they must not make it worse.
     look_around(shot, 4);
     const Steadiness together = measure(defocused(shot, "scatter"), truth);
     EXPECT_GT(together.change_db, alone.change_db - 0.1);
@@ -76,7 +78,7 @@ TEST(Flicker, ACameraMovePastAPostIsSteady) {
     const Frames truth = truths_of(shot);
     const Steadiness alone = measure(defocused(shot, "scatter"), truth);
     expect_steady(alone, {29.5, 0.1, 2.7});
-    // What the frames around see behind the post need not be guessed.
+    // The frames around see the background behind the post, which then needs no estimate.
     look_around(shot, 4);
     const Steadiness together = measure(defocused(shot, "scatter"), truth);
     EXPECT_GT(together.change_db, alone.change_db + 0.5);

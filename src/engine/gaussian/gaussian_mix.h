@@ -16,9 +16,9 @@ struct MixWeights {
     float sharp = 1, small = 0, large = 0;
 };
 
-// By radius: a stack of blurs, each half as wide as the next, up to the largest radius. Light is shared
-// between the two around its own radius in proportion to the squares, so that the second moment of the
-// mixture is that of the pixel's own disc, and hardly its shape differs from one Gaussian's.
+// Mixes by radius: a stack of blurs, each half as wide as the next, up to the largest radius. Light is shared
+// between the two blurs around its own radius in proportion to the squares. So the second moment of the
+// mixture is that of the pixel's own disc, and its shape hardly differs from one Gaussian's.
 class BlurStack {
 public:
     BlurStack() = default;  // all is sharp
@@ -42,9 +42,9 @@ private:
     std::vector<float> radii_px_{kWithinPixelPx};
 };
 
-// By depth, as published (wgld.org): x = clamp(depth + offset, 0, 1); the index d is 1 in the band around
-// x = 1/2 and falls to 0 at both ends; sharp d, smaller blur d (1 - d), larger blur (1 - d)^2. The three sum
-// to 1: d + (1 - d)(d + 1 - d).
+// Mixes by depth, as published (wgld.org): x = clamp(depth + offset, 0, 1); the index d is 1 in the band
+// around x = 1/2 and falls to 0 at both ends; sharp d, smaller blur d (1 - d), larger blur (1 - d)^2. The
+// three sum to 1: d + (1 - d)(d + 1 - d).
 class DepthMix {
 public:
     DepthMix() = default;

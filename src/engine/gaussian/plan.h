@@ -1,4 +1,4 @@
-// What the draft engine decides before anything is drawn: the blurs, and by which law pixels mix them; flat
+// The plan of the draft engine, made before drawing: the blurs, and the law by which pixels mix them. Flat
 // data, no pixels of the result.
 #pragma once
 
@@ -18,10 +18,10 @@ struct BlurAxis {
     int radius() const { return int(weights.size() / 2); }
 };
 
-// A Gaussian blur that costs the same however wide it is: light is shared between cells 2^level pixels wide
-// (waist/cells.h: so that it stays where it is), blurred there by a separable kernel with a sigma of about
-// one to two cells, and read back from them. Beyond the picture nothing is known: kernels are
-// renormalised to what lies inside.
+// A Gaussian blur whose cost does not depend on its width: light is shared between cells 2^level pixels wide
+// (waist/cells.h explains why it stays in place), blurred there by a separable kernel with a sigma of about
+// one to two cells, and read back from them. Pixels beyond the picture are unknown: kernels are renormalised
+// to the part inside.
 //
 // Per axis, sharing between cells s wide and reading from them are quadratic B-splines, each of s^2 / 4 px^2
 // wherever in its cell a pixel lies; the kernel adds the rest of sigma^2, so the second moment is exact.
@@ -47,9 +47,9 @@ struct LayeredSample {
 };
 
 struct GaussianPlan {
-    // Layered: light spreads from where it is, in layers composited from the nearest; the sharp one lies
-    // between near and far. Rims are taken apart, and what near things hide is guessed.
-    // Otherwise all of the picture is in every blur, and a pixel mixes by its own radius or depth.
+    // Layered: light spreads from its own place, in layers composited from the nearest; the sharp layer lies
+    // between near and far. Rims are separated, and the background behind near things is estimated. ByRadius,
+    // ByDepth: the whole picture is in every blur, and a pixel mixes by its own radius or depth.
     enum class Law { Layered, ByRadius, ByDepth };
     enum MixedBlur { kSmall, kLarge };  // ByDepth; and where one of them is shown
 

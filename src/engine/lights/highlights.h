@@ -18,13 +18,13 @@ struct Highlight {
     Rgba colour;  // what was taken out of each of its pixels; a is 0: the surface itself stays in the base
 };
 
-// What light counts as a highlight: luminance above
+// A pixel is a highlight if its luminance is above
 //     factor * surroundings + white * max(least_floor, floor_at_1px * radius^1.5)
-// (scene-linear; light of coverage a is compared with a times that), white being four times the mean
-// of what the picture covers, to a power of two: highlights are a matter of contrast, not of exposure. The
-// floor rises with the radius because a wider disc hides more of what the levels blur
-// (docs/explain/scatter.md gives the law). Light wider than kWidestHighlightPx is none: a kernel of it takes
-// 4 r^2 pixels, and no one sees its rim. (Light without alpha cannot stay in the base; it is drawn as wide as
+// (scene-linear; light of coverage a is compared with a times that). White is four times the mean luminance
+// of the covered picture, rounded to a power of two: a highlight is a matter of contrast, not of exposure.
+// The floor rises with the radius because a wider disc hides more of the blur of its level
+// (docs/explain/scatter.md gives the law). Light wider than kWidestHighlightPx is none: its kernel takes 4
+// r^2 pixels, and no one sees its rim. (Light without alpha cannot stay in the base; it is drawn as wide as
 // that.)
 constexpr float kWidestHighlightPx = 1024;
 struct HighlightRule {
@@ -34,11 +34,13 @@ struct HighlightRule {
     // The least floor where nearer things stand in the way of the lens: their shadows are exact in highlights
     // only.
     float contested_floor = 0.15f;
-    // A lamp is brighter than lamp_factor * surroundings + white * lamp_floor, at any radius. Lower, lit
-    // windows are lamps too, and do not go on behind wires: with 4 and 1 the path-traced fence loses 0.6 dB.
+    // A lamp is brighter than lamp_factor * surroundings + white * lamp_floor, at any radius. Lower values
+    // make lit windows lamps too, and these do not continue behind wires: with 4 and 1 the path-traced fence
+    // loses 0.6 dB.
     float lamp_factor = 8, lamp_floor = 2;
-    // Of pixels whose samples dim each other: a ray from the middle of a pixel meets all that is nearer by up
-    // to this radius before it leaves the pixel, so what is taken is dimmed by that. 0: nothing is.
+    // For pixels whose samples dim each other: a ray from the middle of a pixel meets every surface that is
+    // nearer by up to this radius before it leaves the pixel, so these surfaces dim the highlight. 0: none
+    // does.
     float same_pixel_px = 0;
 };
 // The same_pixel_px of a deep picture; pixels may be narrower than they are high.
@@ -56,15 +58,15 @@ float radius_of_brightest(View<const Rgba> colour, View<const float> coc_px, int
 class HighlightSplit {
 public:
     static constexpr float kLeastAlpha = 1e-4f;  // what has less is light without alpha
-    // Of the input's picture, which must last as long, by the nearest radius of each of its pixels; white is
-    // that of the whole frame.
+    // Splits the input's picture, which must last as long, by the nearest radius of each of its pixels; white
+    // is that of the whole frame.
     HighlightSplit(const EngineView& input, const HighlightRule& rule);
     // The part of `light` at pixel (x, y) with this radius that stays; alpha always stays.
     Rgba base(int x, int y, float coc_px, Rgba light) const;
     // `light` without that of a lamp: what is left of a lamp is as bright as its surroundings.
     Rgba dim(int x, int y, Rgba light) const;
-    // Where the light of a lamp in pixel (x, y) stands: where the brightest pixel around does, unless that is
-    // another surface, which is for those who take silhouettes apart. Samples of a deep picture know it.
+    // The radius of a lamp's light in pixel (x, y): that of the brightest pixel around, unless that is
+    // another surface, which the separation of silhouettes handles. Samples of a deep picture know it.
     float radius_of_light(int x, int y, float coc_px) const;
     // Up to this luminance, times its coverage, dim() leaves light as it is.
     float least_of_lamps() const { return white_ * rule_.lamp_floor; }
@@ -75,7 +77,7 @@ public:
                brightness <= white_ * std::min(rule_.least_floor, rule_.contested_floor) * alpha;
     }
     const HighlightRule& rule() const { return rule_; }
-    // Whether light so bright, left over at this place and radius, may stay whatever surrounds it.
+    // True if light so bright may stay in the base at this place and radius, whatever surrounds it.
     bool may_stay(int x, int y, float coc_px, float brightness) const {
         return brightness <= floor_at(x, y, coc_px);
     }
@@ -99,10 +101,10 @@ private:
 
 constexpr int kLargestSquare = 8;  // of highlights; a power of 2
 
-// Splits every sample in place; returns what was taken. Bright areas are taken as few squares: what all
-// pixels of a square of 8, then 4, then 2 have in common goes first, and what is then left of a pixel and no
-// longer stands out stays in the base. largest_square = 1 takes pixels alone. `samples` are rows of the
-// picture that `split` was made for, from first_row (a multiple of 8) on; highlights count rows from there.
+// Splits every sample in place; returns the highlights. Bright areas are taken as few squares: the light that
+// all pixels of a square of 8, then 4, then 2 have in common goes first. The rest of a pixel stays in the
+// base if it no longer stands out. largest_square = 1 takes pixels alone. `samples` are rows of the picture
+// that `split` was made for, from first_row (a multiple of 8) on; highlights count rows from there.
 std::vector<Highlight> take_highlights(CocSamples& samples, const HighlightSplit& split, int first_row,
                                        int largest_square, Workers& workers);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr float kHiddenPx = 7;
 
-// What is taken of hidden light behind something dark and near.
+// The highlights taken from hidden light behind a dark, near pixel.
 std::vector<Highlight> taken(float light) {
     const Picture colour(kWidth, kHeight, Rgba{0.1f, 0.1f, 0.1f, 1});
     const Plane coc_px(kWidth, kHeight, -5.0f);

@@ -19,9 +19,10 @@ Viewpoint own_viewpoint(const Highlight& h) {
     return {float(h.x) + middle, float(h.y) + middle, h.coc_px, h.size, laws::kOwnTapPx};
 }
 
-// Highlights of one lamp see nearly the same: single pixels in a square so much smaller than their disc
-// that no shadow in it moves by more than half of that square share one viewpoint. Of what is nearer by less
-// than a part of its size a square cannot tell whether it is the lamp itself.
+// Highlights of one lamp share almost the same view: single pixels in a square share one viewpoint if the
+// square is so much smaller than their disc that no shadow in it moves by more than half of that square. A
+// square cannot distinguish an occluder that is nearer by less than a fraction of its size from the lamp
+// itself.
 Viewpoint shared_viewpoint(const Highlight& h, Quality quality) {
     const float radius = std::abs(h.coc_px), two = quality == Quality::Draft ? 8 : 24;
     const int square = quality == Quality::Final || h.size > 1 || radius < two ? 1

@@ -1,5 +1,5 @@
-// Which lights are spread on their own, each with its complete kernel and with the shadows of nearer things
-// inside it: flat data, no pixels of the result.
+// The lights that are spread on their own, each with its complete kernel and with the shadows of nearer
+// things inside it: flat data, no pixels of the result.
 #pragma once
 
 #include "device/kernels.h"
@@ -15,7 +15,7 @@
 
 namespace petzval::engine {
 
-// Where shadows are looked for from: the middle of a highlight, or of a square of pixels that share one.
+// The origin of a search for shadows: the middle of a highlight, or of a square of pixels that share one.
 struct Viewpoint {
     float x = 0, y = 0;  // in pixels; the middle of pixel 0 is 0
     float coc_px = 0;
@@ -28,8 +28,8 @@ struct Viewpoint {
     }
 };
 
-// What is seen (1) and hidden (0) on a grid over the pupil's square, -1…1 on both axes, row by row. A bit
-// for each point: there may be ten million lights.
+// Visibility (1) and occlusion (0) on a grid over the pupil's square, -1…1 on both axes, row by row. One bit
+// per point: there may be ten million lights.
 struct PupilMask {
     static constexpr int kSide = laws::kMaskSide;
     std::uint64_t seen = ~std::uint64_t(0);
@@ -38,8 +38,8 @@ struct PupilMask {
     std::uint8_t row(int y) const { return std::uint8_t(seen >> (y * kSide)); }
 };
 
-// A light as it is drawn: cell (x, y) of its kernel's level, the radius that its disc has there; places of
-// what it is seen from (a viewpoint or a mask) and of its kernel in the plan's lists.
+// A light to draw: cell (x, y) of its kernel's level, and its disc's radius there; the indices of its
+// viewpoint or mask, and of its kernel, in the plan's lists.
 struct PlannedLight {
     Highlight highlight;
     std::uint32_t viewpoint = 0, kernel = 0;

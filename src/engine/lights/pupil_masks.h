@@ -1,9 +1,10 @@
-// Which part of the lens a light is seen through: the part whose rays meet nothing nearer on their way.
+// The part of the lens through which a light is seen: the part whose rays meet no nearer surface on their
+// way.
 //
-// A light at s with radius c lands through the pupil point u at s + c u; on the way, where something has the
-// radius c' < c, its ray passes s + (c - c') u (docs/conventions.md). So what stands at q with radius c'
-// hides the pupil point u = (q - s) / (c - c'), and a square of pixels at much the same radius hides a square
-// of the pupil. A quad-tree of the picture's radii finds these squares, large ones first.
+// A light at s with radius c lands through the pupil point u at s + c u. Where a surface on the way has the
+// radius c' < c, the ray passes s + (c - c') u (docs/conventions.md). So a surface at q with radius c' hides
+// the pupil point u = (q - s) / (c - c'), and a square of pixels at almost the same radius hides a square of
+// the pupil. A quad-tree of the picture's radii finds these squares, large ones first.
 #pragma once
 
 #include "engine/lights/plan.h"

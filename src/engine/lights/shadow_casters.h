@@ -1,4 +1,4 @@
-// What can stand between a highlight and the lens, as few squares.
+// The possible occluders between a highlight and the lens, as few squares.
 #pragma once
 
 #include "petzval/workers.h"
@@ -28,10 +28,10 @@ class ShadowCasters {
 public:
     static constexpr int kBlock = 16;
     static constexpr int kViews = 3;  // view n: squares of 2^n pixels and more
-    // How much radii may differ in a merged square: what it shadows moves by no more than a fraction of a
-    // tap. To what is behind one by less it is no shadow: it may be its own surface.
+    // The largest difference of radii in a merged square: its shadow moves by at most a fraction of a tap. A
+    // light that is behind the square by less is not shadowed: the square may be its own surface.
     static constexpr float kSameRadiusPx = laws::kOneSquare.step_px;
-    // Of a picture of that size, whose rows are then added.
+    // Begins a picture of that size; its rows are added afterwards.
     ShadowCasters(int width, int height);
     ShadowCasters(const CocSamples& samples, Workers& workers);
     // The samples of the rows from y0 on, a multiple of kBlock, up to another or to the end; other rows may
@@ -41,7 +41,7 @@ public:
     float nearest_coc_px() const { return nearest_; }  // of all
     // Blocks are counted from the picture's corner.
     const Plane& nearest_of_blocks() const { return nearest_of_blocks_; }
-    // All that is nearer than end_of_view(n) is the same in view n as in finer ones, but for its resolution.
+    // Casters nearer than end_of_view(n) are the same in view n as in finer views, except for its resolution.
     std::span<const Caster> of_block(int view, int bx, int by) const;  // nearest first
     // The largest radius up to which a highlight of this radius loses nothing by view n.
     static float end_of_view(int view, float highlight_coc_px);

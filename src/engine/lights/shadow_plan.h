@@ -1,4 +1,4 @@
-// What stands in the way of the lights of a plan, as their viewpoints see it: for devices that find shadows.
+// The occluders of a plan's lights, as their viewpoints see them: for devices that find shadows.
 #pragma once
 
 #include "engine/lights/plan.h"

@@ -18,16 +18,16 @@ struct Sprite {
     float r = 0, g = 0, b = 0;
 };
 
-// What tells kernels apart. Where the lens varies over the picture, its parts are as many as kernels of these
-// lights fit into memory.
+// Distinguishes kernels. Where the lens varies over the picture, the picture is divided into as many parts as
+// kernels of these lights fit into memory.
 class SpriteGrid {
 public:
     SpriteGrid(const EngineView& input, std::span<const Sprite> sprites);
-    // Tells as many parts of the window apart as that of all its lights does: so a part of a frame is drawn
-    // as in the whole.
+    // Divides the window into as many parts as the grid of all its lights does, so that a part of a frame is
+    // drawn as in the whole.
     void take_parts_of(const SpriteGrid& whole) { columns_ = whole.columns_, rows_ = whole.rows_; }
 
-    // Which kernel a light is drawn with (0…count()-1), and where it goes.
+    // The kernel of a light (0…count()-1), and the light's position.
     struct Place {
         std::size_t kernel = 0;
         int level = 0, x = 0, y = 0;  // cell of the kernel's level
@@ -40,8 +40,8 @@ public:
     // Pixels by which a light reaches, at most.
     float reach_px(int level, float coc_px) const;
     int phases() const { return phases_; }  // places within a cell, along each axis
-    // Where the first of them lies, in parts of one: so that middles of pixels are among them, or half-way
-    // between two where cells are wider than that.
+    // The first phase, as a fraction of one: middles of pixels are among the phases, or lie half-way between
+    // two where cells are wider.
     float first_phase(int level) const { return phases_ > 1 && level >= 2 ? 0.5f : 0.0f; }
     int columns() const { return columns_; }
     int rows() const { return rows_; }
@@ -59,7 +59,7 @@ private:
 
 class SpriteKernels final : public device::KernelSource {
 public:
-    // light: what tells this lens from the picture's, where it is that of a lamp.
+    // light: for the light of a lamp, a name that distinguishes this lens from the picture's.
     SpriteKernels(const LensOnPicture& lens, const SpriteGrid& grid, const std::string& light = {});
     std::vector<Made> make(std::span<const device::KernelAsk> asks) const override;
 

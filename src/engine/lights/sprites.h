@@ -11,11 +11,11 @@
 
 namespace petzval::engine {
 
-// Adds lights that were found in the picture and those that are given, each in the light of its lamp.
-// `input`: all of what may stand in their way.
+// Adds the lights found in the picture and the given ones, each in the light of its lamp. `input`: everything
+// that may occlude them.
 device::Work draw_sprites(const EngineView& input, std::span<const Sprite> found, device::Target out);
 
-// What drawing them takes besides the picture and the result.
+// Memory that drawing them takes besides the picture and the result.
 std::size_t sprites_bytes(const EngineView& input, std::size_t found);
 
 }  // namespace petzval::engine

@@ -55,7 +55,7 @@ float white_of(View<const Rgba> picture) {
     return float(4 * sum / (double(picture.width()) * picture.height()));
 }
 
-// How much of a sample's luminance stays, as a share of it.
+// The fraction of a sample's luminance that stays in the surface.
 float share_that_stays(const CocSample& s, float surroundings, float white) {
     if (s.colour.a <= kLeastCoverage) return 0;
     const float light = luminance(s.colour);

@@ -7,7 +7,7 @@
 
 namespace petzval::engine {
 
-// What was taken out of one sample; a is 0: the surface itself stays.
+// The bright light of one sample, taken out of it; a is 0, because the surface itself stays.
 struct BrightPoint {
     int x = 0, y = 0;
     float coc_px = 0;

@@ -6,7 +6,7 @@
 namespace petzval::engine {
 namespace {
 
-// What is nearer by less than this is the source's own surface, or as good as that.
+// A surface that is nearer by less than this is the source's own, or cannot be distinguished from it.
 constexpr double kOwnSurfacePx = 0.02;
 // Below this radius a tap is as wide as much of the pupil: rays are counted instead of taps probed.
 constexpr double kFewTapsPx = 4;

@@ -7,7 +7,7 @@
 
 namespace petzval::engine {
 
-// A source at the centre of a pixel, and what its rays can meet on the way to the lens.
+// A source at the centre of a pixel, and the surfaces that its rays can meet on the way to the lens.
 struct RaySource {
     double x = 0, y = 0;  // picture coordinates, pixel centres at +0.5
     double coc_px = 0;

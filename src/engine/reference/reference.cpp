@@ -1,14 +1,15 @@
-// The definition of a correct result (docs/conventions.md), evaluated.
+// Evaluates the definition of a correct result (docs/conventions.md).
 //
 // For each output pixel and each of many pupil points u, the ray  q(c) = p - c u  is followed to the first
-// surface it meets. Instead of walking every ray, all rays of one pupil point are answered at once: seen
-// through u, a facet at signed radius c stands at its place + c u, so the facets of a tile are drawn there,
-// nearest in front, and every pixel looks up what covers its centre. Facets are a pixel wide: that is the box
-// filter, once. A facet that covers only part of its pixel is there for that share of the pupil points; in a
-// deep picture it lets the rest of every ray through to what the ray meets next.
+// surface it meets. Instead of walking every ray, the engine answers all rays of one pupil point at once:
+// seen through u, a facet at signed radius c stands at its place + c u. The facets of a tile are drawn there,
+// nearest in front, and every pixel looks up the facet that covers its centre. Facets are a pixel wide, which
+// is the box filter, once. A facet that covers only a fraction of its pixel is present for that fraction of
+// the pupil points; in a deep picture it lets the rest of every ray through to the next surface.
 //
-// Bright points would be hit by few pupil points and come out dotted; they are taken out first and spread
-// with the lens's exact kernel, each tap dimmed by the share of its rays that a nearer surface stops.
+// Few pupil points would hit bright points, which would come out dotted. So these are taken out first and
+// spread with the lens's exact kernel, each tap dimmed by the fraction of its rays that a nearer surface
+// stops.
 #include "engine/reference/reference.h"
 
 #include "base/parallel.h"
@@ -272,8 +273,8 @@ double largest_radius(const EngineView& input) {
     return largest;
 }
 
-// The scene goes on beyond the picture as far as a ray may come from, so wide radii take memory: refused in
-// good time rather than tried.
+// Refuses radii that take too much memory, before any work: the scene continues beyond the picture as far as
+// a ray may come from.
 Status surfaces_fit(const EngineView& input, const CocSamples& samples, int margin) {
     constexpr double kMost = double(std::size_t(8) << 30);
     const double pixels = double(input.width()) * input.height();
@@ -291,7 +292,7 @@ Status surfaces_fit(const EngineView& input, const CocSamples& samples, int marg
     return error;
 }
 
-// Where the lens looks past what is near and nothing is stated to lie there, rays end in emptiness.
+// Warns that rays end in emptiness where the lens sees past a near surface and no hidden layer is given.
 void say_what_is_not_known(const EngineView& input, Output& output) {
     constexpr float kCovered = 0.98f;
     if (!input.samples.deep.empty()) return;

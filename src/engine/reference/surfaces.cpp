@@ -12,9 +12,10 @@ namespace {
 
 constexpr float kAlwaysConnectedPx = 1.0f;
 
-// Whether samples of neighbouring pixels are one surface. On a plane the radius changes by the same amount
+// True if samples of neighbouring pixels are one surface. On a plane the radius changes by the same amount
 // from pixel to pixel, so a step that nearly equals the one before it or the one after it (signed changes of
-// radius) goes on a slope. One of up to a pixel of radius hides nothing wider than that, and always does.
+// radius) continues a slope. A step of up to one pixel of radius hides nothing wider than that, and always
+// continues the surface.
 bool is_one_surface(float step_px, float step_before_px, float step_after_px) {
     const float most_off = 0.5f * std::abs(step_px);
     return std::abs(step_px) <= kAlwaysConnectedPx || std::abs(step_px - step_before_px) <= most_off ||

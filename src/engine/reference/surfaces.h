@@ -22,10 +22,10 @@ struct Facet {
     float coc_px = 0;             // signed radius at the centre
     float corner_coc_px[4];       // at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
 
-    // Whether a facet that leaves the rest of its pixel to others is there for a ray of this chance (0…1);
-    // over all chances it is, for just its share. Partly covering facets of one pixel lie beside each other
-    // as long as there is room (two surfaces that meet in a pixel), so each takes the part of the unit
-    // interval that follows those in front of it.
+    // True if a facet that covers part of its pixel is present for a ray of this chance (0…1); over all
+    // chances it is present for exactly its coverage. Partly covering facets of one pixel lie beside each
+    // other as long as there is room (two surfaces that meet in a pixel), so each takes the part of the unit
+    // interval that follows the parts of the facets in front of it.
     bool takes(double chance_of_ray) const {
         const double from = chance_of_ray - double(coverage_in_front);
         return coverage >= 1 || from - std::floor(from) < double(coverage);
@@ -45,8 +45,8 @@ public:
     // dims_itself: as Samples::deep_dims_itself.
     static Surfaces make(const CocSamples& samples, const OpenEdges& open, int margin, bool dims_itself,
                          Workers& workers);
-    // Whether a facet that covers part of its pixel lets through its share of whatever lies behind it (fog),
-    // or leaves the rest of the pixel's area to others (silhouettes).
+    // True if a facet that covers part of its pixel lets through a fraction of the light behind it (fog);
+    // false if the rest of the pixel's area belongs to other facets (silhouettes).
     bool dims_itself() const { return dims_itself_; }
 
     // The area covered, in picture coordinates: the picture grown by the margin.

@@ -9,7 +9,7 @@
 
 namespace petzval::kernel {
 
-// As many wavelengths are cast through the pupil, at least.
+// The least number of wavelengths that are cast through the pupil.
 inline constexpr int kLeastWavelengths = 31;
 
 // Neighbouring bands; what they share is their mean, each with its say.
@@ -19,15 +19,16 @@ struct BandGroup {
     colour::SpectralBand sum;  // of r, g, b and luminance; the mean wavelength
 };
 
-// What the eye makes of a band; from linear Rec.709 (IEC 61966-2-1). A colour that it sees is never below 0.
+// The visual weight of a band, from linear Rec.709 (IEC 61966-2-1). A visible colour never weighs less than
+// 0.
 inline double say_of(const colour::SpectralBand& b) {
     return std::max(1e-9, 0.6443 * b.r + 1.1920 * b.g + 1.2032 * b.b);
 }
 
-// `count` groups over the spectrum, of `wavelengths` bands or more together; of one band each where that is
-// what is asked for. Groups are narrow where the eye sees much: as many per nanometre as the cube root of
-// what is said there, which is best for a mean square error (P. F. Panter, W. Dite, 1951).
-// Lines of a lamp are a group each, whatever `count`.
+// Divides the spectrum into `count` groups with `wavelengths` bands or more together; one band each if the
+// caller asks for as many groups. Groups are narrow where the visual weight is high: their number per
+// nanometre is proportional to the cube root of the weight, which is best for a mean square error (P. F.
+// Panter, W. Dite, 1951). Each line of a lamp is a group, whatever `count`.
 inline std::vector<BandGroup> band_groups(int count, int wavelengths = kLeastWavelengths,
                                           LightSpectrum light = LightSpectrum::Daylight) {
     constexpr int kLeastEach = 4;

@@ -81,7 +81,7 @@ public:
                 const Point c = landed[mesh_.at(j + 1, k + 1)];
                 const int before = k == 0 ? mesh_.spokes() - 1 : k - 1;
                 const double beyond = j + 1 < mesh_.rings() ? density_[mesh_.at(j + 1, k)].inner : 0;
-                // Every edge is drawn once, with what lies on its one side less what lies on the other.
+                // Every edge is drawn once, with the density on its one side less the density on the other.
                 draw_edge(a, d, here.outer - density_[mesh_.at(j, before)].inner);
                 draw_edge(d, c, here.outer - beyond);
                 draw_edge(a, c, here.inner - here.outer);

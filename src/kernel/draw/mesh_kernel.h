@@ -26,14 +26,14 @@ struct MeshPupil {
 
 struct MeshBand {
     Light weight;  // share of the channels
-    // Where points of the pupil land, in pixels; landed has room for one per point.
+    // Landing points of pupil points, in pixels; landed has room for one per point.
     std::function<void(std::span<const Point> pupil, Point* landed)> land;
 };
 
 // Channels sum to 1; colours are not mapped.
 PointSpread mesh_kernel(const MeshPupil& pupil, const std::vector<MeshBand>& bands);
 
-// How fine a mesh must be for a kernel that reaches size_px: cells two pixels thick (three at 200 px), chords
+// Resolution of the mesh for a kernel that reaches size_px: cells two pixels thick (three at 200 px), chords
 // 0.05 px off their arcs. Rings; the longest distance of a chord of the outline from its arc, and its longest
 // edge, pupil radii.
 int mesh_rings(double size_px);

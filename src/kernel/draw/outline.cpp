@@ -72,8 +72,8 @@ Crossings crossings(const Circle& circle, Point p, Point q) {
     return {{first, second}, 2};
 }
 
-// Angle from p to q about the circle's centre, 0…2 pi; `about_none`: of two points that are one but for
-// rounding.
+// Angle from p to q about the circle's centre, 0…2 pi; `about_none`: the angle of two points that differ by
+// rounding only.
 double turn_about(const Circle& circle, Point p, Point q, double about_none) {
     const Point a = p - circle.centre, b = q - circle.centre;
     const double turn = std::atan2(cross(a, b), a.x * b.x + a.y * b.y);

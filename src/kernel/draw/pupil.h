@@ -14,8 +14,8 @@
 
 namespace petzval::kernel {
 
-// Aperture, barrel and what lies in the pupil, of one lens on one camera. Coordinates as in outline.h, before
-// pixel aspect.
+// Aperture, barrel, and the dust and textures in the pupil, of one lens on one camera. Coordinates as in
+// outline.h, before pixel aspect.
 class Pupil {
 public:
     // Requires: check_aperture(choice).
@@ -48,7 +48,7 @@ private:
 // Tangent of the angle at which the camera's pinhole sees the corner of the picture (field size 1).
 double corner_tangent(const Mount& mount);
 
-// Errors: InvalidArgument naming the number that is out of range and what would be accepted.
+// Errors: InvalidArgument naming the number that is out of range and its accepted range.
 Status check_aperture(const LensChoice& choice);
 
 // `count` points of equal share of the outline's area: a Hammersley set (i/n, radical inverse of i) shifted

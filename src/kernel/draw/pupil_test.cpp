@@ -1,4 +1,4 @@
-// What shapes and dims the pupil: barrel, doors, iris, texture, pictures of discs.
+// Tests of everything that shapes and dims the pupil: barrel, doors, iris, texture, pictures of discs.
 #include "kernel/draw/pupil.h"
 
 #include "kernel/lenses/kernel_testing.h"
@@ -24,7 +24,7 @@ LensChoice with(auto set, const std::string& name = "ideal") {
     return choice;
 }
 
-// A transmission that is dark but for a square in its upper right quarter.
+// A transmission that is dark except for a square in its upper right quarter.
 std::shared_ptr<const Plane> upper_right() {
     auto plane = std::make_shared<Plane>(64, 64, 0.0f);
     for (int y = 12; y < 24; ++y)
@@ -51,7 +51,7 @@ TEST(Barrel, AHoodAt120DegreesCutsByItsShadow) {
     wide.camera.focal_length_mm = 18 / std::tan(60 * std::numbers::pi / 180);   // 36 mm are seen under 120
     const double pupil_mm = wide.camera.focal_length_mm / 4, distance_mm = 10;  // of f/2
     const double field = 18 / (0.5 * std::hypot(36.0, 20.25));  // the middle of the frame's right edge
-    // Where its edge crosses the pupil's middle it leaves half, less by how it is bent.
+    // An edge through the pupil's middle leaves half of it, less the part that its bend cuts.
     LensChoice choice;
     choice.barrel = {{distance_mm * std::tan(60 * std::numbers::pi / 180), distance_mm}};
     const auto area_of = [&](FieldPosition at) { return 1 / brightest(spread(choice, 30, at, wide)); };

@@ -163,7 +163,7 @@ Displacement RayMapFitter::landing(const optics::Beam& beam, const optics::Senso
 }
 
 OpenStop OpenStop::of(const optics::Beam& beam, int corners) {
-    // The middle of what passes, on a coarse grid.
+    // The middle of the transmitted light, on a coarse grid.
     constexpr int kGrid = 12;
     OpenStop open;
     int count = 0;

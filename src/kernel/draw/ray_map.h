@@ -1,4 +1,4 @@
-// Where the rays of one object point land, as polynomials of where they cross the stop.
+// Landing points of the rays of one object point, as polynomials of their positions in the stop.
 //
 // Everything is symmetric about the plane through the axis and the object, so along the field's direction
 // only even powers of the coordinate across it occur, and across it only odd ones.
@@ -25,7 +25,7 @@ struct PupilPowers {
     explicit PupilPowers(Point pupil);
 };
 
-// Where along^i across^j stands, in `even` if j is and else in `odd`. Requires: i + j <= kRayMapDegree.
+// Index of along^i across^j, in `even` if j is even, otherwise in `odd`. Requires: i + j <= kRayMapDegree.
 std::size_t place_of_power(std::size_t i, std::size_t j);
 
 // A displacement in the picture, (along, across) the field's direction.
@@ -37,7 +37,8 @@ struct Displacement {
     Displacement& add(double factor, const Displacement& other);
 };
 
-// Where many points of the pupil land; `landed` has room for one per point. Some points at a time (SIMD).
+// Computes the landing points of many pupil points, several at a time (SIMD); `landed` has room for one per
+// point.
 void land(const Displacement& map, std::span<const Point> pupil, Point* landed);
 // The value of a polynomial of even powers at many points of the pupil.
 void values_at(const std::array<double, kEvenTerms>& polynomial, std::span<const Point> pupil,
@@ -75,7 +76,7 @@ public:
     }
     // Requires: usable(). Rays that do not get through at this wavelength count as those of the primary one.
     RayMap fit(const optics::Beam& beam) const;
-    // Where the light of another object in the same direction lands, in mm from the chief ray of its primary
+    // The landing of light from another object in the same direction, in mm from the chief ray of its primary
     // wavelength. Rays that do not get through count as those of the object in focus on a sensor moved by
     // shift_mm.
     Displacement landing(const optics::Beam& beam, const optics::SensorRay& chief, double shift_mm) const;

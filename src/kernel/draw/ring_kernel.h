@@ -23,7 +23,7 @@ struct RingBand {
     std::function<double(double area)> light = {};  // per area of the pupil; empty: 1 everywhere
 };
 
-// Landings of a function that tells one.
+// Landings of a given function.
 template <typename Landing>  // double(double area)
 auto at_each(Landing landing) {
     return [landing](std::span<const double> areas, double* landed) {
@@ -42,7 +42,7 @@ enum class RingColours {
 };
 PointSpread ring_kernel(const std::vector<RingBand>& bands, double reach_px,
                         RingColours colours = RingColours::Raw);
-// Of the same kernel, the pixels from the source's own to the right.
+// The row of pixels of the same kernel from the source's own pixel to the right.
 std::vector<Rgba> ring_row(const std::vector<RingBand>& bands, double reach_px,
                            RingColours colours = RingColours::Raw);
 

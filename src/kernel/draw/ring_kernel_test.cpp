@@ -91,7 +91,8 @@ TEST(MeshKernel, AgreesWithExactRings) {
 }
 
 TEST(MeshKernel, IsSmoothWithoutGrain) {
-    // Around a circle inside a far disc the weight must not change: neighbours differ by what the mesh adds.
+    // Around a circle inside a far disc the weight must not change: neighbours differ by the mesh's error
+    // only.
     const PointSpread s = cubic_mesh(40, 12);
     const double middle = double(weight_at(s, 20, 0).g);
     for (const auto& [x, y] : {std::pair{12, 16}, {16, 12}, {0, 20}, {-16, 12}, {-20, 0}, {12, -16}})

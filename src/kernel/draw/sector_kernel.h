@@ -16,7 +16,7 @@
 
 namespace petzval::kernel {
 
-// What has arrived along one direction after each zone of the pupil, in all bands.
+// The light that has arrived along one direction after each zone of the pupil, in all bands.
 class RingSweep {
 public:
     // reach_px: largest |landing| of all bands.

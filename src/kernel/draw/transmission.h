@@ -1,4 +1,4 @@
-// What lies in the pupil and dims it: an aperture image, dust, scratches, turning marks.
+// Textures in the pupil that dim it: an aperture image, dust, scratches, turning marks.
 #pragma once
 
 #include "petzval/image.h"

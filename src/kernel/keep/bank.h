@@ -37,7 +37,7 @@ public:
     std::shared_ptr<const PointSpread> kernel(double coc_radius_px, FieldPosition field) const {
         return kernel(place(coc_radius_px, field));
     }
-    // What a kernel is asked for by: those of one place are one kernel.
+    // The properties that identify a kernel: asks with the same place share one kernel.
     struct Place {
         int step = 0, cell = 0;
     };

@@ -84,7 +84,7 @@ PointSpread unpacked(const Record& r, const std::vector<float>& floats) {
     return kernel;
 }
 
-// Whether these are weights that a lens may have: finite, none negative, each channel's sum 1.
+// True if a lens may have these weights: finite, none negative, each channel's sum 1.
 bool are_weights(const Record& r, const std::vector<float>& floats) {
     const std::size_t channels = r.neutral ? 1 : 3;
     std::array<double, 3> sums{};
@@ -96,12 +96,12 @@ bool are_weights(const Record& r, const std::vector<float>& floats) {
                        [](double sum) { return std::abs(sum - 1) < 1e-3; });
 }
 
-// Whether nobody but this user and the administrator can have put it there.
+// True if only this user or the administrator can have put the file there.
 bool is_ours(const struct stat& about) {
     return (about.st_uid == geteuid() || about.st_uid == 0) && (about.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-// Of a folder that is there; "" if kernels may be kept in it.
+// The reason why an existing folder cannot keep kernels; "" if it can.
 std::string why_no_use(const std::string& path) {
     struct stat about {};
     if (stat(path.c_str(), &about) != 0) return "";
@@ -130,7 +130,7 @@ std::string own_name() {
     return std::to_string(now) + "-" + std::to_string(getpid()) + "-" + std::to_string(count++);
 }
 
-// Removes the segments that were not used longest, and what runs that died left behind.
+// Removes the segments that were unused for longest, and the remains of runs that died.
 void make_room(const std::string& folder, std::size_t max_bytes) {
     struct File {
         fs::file_time_type used;

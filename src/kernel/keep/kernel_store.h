@@ -23,7 +23,8 @@
 
 namespace petzval::kernel {
 
-// Of one lens. Threads may use it at once. Never an error: without a usable folder it holds nothing.
+// The kept kernels of one lens. Threads may use it at once. Never an error: without a usable folder it holds
+// nothing.
 class KernelStore {
 public:
     // max_bytes: of all lenses together; the segments that were not used longest go first.
@@ -38,7 +39,7 @@ public:
         friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): not one
     };
     std::optional<PointSpread> find(const Key& key) const;
-    // Kernels above an eighth of what may be kept, all together, are not kept.
+    // Keeps a kernel, unless the kernels of this run would then take more than an eighth of the limit.
     void add(const Key& key, const PointSpread& kernel);
 
     std::size_t kernels_found() const { return found_; }

@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    // To 2^-24, so that places that mirror each other but for rounding are the same; never -0.
+    // Rounds to 2^-24, so that mirrored places that differ by rounding are the same; never -0.
     static double rounded(double field) {
         return std::ldexp(std::nearbyint(std::ldexp(field, 24)), -24) + 0.0;
     }

@@ -21,8 +21,8 @@ struct RememberedKernel {
 // One budget for all lenses that share it: the kernels not asked for longest go first.
 using RememberedKernels = KernelCache<RememberedKernel>;
 
-// The lens itself if it is quick. Bits depend on what is asked, not on what was asked before.
-// Requires: no other lens has this number in `kernels`.
+// The lens itself if it is quick. The bits of a kernel depend on its own ask, not on earlier ones. Requires:
+// no other lens has this number in `kernels`.
 std::unique_ptr<const LensModel> remembered(std::unique_ptr<const LensModel> lens,
                                             std::shared_ptr<RememberedKernels> kernels, int number);
 

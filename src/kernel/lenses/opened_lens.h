@@ -27,8 +27,8 @@ const optics::Prescription* prescription_of(const Lens& lens);
 // Null for lenses with surfaces.
 const optics::AberrationCurves* curves_of(const Lens& lens);
 
-// Names everything that decides the kernels of a lens on a camera: the lens, what of the camera and the
-// picture's size matters to it, and the program's build. Empty if the build cannot be told from others.
+// A key of everything that decides the kernels of a lens on a camera: the lens, the properties of the camera
+// and of the picture's size that matter to it, and the program's build. Empty if the build has no id.
 std::string lens_key(const Lens& lens, const Mount& mount);
 
 }  // namespace kernel

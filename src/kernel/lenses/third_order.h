@@ -1,12 +1,11 @@
-// What is added to a lens's own aberrations: LensChoice::added, ::coma and ::astigmatism, the same on any
-// lens.
+// Aberrations added to a lens's own: LensChoice::added, ::coma and ::astigmatism, the same on any lens.
 //
 // The wavefront at pupil point (x along the field's direction, y across it; rho^2 = x^2 + y^2), field h and
 // wavelength w is
 //     W = W040 rho^4 + W131 h x rho^2 + W222 h^2 (...) + W220 h^2 rho^2 + (colour of w) (W020 rho^2 + W111 h
 //     x)
 // and rays land at -2 N grad W, N the f-number (W. T. Welford, Aberrations of Optical Systems, 1986, ch. 7
-// and 8; Goodman, Introduction to Fourier Optics, ch. 6). Here are the sizes of what they land by.
+// and 8; Goodman, Introduction to Fourier Optics, ch. 6). This file holds the sizes of these landings.
 #pragma once
 
 #include "kernel/draw/ray_map.h"

@@ -11,7 +11,7 @@
 namespace petzval::kernel {
 namespace {
 
-// A channel is paid when it lacks no more than this share of its light: as rounding of weights.
+// A channel is complete when less than this fraction of its light is missing, as after rounding of weights.
 constexpr double kPaid = 1e-6;
 constexpr int kWider = 3;  // from one square of neighbours to the next
 
@@ -55,8 +55,8 @@ private:
     Values running_, along_;
 };
 
-// Within squares that grow, each pixel that lacks light asks its neighbours, each of which gives in
-// proportion to what it has and never more. Every step only passes on, so the sum stays.
+// Within growing squares, each pixel with missing light asks its neighbours, and each gives in proportion to
+// its light and never more. Every step only moves light, so the sum stays.
 void take_from_the_nearest(Values& light, int width, int height) {
     Values lacking(light.size());
     for (std::size_t i = 0; i < light.size(); ++i) {

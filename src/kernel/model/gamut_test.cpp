@@ -51,7 +51,7 @@ TEST(MapIntoGamut, LightThatCanBeShownStaysWhereItIs) {
             const Rgba w = mapped.weights(x, y), before = raw.weights(x, y);
             EXPECT_NEAR(w.g, before.g, 2e-6f * before.g);
             EXPECT_NEAR(w.b, before.b, 2e-6f * before.b);
-            // Red lacks 4 pixels deep: it is taken within 9 pixels across and down, 12.8 aslant.
+            // Red is negative 4 pixels deep: its light is taken within 9 pixels across and down, 12.8 aslant.
             if (radius_at(x, y) < 5) {
                 EXPECT_NEAR(w.r, before.r, 2e-6f * before.r);
             }

@@ -40,13 +40,13 @@ struct PupilRay {
     Rgba weight;
 };
 
-// Whether the kernel at a mirrored field position is the mirrored kernel.
+// The mirrorings of field position that mirror the kernel too.
 struct Mirrors {
     bool left_right = false;  // (-x, y) against (x, y)
     bool up_down = false;     // (x, -y) against (x, y)
 };
 
-// What a lens needs to know to speak in pixels.
+// The camera and picture size that turn a lens's millimetres into pixels.
 struct Mount {
     Camera camera;
     int display_width_px = 0, display_height_px = 0;
@@ -80,7 +80,7 @@ public:
 
     virtual std::string description() const = 0;
 
-    // Whether kernels are made faster than they could be read from a disk.
+    // True if kernels are made faster than they could be read from a disk.
     virtual bool is_quick() const { return !varies_over_field(); }
 
     // The same lens on the same camera, for pictures of another size of pixels, if that costs less than to

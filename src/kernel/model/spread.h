@@ -11,7 +11,7 @@ namespace petzval::kernel {
 // All light on the pixel of the source.
 PointSpread single_pixel();
 
-// What the kernel is at a place that mirrors its own. Mirrors never leave gaps: pixel 0 stays where it is.
+// The kernel at the mirrored place. Mirroring never leaves gaps: pixel 0 stays where it is.
 PointSpread mirrored(const PointSpread& from, bool left_right, bool up_down);
 
 // The sum of kernels, each times its share.
@@ -24,7 +24,7 @@ PointSpread mixed(std::span<const Share> shares);
 // Drops border rows and columns that hold no light.
 void trim(PointSpread& spread);
 
-// What alpha is blurred with: the luminance of the weights, and exactly them where they are neutral.
+// The weight that blurs alpha: the luminance of the weights, and exactly the weights if they are neutral.
 inline float alpha_of(const Rgba& w) { return w.r == w.g && w.g == w.b ? w.g : luminance(w); }
 
 // Scales r, g, b to sum to 1 each, sets a to alpha_of them, and notes whether all are equal.
