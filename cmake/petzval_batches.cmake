@@ -17,7 +17,7 @@ set(petzval_alone
     "src/glare/streaks"
     "src/device/vulkan/.*"
     "src/lens_facts/lens_section"
-    "src/session/(take_test|session)"
+    "src/session/(take_test|session|add_glare_test)"
     "src/files/(tiff|depth_choice|hostile_exr_test|motion_choice_test|exr_deep_write|layer_choice.*|read_frame.*)"
     "src/lens_sheet/.*"
     "src/shot/(shot_camera|shot_test|seen_elsewhere_test|other_lamps_test)"

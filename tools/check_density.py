@@ -15,12 +15,12 @@ CROWDED = {
     "apps/cli": 64,
     "src/engine/samples": 66,
     "src/device/vulkan": 62,
-    "include/petzval": 58,
+    "include/petzval": 60,
     "src/device/cpu": 45,
     "src/device/vulkan/shaders": 41,
 }
-CHAINED = 767
-NESTED = 72
+CHAINED = 760
+NESTED = 71
 
 STRIP = re.compile(r'//[^\n]*|"(\\.|[^"\\])*"|\'(\\.|[^\'\\])\'|/\*.*?\*/|^\s*#[^\n]*', re.DOTALL | re.MULTILINE)
 HEAD = re.compile(r"^((else|do) ?)?((if|for|while) ?)?")

@@ -37,7 +37,7 @@ ALLOWED = {
     "engine/sprites": WAIST | {"engine/lights", "engine/gather", "engine/gaussian"},
     "engine/reference": LENS | {"engine/waist"},
     "views": WAIST | {"device/cpu", "engine/lights", "engine/scatter"},
-    "glare": LENS | {"device", "device/cpu"},
+    "glare": LENS | {"device"},
     "names": {"base", "optics", "depth", "colour", "engine/waist", "glare"},
     "look": {"base", "image", "optics", "colour", "engine/waist", "glare", "names"},
     "scene": PIXELS | {"optics"},
@@ -50,7 +50,8 @@ ALLOWED = {
     "farm": {"base", "sequence"},
     "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session"},
     "c/files": PIXELS | {"c", "names", "scene", "session", "sequence", "shot", "files"},
-    "session": WAIST | ENGINES | {"device/cpu", "device/vulkan", "device/webgl", "depth", "views", "look", "glare"},
+    "session/rendered": PIXELS | {"laws", "optics", "depth", "engine/waist", "engine/samples"},
+    "session": WAIST | ENGINES | {"session/rendered", "device/cpu", "device/vulkan", "device/webgl", "depth", "views", "look", "glare"},
 }
 # What tests beside the code may see as well.
 TESTS = {
@@ -58,6 +59,8 @@ TESTS = {
     "kernel/draw": {"kernel/lenses"},
     "kernel/keep": {"kernel/lenses"},
     "engine/gather": {"kernel/lenses"},
+    "glare": {"device/cpu"},
+    "session/rendered": {"lens_facts", "session"},
     "session": {"lens_facts"},
 }
 # Devices know plans, the data that engines leave, and nothing else of engines.
@@ -111,6 +114,8 @@ PUBLIC = {
     "session": "session",
     "shot": "shot",
     "focus_track": "sequence",
+    "frame_stages": "session",
+    "rendered": "session/rendered",
     "frames": "sequence",
     "track": "sequence",
     "run_files": "sequence",

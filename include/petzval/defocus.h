@@ -9,8 +9,8 @@
 #include "petzval/export.h"
 #include "petzval/image.h"
 #include "petzval/lens.h"
-#include "petzval/light_spectrum.h"
 #include "petzval/place.h"
+#include "petzval/rendered.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
@@ -24,29 +24,16 @@
 
 namespace petzval {
 
-// Another picture of the same surfaces as the job's colour, same size, blurred by the same weights.
-struct ColourLayer {
-    View<const Rgba> colour;  // scene-linear, premultiplied; its alpha is not read
-    // True: light, of which the job's colour is the sum with that of other layers: layers that sum to it sum
-    // to it still when blurred. False: a matte or another value of surfaces, blurred as their coverage is.
-    bool is_light = true;
-    // Spectrum of this light, if it differs from LensChoice::light: its share of the job's colour is then
-    // treated as that lamp's too. For light only. Costs a frame per lamp. Not for engine gaussian, whose blur
-    // knows no wavelength.
-    std::optional<LightSpectrum> spectrum = {};
-};
-
+// All fields of Rendered, Look and Control in one struct: a thin shim over them (petzval/frame_stages.h).
 struct DefocusJob {
     View<const Rgba> colour;  // scene-linear, premultiplied
     // The picture that `colour` shows, where its owner needs it no more: the result may be put in its memory.
     // Whatever comes of the job, what it holds then is not said.
     Picture* spent_colour = nullptr;
-    View<const float>
-        depth_m;  // planar metres, same size; +infinity for a miss. Or, with depth_is_coc, radii
+    View<const float> depth_m;  // planar metres, same size; +infinity for a miss
     // The signed radius of every pixel instead of its depth, which stays empty: the camera is not asked, and
     // depths of `deep`, `behind` and `holdout` are radii too.
     View<const float> coc_px;
-    bool depth_is_coc = false;  // older: depth_m holds what coc_px is for
     // Treatment of soft silhouettes in depth_m, or in radii; not for deep pictures. The report's warnings
     // tell the outcome.
     DepthEdges depth_edges = DepthEdges::Auto;
@@ -118,7 +105,14 @@ PETZVAL_API std::vector<std::string> engine_names();
 // miss.
 PETZVAL_API Result<DefocusReport> defocus(const DefocusJob& job);
 
+struct Look;
+
 // The signed radius of every pixel, as the engines see it. Same errors as defocus().
+PETZVAL_API Result<Plane> circle_of_confusion(const Rendered& rendered, const Look& look,
+                                              Workers* workers = nullptr);
 PETZVAL_API Result<Plane> circle_of_confusion(const DefocusJob& job);
+
+// The pictures and camera of a job. Errors: InvalidArgument where it gives depth and radii.
+PETZVAL_API Result<Rendered> rendered_of(const DefocusJob& job);
 
 }  // namespace petzval

@@ -6,6 +6,7 @@
 #include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/look.h"
+#include "petzval/rendered.h"
 #include "petzval/result.h"
 #include "petzval/workers.h"
 
@@ -62,6 +63,11 @@ struct Control {
     // GPU is read back as codes if no later step needs its light on the CPU. Buffers that are shown instead
     // of a result stay images.
     std::optional<CodesWanted> codes = {};
+    // The look's lens, opened already: nothing is read. One of another choice is not used.
+    std::optional<Lens> lens = {};
+    ScatterView view = ScatterView::Result;  // engine scatter: what is shown in place of a result
+    // Bytes of the session's memory that the caller holds beside, as frames around it.
+    std::size_t held_bytes = 0;
 };
 
 struct SessionUsage {
@@ -88,19 +94,28 @@ public:
     // and not refused, as one look serves drafts and final frames; check() tells them beforehand. Errors:
     // also those of add_falloff(), add_glare(), expand_highlights() and of check(), before any work. All that
     // follows the blur is the stage "light" of the report.
+    // spare: as FrameStages::begin() has it.
+    Result<DefocusReport> take(Rendered rendered, const Look& look, const Control& control = {},
+                               Picture spare = {});
+    // Takes from a job its pictures, lens, view and memory. Other choices of the job that differ from the
+    // look are listed in the warnings.
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
 
     // What petzval::add_light() does. control.region: none; the picture is whole.
+    Result<Picture> add_light(Picture picture, const Rendered& rendered, const Look& look,
+                              const Control& control = {});
     Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look,
                               const Control& control = {});
 
     // Margin around a region that affects it, in pixels: four times the largest radius, or the reach of the
     // lens's light at that radius if larger, and 160 for the search of hidden outlines. Errors: those of
     // defocus().
+    Result<int> region_margin_px(const Rendered& rendered, const Look& look, const Control& control = {});
     Result<int> region_margin_px(const DefocusJob& job);
 
     // Largest distance, in pixels, between light of the largest radius and its source. Errors: those of
     // defocus().
+    Result<double> reach_px(const Rendered& rendered, const Look& look, const Control& control = {});
     Result<double> reach_px(const DefocusJob& job);
 
     SessionUsage usage() const;
@@ -108,6 +123,7 @@ public:
     void trim(std::size_t bytes);
 
 private:
+    friend class FrameStages;
     struct Contents;
     std::unique_ptr<Contents> contents_;
 };

@@ -3,12 +3,14 @@
 
 #include "petzval/workers.h"
 
+#include "base/ended.h"
 #include "base/progress.h"
 
 namespace petzval {
 
-// Thrown through our own code, caught at the session's door; never seen by a host.
-struct Cancelled {};
+struct Cancelled : Ended {
+    Cancelled() : Ended({ErrorCode::Cancelled, "cancelled"}) {}
+};
 
 // Workers whose loops (parallel_for) end with Cancelled once the progress is cancelled.
 class CancellableWorkers final : public Workers {

@@ -1,4 +1,5 @@
-// A device draws what engines plan: one verb per plan. A second device is a folder with the same file names.
+// A device draws what engines plan and lights and develops pictures that it drew. A second device is a folder
+// with the same file names.
 #pragma once
 
 #include "petzval/image.h"
@@ -63,7 +64,7 @@ struct Work {
     static Work of_taps(std::size_t taps) { return {48 * taps, 4 * taps}; }
 };
 
-// Any of its verbs may throw Failed (device/failure.h); nothing is then added to the result.
+// Any of its verbs may end with Failed (device/failure.h) or with Cancelled.
 class Device {
 public:
     Device() = default;

@@ -1,14 +1,13 @@
 // The failure of a frame whose device cannot continue.
 #pragma once
 
-#include "petzval/result.h"
+#include "base/ended.h"
 
 namespace petzval::device {
 
-// Thrown by a device through our own code, caught at the session's door (as Cancelled is); never seen by a
-// host.
-struct Failed {
-    Error error;
+// Nothing is then added to the result of the verb that threw it.
+struct Failed : Ended {
+    using Ended::Ended;
 };
 
 }  // namespace petzval::device

@@ -2,7 +2,7 @@
 #include "petzval/glare.h"
 
 #include "base/parallel.h"
-#include "device/cpu/cpu_device.h"
+#include "device/device.h"
 #include "glare/bloom.h"
 #include "glare/ghosts.h"
 #include "glare/kept_stars.h"
@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string>
 #include <utility>
 
 namespace petzval {
@@ -98,16 +99,6 @@ GlarePlan plan_of(const GlareSettings& s, double height, const Rect& picture, Ke
 
 }  // namespace
 
-Result<Picture> add_glare(View<const Rgba> picture, const GlareSettings& settings) {
-    device::Canvas canvas(Picture::uninitialised(picture.width(), picture.height()));
-    const View<Rgba> lit = canvas.view();
-    for (int y = 0; y < lit.height(); ++y) std::copy_n(picture.row(y), std::size_t(lit.width()), lit.row(y));
-    glare::KeptStars stars;
-    const Status added = glare::add_glare(canvas, settings, stars, device::cpu_device(), {});
-    if (!added) return added.error();
-    return canvas.take();
-}
-
 namespace glare {
 
 Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptStars& stars,
@@ -129,8 +120,7 @@ Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptSta
         if (!model) return model.error();
         const kernel::Point middle{display.x0 - data.x0 + 0.5 * display.width(),
                                    display.y0 - data.y0 + 0.5 * display.height()};
-        Picture bright = device.highlights(picture, float(s.threshold), *workers);
-        if (bright.empty()) bright = device::cpu_device().highlights(picture, float(s.threshold), *workers);
+        const Picture bright = device.highlights(picture, float(s.threshold), *workers);
         thrown = ghosts_of(bright, *model, middle, *workers);
         if (passed) passed("ghosts");
     }
@@ -138,7 +128,7 @@ Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptSta
     plan.ghost_light = thrown;
     if (passed && s.star > 0) passed("star's pattern");
     if (!device.add_glare(plan, picture, *workers, passed))
-        device::cpu_device().add_glare(plan, picture, *workers, passed);
+        return Error{ErrorCode::Unsupported, std::string(device.name()) + " cannot draw this glare"};
     return Done{};
 }
 

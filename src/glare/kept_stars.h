@@ -41,8 +41,9 @@ private:
     std::list<std::pair<StarShape, std::shared_ptr<const Filter>>> stars_;  // the last used first
 };
 
-// petzval::add_glare() with the stars of earlier frames, on this device, or on the CPU if the device cannot.
-// Throws the device's errors. passed: receives the times of ghosts, of a star's pattern, and of the device.
+// petzval::add_glare() with the stars of earlier frames, on this device, which can do it
+// (session/open_device.h). Throws the device's errors. passed: receives the times of ghosts, of a star's
+// pattern, and of the device.
 Status add_glare(device::Canvas& picture, const GlareSettings& settings, KeptStars& stars,
                  const device::Device& device, const device::Passed& passed);
 

@@ -1,17 +1,18 @@
-// What a session holds, and a frame as it is made.
+// The contents of a session.
 #pragma once
 
 #include "petzval/session.h"
 
 #include "base/cancel.h"
+#include "base/ended.h"
 #include "base/parallel.h"
-#include "device/failure.h"
 #include "glare/kept_stars.h"
+#include "session/blurred.h"
 #include "session/mounted_lens.h"
 #include "session/open_device.h"
+#include "session/request.h"
 
 #include <algorithm>
-#include <functional>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -20,9 +21,6 @@
 #include <utility>
 
 namespace petzval {
-
-// What is done to a picture before it comes home from what drew it; null afterwards: nobody needs it there.
-using Finish = std::function<Status(std::shared_ptr<device::Canvas>&)>;
 
 // Lenses that frames used, the last one first. Frames hold what they use, so that it may be let go of any
 // time.
@@ -43,34 +41,32 @@ struct Session::Contents {
         return settings.max_memory_bytes > 0 ? settings.max_memory_bytes / 8 : kUnlimited;
     }
 
-    // A defocus alone, and what is done to its picture last, if not empty. Errors: those of
-    // Session::defocus() and of `last`. Throws Cancelled.
-    Result<DefocusReport> defocus(const DefocusJob& given, const std::optional<Rect>& region,
-                                  Progress& progress, CancellableWorkers& workers, const Finish& last = {});
+    // The blur of one frame. region: the part of its data window that is wanted. spare: as
+    // FrameStages::begin() has it; null: none. Errors: those of Session::defocus(). Throws what ends a frame
+    // (base/ended.h). Requires: check_request(), the lens is open.
+    Result<Blurred> blur(const FrameRequest& request, const std::optional<Rect>& region, Picture* spare,
+                         Progress& progress);
 
     // The largest radius of a frame, and how far its light lands. Errors: those of Session::defocus().
     struct Reach {
         double radius_px = 0, light_px = 0;
     };
-    Result<Reach> reach(const DefocusJob& job);
+    Result<Reach> reach(const Rendered& rendered, const Look& look, const Control& control);
 
-    // Runs body(progress, workers), which gives a Result, for one frame.
+    // Runs body(), which gives a Result or a Status, for a frame of these workers. What ends it early comes
+    // back as an error.
     template <typename Body>
-    auto unless_cancelled(const Control& control, const Body& body) {
-        using Made = std::invoke_result_t<Body, Progress&, CancellableWorkers&>;
-        Progress progress(control.progress, control.cancelled);
-        CancellableWorkers cancellable(*settings.workers, progress);
-        const WorksFor these(cancellable);
+    static auto guarded(CancellableWorkers& workers, const Body& body) {
+        using Made = std::invoke_result_t<Body>;
+        const WorksFor these(workers);
         try {
-            return body(progress, cancellable);
-        } catch (const Cancelled&) {
-            return Made(Error{ErrorCode::Cancelled, "cancelled"});
-        } catch (const device::Failed& failed) {
-            return Made(failed.error);
+            return body();
+        } catch (const Ended& ended) {
+            return Made(ended.error);
         }
     }
 
-    // Errors: those of open_device(). Drivers take long to start: whoever asks for the same device waits,
+    // Errors: those of open_device(). Drivers take long to start: others who open the same device wait,
     // usage() and trim() do not.
     Result<std::shared_ptr<const device::Device>> opened_device() {
         const std::lock_guard starting(opening);
@@ -81,8 +77,8 @@ struct Session::Contents {
     }
 
     // Errors: those of the lens.
-    Result<std::shared_ptr<MountedLens>> lens_for(const DefocusJob& job) {
-        const std::string key = MountedLens::key_of(job);
+    Result<std::shared_ptr<MountedLens>> lens_for(const FrameRequest& request) {
+        const std::string key = MountedLens::key_of(request);
         if (!key.empty()) {
             const std::lock_guard lock(mutex);
             for (auto i = lenses.begin(); i != lenses.end(); ++i) {
@@ -91,14 +87,14 @@ struct Session::Contents {
                 return i->second;
             }
         }
-        auto made = MountedLens::make(job, most_kept_bytes());
+        auto made = MountedLens::make(request, most_kept_bytes());
         if (!made || key.empty()) return made;
         const std::lock_guard lock(mutex);
         lenses.emplace_front(key, *made);
         return made;
     }
 
-    // Of lenses that hold more than stars and the others leave them: first their kernels go, then they.
+    // Lenses that hold more than stars and other lenses leave them lose their kernels first, then go.
     void trim(std::size_t bytes) {
         constexpr std::size_t kMostLenses = 8;  // each holds tables besides its kernels
         const std::lock_guard lock(mutex);

@@ -6,6 +6,8 @@
 #include "engine/scatter/scatter.h"
 #include "engine/sprites/sprites.h"
 
+#include <string>
+
 namespace petzval::engine {
 
 std::span<const Engine> engines() {
@@ -26,3 +28,49 @@ std::span<const Engine> engines() {
 }
 
 }  // namespace petzval::engine
+
+namespace petzval {
+namespace {
+
+Error refuse_engine(const std::string& message, const char* field = "") {
+    return {ErrorCode::InvalidArgument, message, field};
+}
+
+// Errors: InvalidArgument where the engine takes no layers, or would mix them with what the picture alone
+// knows.
+Status check_layers(const FrameRequest& request, const engine::Engine& e) {
+    const Look& look = request.look;
+    if (request.rendered.layers.empty() || e.layers == engine::Layers::ByPlan) return Done{};
+    if (e.layers == engine::Layers::None)
+        return refuse_engine(
+            "shot.layers are blurred by job.engine scatter, gather and gaussian, not by " + look.engine,
+            "shot.layers");
+    if (request.rendered.deep || request.rendered.behind)
+        return refuse_engine(
+            "shot.layers of pictures with hidden layers are blurred by job.engine scatter alone, not by " +
+                look.engine,
+            "shot.layers");
+    if (look.gather.stage != GatherStage::Final || look.gaussian.view != GaussianView::Result)
+        return refuse_engine("shot.layers are blurred for results, not for stages and views", "shot.layers");
+    return Done{};
+}
+
+}  // namespace
+
+Result<const engine::Engine*> find_engine(const FrameRequest& request) {
+    const Look& look = request.look;
+    std::string known;
+    for (const engine::Engine& e : engine::engines()) {
+        if (look.engine != e.name) {
+            known += (known.empty() ? "" : ", ") + std::string(e.name);
+            continue;
+        }
+        if (const Status fine = check_layers(request, e); !fine) return fine.error();
+        if (request.rendered.holdout && !e.takes_holdout)
+            return refuse_engine("job.engine " + look.engine + " takes no holdout; scatter and reference do");
+        return &e;
+    }
+    return refuse_engine("job.engine " + look.engine + " is not known; there are: " + known);
+}
+
+}  // namespace petzval

@@ -38,18 +38,13 @@ Rect pixels_for(const Rect& region, int margin_px, int grid, const Rect& frame) 
     return Rect{seen.x0 / grid * grid, seen.y0 / grid * grid, up(seen.x1), up(seen.y1)}.intersected(frame);
 }
 
-Status check_region(const Rect& region, const DefocusJob& job) {
+Status check_region(const Rect& region, const FrameRequest& request) {
     const auto refuse = [](const char* why) { return Error{ErrorCode::InvalidArgument, why}; };
-    if (job.scatter.view != ScatterView::Result)
+    if (request.view != ScatterView::Result)
         return refuse("control.region is for results, not for layers, levels and highlights");
-    if (region.intersected(job.place.data_window).empty())
+    if (region.intersected(request.rendered.place.data_window).empty())
         return refuse("control.region lies outside of the data window");
     return Done{};
-}
-
-Rect made_pixels(const DefocusJob& job, const std::optional<Rect>& region) {
-    const Rect& all = job.place.data_window;
-    return (region ? region->intersected(all) : all).moved(-all.x0, -all.y0);
 }
 
 Picture part_of(const Picture& image, const Rect& pixels) {
@@ -59,29 +54,29 @@ Picture part_of(const Picture& image, const Rect& pixels) {
     return part;
 }
 
-FramePart::FramePart(const engine::EngineView& whole, const Rect& pixels)
-    : deep_(part_of(whole.samples.deep, pixels)),
-      holdout_(part_of(whole.samples.holdout, pixels)),
-      view_(whole) {
+engine::EngineView part_of(const engine::EngineView& whole, const Rect& pixels, PartMemory& memory) {
+    engine::EngineView view = whole;
     const engine::Samples& all = whole.samples;
-    engine::Samples& part = view_.samples;
+    engine::Samples& part = view.samples;
+    memory.deep = part_of(all.deep, pixels), memory.holdout = part_of(all.holdout, pixels);
     part.colour = all.colour.part(pixels);
     part.coc_px = all.coc_px.part(pixels);
     if (!all.depth_m.empty()) part.depth_m = all.depth_m.part(pixels);
     for (engine::SampleLayer& layer : part.layers) layer.colour = layer.colour.part(pixels);
-    if (!all.deep.empty()) part.deep = deep_;
+    if (!all.deep.empty()) part.deep = memory.deep;
     if (!all.plate.empty()) part.plate = all.plate.part(pixels);
-    if (!all.holdout.empty()) part.holdout = holdout_;
-    points_.assign(all.points.begin(), all.points.end());
-    for (LightPoint& p : points_) p.x -= float(pixels.x0), p.y -= float(pixels.y0);
-    part.points = points_;
-    // Where the part ends and the frame does not, the scene continues.
+    if (!all.holdout.empty()) part.holdout = memory.holdout;
+    memory.points.assign(all.points.begin(), all.points.end());
+    for (LightPoint& p : memory.points) p.x -= float(pixels.x0), p.y -= float(pixels.y0);
+    part.points = memory.points;
+    // The scene continues beyond edges of the part inside the frame.
     const Rect frame = all.colour.rect();
-    engine::OpenEdges& open = view_.window.open_edges;
+    engine::OpenEdges& open = view.window.open_edges;
     open.left = open.left || pixels.x0 > frame.x0, open.top = open.top || pixels.y0 > frame.y0;
     open.right = open.right || pixels.x1 < frame.x1, open.bottom = open.bottom || pixels.y1 < frame.y1;
-    view_.window.whole = &whole;
-    view_.lens = whole.lens.from(pixels.x0, pixels.y0);
+    view.window.whole = &whole;
+    view.lens = whole.lens.from(pixels.x0, pixels.y0);
+    return view;
 }
 
 }  // namespace petzval

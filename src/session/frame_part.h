@@ -1,13 +1,12 @@
 // Part of a frame, as an engine is to see it so that it draws the same bits there.
 #pragma once
 
-#include "petzval/defocus.h"
 #include "petzval/image.h"
 #include "petzval/result.h"
 
-#include "engine/waist/engine.h"
+#include "engine/waist/view.h"
+#include "session/request.h"
 
-#include <optional>
 #include <vector>
 
 namespace petzval {
@@ -22,25 +21,16 @@ int region_margin_px(double largest_radius_px, double reach_px);
 Rect pixels_for(const Rect& region, int margin_px, int grid, const Rect& frame);
 
 // Errors: InvalidArgument for a region without any pixel of the picture, or of what is not one.
-Status check_region(const Rect& region, const DefocusJob& job);
-
-// Of a job's pictures, those that a report of `region` of it holds; of all where there is none.
-Rect made_pixels(const DefocusJob& job, const std::optional<Rect>& region);
+Status check_region(const Rect& region, const FrameRequest& request);
 
 Picture part_of(const Picture& image, const Rect& pixels);
 
-class FramePart {
-public:
-    // Of a view that is whole and outlives this.
-    FramePart(const engine::EngineView& whole, const Rect& pixels);
-    FramePart(const FramePart&) = delete;
-    FramePart& operator=(const FramePart&) = delete;
-    const engine::EngineView& view() const { return view_; }
-
-private:
-    engine::CocSamples deep_, holdout_;
-    std::vector<LightPoint> points_;
-    engine::EngineView view_;
+// The samples and points that a part of a frame holds.
+struct PartMemory {
+    engine::CocSamples deep, holdout;
+    std::vector<LightPoint> points;
 };
+// The whole view and `memory` outlive the part.
+engine::EngineView part_of(const engine::EngineView& whole, const Rect& pixels, PartMemory& memory);
 
 }  // namespace petzval

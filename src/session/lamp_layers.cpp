@@ -10,13 +10,11 @@
 namespace petzval {
 namespace {
 
-LensChoice choice_of(const DefocusJob& job) { return job.opened_lens ? job.opened_lens->choice() : job.lens; }
-
 // Those that the lens is not made for anyhow.
-std::set<LightSpectrum> lamps_of(const DefocusJob& job) {
+std::set<LightSpectrum> lamps_of(const FrameRequest& request) {
     std::set<LightSpectrum> lamps;
-    for (const ColourLayer& layer : job.layers)
-        if (layer.spectrum && *layer.spectrum != choice_of(job).light) lamps.insert(*layer.spectrum);
+    for (const ColourLayer& layer : request.rendered.layers)
+        if (layer.spectrum && *layer.spectrum != request.look.lens.light) lamps.insert(*layer.spectrum);
     return lamps;
 }
 
@@ -25,17 +23,13 @@ Error refuse(const std::string& why) {
 }
 
 // The frame as it is with another light, of the layers that are made of it.
-Result<DefocusJob> lit_by(const DefocusJob& job, LightSpectrum lamp) {
-    DefocusJob lit = job;
-    lit.lens = choice_of(job);
-    lit.lens.light = lamp;
-    lit.opened_lens.reset();
-    if (job.opened_lens) {
-        auto lens = job.opened_lens->with(lit.lens);
-        if (!lens) return lens.error();
-        lit.opened_lens = std::move(*lens);
-    }
-    std::erase_if(lit.layers, [&](const ColourLayer& layer) { return layer.spectrum != lamp; });
+Result<FrameRequest> lit_by(const FrameRequest& request, LightSpectrum lamp) {
+    FrameRequest lit = request;
+    lit.look.lens.light = lamp;
+    auto lens = request.lens->with(lit.look.lens);
+    if (!lens) return lens.error();
+    lit.lens = std::move(*lens);
+    std::erase_if(lit.rendered.layers, [&](const ColourLayer& layer) { return layer.spectrum != lamp; });
     return lit;
 }
 
@@ -51,9 +45,11 @@ void exchange(Picture& image, Picture& layer, Picture lit) {
 
 }  // namespace
 
-Status check_lamps(const DefocusJob& job, const Look& look) {
-    for (const LightSpectrum lamp : lamps_of(job)) {
-        Look lit = look;
+bool has_lamps(const FrameRequest& request) { return !lamps_of(request).empty(); }
+
+Status check_lamps(const FrameRequest& request) {
+    for (const LightSpectrum lamp : lamps_of(request)) {
+        Look lit = request.look;
         lit.lens.light = lamp;
         for (const Error& idle : check(lit).idle)
             if (idle.field == "lens.light") return refuse("name a lamp, but " + idle.message);
@@ -61,26 +57,30 @@ Status check_lamps(const DefocusJob& job, const Look& look) {
     return Done{};
 }
 
-Result<DefocusReport> with_lamps(const DefocusJob& job, const MakeFrame& make) {
-    const std::set<LightSpectrum> lamps = lamps_of(job);
-    for (const ColourLayer& layer : job.layers)
+Result<Blurred> with_lamps(const FrameRequest& request, const MakeFrame& make) {
+    const std::set<LightSpectrum> lamps = lamps_of(request);
+    const std::vector<ColourLayer>& layers = request.rendered.layers;
+    for (const ColourLayer& layer : layers)
         if (layer.spectrum && !layer.is_light) return refuse("name a lamp for what is no light");
-    if (!lamps.empty() && job.engine == "gaussian")
+    if (!lamps.empty() && request.look.engine == "gaussian")
         return refuse("name a lamp; engine gaussian blurs all wavelengths alike");
-    auto report = make(job);
+    auto made = make(request);
+    if (!made || lamps.empty()) return made;
+    made->come_home();
+    DefocusReport& report = made->report;
     for (const LightSpectrum lamp : lamps) {
-        if (!report) break;
-        const auto lit = lit_by(job, lamp);
+        const auto lit = lit_by(request, lamp);
         if (!lit) return lit.error();
         auto of_lamp = make(*lit);
         if (!of_lamp) return of_lamp;
         std::size_t next = 0;
-        for (std::size_t i = 0; i < job.layers.size(); ++i)
-            if (job.layers[i].spectrum == lamp)
-                exchange(report->image, report->layers[i], std::move(of_lamp->layers[next++]));
-        report->stages.insert(report->stages.end(), of_lamp->stages.begin(), of_lamp->stages.end());
+        for (std::size_t i = 0; i < layers.size(); ++i)
+            if (layers[i].spectrum == lamp)
+                exchange(report.image, report.layers[i], std::move(of_lamp->report.layers[next++]));
+        const std::vector<StageTime>& stages = of_lamp->report.stages;
+        report.stages.insert(report.stages.end(), stages.begin(), stages.end());
     }
-    return report;
+    return made;
 }
 
 }  // namespace petzval

@@ -21,14 +21,15 @@ void mix(View<Rgba> blurred, View<const Rgba> sharp, View<const float> mask, Wor
 
 }  // namespace
 
-void limit_by_mask(DefocusReport& report, const DefocusJob& job, const Rect& pixels, Workers& workers) {
-    if (job.mask.empty() || !report.panels.empty()) return;
-    const View<const float> mask = job.mask.part(pixels);
-    mix(report.image.view(), job.colour.part(pixels), mask, workers);
+void limit_by_mask(DefocusReport& report, const Rendered& rendered, const Rect& pixels, Workers& workers) {
+    if (rendered.mask.empty() || !report.panels.empty()) return;
+    const View<const float> mask = rendered.mask.part(pixels);
+    mix(report.image.view(), rendered.colour.part(pixels), mask, workers);
     for (std::size_t i = 0; i < report.layers.size(); ++i) {
         // A layer has the alpha of the picture.
         Picture sharp = Picture::uninitialised(pixels.width(), pixels.height());
-        const View<const Rgba> colour = job.layers[i].colour.part(pixels), whole = job.colour.part(pixels);
+        const View<const Rgba> colour = rendered.layers[i].colour.part(pixels),
+                               whole = rendered.colour.part(pixels);
         for (int y = 0; y < sharp.height(); ++y)
             for (int x = 0; x < sharp.width(); ++x)
                 sharp(x, y) = {colour(x, y).r, colour(x, y).g, colour(x, y).b, whole(x, y).a};

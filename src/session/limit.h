@@ -1,4 +1,4 @@
-// DefocusJob::mask: where the effect is limited.
+// Rendered::mask: where the effect is limited.
 #pragma once
 
 #include "petzval/defocus.h"
@@ -7,8 +7,8 @@
 
 namespace petzval {
 
-// What the mask leaves of the effect in a report that holds `pixels` of the job's pictures, and in its
+// What the mask leaves of the effect in a report that holds `pixels` of the frame's pictures, and in its
 // layers. Buffers that are shown instead of the picture stay as they are.
-void limit_by_mask(DefocusReport& report, const DefocusJob& job, const Rect& pixels, Workers& workers);
+void limit_by_mask(DefocusReport& report, const Rendered& rendered, const Rect& pixels, Workers& workers);
 
 }  // namespace petzval

@@ -22,12 +22,12 @@ bool is_within(View<const Rgba> picture, float Rgba::*channel, Workers& workers)
 
 }  // namespace
 
-void keep_matte_range(DefocusReport& report, const DefocusJob& job, Workers& workers) {
+void keep_matte_range(DefocusReport& report, const Rendered& rendered, Workers& workers) {
     for (std::size_t i = 0; i < report.layers.size(); ++i) {
-        if (job.layers[i].is_light) continue;
+        if (rendered.layers[i].is_light) continue;
         Picture& blurred = report.layers[i];
         for (float Rgba::*const channel : kChannels) {
-            if (!is_within(job.layers[i].colour, channel, workers)) continue;
+            if (!is_within(rendered.layers[i].colour, channel, workers)) continue;
             parallel_for(blurred.height(), workers, [&](int y) {
                 for (int x = 0; x < blurred.width(); ++x) {
                     float& value = blurred(x, y).*channel;

@@ -8,20 +8,20 @@
 
 namespace petzval {
 
-kernel::Mount mount_of(const DefocusJob& job) {
-    return {job.camera, job.place.display_window.width(), job.place.display_window.height(),
-            job.place.pixel_aspect};
+kernel::Mount mount_of(const FrameRequest& request) {
+    return {request.rendered.camera, request.rendered.place.display_window.width(),
+            request.rendered.place.display_window.height(), request.rendered.place.pixel_aspect};
 }
 
-Status open_lens(DefocusJob& job) {
-    if (!job.opened_lens) {
-        auto lens = Lens::open(job.lens);
+Status open_lens(FrameRequest& request) {
+    if (!request.lens) {
+        auto lens = Lens::open(request.look.lens);
         if (!lens) return lens.error();
-        job.opened_lens = std::move(*lens);
+        request.lens = std::move(*lens);
     }
-    job.lens = job.opened_lens->choice();
-    if (job.lens.distortion == 0) return Done{};
-    const auto model = kernel::make_lens(*job.opened_lens, mount_of(job));
+    request.look.lens = request.lens->choice();
+    if (request.look.lens.distortion == 0) return Done{};
+    const auto model = kernel::make_lens(*request.lens, mount_of(request));
     return model ? Status(Done{}) : model.error();
 }
 
@@ -30,15 +30,15 @@ namespace {
 using LensLevels = std::vector<std::unique_ptr<const kernel::LensModel>>;
 
 // The lens as engines see it: distortion comes last, of discs and picture at once.
-Lens before_distortion(const DefocusJob& job, std::optional<LightSpectrum> light = {}) {
-    LensChoice straight = job.opened_lens->choice();
+Lens before_distortion(const FrameRequest& request, std::optional<LightSpectrum> light = {}) {
+    LensChoice straight = request.lens->choice();
     straight.distortion = 0;
     if (light) straight.light = *light;
-    return job.opened_lens->with(straight).value();  // which asks for less than what was granted
+    return request.lens->with(straight).value();  // which asks for less than what was granted
 }
 
-std::string key_of_kernels(const DefocusJob& job) {
-    return kernel::lens_key(before_distortion(job), mount_of(job));
+std::string key_of_kernels(const FrameRequest& request) {
+    return kernel::lens_key(before_distortion(request), mount_of(request));
 }
 
 // The largest radius in cells of the last level is 4, fewer than any engine needs.
@@ -46,10 +46,10 @@ constexpr int kLevels = 13;
 
 // The lens on the picture's pixels, and on coarser ones for engines that work at several resolutions.
 // first_number: of its levels in `remembered`.
-Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kernel::KernelStore>& store,
+Result<LensLevels> lens_levels(const FrameRequest& request, const std::shared_ptr<kernel::KernelStore>& store,
                                const std::shared_ptr<kernel::RememberedKernels>& remembered, int first_number,
                                std::optional<LightSpectrum> light = {}) {
-    auto levels = kernel::make_lens_levels(before_distortion(job, light), mount_of(job), kLevels);
+    auto levels = kernel::make_lens_levels(before_distortion(request, light), mount_of(request), kLevels);
     if (!levels) return levels;
     for (std::size_t i = 0; i < levels->size(); ++i) {
         auto& lens = (*levels)[i];
@@ -60,47 +60,48 @@ Result<LensLevels> lens_levels(const DefocusJob& job, const std::shared_ptr<kern
 }
 
 // Null where nothing is to be kept. The reference engine asks for a new radius with every point of light.
-std::shared_ptr<kernel::KernelStore> store_for(const DefocusJob& job) {
-    if (job.kernel_cache_folder.empty() || job.engine == "reference") return nullptr;
-    return std::make_shared<kernel::KernelStore>(job.kernel_cache_folder, key_of_kernels(job),
-                                                 job.kernel_cache_bytes);
+std::shared_ptr<kernel::KernelStore> store_for(const FrameRequest& request) {
+    if (request.kernel_cache_folder.empty() || request.look.engine == "reference") return nullptr;
+    return std::make_shared<kernel::KernelStore>(request.kernel_cache_folder, key_of_kernels(request),
+                                                 request.kernel_cache_bytes);
 }
 
 // Of given points, but for that of the picture.
-std::set<LightSpectrum> spectra_of_points(const DefocusJob& job) {
+std::set<LightSpectrum> spectra_of_points(const FrameRequest& request) {
     std::set<LightSpectrum> spectra;
-    if (job.points)
-        for (const LightPoint& p : *job.points)
-            if (p.spectrum && *p.spectrum != job.opened_lens->choice().light) spectra.insert(*p.spectrum);
+    if (request.rendered.lights)
+        for (const LightPoint& p : *request.rendered.lights)
+            if (p.spectrum && *p.spectrum != request.lens->choice().light) spectra.insert(*p.spectrum);
     return spectra;
 }
 
 }  // namespace
 
-Result<std::shared_ptr<MountedLens>> MountedLens::make(const DefocusJob& job, std::size_t most_bytes) {
+Result<std::shared_ptr<MountedLens>> MountedLens::make(const FrameRequest& request, std::size_t most_bytes) {
     constexpr std::size_t kMostRemembered = std::size_t(256) << 20;
     auto mounted = std::make_shared<MountedLens>();
-    mounted->store = store_for(job);
+    mounted->store = store_for(request);
     mounted->remembered = std::make_shared<kernel::RememberedKernels>(std::min(most_bytes, kMostRemembered));
-    auto levels = lens_levels(job, mounted->store, mounted->remembered, 0);
+    auto levels = lens_levels(request, mounted->store, mounted->remembered, 0);
     if (!levels) return levels.error();
     mounted->levels = std::move(*levels);
-    for (const LightSpectrum light : spectra_of_points(job)) {
+    for (const LightSpectrum light : spectra_of_points(request)) {
         const int first_number = kLevels * (1 + int(mounted->lamps.size()));
-        auto seen = lens_levels(job, nullptr, mounted->remembered, first_number, light);
+        auto seen = lens_levels(request, nullptr, mounted->remembered, first_number, light);
         if (!seen) return seen.error();
         mounted->lamps.push_back({light, std::move(*seen)});
     }
     return mounted;
 }
 
-std::string MountedLens::key_of(const DefocusJob& job) {
-    std::string key = key_of_kernels(job);
+std::string MountedLens::key_of(const FrameRequest& request) {
+    std::string key = key_of_kernels(request);
     if (key.empty()) return key;
-    const Rect& display = job.place.display_window;
-    for (const int n : {display.width(), display.height(), int(job.quality)}) key += " " + std::to_string(n);
-    for (const LightSpectrum light : spectra_of_points(job)) key += " lamp " + std::to_string(int(light));
-    return key + " " + job.engine + " " + job.kernel_cache_folder;
+    const Rect& display = request.rendered.place.display_window;
+    for (const int n : {display.width(), display.height(), int(request.look.quality)})
+        key += " " + std::to_string(n);
+    for (const LightSpectrum light : spectra_of_points(request)) key += " lamp " + std::to_string(int(light));
+    return key + " " + request.look.engine + " " + request.kernel_cache_folder;
 }
 
 }  // namespace petzval

@@ -2,13 +2,12 @@
 // of it.
 #pragma once
 
-#include "petzval/defocus.h"
-
 #include "device/memory.h"
 #include "engine/waist/engine.h"
 #include "kernel/keep/kernel_store.h"
 #include "kernel/keep/remembered_lens.h"
 #include "kernel/model/lens_model.h"
+#include "session/request.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,19 +18,19 @@
 
 namespace petzval {
 
-kernel::Mount mount_of(const DefocusJob& job);
+kernel::Mount mount_of(const FrameRequest& request);
 
-// The job with its lens opened, if it brings none. Errors: those of Lens::open(); a distortion that this lens
+// Opens the lens of a request that brings none. Errors: those of Lens::open(); a distortion that this lens
 // cannot have.
-Status open_lens(DefocusJob& job);
+Status open_lens(FrameRequest& request);
 
-// Jobs here have their lens opened.
+// Requests here have their lens opened.
 struct MountedLens {
     // On the picture's pixels and coarser ones, for engines that work at several resolutions. most_bytes: of
     // the lens's own kernels that it remembers, during a frame too. Errors: those of the lens.
-    static Result<std::shared_ptr<MountedLens>> make(const DefocusJob& job, std::size_t most_bytes);
+    static Result<std::shared_ptr<MountedLens>> make(const FrameRequest& request, std::size_t most_bytes);
     // Everything that decides what an engine's kernels are; empty if it cannot be told.
-    static std::string key_of(const DefocusJob& job);
+    static std::string key_of(const FrameRequest& request);
 
     std::shared_ptr<kernel::KernelStore> store;  // on disk; null: none
     std::vector<std::unique_ptr<const kernel::LensModel>> levels;

@@ -1,6 +1,6 @@
 #include "session/mounted_lens.h"
 
-#include "session/contents.h"
+#include "base/parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -8,20 +8,21 @@ namespace petzval {
 namespace {
 
 // A lens whose kernels are traced, on a picture that it has not seen yet.
-DefocusJob traced_job() {
+FrameRequest traced_request() {
     static const Picture colour(64, 40);
     static const Plane depth(64, 40, 3.0f);
-    DefocusJob job;
-    job.colour = colour, job.depth_m = depth;
-    job.camera = {50, 36, 2.8, 3};
-    job.place = {colour.rect(), colour.rect(), 1};
-    job.lens.name = "double-gauss";
-    EXPECT_TRUE(open_lens(job));
-    return job;
+    FrameRequest request;
+    request.rendered.colour = colour, request.rendered.depth = PlanarDepth{depth};
+    request.rendered.camera = {50, 36, 2.8, 3};
+    request.rendered.place = Place::whole(colour.rect());
+    request.look.lens.name = "double-gauss";
+    request.workers = &one_thread();
+    EXPECT_TRUE(open_lens(request));
+    return request;
 }
 
 TEST(MountedLens, CountsAndGivesBackTheKernelsThatItRemembers) {
-    auto mounted = MountedLens::make(traced_job(), std::size_t(1) << 30);
+    auto mounted = MountedLens::make(traced_request(), std::size_t(1) << 30);
     ASSERT_TRUE(mounted) << mounted.error().message;
     MountedLens& lens = **mounted;
     EXPECT_EQ(lens.bytes(), 0u);
@@ -36,7 +37,7 @@ TEST(MountedLens, CountsAndGivesBackTheKernelsThatItRemembers) {
 
 TEST(MountedLens, RemembersNoMoreThanItMayWhileAFrameIsMade) {
     constexpr std::size_t kMost = 100'000;
-    auto mounted = MountedLens::make(traced_job(), kMost);
+    auto mounted = MountedLens::make(traced_request(), kMost);
     ASSERT_TRUE(mounted) << mounted.error().message;
     for (int radius = 10; radius < 30; ++radius) (*mounted)->levels[0]->point_spread(radius, {});
     EXPECT_GT((*mounted)->bytes(), 0u);

@@ -3,6 +3,7 @@
 
 #include "petzval/result.h"
 
+#include "device/cpu/cpu_device.h"
 #include "device/device.h"
 
 #include <array>
@@ -25,7 +26,7 @@ inline std::shared_ptr<device::Canvas> canvas_of(const device::Device& device, P
     return canvas;
 }
 
-// A device for one frame, that notes what was drawn with it.
+// A device for one frame, that notes what was drawn with it. The CPU does to light what it cannot.
 class NotingDevice final : public device::Device {
 public:
     explicit NotingDevice(const device::Device& drawing) : device_(drawing) {}
@@ -67,12 +68,15 @@ public:
 
     bool add_glare(const glare::GlarePlan& plan, device::Canvas& picture, Workers& workers,
                    const device::Passed& passed) const override {
-        const bool done = device_.add_glare(plan, picture, workers, passed);
-        if (done) note();
-        return done;
+        if (!device_.add_glare(plan, picture, workers, passed))
+            return device::cpu_device().add_glare(plan, picture, workers, passed);
+        note();
+        return true;
     }
     Picture highlights(device::Canvas& picture, float threshold, Workers& workers) const override {
-        return device_.highlights(picture, threshold, workers);
+        Picture bright = device_.highlights(picture, threshold, workers);
+        return bright.empty() ? device::cpu_device().highlights(picture, threshold, workers)
+                              : std::move(bright);
     }
     std::vector<std::uint16_t> develop(const colour::DevelopPlan& plan, device::Canvas& picture,
                                        Workers& workers) const override {

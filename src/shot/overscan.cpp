@@ -27,7 +27,9 @@ Image<T> grown(const Image<T>& old, const Rect& window, const Rect& wider, bool 
 Result<Plane> largest_radii(const Shot& shot, const Look& look) {
     auto job = rendered(shot);
     if (!job) return job.error();
-    auto radii = circle_of_confusion(with_look(*job, look));
+    const auto all = rendered_of(*job);
+    if (!all) return all.error();
+    auto radii = circle_of_confusion(*all, look, job->workers);
     if (!radii || shot.deep.empty()) return radii;
     const auto coc = CircleOfConfusion::make(job->camera, shot.place.display_window.width(), look.coc);
     if (!coc && !shot.has_radii()) return coc.error();

@@ -248,7 +248,7 @@ TEST_F(Shots, LightReachesAsFarAsItsLargestRadius) {
     Shot shot = read();
     Look look;
     look.coc.far_scale = 10;
-    const auto radii = circle_of_confusion(with_look(*rendered(shot), look));
+    const auto radii = circle_of_confusion(*rendered_of(*rendered(shot)), look);
     const double largest = double(*std::max_element(radii->pixels(), radii->pixels() + radii->size()));
     ASSERT_GT(largest, 1);
     EXPECT_EQ(*reach_px(shot, look), int(std::ceil(largest)) + 1);

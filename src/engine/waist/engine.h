@@ -1,8 +1,8 @@
-// An engine: what it is given (engine/waist/view.h), what it gives back, and what it may do when it cannot.
+// An engine: its input is an EngineView (engine/waist/view.h), its output is here, with its error contract.
 //
 // The session has checked everything by the time an engine runs: sizes agree, colour is finite, circles of
-// confusion are finite, the picture is not empty. An engine checks nothing again. What it cannot do for lack
-// of memory it returns as an error; a device that fails and a host that cancels end it by an exception
+// confusion are finite, the picture is not empty. An engine checks nothing again. Too little memory is an
+// error that it returns; a device that fails and a host that cancels end it by an exception
 // (base/ended.h), which it lets pass.
 #pragma once
 
@@ -25,7 +25,7 @@ struct Output {
     std::vector<std::string> warnings;
 };
 
-// What an engine makes of Samples::layers.
+// The ways in which engines draw Samples::layers.
 enum class Layers {
     None,
     ByPlan,    // drawn by the picture's own plan

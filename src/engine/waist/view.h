@@ -1,5 +1,5 @@
-// What an engine sees of a frame: samples, windows, the mounted lens, its own options, services. It edits
-// none of them; what it may take away is moved in beside (Spare).
+// An engine's view of a frame: samples, windows, the mounted lens, its own options, services. It edits none
+// of them; memory that it may take is moved in beside (Spare).
 #pragma once
 
 #include "petzval/image.h"
@@ -71,7 +71,7 @@ struct Samples {
     Samples rows(int y0, int y1) const;
 };
 
-// Which edges of the picture are merely where the render stopped (the scene continues beyond them), as
+// Edges of the picture that are merely where the render stopped (the scene continues beyond them), as
 // against edges of a data window inside the frame, beyond which there is nothing.
 struct OpenEdges {
     bool left = true, top = true, right = true, bottom = true;
@@ -82,7 +82,7 @@ struct EngineView;
 // The visible part of the frame.
 struct SeenWindow {
     OpenEdges open_edges;
-    // What this is a part of, for what an engine must know of all the frame; null: it is all of it.
+    // The view that this is a part of, for facts about the whole frame; null: this is all of it.
     const EngineView* whole = nullptr;
 };
 
@@ -111,7 +111,7 @@ struct EngineView {
     EngineView rows(int y0, int y1) const;
 };
 
-// Memory that an engine may put its result in, or give back early, once it no longer asks for what it holds:
+// Memory that an engine may put its result in, or give back early, once it no longer reads its contents:
 // the pictures that Samples::colour and Samples::coc_px show. Empty: none.
 struct Spare {
     Picture colour;

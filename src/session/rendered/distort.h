@@ -2,9 +2,9 @@
 // display window moves to r (1 + amount r^2), so that discs stretch by (1 + 3 amount r^2) along that
 // direction and by (1 + amount r^2) across it, as petzval/lens_choice.h says.
 //
-// Around the picture there is nothing where its sides end inside of the frame. Elsewhere the scene goes on,
-// unknown: its mirror image stands for it. Where barrel distortion shows nothing at all, the picture is
-// empty.
+// Beyond a side of the picture that ends inside the frame there is nothing. Beyond other sides the scene
+// continues, unknown: the picture's mirror image stands for it. Where barrel distortion shows nothing at all,
+// the picture is empty.
 #pragma once
 
 #include "petzval/image.h"
@@ -28,7 +28,7 @@ Picture distorted_beside(const Picture& picture, const Picture& layer, bool is_l
 // that lie between it and its neighbours.
 Rect before_distortion(const Rect& pixels, const Place& place, double amount);
 
-// How many pixels of the scene beyond the picture are seen that it lacks: the widest of its sides.
+// The missing overscan, in pixels: distortion shows the scene that far beyond the widest side of the picture.
 int missing_beyond_px(const Place& place, double amount);
 
 }  // namespace petzval

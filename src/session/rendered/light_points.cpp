@@ -1,20 +1,18 @@
-#include "session/light_points.h"
-
-#include "session/frame.h"
+#include "session/rendered/light_points.h"
 
 #include <cmath>
 
 namespace petzval {
 
-std::vector<LightPoint> drawable_points(const DefocusJob& job,
+std::vector<LightPoint> drawable_points(const Rendered& rendered,
                                         const std::function<float(float depth_m)>& radius_px,
                                         std::vector<std::string>& warnings) {
     constexpr float kFarthestPx = 1e6f;  // from the frame: no lens throws light so far
     std::vector<LightPoint> points;
-    if (!job.points) return points;
-    points.reserve(job.points->size());
+    if (!rendered.lights) return points;
+    points.reserve(rendered.lights->size());
     std::size_t not_finite = 0, negative = 0, outside = 0;
-    for (LightPoint p : *job.points) {
+    for (LightPoint p : *rendered.lights) {
         const bool has_depth = !std::isnan(p.depth_m);
         const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.r) &&
                             std::isfinite(p.g) && std::isfinite(p.b) && std::isfinite(p.diameter_px) &&
@@ -27,15 +25,16 @@ std::vector<LightPoint> drawable_points(const DefocusJob& job,
             ++negative;
             continue;
         }
-        if (p.x < 0 || p.y < 0 || p.x >= float(job.colour.width()) || p.y >= float(job.colour.height()))
+        if (p.x < 0 || p.y < 0 || p.x >= float(rendered.colour.width()) ||
+            p.y >= float(rendered.colour.height()))
             ++outside;
-        // Where radii are given for the picture, a point's depth is none.
-        if (has_depth && !has_radii(job)) p.coc_px = radius_px(p.depth_m);
+        // A point's depth has no meaning beside radii of the picture.
+        if (has_depth && !has_radii(rendered)) p.coc_px = radius_px(p.depth_m);
         points.push_back(p);
     }
     const auto report = [&](std::size_t count, const char* what) {
         if (count > 0)
-            warnings.push_back(std::to_string(count) + " of " + std::to_string(job.points->size()) +
+            warnings.push_back(std::to_string(count) + " of " + std::to_string(rendered.lights->size()) +
                                " given points " + what);
     };
     report(not_finite, "are not finite and were left out");

@@ -1,4 +1,4 @@
-#include "session/on_grid.h"
+#include "session/rendered/on_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -24,16 +24,16 @@ TEST(OnGrid, BeyondAnEdgeInsideTheFrameIsEmptinessBeyondOthersTheBorderWithoutIt
     Picture colour(20, 10, Rgba{0.5f, 0.5f, 0.5f, 1});
     colour(0, 4) = {900, 900, 900, 1};
     const Plane depth(20, 10, 3.0f);
-    DefocusJob job;
-    job.colour = colour, job.depth_m = depth;
-    job.place.display_window = {0, 0, 64, 64}, job.place.data_window = {-2, 30, 18, 40};
-    const WiderJob wider(job, {-64, 0, 18, 40});
-    const View<const Rgba> image = wider.job().colour;
+    Rendered asked;
+    asked.colour = colour, asked.depth = PlanarDepth{depth};
+    asked.place.display_window = {0, 0, 64, 64}, asked.place.data_window = {-2, 30, 18, 40};
+    const WiderFrame wider(asked, {-64, 0, 18, 40});
+    const View<const Rgba> image = wider.rendered().colour;
     EXPECT_EQ(image.width(), 82);
     EXPECT_EQ(image(10, 10).a, 0);  // above: inside the frame
     EXPECT_EQ(image(10, 32).a, 1);  // to the left: outside it
     EXPECT_LT(image(10, 34).r, 1.1f);
-    EXPECT_EQ(wider.job().depth_m(10, 10), 3);
+    EXPECT_EQ(depth_or_radii(wider.rendered())(10, 10), 3);
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
-#include "session/depth_edges.h"
+#include "session/rendered/depth_edges.h"
 
 #include "base/parallel.h"
 #include "depth/soft_edges.h"
 #include "engine/samples/all_samples.h"
-#include "session/frame.h"
 
 #include <cmath>
 #include <cstdio>
@@ -34,25 +33,31 @@ std::string in_words(const EdgeSoftness& softness) {
 
 }  // namespace
 
-HardEdges::HardEdges(DefocusJob& job, Workers& workers) {
-    if (job.depth_edges == DepthEdges::Keep || (job.deep && !job.deep->empty())) return;
-    const bool is_radii = has_radii(job);
-    const View<const float> given = depth_or_radii(job);
+HardEdges hard_edges(const Rendered& rendered, DepthEdges edges, Workers& workers) {
+    HardEdges hard;
+    if (edges == DepthEdges::Keep || (rendered.deep && !rendered.deep->empty())) return hard;
+    const bool is_radii = has_radii(rendered);
+    const View<const float> given = depth_or_radii(rendered);
     const Plane values = linear_values(given, is_radii, workers);
     const EdgeSoftness softness = edge_softness(values, workers);
-    if (job.depth_edges == DepthEdges::Auto && !softness.is_soft()) return;
-    plane_ = snapped_edges(job.colour, values, softness, workers);
-    parallel_for(plane_.height(), workers, [&](int y) {
-        for (int x = 0; x < plane_.width(); ++x) {
-            float& v = plane_(x, y);
+    if (edges == DepthEdges::Auto && !softness.is_soft()) return hard;
+    hard.plane = snapped_edges(rendered.colour, values, softness, workers);
+    parallel_for(hard.plane.height(), workers, [&](int y) {
+        for (int x = 0; x < hard.plane.width(); ++x) {
+            float& v = hard.plane(x, y);
             if (v == values(x, y))
                 v = given(x, y);
             else if (!is_radii)
                 v = 1 / v;
         }
     });
-    (job.coc_px.empty() ? job.depth_m : job.coc_px) = plane_;
-    what_was_done_ = in_words(softness);
+    hard.what_was_done = in_words(softness);
+    return hard;
+}
+
+Rendered HardEdges::of(Rendered rendered) const {
+    if (!plane.empty()) set_depth(rendered, plane);
+    return rendered;
 }
 
 }  // namespace petzval

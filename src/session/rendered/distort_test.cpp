@@ -1,4 +1,4 @@
-#include "session/distort.h"
+#include "session/rendered/distort.h"
 
 #include "petzval/defocus.h"
 #include "petzval/lens_kernel.h"

@@ -1,6 +1,4 @@
-#include "session/on_grid.h"
-
-#include "session/frame.h"
+#include "session/rendered/on_grid.h"
 
 #include <algorithm>
 #include <bit>
@@ -46,37 +44,37 @@ int grid_for(float largest_radius_px, bool spreads_wider) {
     return std::clamp(int(std::bit_ceil(unsigned(std::ceil(std::max(1.0f, coarsest))))), kLeast, kMost);
 }
 
-WiderJob::WiderJob(const DefocusJob& asked, const Rect& window) : job_(asked) {
+WiderFrame::WiderFrame(const Rendered& asked, const Rect& window) : wider_(asked) {
     const Rect& data = asked.place.data_window;
     inside_ = data.moved(-window.x0, -window.y0);
-    job_.place.data_window = window;
+    wider_.place.data_window = window;
     widen_colour(asked);
-    job_.colour = colour_;
-    for (ColourLayer& layer : job_.layers) {
+    wider_.colour = colour_;
+    for (ColourLayer& layer : wider_.layers) {
         layers_.push_back(widened(layer.colour));
         layer.colour = layers_.back();
     }
-    (asked.coc_px.empty() ? job_.depth_m : job_.coc_px) = depth_;
+    set_depth(wider_, depth_);
     const auto widen = [&](const DeepPicture*& deep, DeepPicture& own, bool is_matte) {
         if (!deep || deep->empty()) return;
         own = widened(*deep, is_matte);
         deep = &own;
     };
-    widen(job_.deep, deep_, false);
-    widen(job_.behind, behind_, false);
-    widen(job_.holdout, holdout_, true);
-    if (!asked.points) return;
-    points_ = *asked.points;
-    for (LightPoint& p : points_) {
+    widen(wider_.deep, deep_, false);
+    widen(wider_.behind, behind_, false);
+    widen(wider_.holdout, holdout_, true);
+    if (!asked.lights) return;
+    lights_ = *asked.lights;
+    for (LightPoint& p : lights_) {
         p.x += float(inside_.x0);
         p.y += float(inside_.y0);
     }
-    job_.points = &points_;
+    wider_.lights = &lights_;
 }
 
-void WiderJob::widen_colour(const DefocusJob& asked) {
+void WiderFrame::widen_colour(const Rendered& asked) {
     const Rect &display = asked.place.display_window, &data = asked.place.data_window;
-    const int width = job_.place.data_window.width(), height = job_.place.data_window.height();
+    const int width = wider_.place.data_window.width(), height = wider_.place.data_window.height();
     const View<const float> depth = depth_or_radii(asked);
     depth_ = Plane(width, height);
     kept_ = Plane(width, height, 1.0f);
@@ -93,7 +91,7 @@ void WiderJob::widen_colour(const DefocusJob& asked) {
     colour_ = widened(asked.colour);
 }
 
-Picture WiderJob::widened(View<const Rgba> picture) const {
+Picture WiderFrame::widened(View<const Rgba> picture) const {
     Picture wider(kept_.width(), kept_.height());
     for (int y = 0; y < wider.height(); ++y)
         for (int x = 0; x < wider.width(); ++x)
@@ -101,7 +99,7 @@ Picture WiderJob::widened(View<const Rgba> picture) const {
     return wider;
 }
 
-DeepPicture WiderJob::widened(const DeepPicture& deep, bool is_matte) const {
+DeepPicture WiderFrame::widened(const DeepPicture& deep, bool is_matte) const {
     std::vector<std::size_t> first{0};
     std::vector<DeepSample> samples;
     first.reserve(colour_.size() + 1);

@@ -1,4 +1,4 @@
-#include "session/distort.h"
+#include "session/rendered/distort.h"
 
 #include "base/parallel.h"
 #include "optics/distortion.h"
@@ -205,7 +205,7 @@ int missing_beyond_px(const Place& place, double amount) {
     if (amount >= 0) return 0;
     const Sides sides(place);
     const Rect frame = place.display_window.moved(-place.data_window.x0, -place.data_window.y0);
-    // Where the frame's corners show nothing, all around it is seen as far as distortion reaches.
+    // If the frame's corners show nothing, everything around it is seen as far as distortion reaches.
     const Rect shown =
         shown_by(frame, place.field(), amount).value_or(frame.grown(distortion_reach_px(place, amount)));
     int most = 0;
