@@ -100,15 +100,4 @@ Result<Shot> load_shot(const ShotSource& source) {
     return read_shot(source, {.cancelled = [] { return interrupted_by() != 0; }});
 }
 
-std::vector<std::string> detected_in_picture(const Shot& shot) {
-    const FoundCamera& c = shot.camera_of_file;
-    std::vector<std::string> lines = shot.detected;
-    for (const auto& number :
-         {c.focal_length_mm, c.sensor_width_mm, c.f_number, c.focus_distance_m, c.horizontal_fov_deg})
-        if (number)
-            std::erase_if(lines,
-                          [&](const std::string& l) { return l.ends_with(" from " + number->origin); });
-    return lines;
-}
-
 }  // namespace petzval::cli

@@ -40,7 +40,4 @@ struct InputFlags : ShotSource {
 // read_shot() that an interrupt ends.
 Result<Shot> load_shot(const ShotSource& source);
 
-// Detected lines without those on camera numbers, which have their own line.
-std::vector<std::string> detected_in_picture(const Shot& shot);
-
 }  // namespace petzval::cli

@@ -198,11 +198,11 @@ petzval_status take_codes(petzval_session& session, Asked& asked, const petzval_
     return PETZVAL_OK;
 }
 
-}  // namespace
-
-petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot, const petzval_look* look,
-                               const petzval_control* control, const petzval_pixels* out,
-                               petzval_report** report) {
+// make(asked, into): writes the frame. Everything is checked before.
+template <typename Make>
+petzval_status into_picture(const petzval_session* session, const petzval_shot* shot,
+                            const petzval_look* look, const petzval_control* control,
+                            const petzval_pixels* out, petzval_report** report, const Make& make) {
     if (report) *report = nullptr;
     if (!session) return missing("session");
     return guarded([&] {
@@ -211,7 +211,17 @@ petzval_status petzval_defocus(petzval_session* session, const petzval_shot* sho
         Asked asked;
         if (const Status ok = asked.compare(shot, look, control); !ok) return fail(ok.error());
         if (const Status ok = asked.check_out(*into, "out"); !ok) return fail(ok.error());
-        return take_frame(*session, asked, look, *into, report);
+        return make(asked, *into);
+    });
+}
+
+}  // namespace
+
+petzval_status petzval_defocus(petzval_session* session, const petzval_shot* shot, const petzval_look* look,
+                               const petzval_control* control, const petzval_pixels* out,
+                               petzval_report** report) {
+    return into_picture(session, shot, look, control, out, report, [&](Asked& asked, const ColourView& into) {
+        return take_frame(*session, asked, look, into, report);
     });
 }
 
@@ -219,15 +229,9 @@ petzval_status petzval_defocus_stage(petzval_session* session, const char* stage
                                      const petzval_look* look, const petzval_control* control,
                                      const petzval_pixels* out, petzval_report** report) {
     if (report) *report = nullptr;
-    if (!session) return missing("session");
-    if (!stage) return missing("stage");
-    return guarded([&] {
-        const auto into = c::colour_view(out, "out");
-        if (!into) return fail(into.error());
-        Asked asked;
-        if (const Status ok = asked.compare(shot, look, control); !ok) return fail(ok.error());
-        if (const Status ok = asked.check_out(*into, "out"); !ok) return fail(ok.error());
-        return take_stage(*session, stage, asked, look, *into, report);
+    if (session && !stage) return missing("stage");
+    return into_picture(session, shot, look, control, out, report, [&](Asked& asked, const ColourView& into) {
+        return take_stage(*session, stage, asked, look, into, report);
     });
 }
 

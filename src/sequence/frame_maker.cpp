@@ -12,22 +12,6 @@
 #include <utility>
 
 namespace petzval::sequence {
-namespace {
-
-// Detected lines without those on camera numbers, which have their own line.
-std::vector<std::string> detected_in_picture(const Shot& shot) {
-    const FoundCamera& c = shot.camera_of_file;
-    std::vector<std::string> lines = shot.detected;
-    for (const auto& number :
-         {c.focal_length_mm, c.sensor_width_mm, c.f_number, c.focus_distance_m, c.horizontal_fov_deg})
-        if (number)
-            std::erase_if(lines,
-                          [&](const std::string& l) { return l.ends_with(" from " + number->origin); });
-    return lines;
-}
-
-}  // namespace
-
 std::string in_words(const HighlightExpansion& e) {
     return "blurred as if light above " + plain(e.knee) + " rose to " + plain(e.peak) +
            " at 1 (assumed); pixels are in the plate's own range";

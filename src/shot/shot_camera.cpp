@@ -84,6 +84,17 @@ Result<Camera> complete_camera(const FoundCamera& found, ImageScale image_scale)
     return Error{ErrorCode::InvalidArgument, and_listed(missing) + "; give " + and_listed(fields), fields[0]};
 }
 
+std::vector<std::string> detected_in_picture(const Shot& shot) {
+    const FoundCamera& c = shot.camera_of_file;
+    std::vector<std::string> lines = shot.detected;
+    for (const auto& number :
+         {c.focal_length_mm, c.sensor_width_mm, c.f_number, c.focus_distance_m, c.horizontal_fov_deg})
+        if (number)
+            std::erase_if(lines,
+                          [&](const std::string& l) { return l.ends_with(" from " + number->origin); });
+    return lines;
+}
+
 Result<DefocusJob> rendered(const Shot& shot) {
     DefocusJob job;
     job.camera = known_camera(shot.camera, shot.image_scale);
