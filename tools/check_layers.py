@@ -48,7 +48,7 @@ ALLOWED = {
     "sequence": PIXELS | {"optics", "depth", "colour", "names", "views", "engine/waist", "lens_facts", "look", "session", "shot", "files"},
     "lens_facts": LENS,
     "farm": {"base", "sequence"},
-    "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session"},
+    "c": PIXELS | {"colour", "kernel/lenses", "device/vulkan", "lens_facts", "look", "names", "session", "session/rendered"},
     "c/files": PIXELS | {"c", "names", "scene", "session", "sequence", "shot", "files"},
     "session/rendered": PIXELS | {"laws", "optics", "depth", "engine/waist", "engine/samples"},
     "session": WAIST | ENGINES | {"session/rendered", "device/cpu", "device/vulkan", "device/webgl", "depth", "views", "look", "glare"},

@@ -36,12 +36,11 @@ struct DevelopVerbFlags {
 
 // Camera numbers that are missing are an error only where a part of the glare needs them.
 Status add_glare(Shot& shot, const Lens& lens, const DevelopVerbFlags& flags) {
-    DefocusJob taken;
+    Rendered taken;
     taken.place = shot.place;
     taken.camera = known_camera(shot.camera, shot.image_scale);
-    taken.opened_lens = lens;
-    taken.threads = flags.run.threads;
-    auto light = add_light(std::move(shot.colour), taken, flags.look.look());
+    Session session({.threads = flags.run.threads});
+    auto light = session.add_light(std::move(shot.colour), taken, flags.look.look(), {.lens = lens});
     if (!light) return light.error();
     shot.colour = std::move(*light);
     return Done{};

@@ -34,9 +34,6 @@ struct SessionSettings {
     std::string device = "cpu";
 };
 
-// The job with all that a look chooses of a defocus.
-PETZVAL_API DefocusJob with_look(DefocusJob job, const Look& look);
-
 // What the lens of a look does to light besides blur, to a picture that is blurred already: light lost
 // towards the corners, then glare. `rendered` says where the picture lies and what the camera was; its
 // pictures are not asked for. Errors: those of check(look), add_falloff() and add_glare().
@@ -88,6 +85,10 @@ public:
     // InvalidArgument or Unsupported: settings.device is none that there is, or cannot be used; Unsupported:
     // it was lost, which the error's field, session.device, says too; OutOfMemory: also of its own.
     Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
+    // The blur of a look alone: no falloff, no glare, and a plate keeps its highlights. Choices without
+    // effect are not listed. spare: as FrameStages::begin() has it. Errors: those above, and of Lens::open().
+    Result<DefocusReport> defocus(Rendered rendered, Look look, const Control& control = {},
+                                  Picture spare = {});
     // A whole frame, in the order of physics: a plate's highlights given back, blur, light lost towards the
     // corners, glare, and back into the plate's range. `rendered` says what there is (pictures, place,
     // camera); all that is chosen is the look's. Choices without effect are listed in the report's warnings

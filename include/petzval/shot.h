@@ -137,9 +137,9 @@ PETZVAL_API Camera known_camera(const FoundCamera& found, ImageScale image_scale
 // Lines of `detected` except those on camera numbers, which FoundCamera holds with their origins.
 PETZVAL_API std::vector<std::string> detected_in_picture(const Shot& shot);
 
-// The job of a session: the whole shot without choices, borrowed. A camera number may be missing if radii are
-// given; it is 0 then. Errors: those of complete_camera().
-PETZVAL_API Result<DefocusJob> rendered(const Shot& shot);
+// The whole shot for a session, borrowed. A camera number may be missing if radii are given; it is 0 then.
+// Errors: those of complete_camera().
+PETZVAL_API Result<Rendered> rendered(const Shot& shot);
 
 // A pixel of the display window, counted from its top left.
 struct PixelPosition {

@@ -80,7 +80,7 @@ Status Asked::read(const petzval_look* chosen) {
     if (!chosen || !chosen->lens) return Done{};
     auto lens = c::lens_of(*chosen);
     if (!lens) return lens.error();
-    shot.job.opened_lens = std::move(*lens);
+    control.lens = std::move(*lens);
     return Done{};
 }
 
@@ -97,7 +97,7 @@ petzval_status take_frame(petzval_session& session, Asked& asked, const petzval_
         if (layer.out.width > 0)
             if (const Status ok = asked.check_out(layer.out, "a layer's out"); !ok) return fail(ok.error());
     if (const Status ok = asked.read(look); !ok) return fail(ok.error());
-    const auto frame = session.session.take(asked.shot.job, asked.look, asked.control);
+    const auto frame = session.session.take(asked.shot.rendered, asked.look, asked.control);
     if (!frame) return fail(frame.error());
     give(*frame, report);
     write_pixels(frame->image, into);
@@ -112,10 +112,11 @@ petzval_status add_light(petzval_session& session, Asked& asked, const petzval_l
                          const ColourView& into, petzval_report** report) {
     if (asked.control.region) return fail(refused("control.region must be empty for this stage"));
     if (const Status ok = asked.read(look); !ok) return fail(ok.error());
-    // The picture itself becomes the result; the job keeps the one that it was read into.
+    // The picture itself becomes the result; the shot keeps the one that it was read into.
     Picture picture = Picture::uninitialised(into.width, into.height);
     read_pixels(asked.compared.colour, picture);
-    const auto lit = session.session.add_light(std::move(picture), asked.shot.job, asked.look, asked.control);
+    const auto lit =
+        session.session.add_light(std::move(picture), asked.shot.rendered, asked.look, asked.control);
     if (!lit) return fail(lit.error());
     write_pixels(*lit, into);
     if (report) give(DefocusReport{}, report);
@@ -190,7 +191,7 @@ petzval_status take_codes(petzval_session& session, Asked& asked, const petzval_
     if (const Status ok = check_codes(into, wanted->window); !ok) return fail(ok.error());
     if (const Status ok = asked.read(look); !ok) return fail(ok.error());
     asked.control.codes = *wanted;
-    const auto frame = session.session.take(asked.shot.job, asked.look, asked.control);
+    const auto frame = session.session.take(asked.shot.rendered, asked.look, asked.control);
     if (!frame) return fail(frame.error());
     if (frame->codes.empty()) return fail(PETZVAL_UNSUPPORTED, "a view of an engine has no codes");
     give(*frame, report);
@@ -256,7 +257,7 @@ petzval_status petzval_region_margin_px(petzval_session* session, const petzval_
         Asked asked;
         if (const Status ok = asked.compare(shot, look, nullptr); !ok) return fail(ok.error());
         if (const Status ok = asked.read(look); !ok) return fail(ok.error());
-        const auto margin = session->session.region_margin_px(with_look(asked.shot.job, asked.look));
+        const auto margin = session->session.region_margin_px(asked.shot.rendered, asked.look, asked.control);
         if (!margin) return fail(margin.error());
         *margin_px = *margin;
         return PETZVAL_OK;

@@ -92,7 +92,7 @@ void take_lights(const petzval_shot& shot, TakenShot& into) {
         const petzval_light& l = shot.lights[i];
         into.lights.push_back({l.x, l.y, l.r, l.g, l.b, l.depth_m, l.radius_px, l.diameter_px});
     }
-    into.job.points = &into.lights;
+    into.rendered.lights = &into.lights;
 }
 
 // The place of the picture. Errors: InvalidArgument naming the field.
@@ -255,24 +255,27 @@ Status TakenShot::take(const ComparedShot& compared, TakenShot& into) {
     const petzval_shot& shot = compared.given;
     into.colour = Picture::uninitialised(compared.colour.width, compared.colour.height);
     read_pixels(compared.colour, into.colour);
-    into.job.colour = into.colour;
+    into.rendered.colour = into.colour;
     into.depth = read_plane(shot.radii_px ? shot.radii_px : shot.depth_m);
-    (shot.radii_px ? into.job.coc_px : into.job.depth_m) = into.depth;
-    if (shot.mask) into.job.mask = into.mask = read_plane(shot.mask);
-    into.job.place = compared.place;
-    if (shot.camera) into.job.camera = camera_of(taken(shot.camera));
+    if (shot.radii_px)
+        into.rendered.depth = SignedRadii{into.depth};
+    else
+        into.rendered.depth = PlanarDepth{into.depth};
+    if (shot.mask) into.rendered.mask = into.mask = read_plane(shot.mask);
+    into.rendered.place = compared.place;
+    if (shot.camera) into.rendered.camera = camera_of(taken(shot.camera));
     struct Deep {
         const petzval_deep* given;
         const char* name;
         DeepPicture& own;
-        const DeepPicture*& of_job;
+        const DeepPicture*& lent;
     };
-    for (const Deep& d : {Deep{shot.deep, "deep", into.deep, into.job.deep},
-                          Deep{shot.behind, "behind", into.behind, into.job.behind},
-                          Deep{shot.holdout, "holdout", into.holdout, into.job.holdout}}) {
+    for (const Deep& d : {Deep{shot.deep, "deep", into.deep, into.rendered.deep},
+                          Deep{shot.behind, "behind", into.behind, into.rendered.behind},
+                          Deep{shot.holdout, "holdout", into.holdout, into.rendered.holdout}}) {
         if (!d.given) continue;
         if (Status ok = take_deep(d.given, d.name, d.own); !ok) return ok;
-        d.of_job = &d.own;
+        d.lent = &d.own;
     }
     take_lights(shot, into);
     for (const ComparedLayer& layer : compared.layers) {
@@ -280,7 +283,8 @@ Status TakenShot::take(const ComparedShot& compared, TakenShot& into) {
         read_pixels(layer.colour, into.layers.back());
     }
     for (std::size_t i = 0; i < into.layers.size(); ++i)
-        into.job.layers.push_back({into.layers[i], compared.layers[i].is_light, compared.layers[i].spectrum});
+        into.rendered.layers.push_back(
+            {into.layers[i], compared.layers[i].is_light, compared.layers[i].spectrum});
     return Done{};
 }
 

@@ -5,6 +5,7 @@
 #include "petzval/light_point.h"
 #include "petzval/petzval_c.h"
 #include "petzval/pixel_view.h"
+#include "petzval/rendered.h"
 #include "petzval/result.h"
 #include "petzval/session.h"
 #include "petzval/workers.h"
@@ -61,7 +62,7 @@ struct TakenShot {
     DeepPicture deep, behind, holdout;
     std::vector<LightPoint> lights;
     std::vector<Picture> layers;
-    DefocusJob job;  // of all these
+    Rendered rendered;  // all of these
     // Errors: InvalidArgument for deep samples that are not counted right.
     static Status take(const ComparedShot& shot, TakenShot& into);
 };

@@ -52,13 +52,14 @@ Result<LensView> through_lens(Session& session, Shot& shot, Look look, const std
     if (!opened) return opened.error();
     LensView view{.light = {}, .lens = lens};
     if (Status done = open_to(shot, *opened, f_number, view.warnings); !done) return done.error();
-    auto job = rendered(shot);
-    if (!job) return job.error();
-    job->opened_lens = *opened;
-    auto taken = session.take(*job, look, control);
+    const auto lent = rendered(shot);
+    if (!lent) return lent.error();
+    Control with_lens = control;
+    with_lens.lens = *opened;
+    auto taken = session.take(*lent, look, with_lens);
     if (!taken) return taken.error();
     view.light = through_window(taken->image, shot.place.data_window, shot.place.display_window, Rgba{});
-    view.f_number = job->camera.f_number;
+    view.f_number = lent->camera.f_number;
     view.warnings.insert(view.warnings.end(), taken->warnings.begin(), taken->warnings.end());
     return view;
 }

@@ -63,16 +63,18 @@ private:
     Result<Rect> wanted_window();
     Status grow_to(const Rect& window);
     Result<Rect> window_of_light(bool within_frame);
-    DefocusJob job_of(DefocusJob job) const;
+    // The look of the picture or of the view that replaces it.
+    Look chosen() const;
+    Control control() const;
     Status compute();
-    Status render(const DefocusJob& job);
+    Status render(const Rendered& lent);
     std::optional<Rect> region() const;
     Status check_region() const;
     void crop_to_region();
     void report_frame(const DefocusReport& done, double seconds);
-    Result<DefocusReport> take(const DefocusJob& job);
+    Result<DefocusReport> take(const Rendered& lent);
     std::optional<CodesWanted> codes_wanted() const;
-    Json parameters(const DefocusJob& job) const;
+    Json parameters() const;
     Status write();
     ViewSettings view_settings(std::vector<std::string>& warnings);
     bool is_left_alone(const std::string& path) const;

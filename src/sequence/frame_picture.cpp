@@ -61,47 +61,54 @@ Status FrameMaker::grow_to(const Rect& window) {
 }
 
 Result<Rect> FrameMaker::window_of_light(bool within_frame) {
-    auto job = rendered(shot_);
-    if (!job) return job.error();
-    const DefocusJob chosen = job_of(std::move(*job));
+    const auto lent = rendered(shot_);
+    if (!lent) return lent.error();
     const auto window = petzval::window_of_light(shot_, look(), 1, within_frame);
     if (!window || *window == shot_.place.data_window) return window;
-    const auto reach = session_.reach_px(chosen);
+    const auto reach = session_.reach_px(*lent, chosen(), control());
     const auto radius = petzval::reach_px(shot_, look());
     if (!reach || !radius) return !reach ? reach.error() : radius.error();
     return petzval::window_of_light(shot_, look(), std::max(1.0, *reach / *radius), within_frame);
 }
 
-DefocusJob FrameMaker::job_of(DefocusJob job) const {
-    job = with_look(std::move(job), look());
-    job.scatter.view = scatter_view(settings_.view);
-    job.gaussian.view = gaussian_view(settings_.view).value_or(GaussianView::Result);
-    job.threads = threads();
-    job.max_memory_bytes = settings_.source.read.max_memory_bytes;
-    job.kernel_cache_folder = settings_.kernel_cache_folder;
-    return job;
+Look FrameMaker::chosen() const {
+    Look chosen = look();
+    chosen.gaussian.view = gaussian_view(settings_.view).value_or(GaussianView::Result);
+    return chosen;
+}
+
+Control FrameMaker::control() const {
+    return {.progress = host_.frame_progress,
+            .cancelled = host_.cancelled,
+            .region = region(),
+            .codes = codes_wanted(),
+            .lens = lens_,
+            .view = scatter_view(settings_.view),
+            .held_bytes = held_bytes_};
 }
 
 // Those that the record has no other place for.
-Json FrameMaker::parameters(const DefocusJob& job) const {
+Json FrameMaker::parameters() const {
     const HighlightExpansion& plate = look().expansion;
     Json options = Json::parse(settings_.engine_options, nullptr, false);
     if (!options.is_object()) options = Json::object();
     if (!settings_.source.lights.empty()) options["points"] = settings_.source.lights;
     const std::string& mask = settings_.source.mask;
+    const std::string& kernels = settings_.kernel_cache_folder;
+    const CocControls& coc = look().coc;
     return {{"view", name_of(settings_.view)},
-            {"quality", name_of(job.quality)},
-            {"pupil_points", job.pupil_points},
-            {"threads", job.threads},
-            {"max_memory_bytes", job.max_memory_bytes},
-            {"seed", job.seed},
+            {"quality", name_of(look().quality)},
+            {"pupil_points", look().pupil_points},
+            {"threads", threads()},
+            {"max_memory_bytes", settings_.source.read.max_memory_bytes},
+            {"seed", look().seed},
             {"mask", mask.empty() ? Json(nullptr) : Json(mask)},
-            {"kernel_cache", job.kernel_cache_folder.empty() ? Json(nullptr) : Json(job.kernel_cache_folder)},
-            {"near_scale", job.coc.near_scale},
-            {"far_scale", job.coc.far_scale},
-            {"max_radius_px", number(job.coc.max_radius_px)},
-            {"focus_range_m", {number(job.coc.focus_near_m), number(job.coc.focus_far_m)}},
-            {"focus_falloff", job.coc.focus_falloff},
+            {"kernel_cache", kernels.empty() ? Json(nullptr) : Json(kernels)},
+            {"near_scale", coc.near_scale},
+            {"far_scale", coc.far_scale},
+            {"max_radius_px", number(coc.max_radius_px)},
+            {"focus_range_m", {number(coc.focus_near_m), number(coc.focus_far_m)}},
+            {"focus_falloff", coc.focus_falloff},
             {"expand_highlights",
              look().expand_highlights ? Json{{"knee", plate.knee}, {"peak", plate.peak}} : Json(nullptr)},
             {"engine_options", options}};
@@ -109,14 +116,11 @@ Json FrameMaker::parameters(const DefocusJob& job) const {
 
 Status FrameMaker::compute() {
     if (Status fine = check_region(); !fine) return fine;
-    auto sharp = settings_.view == ShotView::Depth ? Result<DefocusJob>(DefocusJob{}) : rendered(shot_);
-    if (!sharp) return sharp.error();
-    DefocusJob job = job_of(std::move(*sharp));
-    job.opened_lens = lens_;
-    job.spent_colour = &shot_.colour, job.held_bytes = held_bytes_;
+    const auto lent = settings_.view == ShotView::Depth ? Result<Rendered>(Rendered{}) : rendered(shot_);
+    if (!lent) return lent.error();
     record_["look"] = Json::parse(look_to_json(look()));
     record_["lens"] = Json::parse(record_of_lens(look(), ""));
-    record_["parameters"] = parameters(job);
+    record_["parameters"] = parameters();
     for (const auto& other : others_) {
         note("view " + other->shot_.view);
         if (Status done = other->compute(); !done) return done;
@@ -126,9 +130,9 @@ Status FrameMaker::compute() {
         record_["views"].push_back(std::move(view));
     }
     if (settings_.view == ShotView::Depth) return Done{};
-    if (is_rendered(settings_.view)) return render(job);
+    if (is_rendered(settings_.view)) return render(*lent);
     const Stopwatch watch;
-    auto coc = circle_of_confusion(job);
+    auto coc = circle_of_confusion(*lent, look(), own_workers(threads()).get());
     if (!coc) return coc.error();
     view_.coc_radius_px = std::move(*coc);
     record_["seconds"]["compute"] = watch.seconds();
@@ -174,13 +178,12 @@ void FrameMaker::crop_to_region() {
     if (*kind_of_output(settings_.output) == FileKind::Png) shot_.place.display_window = part;
 }
 
-Result<DefocusReport> FrameMaker::take(const DefocusJob& job) {
-    const Control control{.progress = host_.frame_progress,
-                          .cancelled = host_.cancelled,
-                          .region = region(),
-                          .codes = codes_wanted()};
-    if (!is_beauty()) return session_.defocus(job, control);
-    auto taken = session_.take(job, look(), control);
+Result<DefocusReport> FrameMaker::take(const Rendered& lent) {
+    // The result may take the picture's memory, unless mask or layers need the picture afterwards.
+    const bool is_spent = lent.mask.empty() && lent.layers.empty();
+    Picture spare = is_spent ? std::move(shot_.colour) : Picture();
+    if (!is_beauty()) return session_.defocus(lent, chosen(), control(), std::move(spare));
+    auto taken = session_.take(lent, look(), control(), std::move(spare));
     // The reader of the look's file has reported choices without effect.
     if (taken)
         for (const Error& idle : check(look()).idle) std::erase(taken->warnings, idle.message);
@@ -213,9 +216,9 @@ void FrameMaker::report_frame(const DefocusReport& done, double seconds) {
               " px is larger than the picture: look at the focal length, the focus and the unit of depth"});
 }
 
-Status FrameMaker::render(const DefocusJob& job) {
+Status FrameMaker::render(const Rendered& lent) {
     const Stopwatch watch;
-    auto done = take(job);
+    auto done = take(lent);
     if (!done) return done.error();
     const double seconds = watch.seconds();
     add_stages(record_, done->stages, seconds);

@@ -42,22 +42,6 @@ Look look_of(const DefocusJob& job) {
     return look;
 }
 
-DefocusJob with_look(DefocusJob job, const Look& look) {
-    job.engine = look.engine;
-    job.quality = look.quality;
-    job.seed = look.seed;
-    job.pupil_points = look.pupil_points;
-    job.fill = look.fill;
-    job.depth_edges = look.depth_edges;
-    job.coc = look.coc;
-    job.lens = look.lens;
-    if (job.opened_lens && !(job.opened_lens->choice() == look.lens)) job.opened_lens.reset();
-    job.gather = look.gather;
-    job.gaussian = look.gaussian;
-    job.sprites = look.sprites;
-    return job;
-}
-
 std::vector<std::string> not_used_of(const DefocusJob& job, const Look& look) {
     const Look usual, own = look_of(job);
     std::vector<std::string> warnings;

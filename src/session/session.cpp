@@ -34,14 +34,23 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 Result<DefocusReport> Session::defocus(const DefocusJob& job, const Control& control) {
+    auto rendered = rendered_of(job);
+    if (!rendered) return rendered.error();
+    auto report = defocus(std::move(*rendered), look_of(job), control_of(job, control), spare_of(job));
+    if (!report) return report;
+    for (std::string& unused : not_used_of(job, contents_->settings, control))
+        report->warnings.push_back(std::move(unused));
+    return report;
+}
+
+Result<DefocusReport> Session::defocus(Rendered rendered, Look look, const Control& control, Picture spare) {
     if (control.codes)
         return Error{ErrorCode::InvalidArgument,
                      "control.codes are of whole frames, as Session::take() makes them"};
-    auto rendered = rendered_of(job);
-    if (!rendered) return rendered.error();
-    auto frame =
-        FrameStages::begin_checked(*this, std::move(*rendered), look_of(job), control_of(job, control),
-                                   spare_of(job), not_used_of(job, contents_->settings, control));
+    look.expand_highlights = false;
+    look.vignetting = false;
+    look.glare = {};
+    auto frame = FrameStages::begin_checked(*this, std::move(rendered), look, control, std::move(spare), {});
     if (!frame) return frame.error();
     if (const Status done = frame->blur(); !done) return done.error();
     return std::move(*frame).report();

@@ -1,4 +1,5 @@
 #include "petzval/dynamic_range.h"
+#include "petzval/frame_stages.h"
 #include "petzval/glare.h"
 #include "petzval/session.h"
 
@@ -112,8 +113,10 @@ TEST(Take, LightCanBeAddedToAPictureThatWasBlurredBefore) {
     Look look;
     look.vignetting = true, look.glare.veil = 0.1, look.glare.bloom = 0.2;
     const auto taken = session.take(r.job, look);
-    auto defocused = session.defocus(with_look(r.job, look));
-    ASSERT_TRUE(taken && defocused);
+    auto frame = FrameStages::begin(session, *rendered_of(r.job), look);
+    ASSERT_TRUE(taken && frame && frame->blur());
+    auto defocused = std::move(*frame).report();
+    ASSERT_TRUE(defocused);
     const auto light = add_light(std::move(defocused->image), r.job, look);
     ASSERT_TRUE(light) << light.error().message;
     EXPECT_TRUE(same(taken->image, *light));

@@ -49,10 +49,10 @@ TEST_F(Masks, AreZeroOutsideOfTheirPixelsAndGoOnBeyondTheFrame) {
     EXPECT_EQ(at(shot, 19, 11), 0.5f);
     shot.camera.focal_length_mm = shot.camera.sensor_width_mm = shot.camera.f_number =
         shot.camera.focus_distance_m = FoundNumber{2, ""};
-    const auto job = rendered(shot);
-    ASSERT_TRUE(job);
-    EXPECT_EQ(job->mask.width(), shot.colour.width());
-    EXPECT_EQ(job->mask(5 + 5, 3 + 4), 0.5f);
+    const auto lent = rendered(shot);
+    ASSERT_TRUE(lent);
+    EXPECT_EQ(lent->mask.width(), shot.colour.width());
+    EXPECT_EQ(lent->mask(5 + 5, 3 + 4), 0.5f);
 }
 
 TEST_F(Masks, AreTheChannelThatIsNamedElseAlphaElseLuminance) {

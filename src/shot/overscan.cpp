@@ -25,13 +25,11 @@ Image<T> grown(const Image<T>& old, const Rect& window, const Rect& wider, bool 
 
 // Radii of every pixel by depth or as given, and the largest of its deep samples.
 Result<Plane> largest_radii(const Shot& shot, const Look& look) {
-    auto job = rendered(shot);
-    if (!job) return job.error();
-    const auto all = rendered_of(*job);
-    if (!all) return all.error();
-    auto radii = circle_of_confusion(*all, look, job->workers);
+    const auto lent = rendered(shot);
+    if (!lent) return lent.error();
+    auto radii = circle_of_confusion(*lent, look);
     if (!radii || shot.deep.empty()) return radii;
-    const auto coc = CircleOfConfusion::make(job->camera, shot.place.display_window.width(), look.coc);
+    const auto coc = CircleOfConfusion::make(lent->camera, shot.place.display_window.width(), look.coc);
     if (!coc && !shot.has_radii()) return coc.error();
     for (int y = 0; y < radii->height(); ++y)
         for (int x = 0; x < radii->width(); ++x)

@@ -95,26 +95,29 @@ std::vector<std::string> detected_in_picture(const Shot& shot) {
     return lines;
 }
 
-Result<DefocusJob> rendered(const Shot& shot) {
-    DefocusJob job;
-    job.camera = known_camera(shot.camera, shot.image_scale);
+Result<Rendered> rendered(const Shot& shot) {
+    Rendered lent;
+    lent.camera = known_camera(shot.camera, shot.image_scale);
     if (!shot.has_radii()) {
         const auto complete = complete_camera(shot.camera, shot.image_scale);
         if (!complete) return complete.error();
     }
-    job.colour = shot.colour;
-    (shot.has_radii() ? job.coc_px : job.depth_m) = shot.depth_plane();
-    if (!shot.deep.empty()) job.deep = &shot.deep;
-    if (!shot.behind.empty()) job.behind = &shot.behind;
-    if (!shot.holdout.empty()) job.holdout = &shot.holdout;
+    lent.place = shot.place;
+    lent.colour = shot.colour;
+    if (shot.has_radii())
+        lent.depth = SignedRadii{shot.depth_plane()};
+    else
+        lent.depth = PlanarDepth{shot.depth_plane()};
+    if (!shot.deep.empty()) lent.deep = &shot.deep;
+    if (!shot.behind.empty()) lent.behind = &shot.behind;
+    if (!shot.holdout.empty()) lent.holdout = &shot.holdout;
     if (!shot.mask.empty())
-        job.mask =
+        lent.mask =
             shot.mask.view().part(shot.place.data_window.moved(-shot.mask_window.x0, -shot.mask_window.y0));
-    if (!shot.lights.empty()) job.points = &shot.lights;
+    if (!shot.lights.empty()) lent.lights = &shot.lights;
     for (const FrameLayer& layer : shot.layers)
-        job.layers.push_back({layer.colour, layer.is_light, layer.spectrum});
-    job.place = shot.place;
-    return job;
+        lent.layers.push_back({layer.colour, layer.is_light, layer.spectrum});
+    return lent;
 }
 
 namespace {

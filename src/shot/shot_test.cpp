@@ -78,14 +78,14 @@ TEST_F(Shots, DepthIsMetresOrRadiiAndNeverBoth) {
     Shot shot = read();
     ASSERT_FALSE(shot.has_radii());
     EXPECT_FLOAT_EQ(depth_of(shot, 0, 0), 0.04f);
-    EXPECT_TRUE(rendered(shot)->coc_px.empty());
+    EXPECT_FALSE(has_radii(*rendered(shot)));
 
     source.depth = of_kind(DepthKind::CocPx);
     shot = read();
     ASSERT_TRUE(shot.has_radii());
     EXPECT_FLOAT_EQ(std::get<RadiiPx>(shot.depth).plane(0, 0), 4);
-    EXPECT_TRUE(rendered(shot)->depth_m.empty());
-    EXPECT_EQ(rendered(shot)->coc_px.width(), kPiece.width());
+    EXPECT_TRUE(has_radii(*rendered(shot)));
+    EXPECT_EQ(depth_or_radii(*rendered(shot)).width(), kPiece.width());
     EXPECT_TRUE(to_frame(std::move(shot)).depth.empty());  // radii are never written as Z
 }
 
@@ -248,7 +248,7 @@ TEST_F(Shots, LightReachesAsFarAsItsLargestRadius) {
     Shot shot = read();
     Look look;
     look.coc.far_scale = 10;
-    const auto radii = circle_of_confusion(*rendered_of(*rendered(shot)), look);
+    const auto radii = circle_of_confusion(*rendered(shot), look);
     const double largest = double(*std::max_element(radii->pixels(), radii->pixels() + radii->size()));
     ASSERT_GT(largest, 1);
     EXPECT_EQ(*reach_px(shot, look), int(std::ceil(largest)) + 1);
@@ -341,9 +341,9 @@ TEST_F(Shots, APngIsLeftBetweenRowsWhenReadingIsCancelled) {
 TEST_F(Shots, APictureIsTakenOfWhatWasRead) {
     source.camera.f_number = 0.5;
     const Shot shot = read();
-    const auto job = rendered(shot);
-    ASSERT_TRUE(job) << job.error().message;
-    const auto taken = Session().take(*job, Look{});
+    const auto lent = rendered(shot);
+    ASSERT_TRUE(lent) << lent.error().message;
+    const auto taken = Session().take(*lent, Look{});
     ASSERT_TRUE(taken) << taken.error().message;
     EXPECT_TRUE(shot.place.fits(taken->image.width(), taken->image.height()));
     EXPECT_LT(taken->image(10, 5).r, 50);  // the lamp is out of focus

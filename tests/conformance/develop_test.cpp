@@ -46,7 +46,7 @@ TEST(DevelopOnDevices, CodesAreThoseOfTheLight) {
             if (name == "cpu" && engine[0] == 'r') continue;  // there is none of the CPU
             Look look;
             look.engine = engine, look.glare.bloom = engine[0] == 'g' ? 0.1 : 0;
-            const DefocusJob job = with_look(shot.job(engine), look);
+            const DefocusJob job = shot.job(engine);
             const CodesWanted wanted{{.exposure_stops = 0.5, .alpha = true}};
             const DefocusReport light = taken(session, job, look),
                                 made = taken(session, job, look, {.codes = wanted});

@@ -1,5 +1,6 @@
 // Glare on every device but the CPU: what the CPU adds, twice the same, whatever the size.
 #include "petzval/develop.h"
+#include "petzval/frame_stages.h"
 #include "petzval/session.h"
 
 #include "gpus.h"
@@ -86,10 +87,12 @@ TEST(GlareOnDevices, GoesOnWhereTheFrameWasDrawn) {
         for (const char* engine : {"scatter", "gather", "gaussian", "sprites", "realtime"}) {
             Look look = looks().front();
             look.engine = engine, look.glare.ghosts = 0.1;
-            const DefocusJob job = with_look(shot.job(engine), look);
+            const DefocusJob job = shot.job(engine);
             const auto taken = session.take(job, look);
-            auto drawn = session.defocus(job);
+            auto frame = FrameStages::begin(session, *rendered_of(job), look);
             ASSERT_TRUE(taken) << taken.error().message;
+            ASSERT_TRUE(frame && frame->blur());
+            auto drawn = std::move(*frame).report();
             ASSERT_TRUE(drawn) << drawn.error().message;
             const auto lit = session.add_light(std::move(drawn->image), job, look);
             ASSERT_TRUE(lit) << lit.error().message;

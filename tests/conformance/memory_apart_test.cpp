@@ -64,7 +64,7 @@ protected:
         paint_rectangles(shot.colour, 3);
         for (int y = 0; y < 30; ++y) shot.coc_px(20, y) = shot.coc_px(21, y) = -5;
         for (const int x : {8, 33}) shot.colour(x, 20) = {700, 60, 20, 1};
-        const DefocusJob job = with_look(shot.job(engine), look);
+        const DefocusJob job = shot.job(engine);
         for (const std::string& gpu : gpus()) {
             const DefocusReport one = made(gpu, job, look, false, control),
                                 apart = made(gpu, job, look, true, control);

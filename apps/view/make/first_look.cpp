@@ -17,24 +17,25 @@ int thinning_of(const Wish& wish) {
                      int(std::ceil(std::sqrt(pixels / kFirstPixels)))});
 }
 
-Result<DefocusReport> first_look(Session& session, const DefocusJob& rendered, Look look, int by,
+Result<DefocusReport> first_look(Session& session, const Rendered& rendered, Look look, int by,
                                  const Control& control) {
-    DefocusJob job;
-    job.camera = rendered.camera;
+    Rendered few;
+    few.camera = rendered.camera;
     const Picture colour = thinned(rendered.colour, by);
-    Plane depth = thinned(rendered.coc_px.empty() ? rendered.depth_m : rendered.coc_px, by);
-    for (std::size_t i = 0; i < depth.size() && !rendered.coc_px.empty(); ++i) depth.pixels()[i] /= float(by);
-    job.colour = colour;
-    (rendered.coc_px.empty() ? job.depth_m : job.coc_px) = depth;
+    Plane depth = thinned(depth_or_radii(rendered), by);
+    for (std::size_t i = 0; i < depth.size() && has_radii(rendered); ++i) depth.pixels()[i] /= float(by);
+    few.colour = colour;
+    few.depth = rendered.depth;
+    set_depth(few, depth);
     const Rect &frame = rendered.place.display_window, &data = rendered.place.data_window;
     const int x = (data.x0 - frame.x0) / by, y = (data.y0 - frame.y0) / by;
-    job.place = {{0, 0, std::max(1, frame.width() / by), std::max(1, frame.height() / by)},
+    few.place = {{0, 0, std::max(1, frame.width() / by), std::max(1, frame.height() / by)},
                  Rect{x, y, x + colour.width(), y + colour.height()},
                  rendered.place.pixel_aspect};
     look.coc.max_radius_px /= by;
     Control of_few = control;
-    if (of_few.codes) of_few.codes->window = job.place.data_window;
-    auto done = session.take(job, look, of_few);
+    if (of_few.codes) of_few.codes->window = few.place.data_window;
+    auto done = session.take(few, look, of_few);
     if (done && done->codes.empty())
         done->image = enlarged<Rgba>(done->image, by, rendered.colour.width(), rendered.colour.height());
     return done;

@@ -10,7 +10,7 @@ int thinning_of(const Wish& wish);
 
 // The frame on a sensor of fewer pixels, enlarged to its own; its codes, where control wants them, as they
 // are.
-Result<DefocusReport> first_look(Session& session, const DefocusJob& rendered, Look look, int by,
+Result<DefocusReport> first_look(Session& session, const Rendered& rendered, Look look, int by,
                                  const Control& control);
 
 }  // namespace petzval::view

@@ -200,14 +200,14 @@ Status save_result(const Shot& shot, const FoundCamera& camera, const Choice& ch
     const ImageScale scale = choice.camera.image_scale;
     const auto numbers = shot.has_radii() ? known_camera(camera, scale) : complete_camera(camera, scale);
     if (!numbers) return numbers.error();
-    auto job = rendered(shot);
-    if (!job) return job.error();
-    job->camera = *numbers;
+    auto lent = rendered(shot);
+    if (!lent) return lent.error();
+    lent->camera = *numbers;
     Look look = choice.look;
     if (Status done = read_lens_images(look); !done) return done;
     Control control;
     if (is_png(path)) control.codes = CodesWanted{choice.develop, shot.place.data_window};
-    auto made = session.take(*job, look, control);
+    auto made = session.take(*lent, look, control);
     if (!made) return made.error();
     return write_result(path, std::move(*made), shot.place, history_of(shot, camera, look));
 }

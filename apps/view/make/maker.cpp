@@ -59,16 +59,16 @@ void complete(FoundCamera& camera) {
         if (!*number) *number = FoundNumber{1, "the window"};
 }
 
-// The session's job: with at most one layer, the one shown.
-DefocusJob job_of(const Wish& wish) {
-    DefocusJob job = rendered(wish.shot->shot).value();
-    job.camera = wish.camera;
+// The shot with the wish's camera and at most one layer, the one shown.
+Rendered rendered_for(const Wish& wish) {
+    Rendered lent = rendered(wish.shot->shot).value();
+    lent.camera = wish.camera;
     const auto& layers = wish.shot->shot.layers;
     std::vector<ColourLayer> kept;
     for (std::size_t i = 0; i < layers.size(); ++i)
-        if (wish.shown == kLayer + name_of(layers[i])) kept.push_back(job.layers[i]);
-    job.layers = std::move(kept);
-    return job;
+        if (wish.shown == kLayer + name_of(layers[i])) kept.push_back(lent.layers[i]);
+    lent.layers = std::move(kept);
+    return lent;
 }
 
 // The first number of every pixel.
@@ -368,10 +368,10 @@ MadeFrame Maker::made(const Order& order, const Control& control) {
     MadeFrame frame;
     const Wish& wish = order.wish;
     const Shot& shot = wish.shot->shot;
-    DefocusJob job = job_of(wish);
+    const Rendered lent = rendered_for(wish);
     frame.area = shot.place.data_window;
     if (order.step == 0) {
-        auto radii = circle_of_confusion(with_look(job, wish.look));
+        auto radii = circle_of_confusion(lent, wish.look);
         if (!radii) {
             frame.error = radii.error();
             return frame;
@@ -382,11 +382,11 @@ MadeFrame Maker::made(const Order& order, const Control& control) {
         frame.last = true;
         return frame;
     }
-    if (Status done = take_picture(order, job, control, frame); !done) frame.error = done.error();
+    if (Status done = take_picture(order, lent, control, frame); !done) frame.error = done.error();
     return frame;
 }
 
-Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
+Status Maker::take_picture(const Order& order, const Rendered& rendered, const Control& control,
                            MadeFrame& frame) {
     const Wish& wish = order.wish;
     Look look = look_of_step(wish, order.step);
@@ -419,7 +419,7 @@ Status Maker::take_picture(const Order& order, const DefocusJob& rendered, const
     return Done{};
 }
 
-Result<DefocusReport> Maker::shown(const Wish& wish, const DefocusJob& rendered, const Look& look,
+Result<DefocusReport> Maker::shown(const Wish& wish, const Rendered& rendered, const Look& look,
                                    const Control& control) {
     Session& session = session_of(wish);
     if (wish.shown == "result") return session.take(rendered, look, control);
@@ -428,13 +428,14 @@ Result<DefocusReport> Maker::shown(const Wish& wish, const DefocusJob& rendered,
         if (report && report->layers.size() == 1) report->image = std::move(report->layers[0]);
         return report;
     }
-    DefocusJob job = with_look(rendered, look);
+    Look chosen = look;
+    Control shown = control;
     if (is_view(wish.shown)) {
-        if (const auto scatter = parse<ScatterView>(wish.shown)) job.scatter.view = *scatter;
-        if (const auto gaussian = parse<GaussianView>(wish.shown)) job.gaussian.view = *gaussian;
-        job.engine = is_buffer(wish.shown) ? "scatter" : "gaussian";
+        if (const auto scatter = parse<ScatterView>(wish.shown)) shown.view = *scatter;
+        if (const auto gaussian = parse<GaussianView>(wish.shown)) chosen.gaussian.view = *gaussian;
+        chosen.engine = is_buffer(wish.shown) ? "scatter" : "gaussian";
     }
-    auto report = session.defocus(job, control);
+    auto report = session.defocus(rendered, chosen, shown);
     if (!report || wish.shown != "glare") return report;
     const Picture blurred = report->image.clone();
     auto lit = session.add_light(std::move(report->image), rendered, look, {.cancelled = control.cancelled});

@@ -154,10 +154,10 @@ private:
     bool can_be_made(const std::optional<Order>& order) const;
     bool comes_as_codes(const Order& order, const Look& look) const;
     void warm_up();
-    Status take_picture(const Order& order, const DefocusJob& rendered, const Control& control,
+    Status take_picture(const Order& order, const Rendered& rendered, const Control& control,
                         MadeFrame& frame);
     void look_at_files();
-    Result<DefocusReport> shown(const Wish& wish, const DefocusJob& rendered, const Look& look,
+    Result<DefocusReport> shown(const Wish& wish, const Rendered& rendered, const Look& look,
                                 const Control& control);
 
     std::shared_ptr<Session> session_, cpu_session_;

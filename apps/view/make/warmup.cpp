@@ -46,16 +46,16 @@ void Warmup::prepare(const Wish& wish, const std::vector<Look>& looks) {
     const auto all = rendered(wish.shot->shot);
     if (!all) return;
     const int by = std::max(1, all->colour.width() / kWidth_px);
-    const bool has_radii = !all->coc_px.empty();
     const Picture colour = thinned(all->colour, by);
-    const Plane depth = thinned(has_radii ? all->coc_px : all->depth_m, by);
-    DefocusJob job;
-    job.camera = wish.camera;
-    job.colour = colour;
-    (has_radii ? job.coc_px : job.depth_m) = depth;
-    job.place = Place::whole(colour.rect());
+    const Plane depth = thinned(depth_or_radii(*all), by);
+    Rendered few;
+    few.camera = wish.camera;
+    few.colour = colour;
+    few.depth = all->depth;
+    set_depth(few, depth);
+    few.place = Place::whole(colour.rect());
     for (const Look& look : looks)
-        static_cast<void>(session_->take(job, look, {.cancelled = [this] { return ending_.load(); }}));
+        static_cast<void>(session_->take(few, look, {.cancelled = [this] { return ending_.load(); }}));
 }
 
 // The part of the maker that asks if a device is warm.
