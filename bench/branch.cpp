@@ -93,7 +93,8 @@ float depth_at(const Branch& branch, int x, int y) {
 
 CompletionShot branch_shot(double tilt_deg, double f_number) {
     const Branch branch(tilt_deg);
-    Still still{Picture(kWidth, kHeight),
+    Still still{{},
+                Picture(kWidth, kHeight),
                 Picture(kWidth, kHeight),
                 Plane(kWidth, kHeight),
                 Image<unsigned char>(kWidth, kHeight),

@@ -1,9 +1,9 @@
-// petzval_bench_completion FOLDER [--engine NAME] [--quality NAME] [--keep FOLDER] SHOT…: how close results
-// come to the truth where hidden surfaces had to be guessed. Shots are those of completion_shots.h, their
-// pictures lie in FOLDER. The program prints one line of JSON per shot: dB over the whole frame and over the
-// pixels that the blur of silhouettes reaches, shake and worst pop if it has three frames
-// (tests/flicker/flicker.h), CPU seconds of drawing one frame, and the worst squares. --keep also writes the
-// results, as SHOT.FRAME.exr.
+// petzval_bench_completion FOLDER [--engine NAME] [--quality NAME] [--keep FOLDER] [--known] SHOT…: how close
+// results come to the truth where hidden surfaces are estimated or, with --known, supplied as layers of the
+// scene. Shots are those of completion_shots.h, their pictures lie in FOLDER. The program prints one line of
+// JSON per shot: dB over the whole frame and over the pixels that the blur of silhouettes reaches, shake and
+// worst pop if it has three frames (tests/flicker/flicker.h), CPU seconds of drawing one frame, and the worst
+// squares. --keep also writes the results, as SHOT.FRAME.exr.
 #include "petzval/files.h"
 #include "petzval/names.h"
 
@@ -24,15 +24,20 @@ using bench::Still;
 struct Asked {
     std::string folder, engine = "scatter", keep;
     Quality quality = Quality::Standard;
+    bool known = false;
     std::vector<std::string> shots;
 };
 
 Asked asked_of(int count, char** words) {
     Asked asked;
-    if (count < 3) fail("FOLDER [--engine NAME] [--quality NAME] [--keep FOLDER] SHOT…");
+    if (count < 3) fail("FOLDER [--engine NAME] [--quality NAME] [--keep FOLDER] [--known] SHOT…");
     asked.folder = words[1];
     for (int i = 2; i < count; ++i) {
         const std::string word = words[i];
+        if (word == "--known") {
+            asked.known = true;
+            continue;
+        }
         if (!word.starts_with("--")) {
             asked.shots.push_back(word);
             continue;
@@ -58,6 +63,7 @@ Picture drawn(const Still& still, const Asked& asked) {
     job.place = Place::whole(still.sharp.rect());
     job.camera = still.camera;
     job.engine = asked.engine, job.quality = asked.quality;
+    if (asked.known) job.behind = &still.hidden;
     auto report = defocus(job);
     if (!report) fail(report.error().message);
     return std::move(report->image);
@@ -129,7 +135,7 @@ void keep(const Picture& result, const std::string& path) {
 }
 
 void judge(const std::string& name, const Asked& asked) {
-    const CompletionShot shot = bench::completion_shot(name, asked.folder);
+    const CompletionShot shot = bench::completion_shot(name, asked.folder, asked.known);
     flicker::Frames results, truths;
     Errors errors;
     double cpu_s = 0;

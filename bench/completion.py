@@ -8,8 +8,10 @@ frame to frame beyond the truth's. CPU seconds are of drawing one frame of 320 x
 --save FILE.json keeps the numbers, --against FILE.json|BUILD compares with kept ones, or with those of another build folder
 (the same sources of bench and scenes, another estimator). --sheets N: the N worst squares of the judging seeds as
 build/bench/completion/worst.png: sharp, before (with --against BUILD), after, truth, three times as large.
+--known supplies the scene's hidden layers. Compared with saved numbers, it shows the most that an estimate can gain. The
+branch has no hidden layers and is left out.
 
-Usage: ./dev bench completion [--seeds 0-99] [--small] [--own] [--engine NAME] [--quality Q] [--save F] [--against F] [--sheets N]
+Usage: ./dev bench completion [--seeds 0-99] [--small] [--own] [--engine NAME] [--quality Q] [--save F] [--against F] [--sheets N] [--known]
 --small: seeds 0-9 and the branch alone, about a minute once their truths are there. Truths are kept in
 build/bench/completion until the sources of the scene change; a hundred seeds take ten minutes of two cores.
 """
@@ -51,7 +53,8 @@ def measured(build, shots, given, folder, keep=None):
     program = build / "bench/petzval_bench_completion"
     if not program.exists():
         sys.exit(f"bench: {program} is missing; build the target petzval_bench_completion there, or save its numbers")
-    words = [program, folder, "--engine", given.engine, "--quality", given.quality, *(["--keep", keep] if keep else []), *shots]
+    flags = [*(["--keep", keep] if keep else []), *(["--known"] if given.known else [])]
+    words = [program, folder, "--engine", given.engine, "--quality", given.quality, *flags, *shots]
     found = {}
     with subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, text=True) as running:
         for line in running.stdout:
@@ -120,12 +123,13 @@ def parsed():
     parser.add_argument("--save", type=pathlib.Path)
     parser.add_argument("--against", type=pathlib.Path)
     parser.add_argument("--sheets", type=int, default=0)
+    parser.add_argument("--known", action="store_true", help="supply the scene's hidden layers")
     given = parser.parse_args()
     first, _, last = given.seeds.partition("-")
     given.shots = given.seeds.split(",") if not last else [str(i) for i in range(int(first), int(last) + 1)]
     if given.small:
         given.shots = [str(i) for i in range(10)]
-    given.shots += (OWN if given.own else []) + BRANCH
+    given.shots += (OWN if given.own else []) + ([] if given.known else BRANCH)
     return given
 
 

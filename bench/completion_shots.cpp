@@ -48,15 +48,31 @@ void write(const std::string& path, const RenderedScene& scene, bool is_truth) {
     if (const Status status = write_exr(path, frame, options); !status) fail(status.error().message);
 }
 
-void make(const Source& source, int frame, const Still& still) {
+SceneSettings settings_of(const Source& source, int frame) {
     SceneSettings settings;
     settings.width = kWidth, settings.height = kHeight;
     settings.seed = source.seed, settings.frame = frame;
-    settings.truth_samples = kTruthSamples, settings.want_truth = true;
-    const auto scene = render_scene(source.scene, settings);
+    return settings;
+}
+
+RenderedScene rendered(const Source& source, const SceneSettings& settings) {
+    auto scene = render_scene(source.scene, settings);
     if (!scene) fail(scene.error().message);
-    write(still.sharp_file, *scene, false);
-    write(still.truth_file, *scene, true);
+    return std::move(*scene);
+}
+
+void make(const Source& source, int frame, const Still& still) {
+    SceneSettings settings = settings_of(source, frame);
+    settings.truth_samples = kTruthSamples, settings.want_truth = true;
+    const RenderedScene scene = rendered(source, settings);
+    write(still.sharp_file, scene, false);
+    write(still.truth_file, scene, true);
+}
+
+DeepPicture hidden_layers(const Source& source, int frame) {
+    SceneSettings settings = settings_of(source, frame);
+    settings.want_layers = true;
+    return rendered(source, settings).layers;
 }
 
 Frame read(const std::string& path, bool need_depth) {
@@ -121,8 +137,9 @@ float exposure_of(const Picture& picture) {
 
 }  // namespace
 
-CompletionShot completion_shot(const std::string& name, const std::string& folder) {
+CompletionShot completion_shot(const std::string& name, const std::string& folder, bool with_hidden) {
     if (name.starts_with("branch:")) {
+        if (with_hidden) fail(name + " has no hidden layers");
         double tilt_deg = 0, f_number = 0;
         if (std::sscanf(name.c_str(), "branch:%lf:%lf", &tilt_deg, &f_number) != 2)
             fail(name + ": branch:TILT:FSTOP");
@@ -130,7 +147,10 @@ CompletionShot completion_shot(const std::string& name, const std::string& folde
     }
     const Source source = source_of(name);
     CompletionShot shot;
-    for (int i = 0; i < source.frames; ++i) shot.frames.push_back(still_of(source, source.first + i, folder));
+    for (int i = 0; i < source.frames; ++i) {
+        shot.frames.push_back(still_of(source, source.first + i, folder));
+        if (with_hidden) shot.frames.back().hidden = hidden_layers(source, source.first + i);
+    }
     shot.exposure = exposure_of(shot.frames[0].sharp);
     return shot;
 }
