@@ -14,10 +14,11 @@ namespace {
 using Outline = HiddenOutlines::Outline;
 
 constexpr int kCell = 16;        // pixels on a side
-constexpr int kLongestPx = 54;   // one goes on alone
+constexpr int kLongestPx = 110;  // one goes on alone
 constexpr int kFarthestPx = 90;  // two ends of one are apart
 constexpr int kEndCell = 32;     // pixels on a side
 static_assert(kFarthestPx + kTracedPx + kEndCell <= kOutlineReachPx);
+static_assert(kLongestPx + kTracedPx + kCell <= kOutlineReachPx);
 constexpr float kMorePx = 1.5f;
 
 // A column or row of `cells` cells, each `px` wide.

@@ -114,6 +114,20 @@ TEST(HiddenOutlines, AnEdgeGoesOnBehindOneThingAfterTheOther) {
     }
 }
 
+// A branch may hide the edge of a box for longer than the edge shows beside it.
+TEST(HiddenOutlines, AnEdgeContinuesAloneForAHundredPixels) {
+    Plane coc(180, 64, kNearPx);
+    for (int y = 0; y < coc.height(); ++y)
+        for (int x = 0; x < 40; ++x) coc(x, y) = y < 32 ? 0 : kBackPx;
+    const HiddenOutlines outlines(coc, one_thread());
+    ASSERT_EQ(outlines.outlines().size(), 1U);
+    EXPECT_GE(outlines.outlines()[0].length_px, 100);
+    for (const int x : {50, 90, 138}) {
+        EXPECT_EQ(outlines.open({20, 20}, {x, 27}, 0).within, 1) << x;
+        EXPECT_EQ(outlines.open({20, 20}, {x, 36}, 0).within, 0) << x;
+    }
+}
+
 // Where nothing lies behind the thing, or nothing before it, no outline is hidden.
 TEST(HiddenOutlines, OnlyThreeSurfacesHideAnOutline) {
     const Inside none = [](float, float) { return false; };
