@@ -18,8 +18,9 @@ namespace petzval {
 // that it hides), not by the part of the pixel that samples in front leave.
 struct DeepSample {
     Rgba colour;
-    float depth_m = 0;       // planar, metres; +infinity for a miss
-    float depth_back_m = 0;  // end of a volumetric sample; equal to depth_m for a surface
+    // Planar metres, +infinity for a miss; or signed radii in pixels, beside a picture whose depth is radii.
+    float depth = 0;
+    float depth_back = 0;  // end of a volumetric sample; equal to depth for a surface
 };
 
 // Samples of a width x height picture, nearest first within each pixel, rows top to bottom.

@@ -230,7 +230,7 @@ Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Place& place,
         return deep.samples().subspan(from, deep.first()[first + std::size_t(deep.width())] - from);
     };
     const Tally before = tally_rows(deep.height(), *workers, [&](int y, Tally& tally) {
-        for (const DeepSample& s : row(y)) tally.look_at(s.depth_m, to);
+        for (const DeepSample& s : row(y)) tally.look_at(s.depth, to);
     });
     const float sign = before.negative > 0 && before.positive == 0 ? -1.f : 1.f;
     const Rect& data = place.data_window;
@@ -240,15 +240,14 @@ Result<DepthReport> deep_to_planar_metres(DeepPicture& deep, const Place& place,
             const std::size_t i = std::size_t(y) * std::size_t(deep.width()) + std::size_t(x);
             const auto pixel = deep.samples().subspan(deep.first()[i], deep.first()[i + 1] - deep.first()[i]);
             for (DeepSample& s : pixel) {
-                const float a = converted(to, s.depth_m, sign, data.x0 + x, data.y0 + y);
-                const float b = converted(to, s.depth_back_m, sign, data.x0 + x, data.y0 + y);
-                s.depth_m = std::min(a, b), s.depth_back_m = std::max(a, b);
-                tally.count(s.depth_m);
+                const float a = converted(to, s.depth, sign, data.x0 + x, data.y0 + y);
+                const float b = converted(to, s.depth_back, sign, data.x0 + x, data.y0 + y);
+                s.depth = std::min(a, b), s.depth_back = std::max(a, b);
+                tally.count(s.depth);
             }
             if (reorder)
-                std::stable_sort(pixel.begin(), pixel.end(), [](const DeepSample& p, const DeepSample& q) {
-                    return p.depth_m < q.depth_m;
-                });
+                std::stable_sort(pixel.begin(), pixel.end(),
+                                 [](const DeepSample& p, const DeepSample& q) { return p.depth < q.depth; });
         }
     });
     return report_of(before, after, settings);

@@ -157,10 +157,10 @@ TEST(PlanarDepth, DeepSamplesBecomeMetresAndStayNearestFirst) {
     ASSERT_TRUE(report);
     EXPECT_EQ(report->misses, 1u);
     EXPECT_EQ(deep.at(0, 0)[0].colour.g, 1);
-    EXPECT_EQ(deep.at(0, 0)[0].depth_m, 2);
-    EXPECT_EQ(deep.at(0, 0)[1].depth_m, 4);
-    EXPECT_EQ(deep.at(0, 0)[1].depth_back_m, 5);
-    EXPECT_EQ(deep.at(1, 0)[0].depth_m, kInfinity);
+    EXPECT_EQ(deep.at(0, 0)[0].depth, 2);
+    EXPECT_EQ(deep.at(0, 0)[1].depth, 4);
+    EXPECT_EQ(deep.at(0, 0)[1].depth_back, 5);
+    EXPECT_EQ(deep.at(1, 0)[0].depth, kInfinity);
 }
 
 }  // namespace

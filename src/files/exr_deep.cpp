@@ -119,8 +119,8 @@ public:
         add(colour.green, [](DeepSample& s) { return &s.colour.g; });
         add(colour.blue, [](DeepSample& s) { return &s.colour.b; });
         add(colour.alpha, [](DeepSample& s) { return &s.colour.a; });
-        add(depth.channel, [](DeepSample& s) { return &s.depth_m; });
-        add(depth.back, [](DeepSample& s) { return &s.depth_back_m; });
+        add(depth.channel, [](DeepSample& s) { return &s.depth; });
+        add(depth.back, [](DeepSample& s) { return &s.depth_back; });
     }
 
     Result<DeepPicture> read(const ReadOptions& options) {
@@ -238,11 +238,11 @@ std::size_t tidy(std::span<DeepSample> pixel, bool has_back, bool grey) {
     for (DeepSample& s : pixel) {
         for (float* v : {&s.colour.r, &s.colour.g, &s.colour.b, &s.colour.a}) replaced += made_finite(*v);
         if (grey) s.colour.g = s.colour.b = s.colour.r;
-        if (std::isnan(s.depth_m)) s.depth_m = kInfinity;
-        if (!has_back || std::isnan(s.depth_back_m)) s.depth_back_m = s.depth_m;
+        if (std::isnan(s.depth)) s.depth = kInfinity;
+        if (!has_back || std::isnan(s.depth_back)) s.depth_back = s.depth;
     }
     const auto nearer = [](const DeepSample& p, const DeepSample& q) {
-        return std::abs(p.depth_m) < std::abs(q.depth_m);
+        return std::abs(p.depth) < std::abs(q.depth);
     };
     if (!std::is_sorted(pixel.begin(), pixel.end(), nearer))
         std::stable_sort(pixel.begin(), pixel.end(), nearer);

@@ -45,8 +45,8 @@ void expect_equal(const DeepPicture& a, const DeepPicture& b) {
     for (std::size_t i = 0; i < a.first().size(); ++i) ASSERT_EQ(a.first()[i], b.first()[i]);
     for (std::size_t i = 0; i < a.sample_count(); ++i) {
         ASSERT_EQ(a.samples()[i].colour, b.samples()[i].colour) << i;
-        ASSERT_EQ(a.samples()[i].depth_m, b.samples()[i].depth_m) << i;
-        ASSERT_EQ(a.samples()[i].depth_back_m, b.samples()[i].depth_back_m) << i;
+        ASSERT_EQ(a.samples()[i].depth, b.samples()[i].depth) << i;
+        ASSERT_EQ(a.samples()[i].depth_back, b.samples()[i].depth_back) << i;
     }
 }
 
@@ -142,9 +142,9 @@ TEST(DeepExr, DeepTilesAreReadAndSortedNearestFirst) {
                 for (std::size_t i = 0; i < pixel.size(); ++i) {
                     const float sample = float(pixel.size() - 1 - i);
                     ASSERT_EQ(pixel[i].colour, (Rgba{float(x), float(y), sample, 1}));
-                    ASSERT_EQ(pixel[i].depth_m, 10 - sample + float(x));
+                    ASSERT_EQ(pixel[i].depth, 10 - sample + float(x));
                 }
-                ASSERT_EQ(frame->depth(x, y), pixel.empty() ? kInfinity : pixel[0].depth_m);
+                ASSERT_EQ(frame->depth(x, y), pixel.empty() ? kInfinity : pixel[0].depth);
             }
     }
 }

@@ -57,9 +57,9 @@ public:
         add(1, "G", type, colours_[1], [&](const DeepSample& s) { return colour(s.colour.g); });
         add(2, "B", type, colours_[2], [&](const DeepSample& s) { return colour(s.colour.b); });
         add(3, "A", type, colours_[3], [&](const DeepSample& s) { return colour(s.colour.a); });
-        add(4, "Z", Imf::FLOAT, depths_[0], [](const DeepSample& s) { return s.depth_m; });
+        add(4, "Z", Imf::FLOAT, depths_[0], [](const DeepSample& s) { return s.depth; });
         if (has_back_)
-            add(5, "ZBack", Imf::FLOAT, depths_[1], [](const DeepSample& s) { return s.depth_back_m; });
+            add(5, "ZBack", Imf::FLOAT, depths_[1], [](const DeepSample& s) { return s.depth_back; });
         return buffer;
     }
 
@@ -106,7 +106,7 @@ Status write_deep_exr(const std::string& path, const Place& place, const DeepPic
                                                      printable(options.compression) + "'"};
     const bool wide = options.type == PixelType::Float;
     const bool has_back = std::any_of(deep.samples().begin(), deep.samples().end(),
-                                      [](const DeepSample& s) { return s.depth_back_m != s.depth_m; });
+                                      [](const DeepSample& s) { return s.depth_back != s.depth; });
     std::vector<Channel> channels;
     for (const char* name : {"R", "G", "B", "A"})
         channels.push_back(plain_channel(name, wide ? SampleType::Float : SampleType::Half));

@@ -127,8 +127,8 @@ TEST(SharedExr, DeepSamplesAreAllThereSortedAndComposeToTheFlatPicture) {
                 const auto samples = frame->deep.at(x, y);
                 double seen = 1, red = 0;
                 for (std::size_t i = 0; i < samples.size(); ++i) {
-                    ASSERT_LE(samples[i ? i - 1 : 0].depth_m, samples[i].depth_m);
-                    ASSERT_EQ(samples[i].depth_m, samples[i].depth_back_m);
+                    ASSERT_LE(samples[i ? i - 1 : 0].depth, samples[i].depth);
+                    ASSERT_EQ(samples[i].depth, samples[i].depth_back);
                     red += seen * double(samples[i].colour.r);
                     seen *= 1 - double(samples[i].colour.a);
                 }
@@ -154,7 +154,7 @@ TEST(SharedExr, ARealDeepImageSurvivesBeingWrittenAgain) {
                 testing::ElementsAre("A half", "B half", "G half", "R half", "Z float"));
     for (std::size_t i = 0; i < in->deep.sample_count(); ++i) {
         ASSERT_EQ(in->deep.samples()[i].colour, out->deep.samples()[i].colour);
-        ASSERT_EQ(in->deep.samples()[i].depth_m, out->deep.samples()[i].depth_m);
+        ASSERT_EQ(in->deep.samples()[i].depth, out->deep.samples()[i].depth);
     }
 }
 

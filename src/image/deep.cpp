@@ -16,7 +16,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // A total order, nearest first.
 bool comes_before(const DeepSample& p, const DeepSample& q) {
     const auto key = [](const DeepSample& s) {
-        return std::tie(s.depth_m, s.depth_back_m, s.colour.a, s.colour.r, s.colour.g, s.colour.b);
+        return std::tie(s.depth, s.depth_back, s.colour.a, s.colour.r, s.colour.g, s.colour.b);
     };
     return key(p) < key(q);
 }
@@ -45,9 +45,9 @@ float depth_of_half(std::span<const DeepSample> samples, float alpha) {
     float free = 1;
     for (const DeepSample& s : samples) {
         free *= 1 - share(s.colour);
-        if (alpha > 0 && 1 - free >= 0.5f * alpha) return s.depth_m;
+        if (alpha > 0 && 1 - free >= 0.5f * alpha) return s.depth;
     }
-    return samples.front().depth_m;
+    return samples.front().depth;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace petzval {
 namespace {
 
-bool is_volume(const DeepSample& s) { return s.depth_back_m > s.depth_m && std::isfinite(s.depth_back_m); }
+bool is_volume(const DeepSample& s) { return s.depth_back > s.depth && std::isfinite(s.depth_back); }
 
 // Several volumes that fill the same interval: optical thicknesses add, and each glows in proportion to its
 // own (Kainz, "Interpreting OpenEXR Deep Pixels": splitting and merging of volume samples).
@@ -45,7 +45,7 @@ private:
 };
 
 float part_of(const DeepSample& s, float from_m, float to_m) {
-    return float((double(to_m) - double(from_m)) / (double(s.depth_back_m) - double(s.depth_m)));
+    return float((double(to_m) - double(from_m)) / (double(s.depth_back) - double(s.depth)));
 }
 
 // Samples one over the other as they come, remembered as one at their mean depth as seen. In double: there
@@ -81,13 +81,13 @@ void sum_up(std::span<const DeepSample> pixel, std::span<const float> cuts_m, st
         return std::size_t(std::upper_bound(cuts_m.begin(), cuts_m.end(), z) - cuts_m.begin());
     };
     for (const DeepSample& s : pixel) {
-        std::size_t i = interval_of(s.depth_m);
+        std::size_t i = interval_of(s.depth);
         if (!is_volume(s)) {
-            heaps[i].add(s.colour, s.depth_m);
+            heaps[i].add(s.colour, s.depth);
             continue;
         }
-        for (float from_m = s.depth_m; from_m < s.depth_back_m; ++i) {
-            const float to_m = i < cuts_m.size() ? std::min(cuts_m[i], s.depth_back_m) : s.depth_back_m;
+        for (float from_m = s.depth; from_m < s.depth_back; ++i) {
+            const float to_m = i < cuts_m.size() ? std::min(cuts_m[i], s.depth_back) : s.depth_back;
             Mixture piece;
             piece.add(s, double(part_of(s, from_m, to_m)));
             heaps[i].add(piece.colour(), 0.5f * (from_m + to_m));
@@ -101,11 +101,11 @@ void sum_up(std::span<const DeepSample> pixel, std::span<const float> cuts_m, st
 std::vector<float> boundaries_of(std::span<const DeepSample> pixel, std::span<const float> cuts_m) {
     std::vector<float> boundaries;
     for (const DeepSample& s : pixel) {
-        boundaries.push_back(s.depth_m);
+        boundaries.push_back(s.depth);
         if (!is_volume(s)) continue;
-        boundaries.push_back(s.depth_back_m);
-        const auto begin = std::upper_bound(cuts_m.begin(), cuts_m.end(), s.depth_m);
-        boundaries.insert(boundaries.end(), begin, std::lower_bound(begin, cuts_m.end(), s.depth_back_m));
+        boundaries.push_back(s.depth_back);
+        const auto begin = std::upper_bound(cuts_m.begin(), cuts_m.end(), s.depth);
+        boundaries.insert(boundaries.end(), begin, std::lower_bound(begin, cuts_m.end(), s.depth_back));
     }
     std::sort(boundaries.begin(), boundaries.end());
     boundaries.erase(std::unique(boundaries.begin(), boundaries.end()), boundaries.end());
@@ -121,13 +121,13 @@ void take_apart(std::span<const DeepSample> pixel, std::span<const float> cuts_m
     std::size_t next = 0;
     for (std::size_t i = 0; i < boundaries.size(); ++i) {
         const float here_m = boundaries[i];
-        std::erase_if(open, [&](const DeepSample* s) { return s->depth_back_m <= here_m; });
-        for (; next < pixel.size() && pixel[next].depth_m <= here_m; ++next) {
+        std::erase_if(open, [&](const DeepSample* s) { return s->depth_back <= here_m; });
+        for (; next < pixel.size() && pixel[next].depth <= here_m; ++next) {
             const DeepSample& s = pixel[next];
             if (is_volume(s))
                 open.push_back(&s);
             else
-                out.push_back({s.colour, s.depth_m, s.depth_m});
+                out.push_back({s.colour, s.depth, s.depth});
         }
         if (open.empty()) continue;
         Mixture mixture;
@@ -141,8 +141,8 @@ void take_apart(std::span<const DeepSample> pixel, std::span<const float> cuts_m
 bool has_overlaps(std::span<const DeepSample> pixel) {
     float farthest_back = -std::numeric_limits<float>::infinity();
     for (const DeepSample& s : pixel) {
-        if (s.depth_m < farthest_back) return true;
-        if (is_volume(s)) farthest_back = std::max(farthest_back, s.depth_back_m);
+        if (s.depth < farthest_back) return true;
+        if (is_volume(s)) farthest_back = std::max(farthest_back, s.depth_back);
     }
     return false;
 }
@@ -154,7 +154,7 @@ void tidy_pixel(std::span<const DeepSample> pixel, std::span<const float> cuts_m
     else if (std::any_of(pixel.begin(), pixel.end(), is_volume))
         take_apart(pixel, cuts_m, out);
     else
-        for (const DeepSample& s : pixel) out.push_back({s.colour, s.depth_m, s.depth_m});
+        for (const DeepSample& s : pixel) out.push_back({s.colour, s.depth, s.depth});
 }
 
 }  // namespace petzval

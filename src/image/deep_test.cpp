@@ -50,9 +50,9 @@ TEST(Deep, CuttingAVolumeKeepsItsLookAndItsCoverage) {
         if (alpha == 1) {
             EXPECT_EQ(over(parts), fog.colour);
         }
-        for (const DeepSample& s : parts) EXPECT_LE(s.depth_m, s.depth_back_m);
-        EXPECT_EQ(parts.front().depth_m, 2);
-        EXPECT_EQ(parts.back().depth_back_m, 10);
+        for (const DeepSample& s : parts) EXPECT_LE(s.depth, s.depth_back);
+        EXPECT_EQ(parts.front().depth, 2);
+        EXPECT_EQ(parts.back().depth_back, 10);
     }
 }
 
@@ -68,8 +68,8 @@ TEST(Deep, OverlappingVolumesAreSplitAtEachOthersEndsAndMixed) {
     // Red from 1 to 3, blue of the same density from 2 to 4.
     const auto parts = tidied({{{0.5f, 0, 0, 0.5f}, 1, 3}, {{0, 0, 0.5f, 0.5f}, 2, 4}});
     ASSERT_EQ(parts.size(), 3u);
-    EXPECT_EQ(parts[1].depth_m, 2);
-    EXPECT_EQ(parts[1].depth_back_m, 3);
+    EXPECT_EQ(parts[1].depth, 2);
+    EXPECT_EQ(parts[1].depth_back, 3);
     EXPECT_NEAR(parts[1].colour.a, 0.5, 1e-6);  // twice the density over half the length
     EXPECT_NEAR(parts[1].colour.r, parts[1].colour.b, 1e-6);
     EXPECT_NEAR(over(parts).a, 0.75, 1e-6);
@@ -97,7 +97,7 @@ TEST(Deep, MoreCoverageNeverLetsMoreLightThroughAMixture) {
             pixel.push_back({alpha * Rgba{0.7f, 0.2f, 0.1f, 1}, front, front + 3 * value(random)});
             free *= 1 - double(alpha);
         }
-        std::sort(pixel.begin(), pixel.end(), [](auto& a, auto& b) { return a.depth_m < b.depth_m; });
+        std::sort(pixel.begin(), pixel.end(), [](auto& a, auto& b) { return a.depth < b.depth; });
         const Rgba look = over(tidied(pixel, {2, 3.5f, 7}));
         EXPECT_NEAR(look.a, 1 - free, 1e-5);
         EXPECT_NEAR(look.r, 0.7 * double(look.a), 1e-5);  // one colour everywhere stays that colour
@@ -109,8 +109,8 @@ TEST(Deep, AVolumeWithoutAnEndIsTakenAtItsFront) {
     const auto parts =
         tidied({{{0.5f, 0.5f, 0.5f, 0.5f}, 3, infinity}, {{1, 1, 1, 1}, infinity, infinity}}, {4});
     ASSERT_EQ(parts.size(), 2u);
-    EXPECT_EQ(parts[0].depth_m, 3);
-    EXPECT_EQ(parts[0].depth_back_m, 3);
+    EXPECT_EQ(parts[0].depth, 3);
+    EXPECT_EQ(parts[0].depth_back, 3);
 }
 
 TEST(Deep, APixelOfAHundredThousandSamplesIsSummedUpInABlink) {
@@ -131,7 +131,7 @@ TEST(Deep, APixelOfAHundredThousandSamplesIsSummedUpInABlink) {
     EXPECT_NEAR(over(parts).a, 1 - free, 1e-3);
     EXPECT_NEAR(over(parts).r, 0.75 * double(over(parts).a), 1e-3);
     EXPECT_TRUE(
-        std::is_sorted(parts.begin(), parts.end(), [](auto& a, auto& b) { return a.depth_m < b.depth_m; }));
+        std::is_sorted(parts.begin(), parts.end(), [](auto& a, auto& b) { return a.depth < b.depth; }));
 }
 
 TEST(Deep, MergingSortsByDepthAndTheOrderOfTheFilesChangesNoBit) {
@@ -146,7 +146,7 @@ TEST(Deep, MergingSortsByDepthAndTheOrderOfTheFilesChangesNoBit) {
                 samples.push_back({{v, v, v, 0.5f}, z, z});
             }
             std::sort(samples.begin() + std::ptrdiff_t(begin), samples.end(),
-                      [](auto& a, auto& b) { return a.depth_m < b.depth_m; });
+                      [](auto& a, auto& b) { return a.depth < b.depth; });
             first.push_back(samples.size());
         }
         return DeepPicture(width, height, first, samples);
@@ -159,7 +159,7 @@ TEST(Deep, MergingSortsByDepthAndTheOrderOfTheFilesChangesNoBit) {
     ASSERT_TRUE(std::equal(abc.first().begin(), abc.first().end(), cab.first().begin()));
     for (std::size_t i = 0; i < abc.sample_count(); ++i) {
         EXPECT_EQ(abc.samples()[i].colour, cab.samples()[i].colour);
-        EXPECT_EQ(abc.samples()[i].depth_m, cab.samples()[i].depth_m);
+        EXPECT_EQ(abc.samples()[i].depth, cab.samples()[i].depth);
     }
     EXPECT_EQ(abc.at(5 + 2, 1 + 1).size(), a.at(5, 1).size() + b.at(1, 2).size());
     EXPECT_EQ(merge_deep({pb}, {4, -1, 6, 1}).sample_count(),

@@ -55,7 +55,7 @@ public:
             colour[x - pass_.area.x0] = opaque(sum);
             counts.push_back(samples.size() - before);
             std::sort(samples.begin() + std::ptrdiff_t(before), samples.end(),
-                      [](const DeepSample& a, const DeepSample& b) { return a.depth_m < b.depth_m; });
+                      [](const DeepSample& a, const DeepSample& b) { return a.depth < b.depth; });
         }
         trace_centres(depth_m);
     }

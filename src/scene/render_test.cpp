@@ -157,8 +157,8 @@ TEST(SceneLayers, WhatHidesIsThereInFullAndWhatSimplyShowsIsNot) {
     const auto hidden = r.layers.at(4, 4);  // the wall behind the sheet, and the sky behind it
     ASSERT_EQ(hidden.size(), 2u);
     EXPECT_EQ(hidden[0].colour, (Rgba{0, 0.25f, 0, 1}));
-    EXPECT_NEAR(hidden[0].depth_m, 5, 1e-5);
-    EXPECT_EQ(hidden[1].depth_m, std::numeric_limits<float>::infinity());
+    EXPECT_NEAR(hidden[0].depth, 5, 1e-5);
+    EXPECT_EQ(hidden[1].depth, std::numeric_limits<float>::infinity());
     ASSERT_EQ(r.layers.at(28, 4).size(), 1u);  // only the sky
     // The sheet ends in the middle of pixel 16: both show, each with its own coverage.
     const auto mixed = r.layers.at(16, 4);
@@ -176,7 +176,7 @@ TEST(SceneLayers, TheBackOfASolidIsNotASurfaceButWhatItHidesIs) {
     s.want_layers = true;
     const RenderedScene r = rendered(world, s);
     ASSERT_EQ(r.layers.at(16, 9).size(), 2u);
-    EXPECT_NEAR(r.layers.at(16, 9)[0].depth_m, 5, 1e-5);
+    EXPECT_NEAR(r.layers.at(16, 9)[0].depth, 5, 1e-5);
 }
 
 TEST(SceneLayers, ThroughTheHolesOfACutOutTheRestIsSeen) {
@@ -208,7 +208,7 @@ TEST(SceneRays, ACutOutThrowsNoShadowWhereItHasAHole) {
 // Layers front to back, behind the visible picture where they do not hold it.
 Rgba composed(const RenderedScene& r, int x, int y) {
     const auto samples = r.layers.at(x, y);
-    if (samples.empty() || samples.front().depth_m > r.depth_m(x, y) * 1.005f) return r.colour(x, y);
+    if (samples.empty() || samples.front().depth > r.depth_m(x, y) * 1.005f) return r.colour(x, y);
     Rgba sum{};
     float through = 1;
     for (const DeepSample& s : samples) sum += through * s.colour, through *= 1 - s.colour.a;

@@ -28,7 +28,7 @@ bool same_bits(const RenderedScene& a, const RenderedScene& b) {
     if (a.layers.sample_count() != b.layers.sample_count()) return false;
     for (std::size_t i = 0; i < a.layers.sample_count(); ++i)
         if (!(a.layers.samples()[i].colour == b.layers.samples()[i].colour) ||
-            a.layers.samples()[i].depth_m != b.layers.samples()[i].depth_m)
+            a.layers.samples()[i].depth != b.layers.samples()[i].depth)
             return false;
     return true;
 }

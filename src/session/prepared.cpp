@@ -68,7 +68,7 @@ float Radii::operator()(float depth) const {
 DeepPicture Radii::with_depths(DeepPicture of_radii) const {
     if (!coc_) return of_radii;
     for (DeepSample& s : of_radii.samples())
-        for (float* depth : {&s.depth_m, &s.depth_back_m})
+        for (float* depth : {&s.depth, &s.depth_back})
             *depth = float(coc_->depth_from_radius_m(double(*depth)));
     return of_radii;
 }

@@ -25,7 +25,7 @@ float largest_radius_px(const FrameRequest& request, const Radii& radii) {
         for (int x = 0; x < depth.width(); ++x) note(depth(x, y));
     for (const DeepPicture* deep : {request.rendered.deep, request.rendered.behind})
         if (deep)
-            for (const DeepSample& s : deep->samples()) note(s.depth_m);
+            for (const DeepSample& s : deep->samples()) note(s.depth);
     return largest;
 }
 

@@ -75,7 +75,7 @@ void expect_card_in_place(const Passing& p, const SeenElsewhere& found) {
                 EXPECT_EQ(s.colour.b > 0.5f, is_card) << x << " " << y;
                 EXPECT_NEAR(s.colour.r, is_card ? card_light(along) : 0.1f, 0.01f) << x << " " << y;
                 if (is_card) {
-                    EXPECT_NEAR(s.depth_m, card_depth(p, 0), 0.02f);
+                    EXPECT_NEAR(s.depth, card_depth(p, 0), 0.02f);
                 }
             }
 }

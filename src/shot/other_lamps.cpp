@@ -87,7 +87,7 @@ void OtherLamps::hide(std::vector<DeepSample>& known) const {
     const int width = shot_.colour.width();
     for (const auto& [place, lamp] : hidden_) {
         DeepSample& there = known[std::size_t(place.first) * std::size_t(width) + std::size_t(place.second)];
-        if (!(there.colour.a > 0 && there.depth_m < lamp.depth_m)) there = lamp;
+        if (!(there.colour.a > 0 && there.depth < lamp.depth)) there = lamp;
     }
 }
 

@@ -93,7 +93,7 @@ TEST(OtherLamps, AHiddenLampFadesInBeforeItComesOut) {
         float sum = 0;
         if (found.behind.empty()) return sum;
         for (const DeepSample& s : found.behind.at(lamp_column(here), kHeight / 2))
-            if (std::abs(s.depth_m - kLamp) < 0.01f) sum += s.colour.r;
+            if (std::abs(s.depth - kLamp) < 0.01f) sum += s.colour.r;
         return sum;
     };
     EXPECT_NEAR(light({{&other}}), kGlow, 1e-3f * kGlow) << "the other eye";

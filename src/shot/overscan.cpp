@@ -35,7 +35,7 @@ Result<Plane> largest_radii(const Shot& shot, const Look& look) {
         for (int x = 0; x < radii->width(); ++x)
             for (const DeepSample& s : shot.deep.at(x, y)) {
                 const float radius =
-                    std::abs(shot.has_radii() ? s.depth_m : float(coc->radius_px(double(s.depth_m))));
+                    std::abs(shot.has_radii() ? s.depth : float(coc->radius_px(double(s.depth))));
                 (*radii)(x, y) = std::max(std::abs((*radii)(x, y)), radius);
             }
     return radii;

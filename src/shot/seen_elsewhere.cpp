@@ -288,7 +288,7 @@ void drop_behind_thin_things(View<const float> depth, Workers& workers, std::vec
             if (!(s.colour.a > 0)) continue;
             bool is_thick = false;
             for (int dy = 0; dy < kThick && !is_thick; ++dy)
-                for (int dx = 0; dx < kThick && !is_thick; ++dx) is_thick = hides(x - dx, y - dy, s.depth_m);
+                for (int dx = 0; dx < kThick && !is_thick; ++dx) is_thick = hides(x - dx, y - dy, s.depth);
             if (!is_thick) s = {};
         }
     });

@@ -63,7 +63,7 @@ void expect_wall(const SeenElsewhere& found, const Scene& scene) {
                 EXPECT_NEAR(s.colour.r, wall.r, 0.002) << x << " " << y;
                 EXPECT_NEAR(s.colour.g, wall.g, 0.002) << x << " " << y;
                 EXPECT_EQ(s.colour.a, 1);
-                EXPECT_NEAR(s.depth_m, kWall, 1e-3);
+                EXPECT_NEAR(s.depth, kWall, 1e-3);
                 EXPECT_LT(std::abs(u * double(kCard) + scene.camera_x - scene.card_x), 0.2)
                     << "is behind the card";
             }

@@ -158,11 +158,11 @@ TEST_F(Shots, HiddenLayersAreCutToThePicturesWindow) {
     source.behind = folder / "hidden.exr";
     const Shot same = read();
     EXPECT_EQ(same.behind.width(), kPiece.width());
-    EXPECT_FLOAT_EQ(same.behind.at(0, 0)[0].depth_m, 8);
+    EXPECT_FLOAT_EQ(same.behind.at(0, 0)[0].depth, 8);
     write_picture(source.behind, kFrame, 8);
     const Shot cut = read();
     EXPECT_EQ(cut.behind.width(), kPiece.width());
-    EXPECT_FLOAT_EQ(cut.behind.at(0, 0)[0].depth_m, 8);
+    EXPECT_FLOAT_EQ(cut.behind.at(0, 0)[0].depth, 8);
     EXPECT_THAT(cut.detected, testing::Contains(HasSubstr("only the part inside")));
     write_picture(source.behind, {0, 0, kPiece.x0, kPiece.y0});
     EXPECT_THAT(refusal(ErrorCode::InvalidFile),

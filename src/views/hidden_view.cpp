@@ -30,7 +30,7 @@ Rgba complete_light(std::span<DeepSample> surfaces, Rgba shown) {
 void add_hidden_light(std::vector<DeepSample>& deep, std::size_t first, const engine::CocSample& light,
                       Rgba missing) {
     if (luminance(missing) > 0.5f * luminance(light.colour)) return;
-    const float behind = deep.size() > first ? deep.back().depth_m : light.coc_px;
+    const float behind = deep.size() > first ? deep.back().depth : light.coc_px;
     deep.push_back({light.colour, std::max(light.coc_px, behind), std::max(light.coc_back_px, behind)});
 }
 

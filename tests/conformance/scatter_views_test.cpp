@@ -94,8 +94,8 @@ TEST(Hidden, SurfacesComeAsDeepSamplesInMetresThatFlattenToThePicture) {
     EXPECT_TRUE(report->panels.empty());
     const auto inside = report->hidden.at(32, 22);
     ASSERT_EQ(inside.size(), 2U);
-    EXPECT_NEAR(inside[0].depth_m, 2, 1e-4);
-    EXPECT_NEAR(inside[1].depth_m, 5, 1e-3);
+    EXPECT_NEAR(inside[0].depth, 2, 1e-4);
+    EXPECT_NEAR(inside[1].depth, 5, 1e-3);
     EXPECT_EQ(inside[0].colour, kRed);
     EXPECT_GT(inside[1].colour.a, 0.99f);
     EXPECT_EQ(report->hidden.at(5, 5).size(), 1U);

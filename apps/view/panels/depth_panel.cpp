@@ -86,7 +86,7 @@ ImU32 display_colour(const Rgba& p) {
 void coverage_plot(App& app, const std::string& name, std::span<const DeepSample> samples) {
     DepthHistogram range;
     for (const DeepSample& sample : samples) {
-        const double z = double(sample.depth_m);
+        const double z = double(sample.depth);
         if (!(z > 0) || std::isinf(z)) continue;
         range.nearest_m = range.nearest_m > 0 ? std::min(range.nearest_m, z) : z;
         range.farthest_m = std::max(range.farthest_m, z);
@@ -101,7 +101,7 @@ void coverage_plot(App& app, const std::string& name, std::span<const DeepSample
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(scale.from, scale.to, IM_COL32(25, 25, 25, 255));
     const auto x_of = [&](const DeepSample& sample) {
-        const double z = double(sample.depth_m);
+        const double z = double(sample.depth);
         return std::isinf(z) ? scale.to.x
                              : scale.x(std::clamp(range.share_of(std::max(z, range.nearest_m)), 0.0, 1.0));
     };

@@ -192,7 +192,7 @@ void samples_of(App& app, const char* title, const DeepPicture& deep, int x, int
     const auto samples = deep.at(x, y);
     ImGui::Text("%s: %zu samples", title, samples.size());
     for (const DeepSample& sample : samples)
-        ImGui::Text("%9.5g m  alpha %.3f   %.4g %.4g %.4g", double(sample.depth_m), double(sample.colour.a),
+        ImGui::Text("%9.5g m  alpha %.3f   %.4g %.4g %.4g", double(sample.depth), double(sample.colour.a),
                     double(sample.colour.r), double(sample.colour.g), double(sample.colour.b));
     coverage_plot(app, title, samples);
 }

@@ -81,11 +81,11 @@ CocSamples all_samples(const StatedPicture& p, Workers& workers) {
             const std::span<const DeepSample> samples = extra->at(x, y);
             const float visible = p.radius_px(p.depth(x, y));
             const bool complete =
-                !samples.empty() && is_same_or_in_front(p, samples.front().depth_m, p.depth(x, y));
+                !samples.empty() && is_same_or_in_front(p, samples.front().depth, p.depth(x, y));
             if (!complete) all.samples.push_back({colour(x, y), visible, visible});
             for (const DeepSample& s : samples)
                 all.samples.push_back(
-                    {finite_colour(s.colour), p.radius_px(s.depth_m), p.radius_px(s.depth_back_m)});
+                    {finite_colour(s.colour), p.radius_px(s.depth), p.radius_px(s.depth_back)});
             std::stable_sort(all.samples.begin() + std::ptrdiff_t(all.first.back()), all.samples.end(),
                              [](const CocSample& a, const CocSample& b) { return a.coc_px < b.coc_px; });
             hide_what_is_covered(all.samples, all.first.back());

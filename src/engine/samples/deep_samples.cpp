@@ -17,7 +17,7 @@ DeepSample sound(DeepSample s, bool depth_is_coc) {
     };
     s.colour = {finite(s.colour.r), finite(s.colour.g), finite(s.colour.b),
                 std::clamp(finite(s.colour.a), 0.0f, 1.0f)};
-    s.depth_m = depth(s.depth_m), s.depth_back_m = std::max(s.depth_m, depth(s.depth_back_m));
+    s.depth = depth(s.depth), s.depth_back = std::max(s.depth, depth(s.depth_back));
     return s;
 }
 
@@ -46,8 +46,8 @@ std::vector<float> cuts_of(const DeepPicture& deep, const std::function<float(fl
     bool thick = false;
     for (const DeepSample& stored : deep.samples()) {
         const DeepSample s = sound(stored, depth_is_coc);
-        thick = thick || s.depth_back_m > s.depth_m;
-        for (const float z : {s.depth_m, s.depth_back_m})
+        thick = thick || s.depth_back > s.depth;
+        for (const float z : {s.depth, s.depth_back})
             if (std::isfinite(z)) near = std::min(near, z), far = std::max(far, z);
     }
     for (std::size_t i = 1; !thick && i < deep.first().size(); ++i)
@@ -75,7 +75,7 @@ CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float
     all.width = deep.width();
     all.first.assign(width * std::size_t(deep.height()) + 1, 0);
     std::vector<std::vector<CocSample>> rows(static_cast<std::size_t>(deep.height()));
-    const auto nearer = [](const DeepSample& p, const DeepSample& q) { return p.depth_m < q.depth_m; };
+    const auto nearer = [](const DeepSample& p, const DeepSample& q) { return p.depth < q.depth; };
     parallel_for(deep.height(), workers, [&](int y) {
         std::vector<CocSample>& row = rows[std::size_t(y)];
         std::vector<DeepSample> pixel, tidy;
@@ -85,7 +85,7 @@ CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float
             std::stable_sort(pixel.begin(), pixel.end(), nearer);
             tidy_pixel(pixel, cuts, tidy);
             for (const DeepSample& s : tidy) {
-                const float front = radius_px(s.depth_m), back = radius_px(s.depth_back_m);
+                const float front = radius_px(s.depth), back = radius_px(s.depth_back);
                 const float middle = 0.5f * (front + back);
                 row.push_back({s.colour, middle, middle});
             }

@@ -70,7 +70,7 @@ BackPicture back_picture(const StatedPicture& p, Workers& workers) {
             const auto stated = plate->at(x, y);
             if (stated.empty()) continue;
             const Rgba colour = finite_colour(stated.front().colour);
-            const float depth = stated.front().depth_m, radius = p.radius_px(depth);
+            const float depth = stated.front().depth, radius = p.radius_px(depth);
             constexpr float kLeastCoverage = 0.5f;
             const bool opaque = p.colour(x, y).a >= kOpaque;
             if (opaque && colour.a < kLeastCoverage) continue;
