@@ -8,6 +8,7 @@ from typing import Any, Sequence
 from . import _declared, errors
 from ._library import struct
 from ._pixels import Kept, pixels_of, plane_of, pointer
+from .arrays import FLOAT, memory_of
 from .camera import Camera
 
 Window = tuple  # (x0, y0, x1, y1), half-open, y down
@@ -35,20 +36,40 @@ class Deep:
     """Any number of samples in each pixel, nearest first, rows top to bottom.
 
     first: height * width + 1 integers; the samples of pixel i are first[i]…first[i + 1] - 1. samples: a sequence of
-    (r, g, b, a, depth, depth_back), premultiplied.
+    (r, g, b, a, depth, depth_back), premultiplied. Large pictures: a packed float32 array (n, 6), which is borrowed,
+    and a buffer of 8-byte integers.
     """
 
     width: int
     height: int
     first: Sequence[int]
-    samples: Sequence[tuple[float, float, float, float, float, float]]
+    samples: Any
 
     def _struct(self) -> _declared.petzval_deep:
         count = len(self.samples)
-        first = (ctypes.c_uint64 * len(self.first))(*self.first)
-        samples = (_declared.petzval_deep_sample * max(1, count))(*[tuple(sample) for sample in self.samples])
-        return struct(_declared.petzval_deep, width=self.width, height=self.height, first=first, samples=samples,
-                      sample_count=count)
+        made = struct(_declared.petzval_deep, width=self.width, height=self.height, first=self._first(),
+                      samples=self._samples(), sample_count=count)
+        made.kept = self  # its arrays are borrowed
+        return made
+
+    def _first(self):
+        room = (ctypes.c_uint64 * len(self.first))
+        try:
+            view = memoryview(self.first)  # type: ignore[arg-type]
+        except TypeError:
+            return room(*self.first)
+        if view.itemsize != 8 or view.format not in ("L", "l", "Q", "q") or view.ndim != 1:
+            raise errors.InvalidArgument(f"deep: first holds {view.format}; 8-byte integers in one row are needed")
+        return room.from_buffer_copy(view)
+
+    def _samples(self):
+        if isinstance(self.samples, (list, tuple)):
+            return (_declared.petzval_deep_sample * max(1, len(self.samples)))(*map(tuple, self.samples))
+        memory = memory_of(self.samples, "deep.samples")
+        if memory.sample != FLOAT or len(memory.shape) != 2 or memory.shape[1] != 6 or memory.strides != (24, 4):
+            raise errors.InvalidArgument(f"deep: samples have shape {memory.shape} and strides {memory.strides}; a "
+                                         "packed float32 array (n, 6) is needed")
+        return ctypes.cast(memory.address, ctypes.POINTER(_declared.petzval_deep_sample))
 
 
 @dataclasses.dataclass

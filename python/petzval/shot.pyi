@@ -7,6 +7,7 @@ from typing import Any, Sequence
 from . import _declared, errors
 from ._library import struct
 from ._pixels import Kept, pixels_of, plane_of, pointer
+from .arrays import FLOAT, memory_of
 from .camera import Camera
 Window = tuple
 
@@ -30,12 +31,13 @@ class Deep:
     """Any number of samples in each pixel, nearest first, rows top to bottom.
 
     first: height * width + 1 integers; the samples of pixel i are first[i]…first[i + 1] - 1. samples: a sequence of
-    (r, g, b, a, depth, depth_back), premultiplied.
+    (r, g, b, a, depth, depth_back), premultiplied. Large pictures: a packed float32 array (n, 6), which is borrowed,
+    and a buffer of 8-byte integers.
     """
     width: int
     height: int
     first: Sequence[int]
-    samples: Sequence[tuple[float, float, float, float, float, float]]
+    samples: Any
 
 @dataclasses.dataclass
 class Layer:

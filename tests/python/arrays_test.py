@@ -200,6 +200,23 @@ class Lights(unittest.TestCase):
         with self.assertRaises(petzval.InvalidArgument):
             session.defocus(shot)
 
+    def test_deep_samples_in_an_array_are_those_of_a_list(self):
+        count = HEIGHT * WIDTH
+        near = np.full((HEIGHT, WIDTH), -6, np.float32)
+        near[:, WIDTH // 2:] = 9
+        rows = [(0.2, 0.4, 0.001 * i, 1, 9, 9) for i in range(count)]
+        array, first = np.array(rows, np.float32), np.arange(count + 1, dtype=np.uint64)
+        shot = petzval.Shot(picture(), radii_px=near, behind=petzval.Deep(WIDTH, HEIGHT, range(count + 1), rows))
+        session = petzval.Session(threads=1)
+        listed = session.defocus(shot).image
+        shot.behind = petzval.Deep(WIDTH, HEIGHT, first, array)
+        np.testing.assert_array_equal(session.defocus(shot).image, listed)
+        for samples, index, why in ((array.astype(np.float64), first, "float64|d"), (array[:, :5], first, "packed"),
+                                    (array, first.astype(np.uint32), "8-byte")):
+            shot.behind = petzval.Deep(WIDTH, HEIGHT, index, samples)
+            with self.assertRaisesRegex(petzval.InvalidArgument, why):
+                session.defocus(shot)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
