@@ -238,6 +238,19 @@ def wheel(*_):
     run(sys.executable, "tools/wheel.py", "build/wheel", "build/portable/lib/libpetzval.so")
 
 
+def blender_addon(*_):
+    """the add-on for Blender: leaves an extension and a self-hosted add-on, each a zip, in build/blender"""
+    wheel()
+    run(sys.executable, "tools/blender_addon.py", "build/blender", *sorted((ROOT / "build/wheel").glob("*.whl"))[-1:])
+
+
+def blender_test(*words):
+    """[debian | VERSION…]: the add-on in Debian's Blender and in modules bpy of Python's package index (1 GB each)"""
+    blender_addon()
+    made = [sorted((ROOT / "build/blender").glob(f"*-{kind}.zip"))[-1] for kind in ("extension", "addon")]
+    run(sys.executable, "tools/blender_test.py", *made, *words)
+
+
 def ofx(*_):
     """the OpenFX plug-in: leaves build/ofx/petzval.ofx.bundle and checks it with ofx-check"""
     make("release", "petzval_ofx", "ofx_check")
@@ -258,7 +271,8 @@ def site(*words):
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
          "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "site": site, "web": web,
-         "web-test": web_test, "wheel": wheel, "farm-test": farm_test, "ofx": ofx}
+         "web-test": web_test, "wheel": wheel, "farm-test": farm_test, "ofx": ofx,
+         "blender-addon": blender_addon, "blender-test": blender_test}
 
 
 def help_text():

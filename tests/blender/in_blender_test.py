@@ -1,0 +1,276 @@
+"""The add-on inside Blender, without a window.
+
+Usage: blender -b --factory-startup --python-exit-code 3 --python in_blender_test.py -- EXTENSION.zip ADDON.zip
+   or: python3 in_blender_test.py -- EXTENSION.zip ADDON.zip    with the module bpy
+"""
+import math
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import bpy  # noqa: E402
+import numpy as np  # noqa: E402
+
+import installed  # noqa: E402
+import scene as scenes  # noqa: E402
+
+camera, exr, job, versions, view_layer_of = (installed.part("camera"), installed.part("exr"), installed.part("job"),
+                                             installed.part("versions"), lambda scene: scene.view_layers[0])
+
+
+def result():
+    """The image that the add-on made: (height, width, 4), rows top-down."""
+    image = bpy.data.images["petzval"]
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(image.size[1], image.size[0], 4)[::-1].copy()
+
+
+def psnr(a, b):
+    """dB between two pictures after x / (1 + x), without alpha."""
+    a, b = (v[..., :3] / (1 + v[..., :3]) for v in (a, b))
+    return -10 * math.log10(((a - b) ** 2).mean())
+
+
+def numbers(scene, unit_m=1.0):
+    view_layer_of(scene).update()
+    return camera.read(scene, view_layer_of(scene).depsgraph, unit_m)
+
+
+class InBlender(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.scene = scenes.lamps()
+        self.scene.render.filepath = self.path("out_")
+        self.scene.render.image_settings.file_format = "PNG"
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def still(self, **options):
+        self.assertEqual(bpy.ops.petzval_lens.still(**options), {"FINISHED"})
+        return result()
+
+    def refused(self, pattern, operator="still"):
+        with self.assertRaisesRegex(RuntimeError, pattern):
+            getattr(bpy.ops.petzval_lens, operator)()
+
+    def cycles_own(self, samples=128):
+        """Cycles' own depth of field."""
+        before, self.scene.cycles.samples = self.scene.cycles.samples, samples
+        path = self.path("truth.exr")
+        with versions.changed(versions.pass_file_values(self.scene, path)):
+            bpy.ops.render.render(write_still=True)
+        self.scene.cycles.samples = before
+        channels = exr.read(path)
+        return np.stack([channels[f"ViewLayer.Combined.{c}"] for c in "RGB"], -1).copy()
+
+
+class Stills(InBlender):
+    def post_in_front(self):
+        """A second render shows what the post hides."""
+        foreground = bpy.data.collections.new("foreground")
+        foreground.objects.link(bpy.data.objects["post"])
+        self.scene.petzval_lens.foreground = foreground
+
+    def test_with_hidden_layers_the_picture_is_that_of_cycles_own_depth_of_field(self):
+        self.post_in_front()
+        dof = self.scene.camera.data.dof
+        for blades, rotation, ratio in ((0, 0, 1), (5, 0.35, 2)):
+            dof.aperture_blades, dof.aperture_rotation, dof.aperture_ratio = blades, rotation, ratio
+            quality = psnr(self.still(), self.cycles_own())
+            self.assertGreater(quality, 33, f"{blades} blades")
+
+    def test_a_shifted_lens_leaves_no_dark_border(self):
+        self.post_in_front()
+        data = self.scene.camera.data
+        data.shift_x, data.shift_y = 0.1, -0.05
+        self.assertGreater(psnr(self.still(), self.cycles_own()), 29)
+
+    def test_settings_have_their_old_values_afterwards(self):
+        scene, layer, output = self.scene, view_layer_of(self.scene), self.scene.render.image_settings
+        watched = [(scene.camera.data.dof, "use_dof"), (layer, "use_pass_z"), (output, "file_format"),
+                   (output, "color_depth"), (scene.render, "filepath"), (scene.render, "use_compositing")]
+        before = [getattr(*where) for where in watched]
+        self.still()
+        self.assertEqual([getattr(*where) for where in watched], before)
+        self.assertTrue(scene.camera.data.dof.use_dof)
+        self.scene.render.engine = "BLENDER_WORKBENCH"
+        self.refused("no depth pass")
+        self.assertEqual([getattr(*where) for where in watched], before)
+
+    def test_hidden_layers_show_the_lamp_behind_the_post(self):
+        truth = self.cycles_own()
+        without = psnr(self.still(), truth)
+        self.post_in_front()
+        self.assertGreater(psnr(self.still(), truth), without + 3)
+        self.assertTrue(bpy.data.objects["post"].visible_camera)
+
+    def test_a_shipped_lens_changes_the_picture(self):
+        ideal = self.still()
+        self.scene.petzval_lens.lens = "doublet"
+        self.assertGreater(float(np.abs(self.still() - ideal).max()), 0.05)
+
+    def test_the_lens_again_has_the_bits_of_a_new_render(self):
+        self.still()
+        dof = self.scene.camera.data.dof
+        dof.aperture_fstop, dof.focus_distance = 2, 7
+        self.assertEqual(bpy.ops.petzval_lens.develop(), {"FINISHED"})
+        again = result()
+        np.testing.assert_array_equal(again, self.still())
+
+    def test_it_appears_in_the_compositor_and_is_written(self):
+        self.scene.petzval_lens.to_compositor = True
+        self.still(write_still=True)
+        tree = versions.compositor_tree(bpy, self.scene)
+        end = versions.compositor_output(bpy, tree)
+        self.assertEqual([link.from_node.name for link in tree.links if link.to_node == end], ["petzval"])
+        self.assertTrue(os.path.exists(self.path("out_.png")))
+
+
+class Cameras(InBlender):
+    def test_the_sensor_is_as_wide_as_blenders_own_frustum(self):
+        data, render = self.scene.camera.data, self.scene.render
+        data.sensor_width, data.sensor_height = 30, 20
+        for fit in ("AUTO", "HORIZONTAL", "VERTICAL"):
+            for size in ((160, 90), (90, 160)):
+                for aspect in ((1, 1), (2, 1), (1, 1.5)):
+                    data.sensor_fit, (render.resolution_x, render.resolution_y) = fit, size
+                    render.pixel_aspect_x, render.pixel_aspect_y = aspect
+                    corners = data.view_frame(scene=self.scene)
+                    wide = max(c.x for c in corners) - min(c.x for c in corners)
+                    self.assertAlmostEqual(numbers(self.scene).sensor_width_mm, wide * data.lens / -corners[0].z,
+                                           delta=1e-3, msg=f"{fit} {size} {aspect}")
+
+    def test_the_focus_object_counts_as_evaluated_in_each_frame(self):
+        carrier, target = (bpy.data.objects.new(name, None) for name in ("carrier", "target"))
+        for thing in (carrier, target):
+            self.scene.collection.objects.link(thing)
+        target.parent, target.location = carrier, (3, 1, 0)
+        for frame, y in ((1, 2), (11, 12)):
+            carrier.location = (0, y, 0)
+            carrier.keyframe_insert("location", frame=frame)
+        self.scene.camera.data.dof.focus_object = target
+        seen = []
+        for frame in (1, 11):
+            self.scene.frame_set(frame)
+            seen.append(numbers(self.scene).focus_distance_m)
+        np.testing.assert_allclose(seen, (3, 13), rtol=1e-5)  # along the axis, not to the point 3 beside it
+
+    def test_focus_on_the_visible_surface_is_nearer_than_the_origin(self):
+        self.scene.camera.data.dof.focus_object = bpy.data.objects["post"]
+        self.scene.petzval_lens.focus = "SURFACE"
+        self.still()
+        self.assertAlmostEqual(job.Kept.numbers.focus_distance_m, 1.5, delta=0.01)
+        self.assertAlmostEqual(numbers(self.scene).focus_distance_m, 1.54, delta=1e-5)
+
+    def test_the_unit_scale_gives_metres(self):
+        self.scene.unit_settings.scale_length = 0.1
+        self.still()
+        self.assertAlmostEqual(job.Kept.numbers.focus_distance_m, 0.15, delta=1e-6)
+        self.scene.petzval_lens.unit = "METRE"
+        self.still()
+        self.assertAlmostEqual(job.Kept.numbers.focus_distance_m, 1.5, delta=1e-6)
+
+
+class Animations(InBlender):
+    def test_each_frame_is_written_and_existing_ones_can_stay(self):
+        self.scene.frame_start, self.scene.frame_end, self.scene.frame_step = 1, 5, 2
+        dof = self.scene.camera.data.dof
+        for frame, distance in ((1, 1.5), (5, 12)):
+            dof.focus_distance = distance
+            dof.keyframe_insert("focus_distance", frame=frame)
+        self.assertEqual(bpy.ops.petzval_lens.animation(), {"FINISHED"})
+        names = [f"out_{frame:04}.png" for frame in (1, 3, 5)]
+        self.assertEqual(sorted(os.listdir(self.folder)), names)
+        contents = [pathlib.Path(self.path(name)).read_bytes() for name in names]
+        self.assertEqual(len(set(contents)), 3)
+        pathlib.Path(self.path(names[1])).write_bytes(b"mine")
+        self.scene.render.use_overwrite = False
+        bpy.ops.petzval_lens.animation()
+        self.assertEqual(pathlib.Path(self.path(names[1])).read_bytes(), b"mine")
+
+    def test_a_film_is_refused(self):
+        output = self.scene.render.image_settings
+        if hasattr(output, "media_type"):
+            output.media_type = "VIDEO"
+        output.file_format = "FFMPEG"
+        self.refused("a picture per frame", "animation")
+
+
+class Refusals(InBlender):
+    def test_cameras_without_a_lens_by_name(self):
+        for kind, name in (("ORTHO", "orthographic"), ("PANO", "panoramic")):
+            self.scene.camera.data.type = kind
+            self.refused(f"Camera is an? {name} camera")
+
+    def test_scenes_that_cannot_be_rendered(self):
+        self.scene.render.use_border = True
+        self.refused("render region")
+        self.scene.render.use_border = False
+        self.scene.render.use_multiview = True
+        self.refused("stereoscopy")
+        self.scene.render.use_multiview = False
+        self.scene.camera.data.dof.focus_object = self.scene.camera
+        self.refused("own plane")
+        self.scene.camera = None
+        self.refused("no camera")
+
+    def test_wrong_choices(self):
+        choices = self.scene.petzval_lens
+        choices.lens = "no such lens"
+        self.refused("no such lens")
+        choices.lens = ""
+        pathlib.Path(self.path("look.json")).write_text("{ broken")
+        choices.look_file = self.path("look.json")
+        self.refused("look.json cannot be read: is no JSON")
+        choices.look_file = self.path("missing.json")
+        self.refused("No such file")
+        choices.look_file, choices.focus = "", "SURFACE"
+        self.refused("needs a focus object")
+        hidden = bpy.data.objects.new("hidden", None)
+        self.scene.collection.objects.link(hidden)
+        hidden.location = (0, 3, 0)
+        self.scene.camera.data.dof.focus_object = hidden
+        self.refused("not in sight")
+
+    def test_nothing_to_take_again(self):
+        job.Kept.forget()
+        self.refused("nothing has been rendered", "develop")
+
+    def test_a_damaged_file_of_passes(self):
+        self.scene.petzval_lens.keep_passes = True
+        self.still()
+        path = self.path("out_0001_passes.exr")
+        whole = pathlib.Path(path).read_bytes()
+        refused = installed.part("refused").Refused
+        for cut in (b"", whole[:6], whole[:300], whole[:-1000]):
+            pathlib.Path(self.path("cut.exr")).write_bytes(cut)
+            with self.assertRaises(refused):
+                exr.read(self.path("cut.exr"))
+
+
+class Threads(InBlender):
+    def test_a_frame_in_a_thread_is_cancelled_with_progress(self):
+        self.still()
+        wish = self.scene.petzval_lens.wish(self.scene)
+        passes, petzval = installed.part("passes"), installed.part("library").petzval
+        step = job.Defocus(job.Kept.session_of(1), passes.shot(job.Kept.numbers, job.Kept.front), job.look_of(
+            wish, job.Kept.numbers))
+        told, report = [], step._report
+        step._report = lambda share: (told.append(share), report(share), False)[2]
+        step.start(waiting=True)
+        with self.assertRaises(petzval.Cancelled):
+            step.frame()
+        self.assertTrue(told)
+
+
+if __name__ == "__main__":
+    done = unittest.main(argv=["in_blender_test", "-v"], exit=False).result
+    sys.stdout.flush()
+    raise SystemExit(not done.wasSuccessful())
