@@ -241,7 +241,7 @@ Result<Blurred> Session::Contents::blur(const FrameRequest& request, const std::
     const NotingDevice drawing(**opened);
     const auto radii = Radii::make(request);
     if (!radii) return radii.error();
-    const HardEdges edges = hard_edges(request.rendered, request.look.depth_edges, *request.workers);
+    const HardDepth edges = hard_depth(request.rendered, request.look.depth_edges, *request.workers);
     FrameRequest on_grid = request;
     on_grid.rendered = edges.of(request.rendered);
     auto lens = lens_for(on_grid);

@@ -162,7 +162,7 @@ Result<Plane> circle_of_confusion(const Rendered& rendered, const Look& look, Wo
     if (const Status fine = check_request(request); !fine) return fine.error();
     const auto radii = Radii::make(request);
     if (!radii) return radii.error();
-    const HardEdges edges = hard_edges(rendered, look.depth_edges, workers);
+    const HardDepth edges = hard_depth(rendered, look.depth_edges, workers);
     return radii->of(depth_or_radii(edges.of(rendered)), workers);
 }
 

@@ -33,8 +33,8 @@ std::string in_words(const EdgeSoftness& softness) {
 
 }  // namespace
 
-HardEdges hard_edges(const Rendered& rendered, DepthEdges edges, Workers& workers) {
-    HardEdges hard;
+HardDepth hard_depth(const Rendered& rendered, DepthEdges edges, Workers& workers) {
+    HardDepth hard;
     if (edges == DepthEdges::Keep || (rendered.deep && !rendered.deep->empty())) return hard;
     const bool is_radii = has_radii(rendered);
     const View<const float> given = depth_or_radii(rendered);
@@ -55,7 +55,7 @@ HardEdges hard_edges(const Rendered& rendered, DepthEdges edges, Workers& worker
     return hard;
 }
 
-Rendered HardEdges::of(Rendered rendered) const {
+Rendered HardDepth::of(Rendered rendered) const {
     if (!plane.empty()) set_depth(rendered, plane);
     return rendered;
 }

@@ -10,7 +10,7 @@
 namespace petzval {
 
 // Depth, or radii, without ramps. plane is empty where the given one stays as it is.
-struct HardEdges {
+struct HardDepth {
     Plane plane;
     std::string what_was_done;
 
@@ -19,6 +19,6 @@ struct HardEdges {
 };
 
 // Deep pictures are left as they are.
-HardEdges hard_edges(const Rendered& rendered, DepthEdges edges, Workers& workers);
+HardDepth hard_depth(const Rendered& rendered, DepthEdges edges, Workers& workers);
 
 }  // namespace petzval
