@@ -76,16 +76,21 @@ class Session:
 
     def stage(self, stage: str, shot: Shot, look: Look | str | dict | None = None, *, out=None,
               progress: Callable[[float], object] | None = None) -> Frame:
-        """One stage of a frame: "blur", "falloff" or "glare". shot.colour is the result of the stage before.
+        """One stage of a frame: "blur", "falloff" or "glare", or "light": falloff and glare in one call.
 
-        All three in turn give the bits of defocus(), for looks without expand_highlights and shots without mask.
+        shot.colour is the result of the stage before. All stages in turn give the bits of defocus(), for looks
+        without expand_highlights and shots without mask. "blur" makes the shot's layers, too.
         """
         given, kept = shot._struct()
+        images = [_image_for(shot, given, None) for _ in shot.layers] if stage == "blur" else []
+        if images:
+            given, kept = shot._struct(images)
         image = _image_for(shot, given, None) if out is None else out
         into, held = pixels_of(image, "out", written=True)
         report = self._run("petzval_defocus_stage", (stage.encode(),), given, look, ctypes.byref(into), progress, None)
         del kept, held
-        return Frame(like(_first(shot.colour), image) if out is None else out, report)
+        layers = [like(_first(layer.colour), made_layer) for layer, made_layer in zip(shot.layers, images)]
+        return Frame(like(_first(shot.colour), image) if out is None else out, report, layers)
 
     def codes(self, shot: Shot, look: Look | str | dict | None = None, *, bits: int = 8, exposure_stops: float = 0,
               contrast: float = 1, tone: str = "filmic", transfer: str = "srgb", dither: bool = True,

@@ -53,9 +53,10 @@ class Session:
         """
 
     def stage(self, stage: str, shot: Shot, look: Look | str | dict | None=None, *, out=None, progress: Callable[[float], object] | None=None) -> Frame:
-        """One stage of a frame: "blur", "falloff" or "glare". shot.colour is the result of the stage before.
+        """One stage of a frame: "blur", "falloff" or "glare", or "light": falloff and glare in one call.
 
-        All three in turn give the bits of defocus(), for looks without expand_highlights and shots without mask.
+        shot.colour is the result of the stage before. All stages in turn give the bits of defocus(), for looks
+        without expand_highlights and shots without mask. "blur" makes the shot's layers, too.
         """
 
     def codes(self, shot: Shot, look: Look | str | dict | None=None, *, bits: int=8, exposure_stops: float=0, contrast: float=1, tone: str='filmic', transfer: str='srgb', dither: bool=True, progress: Callable[[float], object] | None=None) -> Codes:

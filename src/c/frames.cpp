@@ -107,7 +107,7 @@ petzval_status take_frame(petzval_session& session, Asked& asked, const petzval_
     return PETZVAL_OK;
 }
 
-// Falloff or glare alone, of a picture that is blurred already.
+// Falloff, glare or both, of a picture that is blurred already.
 petzval_status add_light(petzval_session& session, Asked& asked, const petzval_look* look,
                          const ColourView& into, petzval_report** report) {
     if (asked.control.region) return fail(refused("control.region must be empty for this stage"));
@@ -125,16 +125,12 @@ petzval_status add_light(petzval_session& session, Asked& asked, const petzval_l
 
 petzval_status take_stage(petzval_session& session, std::string_view stage, Asked& asked,
                           const petzval_look* look, const ColourView& into, petzval_report** report) {
-    const GlareAmounts glare = asked.look.glare;
-    const bool vignetting = asked.look.vignetting;
-    asked.look.glare = {}, asked.look.vignetting = false;
+    const bool is_light = stage == "light";
+    if (!is_light && stage != "blur" && stage != "falloff" && stage != "glare")
+        return fail(refused("stage is none of blur, falloff and glare, nor light, which is the last two"));
+    if (!is_light && stage != "falloff") asked.look.vignetting = false;
+    if (!is_light && stage != "glare") asked.look.glare = {};
     if (stage == "blur") return take_frame(session, asked, look, into, report);
-    if (stage == "falloff")
-        asked.look.vignetting = vignetting;
-    else if (stage == "glare")
-        asked.look.glare = glare;
-    else
-        return fail(refused("stage is none of blur, falloff and glare"));
     return add_light(session, asked, look, into, report);
 }
 

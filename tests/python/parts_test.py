@@ -66,11 +66,23 @@ class Stages(unittest.TestCase):
         rendered = shot()
         with petzval.Session(threads=2) as session:
             expected = session.defocus(rendered, look).image
-            for stage in ("blur", "falloff", "glare"):
-                rendered.colour = session.stage(stage, rendered, look).image
-            np.testing.assert_array_equal(rendered.colour, expected)
+            for stages in (("blur", "falloff", "glare"), ("blur", "light")):
+                rendered = shot()
+                for stage in stages:
+                    before = rendered.colour
+                    rendered.colour = session.stage(stage, rendered, look).image
+                    self.assertFalse(np.array_equal(rendered.colour, before), stage)
+                np.testing.assert_array_equal(rendered.colour, expected)
             with self.assertRaisesRegex(petzval.InvalidArgument, "blur, falloff and glare"):
                 session.stage("dissolve", rendered, look)
+
+    def test_the_blur_makes_layers_too(self):
+        rendered = shot()
+        rendered.layers = [petzval.Layer(rendered.colour)]
+        with petzval.Session(threads=2) as session:
+            whole, blurred = session.defocus(rendered), session.stage("blur", rendered)
+            np.testing.assert_array_equal(blurred.layers[0], whole.layers[0])
+            self.assertEqual(session.stage("light", rendered, petzval.Look(**{"glare.bloom": 0.1})).layers, [])
 
 
 class Codes(unittest.TestCase):
