@@ -3,7 +3,6 @@
 #include "petzval/session.h"
 
 #include "fields.h"
-#include "memory_limit.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -161,4 +161,19 @@ private:
     std::unique_ptr<State> state_;
 };
 
+// The memory that the system leaves to this process: by a memory cgroup (containers, farms), or ulimit -v.
+struct MemoryLimit {
+    std::size_t bytes = 0;  // left for work; 0: no limit, or none below the machine's memory
+    std::string name;       // for messages
+    std::string setting;    // the setting that a user would change
+    // The value of that setting for work of so many bytes.
+    std::function<std::size_t(std::size_t)> for_bytes;
+
+    // The end of a message that says how much work takes, as "… at least 234M …": the value that is enough.
+    // Empty if the message says nothing of that.
+    PETZVAL_API std::string enough(const std::string& message) const;
+};
+// threads: those that will work, each of which needs a stack; 0: all.
+PETZVAL_API MemoryLimit memory_limit(int threads = 0);
+
 }  // namespace petzval

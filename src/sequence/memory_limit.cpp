@@ -1,4 +1,4 @@
-#include "memory_limit.h"
+#include "petzval/shot_run.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace petzval::cli {
+namespace petzval {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ MemoryLimit memory_limit(int threads) {
     return limit;
 }
 
-}  // namespace petzval::cli
+}  // namespace petzval
