@@ -1,10 +1,12 @@
 // The sheet of a lens: everything it does to light, as one HTML page that needs nothing else; the sheets that
-// show many lenses side by side; and one picture through many lenses. Part of petzval::files.
+// show many lenses side by side; one picture through many lenses; and files of kernels. Part of
+// petzval::files.
 #pragma once
 
 #include "petzval/develop.h"
 #include "petzval/export.h"
 #include "petzval/image.h"
+#include "petzval/lens_kernel.h"
 #include "petzval/look.h"
 #include "petzval/result.h"
 #include "petzval/session.h"
@@ -72,5 +74,21 @@ struct LensViewSheet {
 PETZVAL_API Result<Picture> lens_view_sheet(Session& session, Shot& shot, const Look& look,
                                             const LensViewSheet& sheet, const Control& control = {},
                                             const std::function<void(const LensView&)>& seen = {});
+
+// EXR files of floats; their attributes (petzval:lens, petzval:coc, …) hold all that a program needs to draw
+// with them (docs/reference/lens-files.md). Errors: those of write_exr_planes().
+PETZVAL_API Status write_lens_disc(const std::string& path, const LensDisc& disc, double coc_radius_px,
+                                   double field_x, double field_y, bool overwrite);
+// Layers: energy without a name, "view", and the radius of each column as "coc.radius".
+PETZVAL_API Status write_bokeh_texture(const std::string& path, const BokehTexture& texture,
+                                       const BokehTextureSettings& settings, const LensMount& mount,
+                                       bool overwrite);
+// One picture of all slices, the first on top.
+PETZVAL_API Picture stacked_slices(const BokehVolume& volume);
+PETZVAL_API Status write_bokeh_volume(const std::string& path, const BokehVolume& volume,
+                                      const LensMount& mount, bool overwrite);
+
+// A kernel for displays: its brightest channel is 1, its alpha 1.
+PETZVAL_API Picture exposed_to_white(Picture picture);
 
 }  // namespace petzval

@@ -1,5 +1,6 @@
 // petzval lens psf and lens table: what a lens makes of a point of light, as pictures.
 #include "petzval/lens_kernel.h"
+#include "petzval/lens_report.h"
 
 #include "camera.h"
 #include "console.h"
@@ -101,52 +102,12 @@ Json mount_json(const LensMount& mount) {
             {"height", mount.height_px}};
 }
 
-// Colour planes under a layer's name.
-class Planes {
-public:
-    void add(const std::string& layer, const Picture& picture, bool with_alpha) {
-        const std::string prefix = layer.empty() ? "" : layer + ".";
-        add(prefix + "R", picture, &Rgba::r), add(prefix + "G", picture, &Rgba::g),
-            add(prefix + "B", picture, &Rgba::b);
-        if (with_alpha) add(prefix + "A", picture, &Rgba::a);
-    }
-    void add(const std::string& channel, Plane plane) { kept_.emplace_back(channel, std::move(plane)); }
-    Status write(const std::string& path, std::vector<std::pair<std::string, std::string>> attributes,
-                 bool overwrite) const {
-        std::vector<NamedPlane> named;
-        for (const auto& [channel, plane] : kept_) named.push_back({channel, plane.view()});
-        const Rect window = kept_[0].second.rect();
-        WriteOptions options;
-        options.type = PixelType::Float;
-        options.overwrite = overwrite;
-        options.attributes = std::move(attributes);
-        return write_exr_planes(path, Place::whole(window), named, options);
-    }
-
-private:
-    void add(const std::string& channel, const Picture& picture, float Rgba::*which) {
-        Plane plane = Plane::uninitialised(picture.width(), picture.height());
-        for (std::size_t i = 0; i < plane.size(); ++i) plane.pixels()[i] = picture.pixels()[i].*which;
-        add(channel, std::move(plane));
-    }
-    std::vector<std::pair<std::string, Plane>> kept_;
-};
-
 // For displays: the brightest channel just below white.
 Status write_view(const PictureFlags& flags, Picture picture) {
-    float brightest = 0;
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        const Rgba& w = picture.pixels()[i];
-        brightest = std::max({brightest, w.r, w.g, w.b});
-    }
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        Rgba& w = picture.pixels()[i];
-        w = (brightest > 0 ? 1 / brightest : 1) * w;
-        w.a = 1;
-    }
+    const Picture shown = exposed_to_white(std::move(picture));
     DevelopSettings settings = flags.develop.settings(false, std::nullopt, 0);
     if (!flags.develop.tone) settings.tone = ToneCurve::None;
-    return write_developed(flags.output, picture.view(), settings, !flags.overwrite.no_clobber);
+    return write_developed(flags.output, shown.view(), settings, !flags.overwrite.no_clobber);
 }
 
 Status finish(const PictureFlags& flags, Json report, const LensMount& mount, const std::string& description,
@@ -207,16 +168,10 @@ Status make_psf(PsfFlags& flags) {
     report["raw"] = flags.raw;
     if (*kind_of_output(flags.output) == FileKind::Png) {
         if (Status done = write_view(flags, std::move(disc->weights)); !done) return done;
-    } else {
-        Planes planes;
-        planes.add("", disc->weights, true);
-        const Status done =
-            planes.write(flags.output,
-                         {{"petzval:lens", disc->lens},
-                          {"petzval:coc", "signed radius, px, + is far: " + plain(flags.coc_radius_px)},
-                          {"petzval:field", plain(flags.field.low) + "," + plain(flags.field.high)}},
-                         !flags.overwrite.no_clobber);
-        if (!done) return done;
+    } else if (Status done = write_lens_disc(flags.output, *disc, flags.coc_radius_px, flags.field.low,
+                                             flags.field.high, !flags.overwrite.no_clobber);
+               !done) {
+        return done;
     }
     return finish(flags, std::move(report), mount, disc->lens, watch);
 }
@@ -225,23 +180,6 @@ struct TableFlags : PictureFlags {
     BokehTextureSettings table;
     bool even = false;
 };
-
-// Everything that a program needs to draw with the table, and to scale it to another picture.
-std::vector<std::pair<std::string, std::string>> table_attributes(const TableFlags& flags,
-                                                                  const LensMount& mount,
-                                                                  const BokehTexture& texture) {
-    const Camera& camera = mount.camera;
-    return {{"petzval:lens", texture.lens},
-            {"petzval:coc", "signed radius, px, + is far"},
-            {"petzval:columns", plain(flags.table.columns)},
-            {"petzval:columnSpacing", flags.even ? "even" : "square root of the radius"},
-            {"petzval:largestRadius", plain(flags.table.largest_coc_px, 9)},
-            {"petzval:rowsPerPixel", plain(flags.table.rows_per_px)},
-            {"petzval:pictureWidth", plain(mount.width_px)},
-            {"petzval:focalLength", plain(camera.focal_length_mm, 9)},
-            {"petzval:fNumber", plain(camera.f_number, 9)},
-            {"petzval:sensorWidth", plain(camera.sensor_width_mm, 9)}};
-}
 
 Status make_table(TableFlags& flags) {
     const Stopwatch watch;
@@ -266,17 +204,10 @@ Status make_table(TableFlags& flags) {
     report["coc_radius_px"] = texture->coc_radius_px;
     if (*kind_of_output(flags.output) == FileKind::Png) {
         if (Status done = write_view(flags, std::move(texture->view)); !done) return done;
-    } else {
-        Plane coc(texture->energy.width(), texture->energy.height());
-        for (int y = 0; y < coc.height(); ++y)
-            for (int x = 0; x < coc.width(); ++x) coc(x, y) = float(texture->coc_radius_px[std::size_t(x)]);
-        Planes planes;
-        planes.add("", texture->energy, false);
-        planes.add("view", texture->view, false);
-        planes.add("coc.radius", std::move(coc));
-        const Status done =
-            planes.write(flags.output, table_attributes(flags, mount, *texture), !flags.overwrite.no_clobber);
-        if (!done) return done;
+    } else if (Status done = write_bokeh_texture(flags.output, *texture, flags.table, mount,
+                                                 !flags.overwrite.no_clobber);
+               !done) {
+        return done;
     }
     return finish(flags, std::move(report), mount, texture->lens, watch);
 }
@@ -285,15 +216,6 @@ struct VolumeFlags : PictureFlags {
     BokehVolumeSettings volume;
     Interval field;
 };
-
-// The slices below each other.
-Picture stacked(const std::vector<Picture>& slices) {
-    const int side = slices[0].width();
-    Picture all(side, side * int(slices.size()));
-    for (std::size_t i = 0; i < slices.size(); ++i)
-        for (int y = 0; y < side; ++y) std::copy_n(slices[i].row(y), side, all.row(int(i) * side + y));
-    return all;
-}
 
 Status make_volume(VolumeFlags& flags) {
     const Stopwatch watch;
@@ -309,26 +231,11 @@ Status make_volume(VolumeFlags& flags) {
     Json report = new_report("lens volume");
     report["coc_radius_px"] = volume->coc_radius_px;
     report["size"] = volume->slices[0].width();
-    Picture all = stacked(volume->slices);
     if (*kind_of_output(flags.output) == FileKind::Png) {
-        if (Status done = write_view(flags, std::move(all)); !done) return done;
-    } else {
-        Planes planes;
-        planes.add("", all, false);
-        std::string radii;
-        for (const double radius : volume->coc_radius_px)
-            radii += (radii.empty() ? "" : ",") + plain(radius, 9);
-        const Status done = planes.write(flags.output,
-                                         {{"petzval:lens", volume->lens},
-                                          {"petzval:radii", radii},
-                                          {"petzval:radiusInSides", plain(kVolumeRadius)},
-                                          {"petzval:slices", plain(double(volume->slices.size()))},
-                                          {"petzval:pictureWidth", plain(mount.width_px)},
-                                          {"petzval:focalLength", plain(mount.camera.focal_length_mm, 9)},
-                                          {"petzval:fNumber", plain(mount.camera.f_number, 9)},
-                                          {"petzval:sensorWidth", plain(mount.camera.sensor_width_mm, 9)}},
-                                         !flags.overwrite.no_clobber);
-        if (!done) return done;
+        if (Status done = write_view(flags, stacked_slices(*volume)); !done) return done;
+    } else if (Status done = write_bokeh_volume(flags.output, *volume, mount, !flags.overwrite.no_clobber);
+               !done) {
+        return done;
     }
     return finish(flags, std::move(report), mount, volume->lens, watch);
 }

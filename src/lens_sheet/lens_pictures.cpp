@@ -1,0 +1,127 @@
+// Kernels, bokeh textures and volumes as EXR files that say how they were made.
+#include "petzval/files.h"
+#include "petzval/lens_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace petzval {
+namespace {
+
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+std::string number(double value, int digits = 6) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+    return text.data();
+}
+
+// Colour planes under a layer's name.
+class Planes {
+public:
+    void add(const std::string& layer, const Picture& picture, bool with_alpha) {
+        const std::string prefix = layer.empty() ? "" : layer + ".";
+        add(prefix + "R", picture, &Rgba::r);
+        add(prefix + "G", picture, &Rgba::g);
+        add(prefix + "B", picture, &Rgba::b);
+        if (with_alpha) add(prefix + "A", picture, &Rgba::a);
+    }
+    void add(const std::string& channel, Plane plane) { kept_.emplace_back(channel, std::move(plane)); }
+    Status write(const std::string& path, Attributes attributes, bool overwrite) const {
+        std::vector<NamedPlane> named;
+        for (const auto& [channel, plane] : kept_) named.push_back({channel, plane.view()});
+        WriteOptions options;
+        options.type = PixelType::Float;
+        options.overwrite = overwrite;
+        options.attributes = std::move(attributes);
+        return write_exr_planes(path, Place::whole(kept_[0].second.rect()), named, options);
+    }
+
+private:
+    void add(const std::string& channel, const Picture& picture, float Rgba::*which) {
+        Plane plane = Plane::uninitialised(picture.width(), picture.height());
+        for (std::size_t i = 0; i < plane.size(); ++i) plane.pixels()[i] = picture.pixels()[i].*which;
+        add(channel, std::move(plane));
+    }
+    std::vector<std::pair<std::string, Plane>> kept_;
+};
+
+void add_mount(Attributes& attributes, const LensMount& mount) {
+    attributes.emplace_back("petzval:pictureWidth", number(mount.width_px));
+    attributes.emplace_back("petzval:focalLength", number(mount.camera.focal_length_mm, 9));
+    attributes.emplace_back("petzval:fNumber", number(mount.camera.f_number, 9));
+    attributes.emplace_back("petzval:sensorWidth", number(mount.camera.sensor_width_mm, 9));
+}
+
+}  // namespace
+
+Status write_lens_disc(const std::string& path, const LensDisc& disc, double coc_radius_px, double field_x,
+                       double field_y, bool overwrite) {
+    Planes planes;
+    planes.add("", disc.weights, true);
+    return planes.write(path,
+                        {{"petzval:lens", disc.lens},
+                         {"petzval:coc", "signed radius, px, + is far: " + number(coc_radius_px)},
+                         {"petzval:field", number(field_x) + "," + number(field_y)}},
+                        overwrite);
+}
+
+Status write_bokeh_texture(const std::string& path, const BokehTexture& texture,
+                           const BokehTextureSettings& settings, const LensMount& mount, bool overwrite) {
+    Plane coc(texture.energy.width(), texture.energy.height());
+    for (int y = 0; y < coc.height(); ++y)
+        for (int x = 0; x < coc.width(); ++x) coc(x, y) = float(texture.coc_radius_px[std::size_t(x)]);
+    Planes planes;
+    planes.add("", texture.energy, false);
+    planes.add("view", texture.view, false);
+    planes.add("coc.radius", std::move(coc));
+    Attributes attributes{
+        {"petzval:lens", texture.lens},
+        {"petzval:coc", "signed radius, px, + is far"},
+        {"petzval:columns", number(settings.columns)},
+        {"petzval:columnSpacing", settings.dense_near_focus ? "square root of the radius" : "even"},
+        {"petzval:largestRadius", number(settings.largest_coc_px, 9)},
+        {"petzval:rowsPerPixel", number(settings.rows_per_px)}};
+    add_mount(attributes, mount);
+    return planes.write(path, std::move(attributes), overwrite);
+}
+
+Picture stacked_slices(const BokehVolume& volume) {
+    const int side = volume.slices[0].width();
+    Picture all(side, side * int(volume.slices.size()));
+    for (std::size_t i = 0; i < volume.slices.size(); ++i)
+        for (int y = 0; y < side; ++y) std::copy_n(volume.slices[i].row(y), side, all.row(int(i) * side + y));
+    return all;
+}
+
+Status write_bokeh_volume(const std::string& path, const BokehVolume& volume, const LensMount& mount,
+                          bool overwrite) {
+    Planes planes;
+    planes.add("", stacked_slices(volume), false);
+    std::string radii;
+    for (const double radius : volume.coc_radius_px) radii += (radii.empty() ? "" : ",") + number(radius, 9);
+    Attributes attributes{{"petzval:lens", volume.lens},
+                          {"petzval:radii", radii},
+                          {"petzval:radiusInSides", number(kVolumeRadius)},
+                          {"petzval:slices", number(double(volume.slices.size()))}};
+    add_mount(attributes, mount);
+    return planes.write(path, std::move(attributes), overwrite);
+}
+
+Picture exposed_to_white(Picture picture) {
+    float brightest = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const Rgba& w = picture.pixels()[i];
+        brightest = std::max({brightest, w.r, w.g, w.b});
+    }
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        Rgba& w = picture.pixels()[i];
+        w = (brightest > 0 ? 1 / brightest : 1) * w;
+        w.a = 1;
+    }
+    return picture;
+}
+
+}  // namespace petzval
