@@ -109,7 +109,7 @@ private:
     std::unique_ptr<Contents> contents_;
 };
 
-// Lights without a picture, for DefocusJob::points: glitter on water, a city at night, drops on the lens.
+// Lights without a picture, for Rendered::lights: glitter on water, a city at night, drops on the lens.
 struct PointSetSummary {
     std::string name, purpose;  // one line each
     int count = 0;              // lights, unless told otherwise
