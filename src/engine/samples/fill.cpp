@@ -295,13 +295,28 @@ private:
         for (int i = n - 1; i >= 0; --i) hidden.push_back(surfaces[std::size_t(i)]);
     }
 
-    // What the hits at `coc_px` agree on, behind (x, y); they are used up.
+    // Radius of the nearest hit on the surface whose farthest hit is at farthest_px. A sloping floor is hit
+    // at many radii, in small steps: it is one surface.
+    static float nearest_of_surface(const Hits& hits, float farthest_px) {
+        float nearest = farthest_px;
+        for (float before = farthest_px, step = 1; nearest < before || step == 1; step = 0.5f) {
+            before = nearest;
+            for (const auto& direction : hits)
+                for (const Found& f : direction)
+                    if (f.found && before - f.coc_px < step * surface_step_px(f.coc_px, before))
+                        nearest = std::min(nearest, f.coc_px);
+        }
+        return nearest;
+    }
+
+    // The estimate of the surface behind (x, y) whose farthest hit is at `coc_px`. Its hits are used up.
     Hidden surface(int x, int y, Hits& hits, float coc_px, Met& met) const {
         Votes votes;
         HiddenTextures::Point hidden(textures_, x, y);
-        const auto take = [&](std::size_t k) -> Found* {
-            for (Found& f : hits[k])
-                if (f.found && one_surface(f.coc_px, coc_px)) return &f;
+        const float nearest_px = nearest_of_surface(hits, coc_px);
+        const auto take = [&](std::size_t k) -> const Found* {
+            for (const Found& f : hits[k])
+                if (f.found && f.coc_px >= nearest_px) return &f;
             return nullptr;
         };
         const auto passes = [&](const Found* f) { return f ? known_.passes(f->place(), x, y) : 0; };
@@ -311,12 +326,12 @@ private:
             const HiddenOutlines::Open open = outlines_.open({f.x, f.y}, {x, y}, f.coc_px);
             met.within += share * open.within, met.unhidden += share * open.unhidden;
         };
-        float nearest = 1e9f;
+        float nearest = 1e9f;  // distance, px
         for (std::size_t k = 0; k < kDirections; ++k)
             if (const Found* f = take(k)) nearest = std::min(nearest, f->distance_px);
         constexpr std::size_t kPairs = kDirections / 2;
         for (std::size_t k = 0; k < kPairs; ++k) {
-            Found *a = take(k), *b = take(k + kPairs);
+            const Found *a = take(k), *b = take(k + kPairs);
             // Seen on both sides, it most likely goes on between them, unless an edge cuts one side off.
             const float weight = a && b ? 2.0f : 0.5f;
             if (a) meet(*a, weight);
@@ -325,9 +340,9 @@ private:
             if (a && b) add_pair(hidden, *a, *b, k, both, votes);
             if (a && from_a > both) add_alone(hidden, *a, k, nearest, from_a - both, votes);
             if (b && from_b > both) add_alone(hidden, *b, k + kPairs, nearest, from_b - both, votes);
-            if (a) a->found = false;
-            if (b) b->found = false;
         }
+        for (auto& direction : hits)
+            for (Found& f : direction) f.found = f.found && f.coc_px < nearest_px;
         return votes.result();
     }
     // What was met in direction k and against it.

@@ -105,6 +105,31 @@ TEST(Hidden, ASliverKeepsItsColourBesideAThirdSurface) {
     EXPECT_GT(m->far_colour.g, 0.5f);  // 0.02 where the clean pixels of the wall count, too
 }
 
+// A post between a box and a floor that recedes: the floor counts once, however many radii it shows.
+TEST(Hidden, ASlopingFloorLeavesRoomForTheBoxBesideIt) {
+    constexpr int kPost = 16, kFloor = 30;  // columns where they begin
+    constexpr float kPostPx = -20, kBoxPx = 0, kFarthestPx = 36;
+    Picture colour(kWidth, kHeight);
+    Plane coc(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            colour(x, y) = grey(x < kPost ? 0.5f : x < kFloor ? 0.1f : 0.02f);
+            coc(x, y) = x < kPost ? kBoxPx : x < kFloor ? kPostPx : kFarthestPx - 0.14f * float(y);
+        }
+    const Image<unsigned char> connected = connections(coc, one_thread());
+    const LitPicture picture{colour, {}};
+    const Mixtures mixtures = unmix_silhouettes(picture, coc, connected, one_thread());
+    const HiddenLayers hidden =
+        fill_hidden(picture, coc, connected, mixtures, kPostPx, kFarthestPx, {}, one_thread());
+    for (int y = 20; y < kHeight - 8; ++y) {
+        const auto layers = hidden.at(kPost + 2, y);
+        ASSERT_FALSE(layers.empty()) << y;
+        EXPECT_NEAR(layers.front().coc_px, kBoxPx, 0.01f) << y;
+        EXPECT_NEAR(layers.front().colour.g, 0.5f, 0.01f) << y;
+        EXPECT_EQ(layers.size(), 2U) << y;
+    }
+}
+
 TEST(Hidden, LinesRunOnBehindAWire) {
     // Mortar between bricks, two pixels wide, every ten: 0.06 where it ends at the wire.
     const Paint bricks = [](int, int y) { return grey(y % 10 < 2 ? 0.5f : 0.2f); };

@@ -10,9 +10,12 @@
 
 namespace petzval::engine {
 
-// Whether two pixels at some distance may show one surface.
+// The largest difference of radii between two pixels, some distance apart, that may show one surface.
+inline float surface_step_px(float coc_a_px, float coc_b_px) {
+    return 1.5f + 0.05f * std::abs(coc_a_px + coc_b_px);
+}
 inline bool one_surface(float coc_a_px, float coc_b_px) {
-    return std::abs(coc_a_px - coc_b_px) < 1.5f + 0.05f * std::abs(coc_a_px + coc_b_px);
+    return std::abs(coc_a_px - coc_b_px) < surface_step_px(coc_a_px, coc_b_px);
 }
 
 struct Direction {
