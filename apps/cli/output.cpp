@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 namespace petzval::cli {
 
@@ -63,6 +64,16 @@ Status write_text(const std::string& path, const std::string& text) {
     if (print(text)) return Done{};
     return Error{ErrorCode::OutputFailed,
                  std::string("cannot write standard output: ") + std::strerror(errno)};
+}
+
+Status make_folder(const std::string& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (!std::filesystem::is_directory(folder))
+        return Error{ErrorCode::OutputFailed,
+                     "cannot make the folder " + folder + ": " +
+                         (problem ? problem.message() : std::string("there is a file of that name"))};
+    return Done{};
 }
 
 }  // namespace petzval::cli

@@ -40,4 +40,7 @@ struct DevelopFlags : DisplayChoice {
 // petzval::write_text(); "-" is standard output.
 Status write_text(const std::string& path, const std::string& text);
 
+// A folder, made if missing. Errors: OutputFailed.
+Status make_folder(const std::string& folder);
+
 }  // namespace petzval::cli

@@ -24,6 +24,7 @@ COMMANDS = {
     "lens psf": "doublet -o {o}/out.exr --width 480 --defocus 9",
     "lens table": "doublet -o {o}/out.exr --width 480 --columns 5 --defocus 9",
     "lens volume": "doublet -o {o}/out.exr --width 480 --slices 2 --side 17 --defocus 9",
+    "lens atlas": "doublet -o {o} --width 480 --zones 2 --defocus 9",
     "lens report": "ideal -o {o}/out.html",
 }
 # Flags that say how a verb works and never what it makes; those that name the default.
@@ -55,13 +56,13 @@ VALUES = {
     "--pinhole-samples": "3", "--scene-camera": "2", "--camera-at": "1,1,-1", "--look-at": "1,1,4", "--lit-in": "codes",
     "--depth-blur": "3", "--depth-bits": "8", "--truth": "{o}/truth.exr", "--horizon": "0.3", "--count": "5", "--bits": "16",
     "--at": "20,12", "--within": "20", "--smooth": "0", "--plot": "{o}/plot.svg", "--columns": "3", "--rate": "12",
-    "--slices": "3", "--side": "21", "--lenses": "doublet", "--sort": "name", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
+    "--zones": "3", "--slices": "3", "--side": "21", "--lenses": "doublet", "--sort": "name", "--roi": "3,3,20,15", "--defocus": "5", "--field": "0.5,0.3", "--size": "31", "--rows-per-pixel": "2",
 }
 # By verb, where the value above would be the verb's own or means something else there.
 VALUES_OF = {
     "scene make": {"--layers": "{o}/hidden.exr"}, "compare": {"--exposure": "2", "-o": "{o}/map.png"}, "scene points": {"--width": "300"},
     "lens table": {"--width": "960"}, "lens volume": {"--width": "960"}, "lens psf": {"--width": "960"},
-    "lens report": {"-o": "{o}/else.html"}, "focus-track": {"-o": "{o}/else.csv"}, "develop": {"-o": "{o}/else.png"},
+    "lens report": {"-o": "{o}/else.html"}, "lens atlas": {"-o": "{o}/else", "--width": "960"}, "focus-track": {"-o": "{o}/else.csv"}, "develop": {"-o": "{o}/else.png"},
     "sheet": {"-o": "{o}/else.png"}, "scene points": {"-o": "{o}/else.csv", "--width": "300", "--height": "300"},
 }
 # What else is said beside a flag, so that it has something to change.
@@ -87,13 +88,16 @@ BESIDE_OF = {
                                                      "--astigmatism", "--distortion", "--barrel")}},
     "lens volume": {"--focus": "--lens tessar", "--field": "--cats-eye 0.8", "--height": "--field 0.7,0.4 --barrel 9,20", **{flag: "--field 0.7,0.4" for flag in ("--cats-eye", "--add-field-curvature", "--add-lateral-colour", "--coma",
                                                      "--astigmatism", "--distortion", "--barrel")}},
+    "lens atlas": {"--focus": "--lens tessar", "--zones": "--cats-eye 0.8", "--height": "--barrel 9,20", **{flag: "--zones 1" for flag in (
+        "--blades", "--squeeze", "--barn-doors", "--aperture-image", "--kernel-image", "--dust", "--scratches")},
+                   **{flag: "--zones 1 --blades 5" for flag in ("--blade-rotation", "--blade-curvature", "--iris-open")}, "--texture-seed": "--zones 1 --dust 1"},
     "scene make": {"--samples": "--truth {o}/truth.exr"},
 }
 
 
 def content_of(path):
     """Pixels where they can be read: attributes hold what was typed, whether or not it had an effect."""
-    if "report" in path:
+    if "report" in path or path.endswith("atlas.json") or os.path.isdir(path):
         return None
     try:
         return read_exr(path)

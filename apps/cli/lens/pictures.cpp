@@ -2,10 +2,9 @@
 #include "petzval/lens_kernel.h"
 #include "petzval/lens_report.h"
 
-#include "camera.h"
 #include "console.h"
 #include "interrupt.h"
-#include "look_flags.h"
+#include "lens/mount.h"
 #include "look_rows.h"
 #include "output.h"
 #include "run_flags.h"
@@ -19,24 +18,13 @@ namespace petzval::cli {
 namespace {
 
 // A lens, a camera for it, and a file: what both verbs ask for.
-struct PictureFlags {
-    std::string lens_name;
-    LookFlags look;
-    CameraFlags camera;
+struct PictureFlags : MountFlags {
     std::string output;
-    int width_px = 1920;
-    std::optional<int> height_px;
     bool raw = false;
     OverwriteFlags overwrite;
     DevelopFlags develop;
     RunFlags run;
 
-    // idle: flags without effect in this verb.
-    void add_lens_to(Verb& verb, const LookFlags::Idle& idle = {}) {
-        FlagGroup(verb, "Lens").argument("LENS", "a name of petzval lens list, or a lens file", lens_name);
-        look.add_to(verb, {"Lens", "Lens character", "Pupil"}, "--lens", idle);
-        camera.add_to(verb, "lens");
-    }
     // A table is of the middle of the picture, wherever its upper edge lies; and it takes its time.
     void add_output_to(Verb& verb, bool is_table, bool has_raw = true) {
         FlagGroup(verb, "Output")
@@ -53,54 +41,15 @@ struct PictureFlags {
         run.add_log_to(verb, is_table);
     }
     void check(const Verb& verb) {
-        require_argument(verb, lens_name, "a lens, as doublet, or a lens file");
         require_argument(verb, output, "-o OUT");
         run.apply();
         overwrite.check();
-        camera.check();
-        look.look().lens.name = lens_name;
-        look.settle();
+        check_lens(verb);
         const auto kind = kind_of_output(output);
         if (!kind) throw UsageError("-o " + kind.error().message);
         if (*kind != FileKind::Png) develop.refuse("is for display pictures: -o FILE.png");
-        if (camera.image_scale) throw UsageError("--breathing has no effect on a disc whose radius is given");
     }
 };
-
-// Numbers that are not given are the lens's own: also its format. So --focal-length alone mounts the lens,
-// scaled, on the sensor it was made for: in pixels its aberrations grow along. With the sensor scaled by the
-// same factor the kernel stays what it was.
-Result<LensMount> mount_of(const PictureFlags& flags, const Lens& lens) {
-    LensMount mount;
-    mount.width_px = flags.width_px;
-    mount.height_px = flags.height_px.value_or(std::max(1, flags.width_px * 9 / 16));
-    const auto own = own_camera(lens);
-    if (!own) return own.error();
-    Camera& camera = mount.camera;
-    camera.focal_length_mm = flags.camera.focal_length_mm.value_or(own->focal_length_mm);
-    camera.f_number = flags.camera.f_number.value_or(own->f_number);
-    if (flags.camera.aperture_diameter_mm)
-        camera.f_number = camera.focal_length_mm / *flags.camera.aperture_diameter_mm;
-    camera.sensor_width_mm = flags.camera.sensor_width_mm.value_or(own->sensor_width_mm);
-    camera.focus_distance_m = flags.camera.focus_distance_m.value_or(0);
-    camera.image_scale = flags.camera.image_scale.value_or(ImageScale::Rendered);
-    return mount;
-}
-
-std::string camera_text(const Camera& c) {
-    return plain(c.focal_length_mm, 4) + " mm, sensor " + plain(c.sensor_width_mm, 4) + " mm, f/" +
-           plain(c.f_number, 3);
-}
-
-Json mount_json(const LensMount& mount) {
-    const Camera& c = mount.camera;
-    return {{"focal_length_mm", number(c.focal_length_mm)},
-            {"sensor_width_mm", number(c.sensor_width_mm)},
-            {"f_number", number(c.f_number)},
-            {"focus_distance_m", c.focus_distance_m > 0 ? number(c.focus_distance_m) : number(INFINITY)},
-            {"width", mount.width_px},
-            {"height", mount.height_px}};
-}
 
 // For displays: the brightest channel just below white.
 Status write_view(const PictureFlags& flags, Picture picture) {
@@ -122,23 +71,15 @@ Status finish(const PictureFlags& flags, Json report, const LensMount& mount, co
     return write_report(report, flags.run.json);
 }
 
-struct Mounted {
-    LensMount mount;
-    Lens lens;
-};
-
 // The mounted lens of a picture, or nothing if there is nothing to do.
-Result<std::optional<Mounted>> prepared(PictureFlags& flags) {
+Result<std::optional<MountedLens>> prepared(PictureFlags& flags) {
     if (const auto reason = flags.overwrite.reason_to_skip({flags.output}, {})) {
         note(*reason);
-        return std::optional<Mounted>();
+        return std::optional<MountedLens>();
     }
-    if (Status done = read_lens_images(flags.look.look()); !done) return done.error();
-    const auto lens = Lens::open(flags.look.look().lens);
-    if (!lens) return lens.error();
-    const auto mount = mount_of(flags, *lens);
-    if (!mount) return mount.error();
-    return std::optional<Mounted>({*mount, *lens});
+    auto mounted = flags.open();
+    if (!mounted) return mounted.error();
+    return std::optional<MountedLens>(std::move(*mounted));
 }
 
 struct PsfFlags : PictureFlags {
@@ -240,13 +181,6 @@ Status make_volume(VolumeFlags& flags) {
     return finish(flags, std::move(report), mount, volume->lens, watch);
 }
 
-// True for choices that show only off the middle of the picture.
-bool is_off_axis(const LookRow& row) {
-    for (const char* flag : {"--cats-eye", "--lateral-colour", "--add-lateral-colour",
-                             "--add-field-curvature", "--coma", "--astigmatism", "--distortion"})
-        if (row.flag == std::string(flag)) return true;
-    return false;
-}
 bool shapes_the_pupil(const LookRow& row) {
     const std::string heading = row.heading;
     return heading == "Lens" || heading == "Pupil";

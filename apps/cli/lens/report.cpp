@@ -44,16 +44,6 @@ std::string page_name(const std::string& lens) {
     return name + ".html";
 }
 
-Status make_folder(const std::string& folder) {
-    std::error_code problem;
-    fs::create_directories(folder, problem);
-    if (!fs::is_directory(folder))
-        return Error{ErrorCode::OutputFailed,
-                     "cannot make the folder " + folder + ": " +
-                         (problem ? problem.message() : std::string("there is a file of that name"))};
-    return Done{};
-}
-
 Status finish(const LensReportFlags& flags, const std::vector<std::string>& written, const Stopwatch& watch) {
     if (flags.run.json.empty()) return Done{};
     Json report = new_report("lens report");

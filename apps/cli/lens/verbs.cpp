@@ -242,7 +242,7 @@ void add_lens_show(Verb& lens, Action& chosen) {
 }  // namespace
 
 void add_lens(Verb& program, Action& chosen) {
-    Verb& lens = add_verb(program, "lens", "lenses: list, show, check, psf, table, volume and report",
+    Verb& lens = add_verb(program, "lens", "lenses: list, show, check, psf, table, volume, atlas and report",
                           "petzval lens list\n"
                           "petzval lens show double-gauss\n"
                           "petzval lens psf doublet --defocus 40 -o disc.exr");
@@ -250,6 +250,7 @@ void add_lens(Verb& program, Action& chosen) {
     add_lens_show(lens, chosen);
     add_lens_check(lens, chosen);
     add_lens_pictures(lens, chosen);
+    add_lens_atlas(lens, chosen);
     add_lens_report(lens, chosen);
     when_typed(lens, [&lens] { require_verb(lens); });
 }

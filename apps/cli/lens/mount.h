@@ -1,0 +1,41 @@
+// A lens and a camera for it, as verbs that draw discs ask for them.
+#pragma once
+
+#include "petzval/lens_kernel.h"
+
+#include "camera.h"
+#include "look_flags.h"
+#include "look_rows.h"
+#include "report.h"
+
+#include <optional>
+#include <string>
+
+namespace petzval::cli {
+
+struct MountedLens {
+    LensMount mount;
+    Lens lens;
+};
+
+struct MountFlags {
+    std::string lens_name;
+    LookFlags look;
+    CameraFlags camera;
+    int width_px = 1920;
+    std::optional<int> height_px;
+
+    // idle: flags without effect in this verb.
+    void add_lens_to(Verb& verb, const LookFlags::Idle& idle = {});
+    // Throws UsageError.
+    void check_lens(const Verb& verb);
+    // Errors: those of Lens::open().
+    Result<MountedLens> open();
+};
+
+std::string camera_text(const Camera& c);
+Json mount_json(const LensMount& mount);
+// True for choices that show only off the middle of the picture.
+bool is_off_axis(const LookRow& row);
+
+}  // namespace petzval::cli
