@@ -221,6 +221,11 @@ def web_test(*words):
         run("/usr/bin/python3", test, program(), *words)  # Debian's: selenium is its package
 
 
+def kit(*words):
+    """[FOLDER]: the real-time pass's programs as GLSL, SPIR-V, HLSL, MSL and WGSL, in build/kit, each compiled"""
+    run(sys.executable, "tools/kit.py", *words)
+
+
 def farm_test(*words):
     """[ARGS…]: jobs for render farms, run by openjd-cli and by a Slurm cluster on this machine; ARGS go to unittest"""
     make("release", "petzval_cli")
@@ -271,7 +276,7 @@ def site(*words):
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
          "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "site": site, "web": web,
-         "web-test": web_test, "wheel": wheel, "farm-test": farm_test, "ofx": ofx,
+         "web-test": web_test, "kit": kit, "wheel": wheel, "farm-test": farm_test, "ofx": ofx,
          "blender-addon": blender_addon, "blender-test": blender_test}
 
 
