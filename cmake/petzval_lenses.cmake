@@ -1,5 +1,6 @@
 # lenses/*.json compiled into the library: one generated file with every text as a string, so that an installed
-# program finds its lenses without looking for files.
+# program finds its lenses without looking for files. PETZVAL_LENSES_WITHOUT: lists of a lens file that a build which goes
+# over the wire leaves out; spaces at line starts go, too.
 
 file(GLOB lens_names CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/lenses ${PROJECT_SOURCE_DIR}/lenses/*.json)
 list(TRANSFORM lens_names REPLACE "\\.json$" "")
@@ -15,6 +16,12 @@ foreach(name ${lens_names})
   set(path ${PROJECT_SOURCE_DIR}/lenses/${name}.json)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
   file(READ ${path} text)
+  foreach(member ${PETZVAL_LENSES_WITHOUT})
+    string(REGEX REPLACE ",\n \"${member}\": (\\[\n[^]]*\n \\]|\\[[^\n]*\\])" "" text "${text}")
+  endforeach()
+  if(PETZVAL_LENSES_WITHOUT)
+    string(REGEX REPLACE "\n *" "" text "${text}")
+  endif()
   string(MAKE_C_IDENTIFIER text_${name} variable)
   string(APPEND shelf_source "constexpr std::string_view ${variable} = R\"lens(${text})lens\";\n")
   if(NOT name STREQUAL glasses)
