@@ -32,6 +32,9 @@ def build(petzval):
     for name in ("lab", "picture"):
         for kind in ("js", "wasm"):
             shutil.copy(KERNEL / f"petzval-{name}.{kind}", SITE)
+    (SITE / "lookup").mkdir()
+    for path in ROOT.glob("examples/bokeh_texture/bokeh_texture.*"):
+        shutil.copy(path, SITE / "lookup")
     scene = KERNEL / "night.bin.gz"
     if not scene.exists():  # Debian's Python: numpy is its package
         run("/usr/bin/python3", "tools/scene_textures.py", petzval, "night", "480", "270", scene)

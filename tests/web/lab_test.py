@@ -73,6 +73,50 @@ class Lab(Page):
         self.assertTrue(self.browser.find_elements(By.CSS_SELECTOR, "#section path.ray.lit"))
         self.assertRegex(self.text("lit"), r"^\d+ of \d+ rays meet there")
 
+    def saved(self, button):
+        """The channels and attributes of the EXR that a button of the page saves."""
+        self.browser.execute_script("""
+            globalThis.blobs = [];
+            const usual = URL.createObjectURL;
+            URL.createObjectURL = (blob) => (blobs.push(blob), usual(blob));
+            document.getElementById(arguments[0]).click();""", button)
+        WebDriverWait(self.browser, SECONDS).until(lambda b: b.execute_script("return blobs.length"))
+        self.done("blobs[0].arrayBuffer().then((bytes) => { globalThis.file = new Uint8Array(bytes); })")
+        with tempfile.NamedTemporaryFile(suffix=".exr") as file:
+            pathlib.Path(file.name).write_bytes(self.floats("file"))
+            return read_exr(file.name)
+
+    def assert_alike(self, ours, theirs, allowed):
+        for channel in "RGB":
+            self.assertEqual([len(ours[channel]), len(ours[channel][0])], [len(theirs[channel]), len(theirs[channel][0])])
+            worst = max(abs(a - b) for rows in zip(ours[channel], theirs[channel]) for a, b in zip(*rows))
+            self.assertLess(worst, allowed * max(map(max, theirs[channel])), channel)
+
+    def test_saved_numbers_are_those_of_the_program(self):
+        self.open()
+        disc, _ = self.saved("exr")
+        for channel in "RGB":
+            self.assertAlmostEqual(sum(map(sum, disc[channel])), 1, places=4)
+        table, texts = self.saved("table")
+        with tempfile.TemporaryDirectory() as folder:
+            psf, path = folder + "/disc.exr", folder + "/table.exr"
+            state = self.browser.execute_script("return [lab.state.light.coc_px, lab.discArgs(lab.state.light.coc_px).camera.focus_m]")
+            subprocess.run([PETZVAL, "lens", "psf", "doublet", "--defocus", str(state[0]), "--size", str(len(disc["R"])), "-o", psf,
+                            *(["--focus", str(state[1])] if state[1] else [])], check=True, capture_output=True)
+            self.assert_alike(disc, read_exr(psf)[0], 1e-4)
+            subprocess.run([PETZVAL, "lens", "table", "doublet", "-o", path], check=True, capture_output=True)
+            expected, attributes = read_exr(path)
+            self.assert_alike(table, expected, 1e-4)
+        named = [name for name in attributes if name.startswith("petzval:")]
+        self.assertIn("petzval:columns", named)
+        for name in named:
+            self.assertEqual(texts.get(name), attributes[name])
+
+    def test_the_lookup_functions_are_on_the_site(self):
+        self.open()
+        for link in self.browser.execute_script("return [...document.querySelectorAll('a[download]')].map((a) => new URL(a.href).pathname)"):
+            self.assertIn("bokeh_place", (SITE / link.lstrip("/")).read_text())
+
     def drag(self, handle, x, y):
         WebDriverWait(self.browser, SECONDS).until(lambda b: b.find_elements(By.CSS_SELECTOR, handle))
         element = self.browser.find_element(By.CSS_SELECTOR, handle)
@@ -157,8 +201,13 @@ class Lab(Page):
             self.narrow(width)
             self.open()
             self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), width)
+        for path in sorted((SITE / "lenses").glob("*.html")):
+            self.narrow(360)
+            self.browser.get(f"{self.origin}/lenses/{path.name}")
+            self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), 360, path.name)
 
     def test_what_goes_over_the_wire_is_small(self):
+        self.browser.execute_cdp_cmd("Network.clearBrowserCache", {})
         self.server.asked.clear()
         self.open()
         paths = {SITE / urllib.parse.urlparse(path).path.lstrip("/") for path in self.server.asked}

@@ -109,27 +109,28 @@ int lab_disc(const petzval_lens* lens, double coc_radius_px, double field_x, dou
     return petzval_lens_disc(lens, &mount, &disc, &pixels, &report) == PETZVAL_OK ? report.needed_px : 0;
 }
 
-static petzval_texture texture_of(int columns, double largest_coc_px, int view) {
+/* For eyes: even columns, each divided by its brightest channel; otherwise as `petzval lens table` writes it. */
+static petzval_texture texture_of(int columns, double largest_coc_px, int for_eyes) {
     petzval_texture texture;
     memset(&texture, 0, sizeof texture);
     texture.size = sizeof texture;
     texture.columns = columns;
     texture.largest_coc_px = largest_coc_px;
-    texture.rows_per_px = 2;
-    texture.even = 1;
-    texture.view = view;
+    texture.rows_per_px = for_eyes ? 2 : 4;
+    texture.even = for_eyes;
+    texture.view = for_eyes;
     return texture;
 }
 
-int lab_texture_rows(const petzval_lens* lens, int columns, double largest_coc_px) {
-    const petzval_texture texture = texture_of(columns, largest_coc_px, 1);
+int lab_texture_rows(const petzval_lens* lens, int columns, double largest_coc_px, int for_eyes) {
+    const petzval_texture texture = texture_of(columns, largest_coc_px, for_eyes);
     int rows = 0;
     return petzval_lens_texture_rows(lens, &mount, &texture, &rows) == PETZVAL_OK ? rows : 0;
 }
 
 /* Into columns * rows * 4 floats; the rows that are used, or 0 if refused. */
-int lab_texture(const petzval_lens* lens, int columns, double largest_coc_px, float* out, int rows) {
-    const petzval_texture texture = texture_of(columns, largest_coc_px, 1);
+int lab_texture(const petzval_lens* lens, int columns, double largest_coc_px, int for_eyes, float* out, int rows) {
+    const petzval_texture texture = texture_of(columns, largest_coc_px, for_eyes);
     const petzval_pixels pixels = rgba(out, columns, rows);
     int used = 0;
     return petzval_lens_texture(lens, &mount, &texture, &pixels, NULL, &used) == PETZVAL_OK ? used : 0;

@@ -85,11 +85,12 @@ const calls = {
     const [needed, pixels] = filled(size * size * 4, (out) => kernel._lab_disc(handle, coc_px, x, y, out, size));
     return { size, needed, pixels };
   },
-  texture({ lens, camera, columns, largest_px }) {
+  /** The bokeh texture: for eyes, or as `petzval lens table` writes it. */
+  texture({ lens, camera, columns, largest_px, for_eyes = 1 }) {
     mount(camera);
     const handle = lensOf(lens);
-    const rows = accepted(kernel._lab_texture_rows(handle, columns, largest_px));
-    const [used, pixels] = filled(columns * rows * 4, (out) => kernel._lab_texture(handle, columns, largest_px, out, rows));
+    const rows = accepted(kernel._lab_texture_rows(handle, columns, largest_px, for_eyes));
+    const [used, pixels] = filled(columns * rows * 4, (out) => kernel._lab_texture(handle, columns, largest_px, for_eyes, out, rows));
     return { columns, rows, used, pixels };
   },
 };

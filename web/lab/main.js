@@ -213,6 +213,15 @@ async function showPicture() {
   }
 }
 
+/** A file of numbers; the writer of files is loaded with the first one. */
+async function exported(file, args) {
+  try {
+    await (await import("./exporting.js"))[file](kernel, args);
+  } catch (error) {
+    complain(error.message);
+  }
+}
+
 function wire() {
   buildControls($("controls"), CONTROLS, (how, value) => (setIn(state.lens.look, how, value), update()));
   $("strip").replaceChildren(...STRIP_PX.map((px) => {
@@ -252,6 +261,8 @@ function wire() {
     setTimeout(() => ($("link").textContent = "Copy link"), 1500);
   };
   $("png").onclick = () => saveCanvas($("disc"), `${state.lens.name}-${state.light.coc_px}px.png`);
+  $("exr").onclick = () => exported("discExr", discArgs(state.light.coc_px));
+  $("table").onclick = () => exported("tableExr", { lens: state.lens, camera: camera(0), title: [state.lens.name, facts.lens.title].filter(Boolean).join(": ") });
   $("save").onclick = () => saveText(JSON.stringify({ petzval_look: 1, lens: { name: state.lens.name, ...state.lens.look } }, null, 2) + "\n", `${state.lens.name}-look.json`);
   $("file").onchange = async () => {
     const [file] = $("file").files;
