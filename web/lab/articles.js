@@ -80,7 +80,7 @@ function redraw() {
 }
 
 function knobOf(name, { label, choices, ...range }) {
-  const made = document.createElement("label"), shown = document.createElement("output"), values = articles.values[articles.method];
+  const made = document.createElement("label"), shown = Object.assign(document.createElement("span"), { className: "value" }), values = articles.values[articles.method];
   const input = document.createElement(choices ? "select" : "input");
   if (choices) input.append(...choices.map((choice) => new Option(choice, choice)));
   else Object.assign(input, { type: "range", min: range.min, max: range.max, step: range.step });

@@ -5,7 +5,7 @@ const changers = new Map();
 
 function control(how, changed) {
   const { field, key = field, label, unit, min, max, step, type, choices, help, value } = how;
-  const made = document.createElement("label"), input = document.createElement(choices ? "select" : "input"), shown = document.createElement("output");
+  const made = document.createElement("label"), input = document.createElement(choices ? "select" : "input"), shown = Object.assign(document.createElement("span"), { className: "value" });
   made.title = help;
   input.dataset.field = key;
   if (type === "check") {

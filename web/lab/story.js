@@ -120,10 +120,11 @@ class Figure {
     this.#spec = FIGURES[name];
     this.#values = Object.fromEntries(Object.entries(this.#spec.knobs).map(([knob, { value }]) => [knob, value]));
     const views = Object.assign(document.createElement("div"), { className: "views" });
-    this.#made = this.#spec.views(this.#values).map(({ kind, wide }) => {
+    this.#made = this.#spec.views(this.#values).map(({ kind, wide, caption: told }) => {
       const cell = document.createElement("div"), caption = Object.assign(document.createElement("p"), { className: "hint" });
       const drawing = kind === "svg" ? document.createElementNS("http://www.w3.org/2000/svg", "svg") : document.createElement("canvas");
       drawing.setAttribute("role", "img");
+      drawing.setAttribute("aria-label", told ? `Figure: ${told}` : "Figure");
       cell.className = wide ? "view whole" : "view";
       cell.append(drawing, caption);
       views.append(cell);
@@ -133,7 +134,7 @@ class Figure {
   }
 
   #knob(knob, { label, choices, value, told = (v) => v, ...range }) {
-    const made = document.createElement("label"), shown = document.createElement("output"), input = document.createElement(choices ? "select" : "input");
+    const made = document.createElement("label"), shown = Object.assign(document.createElement("span"), { className: "value" }), input = document.createElement(choices ? "select" : "input");
     if (choices) input.append(...choices.map((choice) => new Option(choice, choice)));
     else Object.assign(input, { type: "range", ...range });
     input.value = value;
