@@ -4,6 +4,7 @@ Usage: web.py PETZVAL [--serve]; --serve: then serves it on loopback.
 """
 import functools
 import http.server
+import json
 import os
 import pathlib
 import shutil
@@ -41,6 +42,40 @@ def build(petzval):
     shutil.copy(scene, SITE)
     run(sys.executable, "tools/lens_pages.py", petzval, KERNEL / "lenses")
     shutil.copytree(KERNEL / "lenses", SITE / "lenses")
+    three_demo(petzval)
+
+
+THREE = "three@0.187.0"  # of npm: the demo's copy, tested with this version
+PMNDRS = "postprocessing@6.39.6"  # for the tests alone
+DEMO_LENSES = {"petzval-portrait": [], "doublet": [], "double-gauss": [], "ideal": ["--cats-eye", "0.6"]}
+
+
+def three_demo(petzval):
+    """The page of web/three with a copy of three.js. Without npm the site has no such page."""
+    if not shutil.which("npm"):
+        print("web: npm not found: the site has no three/demo.html", file=sys.stderr)
+        page = SITE / "index.html"
+        page.write_text(page.read_text().replace('<a href="three/demo.html">Lenses in three.js</a> · ', ""))
+        return
+    npm, out = KERNEL / "npm", SITE / "three"
+    if not (npm / "node_modules/three").exists():
+        npm.mkdir(parents=True, exist_ok=True)
+        (npm / "package.json").write_text('{"private": true}')
+        run("npm", "install", "--silent", "--prefix", npm, THREE, PMNDRS)
+    shutil.copytree(ROOT / "web/three", out, ignore=shutil.ignore_patterns("*.md", "*.json", "*.d.ts"))
+    three, vendor = npm / "node_modules/three", out / "vendor"
+    for name in ("three.module.js", "three.core.js"):
+        vendor.mkdir(parents=True, exist_ok=True)
+        shutil.copy(three / "build" / name, vendor)
+    shutil.copy(three / "LICENSE", vendor)
+    for name in ("postprocessing", "shaders"):
+        shutil.copytree(three / "examples/jsm" / name, vendor / "addons" / name)
+    shutil.copy(npm / "node_modules/postprocessing/build/index.js", vendor / "postprocessing.js")
+    for lens, flags in DEMO_LENSES.items():
+        if not (KERNEL / "atlases" / lens / "atlas.json").exists():
+            run(petzval, "lens", "atlas", lens, "-o", KERNEL / "atlases" / lens, *flags)
+    shutil.copytree(KERNEL / "atlases", out / "lenses")
+    (out / "lenses/index.json").write_text(json.dumps(list(DEMO_LENSES)))
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):

@@ -1,0 +1,115 @@
+"""The three.js pass in a headless Chromium: beside the program on the same light and depth, and what it says of bad input.
+
+Usage: pages.py says it.
+"""
+import base64
+import math
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+
+from pages import PETZVAL, SITE, Page
+from pictures import camera_attributes, read_exr, write_exr
+
+WIDTH, HEIGHT = 320, 180
+ASK = """
+const base64 = (floats) => {
+  const bytes = new Uint8Array(floats.buffer);
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
+  return btoa(text);
+};"""
+
+
+def psnr(one, other):
+    """dB of the linear light, values above 1 cut; alpha is left out."""
+    error = sum((min(a, 1.0) - min(b, 1.0)) ** 2 for c in "RGB" for rows in zip(one[c], other[c]) for a, b in zip(*rows))
+    return 10 * math.log10(3 * WIDTH * HEIGHT / max(error, 1e-9))
+
+
+@unittest.skipUnless((SITE / "three").exists(), "npm is not installed: no demo of three.js")
+class Three(Page):
+    def setUp(self):
+        self.open(page="three/demo.html")
+        self.console()
+
+    def console(self):
+        return [entry["message"] for entry in self.browser.get_log("browser") if "petzval:" in entry["message"] or "rror" in entry["message"]]
+
+    def frame(self, lens, focal_mm, f_number):
+        """Light, light with depth and blurred light of the scene, as channels of an EXR."""
+        self.assertIsNone(self.done("demo.use(args[0])", lens))
+        read = self.browser.execute_script(ASK + """
+            demo.lens.focalLength = arguments[2], demo.lens.fStop = arguments[3];
+            return Object.fromEntries(Object.entries(demo.buffers(arguments[0], arguments[1])).map(([name, floats]) => [name, base64(floats)]));""",
+                                           WIDTH, HEIGHT, focal_mm, f_number)
+        values = {name: struct.unpack(f"<{4 * WIDTH * HEIGHT}f", base64.b64decode(text)) for name, text in read.items()}
+        rows = {name: [[value[4 * (y * WIDTH + x):4 * (y * WIDTH + x) + 4] for x in range(WIDTH)] for y in range(HEIGHT)] for name, value in values.items()}
+        plane = lambda name, c: [[texel[c] for texel in row] for row in rows[name]]  # noqa: E731
+        sharp, blurred = ({c: plane(name, i) for i, c in enumerate("RGB")} for name in ("sharp", "blurred"))
+        return {**sharp, "A": [[1.0] * WIDTH] * HEIGHT, "Z": plane("metres", 0)}, blurred
+
+    def test_a_frame_is_that_of_gather(self):
+        for lens, focal_mm, f_number, at_least in (("doublet", 50, 2, 27), ("petzval-portrait", 70, 3.6, 29)):
+            with self.subTest(lens), tempfile.TemporaryDirectory() as folder:
+                sharp, blurred = self.frame(lens, focal_mm, f_number)
+                write_exr(folder + "/in.exr", sharp, attributes=camera_attributes(focal_mm, 36, f_number, 2))
+                subprocess.run([PETZVAL, "defocus", folder + "/in.exr", "-o", folder + "/out.exr", "--engine", "gather", "--lens", lens,
+                                "--max-radius", "32", "-q"], check=True, capture_output=True)
+                expected = read_exr(folder + "/out.exr")[0]
+                reached, before = psnr(blurred, expected), psnr(sharp, expected)
+                print(f"{lens}: {reached:.2f} dB, sharp {before:.2f} dB")
+                self.assertGreater(reached, at_least)
+                self.assertGreater(reached, before + 5)
+                energy = sum(map(sum, blurred["G"])) / sum(map(sum, expected["G"]))
+                self.assertAlmostEqual(energy, 1, delta=0.05)
+
+    def test_the_page_focuses_where_it_is_clicked_and_changes_lenses(self):
+        shown = lambda: self.browser.execute_script("demo.draw(); return document.getElementById('view').toDataURL()")  # noqa: E731
+        first = shown()
+        self.assertTrue(self.browser.execute_script("""
+            const view = document.getElementById("view"), box = view.getBoundingClientRect();
+            view.dispatchEvent(new MouseEvent("click", { clientX: box.left + 0.96 * box.width, clientY: box.top + 0.7 * box.height }));
+            return demo.lens.focusDistance > 4;"""))
+        clicked = shown()
+        self.assertNotEqual(first, clicked)
+        self.assertIsNone(self.done("demo.use('double-gauss')"))
+        self.assertNotEqual(clicked, shown())
+        self.assertEqual(self.console(), [])
+
+    def test_without_depth_or_lens_it_says_so_once_and_stays_sharp(self):
+        for setting, word in (("demo.lens.atlas = null", "LensAtlas.load"), ("demo.composer.readBuffer.depthTexture = demo.composer.writeBuffer.depthTexture = null", "depth texture")):
+            self.open(page="three/demo.html")
+            self.console()
+            self.browser.execute_script(setting + "; demo.draw(); demo.draw(); demo.draw();")
+            said = self.console()
+            self.assertEqual(len(said), 1, said)
+            self.assertIn(word, said[0])
+
+    def test_a_bad_atlas_is_one_sentence(self):
+        self.assertRegex(self.done("demo.use('no-such-lens')"), "^refused: petzval: the lens atlas lenses/no-such-lens/atlas.json cannot be loaded: 404")
+        self.assertRegex(self.done("demo.use('../vendor')"), "cannot be loaded")
+        damaged = self.done("""import("./index.js").then(async ({ LensAtlas }) => {
+            const header = await (await fetch("lenses/doublet/atlas.json")).json();
+            return new LensAtlas(header, new ArrayBuffer(100), "x"); })""")
+        self.assertRegex(damaged, "^refused: petzval: the lens atlas x needs [0-9]+ bytes of texels, not 100")
+
+    def test_pmndrs_composer_draws_the_same_lens(self):
+        made = self.done("""Promise.all([import("three"), import("./vendor/postprocessing.js"), import("./index.js")]).then(([THREE, pmndrs, { pmndrsLensPass }]) => {
+            const { renderer, scene, camera, lens } = demo;
+            renderer.toneMapping = THREE.NoToneMapping;
+            const composer = new pmndrs.EffectComposer(renderer, { frameBufferType: THREE.HalfFloatType });
+            const pass = pmndrsLensPass(pmndrs.Pass, camera, { atlas: lens.atlas, fStop: 1.4 });
+            composer.addPass(new pmndrs.RenderPass(scene, camera));
+            composer.addPass(pass);
+            const shown = () => (composer.render(), renderer.domElement.toDataURL());
+            const open = shown();
+            pass.lens.fStop = 16;
+            return open !== shown() && Boolean(pass.lens.depthTexture); })""")
+        self.assertIs(made, True)
+
+
+if __name__ == "__main__":
+    unittest.main()
