@@ -1,6 +1,6 @@
 """The gallery picture: Cycles' own depth of field, petzval's, the difference; both times. A film of 24 frames.
 
-Usage: … gallery_in_blender.py -- EXTENSION.zip ADDON.zip picture|film FOLDER, as in_blender_test.py
+Usage: … gallery_in_blender.py -- EXTENSION.zip ADDON.zip picture|film|lens FOLDER, as in_blender_test.py
 """
 import colorsys
 import math
@@ -135,4 +135,30 @@ def film():
     print("RESULT film", done, f"{seconds[0]:.1f} s, {seconds[1]:.1f} CPU s")
 
 
-{"picture": compare, "film": film}[sys.argv[-2]]()
+def traced():
+    """Cycles through a prescription of ours, exported as OSL camera, beside petzval through the same lens."""
+    sys.path += [str(pathlib.Path(__file__).resolve().parents[2] / "tools"), os.path.join(
+        bpy.utils.resource_path("LOCAL"), "python/lib/python3.11/site-packages")]  # of Blender's own oslquery
+    import lens_export
+    scene = market()
+    scene.render.resolution_x, scene.render.resolution_y = 320, 180
+    data = scene.camera.data
+    data.dof.aperture_fstop = 2.1
+    look = installed.part("library").petzval.Look(lens="double-gauss")
+    look["lens.focus_mode"] = "paraxial"
+    scene.petzval_lens.look_file = os.path.join(FOLDER, "look.json")
+    pathlib.Path(scene.petzval_lens.look_file).write_text(look.to_json())
+    mine = ours(scene, 32)
+    lens = lens_export.read(pathlib.Path(__file__).resolve().parents[2] / "lenses/double-gauss.json")
+    shader = bpy.data.texts.new("double-gauss.osl")
+    shader.write(lens_export.osl(lens, "double-gauss", data.lens, 2.1, data.dof.focus_distance))
+    data.type, data.custom_mode = "CUSTOM", "INTERNAL"
+    data.custom_shader = shader
+    truth = cycles(scene, 512)
+    a, b = mine / (1 + mine), truth / (1 + truth)
+    print(f"RESULT {bpy.app.version_string} | double-gauss f/2.1 | light {mine.sum() / truth.sum():.3f} | "
+          f"{-10 * math.log10(((a - b) ** 2).mean()):.1f} dB")
+    save("blender-lens.jpg", np.concatenate([truth, mine, np.abs(truth - mine) * 4], 1))
+
+
+{"picture": compare, "film": film, "lens": traced}[sys.argv[-2]]()
