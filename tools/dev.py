@@ -76,7 +76,7 @@ def demo(*_):
 
 
 def build(preset="release", *targets):
-    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, plain, core, no-tbb, portable)"""
+    """[preset] [target…]: configures and builds (presets: release, debug, clang, asan, tsan, scalar, plain, core, no-tbb, portable, fuzz)"""
     make(preset, *targets)
 
 
@@ -237,6 +237,12 @@ def farm_test(*words):
                 env={**os.environ, "PETZVAL": str(program()), "OPENJD": f"{folder}/bin/openjd"})
 
 
+def fuzz(*words):
+    """[CORPUS…] [--seconds N]: readers under libFuzzer, 120 s each; counts go to docs/results/fuzz.md"""
+    make("fuzz", "fuzzers")
+    run(sys.executable, "tools/fuzz.py", "build/fuzz/tests/fuzz", *words)
+
+
 def wheel(*_):
     """the Python package for any Python 3: builds the preset portable, leaves build/wheel/petzval-…-linux_x86_64.whl"""
     make("portable", "petzval_shared")
@@ -276,7 +282,7 @@ def site(*words):
 VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_program, "bench": bench,
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
          "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "site": site, "web": web,
-         "web-test": web_test, "kit": kit, "wheel": wheel, "farm-test": farm_test, "ofx": ofx,
+         "web-test": web_test, "kit": kit, "wheel": wheel, "farm-test": farm_test, "fuzz": fuzz, "ofx": ofx,
          "blender-addon": blender_addon, "blender-test": blender_test}
 
 
