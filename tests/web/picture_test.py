@@ -76,9 +76,11 @@ class Picture(Page):
                 self.assertGreater(apart, least_live)
                 self.assertGreater(float(live.std()), 0.01)
                 self.done("lab.picture.develop()")
-                apart = decibels(self.rgb("lab.picture.developed", shape), self.program(folder, files, "scatter", *flags))
-                print(f"{lens['name']}: developed {apart:.1f} dB, {self.text('picture-told')}", flush=True)
+                developed, expected = self.rgb("lab.picture.developed", shape), self.program(folder, files, "scatter", *flags)
+                apart, energy = decibels(developed, expected), float(developed.sum(dtype="f8") / expected.sum(dtype="f8"))
+                print(f"{lens['name']}: developed {apart:.1f} dB, energy {energy:.7f}, {self.text('picture-told')}", flush=True)
                 self.assertGreater(apart, least_developed)
+                self.assertAlmostEqual(energy, 1, delta=1e-4)
 
     def test_a_click_focuses_there_and_the_slider_closes_the_lens(self):
         self.show()
