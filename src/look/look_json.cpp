@@ -20,7 +20,12 @@ using look::Json;
 const char* const kVersionKey = "petzval_look";
 const char* const kPresetKey = "preset";
 
-Error no_look(const std::string& why) { return {ErrorCode::InvalidFile, why}; }
+// One line: a key of the text may hold control characters.
+Error no_look(std::string why) {
+    for (char& c : why)
+        if ((c >= 0 && c < ' ') || c == 127) c = '?';
+    return {ErrorCode::InvalidFile, std::move(why)};
+}
 
 // "lens", "blades"; the section is empty where there is none.
 std::pair<std::string, std::string> split(const std::string& path) {

@@ -14,7 +14,10 @@ constexpr int kLinkVersion = 1;
 constexpr std::size_t kMostBytes = std::size_t(1) << 20;
 const std::string kMark = "lens=";
 
-Error refused(const std::string& why) {
+// One line: a key of the link may hold control characters.
+Error refused(std::string why) {
+    for (char& c : why)
+        if ((c >= 0 && c < ' ') || c == 127) c = '?';
     return {ErrorCode::InvalidFile, "is a link of the lens lab, but " + why};
 }
 
