@@ -19,13 +19,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
-
-template <typename List, typename Value>
-bool has(const List& list, const Value& value) {
-    return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 Result<PixelPosition> pixel_of(const Words& words) {
     const auto x = number_of(words[0]), y = number_of(words[1]);
     if (!x) return x.error();

@@ -21,8 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
-
 // A number of the window, within limits.
 Field number(const char* name, double& (*of)(State&), double least, double most) {
     return {name, [of](const App& app) { return text_of(of(const_cast<State&>(app.state)), 6); },  // NOLINT

@@ -3,10 +3,18 @@
 
 #include "app.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace petzval::view {
+
+inline Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
+
+template <typename List, typename Value>
+bool has(const List& list, const Value& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
 
 // "fstop" -> "camera.f_number"; other names as they are.
 std::string full_path(const std::string& name);

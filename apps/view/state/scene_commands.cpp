@@ -12,8 +12,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
-
 Status no_scene() { return invalid("this is a picture; --scene NAME is seen from anywhere"); }
 
 }  // namespace

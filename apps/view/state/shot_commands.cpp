@@ -13,13 +13,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Error invalid(const std::string& message) { return {ErrorCode::InvalidArgument, message}; }
-
-template <typename List, typename Value>
-bool has(const List& list, const Value& value) {
-    return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 Status no_shot() { return invalid("this is one picture; give names with #### for the frames of a shot"); }
 
 }  // namespace
