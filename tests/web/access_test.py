@@ -1,12 +1,10 @@
-"""The pages of the lens lab without a mouse, for screen readers, with less motion, and where the browser lacks something.
+"""The pages of the lens lab without a mouse, for screen readers, with less motion, and without WebAssembly.
 
 Usage: pages.py says it.
 """
-import pathlib
-import shutil
-import tempfile
 import unittest
 
+import pages
 from pages import SECONDS, SITE, ActionChains, Page, WebDriverWait
 from selenium.webdriver.common.keys import Keys
 
@@ -69,15 +67,7 @@ class Access(Page):
                 self.assertEqual(moving, 0)
 
 
-class WithoutWebAssembly(Page):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.site = pathlib.Path(shutil.copytree(SITE, folder.name, dirs_exist_ok=True))
-        (cls.site / "petzval-lab.wasm").write_bytes(b"no program")
-        super().setUpClass()
-
+class Broken(pages.WithoutWebAssembly):
     def test_the_story_says_so_and_can_be_read(self):
         self.browser.get(f"{self.origin}/story.html")
         WebDriverWait(self.browser, SECONDS).until(lambda b: self.text("problem"))

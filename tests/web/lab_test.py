@@ -6,12 +6,12 @@ import base64
 import gzip
 import json
 import pathlib
-import shutil
 import subprocess
 import tempfile
 import unittest
 import urllib.parse
 
+import pages
 from pages import PETZVAL, SECONDS, SITE, ActionChains, By, Page, WebDriverWait
 from pictures import read_exr
 
@@ -231,15 +231,7 @@ class Lab(Page):
         self.assertEqual(self.browser.execute_script("return lab.state.lens.name"), "doublet")
 
 
-class WithoutWebAssembly(Page):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.site = pathlib.Path(shutil.copytree(SITE, folder.name, dirs_exist_ok=True))
-        (cls.site / "petzval-lab.wasm").write_bytes(b"no program")
-        super().setUpClass()
-
+class Broken(pages.WithoutWebAssembly):
     def test_the_page_says_so(self):
         self.browser.get(f"{self.origin}/index.html")
         WebDriverWait(self.browser, SECONDS).until(lambda b: self.text("problem"))

@@ -6,7 +6,9 @@ package) after ./dev web.
 import base64
 import json
 import pathlib
+import shutil
 import sys
+import tempfile
 import threading
 import unittest
 
@@ -97,3 +99,17 @@ class Page(unittest.TestCase):
         """Errors and warnings of the console, but for the driver's remarks on reading pixels back."""
         return [entry["message"] for entry in self.browser.get_log("browser")
                 if entry["level"] in ("SEVERE", "WARNING") and "GL Driver Message" not in entry["message"]]
+
+
+class WithoutWebAssembly(Page):
+    """A copy of the site with a program that is no WebAssembly. Subclasses name its file."""
+
+    broken = "petzval-lab.wasm"
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.site = pathlib.Path(shutil.copytree(SITE, folder.name, dirs_exist_ok=True))
+        (cls.site / cls.broken).write_bytes(b"no program")
+        super().setUpClass()

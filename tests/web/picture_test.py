@@ -3,7 +3,6 @@
 Usage: pages.py says it.
 """
 import pathlib
-import shutil
 import struct
 import subprocess
 import tempfile
@@ -11,6 +10,7 @@ import unittest
 import zlib
 
 import numpy
+import pages
 from pages import PETZVAL, SITE, By, Page
 from pictures import camera_attributes, exr_bytes, picture, png_chunk, read_exr, write_exr
 
@@ -173,14 +173,8 @@ class WithoutWebGL(Page):
         self.assertRegex(self.text("picture-told"), r"^Developed in \d")
 
 
-class WithoutWebAssembly(Page):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.site = pathlib.Path(shutil.copytree(SITE, folder.name, dirs_exist_ok=True))
-        (cls.site / "petzval-picture.wasm").write_bytes(b"no program")
-        super().setUpClass()
+class Broken(pages.WithoutWebAssembly):
+    broken = "petzval-picture.wasm"
 
     def test_the_page_says_so_and_stays_as_it_was(self):
         self.open()
