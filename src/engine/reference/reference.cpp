@@ -225,8 +225,9 @@ void trace_base(const EngineView& input, const Surfaces& surfaces, View<Rgba> ou
         Tile tile(surfaces, input.samples.holdout, area);
         for (int k = 0; k < int(rays.size()) && !input.services.progress->cancelled(); ++k)
             tile.add(rays[std::size_t(k)], k);
+        const Picture& sum = tile.sum();
         for (int y = area.y0; y < area.y1; ++y)
-            for (int x = area.x0; x < area.x1; ++x) out(x, y) = tile.sum()(x - area.x0, y - area.y0);
+            for (int x = area.x0; x < area.x1; ++x) out(x, y) = sum(x - area.x0, y - area.y0);
         input.services.progress->advance(kShareOfRays / double(tiles.size()));
     });
 }
