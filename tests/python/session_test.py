@@ -23,7 +23,7 @@ LENS_FILE = ROOT / "lenses/petzval-laikin.json"
 
 # A frame of some seconds, in the main thread; prints how long it took to stop after SIGINT came.
 INTERRUPTED = """
-import os, signal, threading, time
+import os, signal, sys, threading, time
 import numpy as np
 import petzval
 rng = np.random.default_rng(1)
@@ -31,14 +31,14 @@ colour = rng.random((1080, 1920, 4), np.float32)
 radii = (60 * rng.random((1080, 1920), np.float32)).astype(np.float32)
 sent = []
 def interrupt():
-    sent.append(time.monotonic())
+    sent.append(time.process_time())
     os.kill(os.getpid(), signal.SIGINT)
-threading.Timer(0.7, interrupt).start()
+threading.Timer(float(sys.argv[1]), interrupt).start()
 try:
     petzval.defocus(colour, radii_px=radii, look=petzval.Look(engine="reference"))
     print("finished")
 except KeyboardInterrupt:
-    print(time.monotonic() - sent[0])
+    print(time.process_time() - sent[0])
 """
 
 
@@ -207,15 +207,17 @@ class Frames(unittest.TestCase):
 
 class CtrlC(unittest.TestCase):
     def test_a_frame_stops_within_a_tenth_of_a_second(self):
-        waits = []
-        for _ in range(3):  # of a busy machine the best: a wait for a core is not ours
-            out = subprocess.run([sys.executable, "-c", INTERRUPTED], check=True, capture_output=True, text=True,
-                                 timeout=120).stdout.strip()
+        # Seconds of work after the signal, not elapsed time: a wait for a core is not petzval's. The frame takes
+        # minutes; its preparation is over after the first of these delays or, on a slow machine, the second.
+        worked = []
+        for delay in ("0.7", "3"):
+            out = subprocess.run([sys.executable, "-c", INTERRUPTED, delay], check=True, capture_output=True,
+                                 text=True, timeout=120).stdout.strip()
             self.assertNotEqual(out, "finished")
-            waits.append(float(out))
-            if waits[-1] < 0.1:
+            worked.append(float(out))
+            if worked[-1] < 0.1:
                 break
-        self.assertLess(min(waits), 0.1)
+        self.assertLess(min(worked), 0.1)
 
     def test_the_handler_of_a_signal_is_heard(self):
         class Alarm(Exception):
