@@ -7,8 +7,8 @@
 
 namespace petzval {
 
-// What the mask leaves of the effect in a report that holds `pixels` of the frame's pictures, and in its
-// layers. Buffers that are shown instead of the picture stay as they are.
+// Limits the effect by the mask, in a report that holds `pixels` of the frame's pictures and in its layers.
+// Buffers that are shown instead of the picture stay as they are.
 void limit_by_mask(DefocusReport& report, const Rendered& rendered, const Rect& pixels, Workers& workers);
 
 }  // namespace petzval

@@ -14,8 +14,8 @@ namespace {
 using Outline = HiddenOutlines::Outline;
 
 constexpr int kCell = 16;        // pixels on a side
-constexpr int kLongestPx = 110;  // one goes on alone
-constexpr int kFarthestPx = 90;  // two ends of one are apart
+constexpr int kLongestPx = 110;  // an outline with one visible end
+constexpr int kFarthestPx = 90;  // between two visible ends of an outline
 constexpr int kEndCell = 32;     // pixels on a side
 static_assert(kFarthestPx + kTracedPx + kEndCell <= kOutlineReachPx);
 static_assert(kLongestPx + kTracedPx + kCell <= kOutlineReachPx);
