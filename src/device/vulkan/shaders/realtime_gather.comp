@@ -42,68 +42,91 @@ void guess(vec4 there, float there_area, float weight, inout vec4 light, inout f
     light += likely * there, area += likely * there_area;
 }
 
-// Background of a cell completely in front of focus: the mean of the light behind focus around it, and of far
-// less blurred near light; of the nearest of these.
+// Mean radius of the light in front of focus in a cell, and behind it.
+float near_radius(vec3 near) { return near.y / max(near.z, 1e-7); }
+float back_radius(vec4 back) { return back.y / max(back.w, 1e-7); }
+
+// Sums taps over a disc: of light as blurred as a cell of `own_px`, of light blurred far less, or of light blurred far
+// more; and the largest radii of the last two.
+const float kLessBlurred = 0.4, kAsBlurred = 0.7, kUpTo = 1.2, kMoreBlurred = 1.7;  // of the cell's radius
+const int kAlike = 0, kLess = 1, kMore = 2;
+struct Sum {
+    vec4 light;
+    float area, more_area;  // that of light blurred far more within the same disc
+    float less_px, more_px;
+};
+Sum back_over(vec2 middle, float radius, float own_px, int which) {
+    const float level = level_of(radius);
+    Sum sum = Sum(vec4(0), 0, 0, 0, 0);
+    for (int i = 0; i < kTaps; ++i) {
+        const vec2 tap = lens[i].xy;
+        const vec4 there = textureLod(cells, place_of(middle, tap, radius, kBack), level);
+        if (there.x == 0) continue;
+        const float reaches = back_radius(there), ratio = reaches / own_px;
+        const float less = smoothstep(kAsBlurred, kLessBlurred, ratio), more = smoothstep(kUpTo, kMoreBlurred, ratio);
+        if (there.x > 0.01) {
+            if (less > 0) sum.less_px = max(sum.less_px, reaches);
+            if (more > 0) sum.more_px = max(sum.more_px, reaches);
+        }
+        const float share = clamp(reaches, 0.5, radius) / radius;
+        const vec4 w = norm(share).y * shape(kFarShape, tap, share);
+        sum.more_area += more * w.a * there.x;
+        const float counts = which == kLess ? less : which == kMore ? more : 1 - less - more;
+        if (counts * w.a == 0) continue;
+        sum.light += counts * w * textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
+        sum.area += counts * w.a * there.x;
+    }
+    return sum;
+}
+// Blurs the light behind focus as a cell of this radius sees it, in three layers. The cell's own disc is the opening
+// through which far more blurred light is seen, which comes from as far as its own radius. Far less blurred light has
+// only a few taps in that disc: it is gathered over its own reach, and lies on top.
+vec4 back_of(vec2 middle, vec4 own_light, float own_px, out float area) {
+    const float radius = max(own_px, 1.0);
+    const Sum own = back_over(middle, radius, radius, kAlike);
+    area = own.area + own.more_area;
+    vec4 light = own.area > 0 ? own.light / own.area : own_light;
+    if (own.more_area > 0 && own.more_px > 0) {
+        const Sum more = back_over(middle, own.more_px, radius, kMore);
+        if (more.area > 0) light = mix(light, more.light / more.area, own.more_area / area);
+    }
+    if (own.less_px > 0) {
+        const Sum less = back_over(middle, max(own.less_px, 1.0), radius, kLess);
+        light = less.area < 1 ? less.light + (1 - less.area) * light : less.light / less.area;
+    }
+    return light;
+}
+
+// Background of a cell completely in front of focus: light behind focus around it, blurred as it is there on average.
+// Where little is visible, the mean of that light and of far less blurred near light; of the nearest of these.
 vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
     vec4 light = vec4(0);
-    float area = 0;
+    float area = 0, back_area = 0, back_px = 0;
     for (float radius = min(kNearestPx, most_px);; radius = min(4 * radius, most_px)) {
         const float level = level_of(radius);
         for (int i = 0; i < kTaps; ++i) {
             const vec2 tap = lens[i].xy;
             const float w = exp2(-8 * lens[i].z * lens[i].z);
-            const vec3 back = textureLod(cells, place_of(middle, tap, radius, kBack), level).xyz;
-            if (back.z > kLeastArea)
+            const vec4 back = textureLod(cells, place_of(middle, tap, radius, kBack), level);
+            if (back.z > kLeastArea) {
                 guess(textureLod(cells, place_of(middle, tap, radius, kBackLight), level) * (back.z / back.x), back.z, w,
                       light, area);
-            const vec2 near = textureLod(cells, place_of(middle, tap, radius, kNear), level).xy;
-            const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near.y / (near.x * own_px)) : 0.0;
+                back_px += w * back.z * back_radius(back), back_area += w * back.z;
+            }
+            const vec3 near = textureLod(cells, place_of(middle, tap, radius, kNear), level).xyz;
+            const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near_radius(near) / own_px) : 0.0;
             if (behind > 0)
                 guess(textureLod(cells, place_of(middle, tap, radius, kNearLight), level), near.x, behind, light, area);
         }
         if (area > 0.05 || radius == most_px) break;
     }
     is_known = area > 1e-6 ? 1.0 : 0.0;
-    return area > 1e-6 ? light / area : vec4(0);
-}
-
-// Mean radius of the light behind focus in a cell.
-float back_radius(vec4 back) { return back.y / max(back.w, 1e-7); }
-
-// Sums taps over a disc: light about as blurred as a cell of `own_px`, or else far less blurred light; and
-// the largest radius of the latter.
-const float kLessBlurred = 0.4, kAsBlurred = 0.7;  // of the cell's radius
-vec4 back_over(vec2 middle, float radius, float own_px, bool is_less, out float less_px, out float area) {
-    const float level = level_of(radius);
-    vec4 light = vec4(0);
-    area = less_px = 0;
-    for (int i = 0; i < kTaps; ++i) {
-        const vec2 tap = lens[i].xy;
-        const vec4 there = textureLod(cells, place_of(middle, tap, radius, kBack), level);
-        if (there.x == 0) continue;
-        const float reaches = back_radius(there), alike = smoothstep(kLessBlurred, kAsBlurred, reaches / own_px);
-        if (alike < 1 && there.x > 0.01) less_px = max(less_px, reaches);
-        const float share = clamp(reaches, 0.5, radius) / radius;
-        const vec4 w = (is_less ? 1 - alike : alike) * norm(share).y * shape(kFarShape, tap, share);
-        if (w.a == 0) continue;
-        light += w * textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
-        area += w.a * there.x;
-    }
-    return light;
-}
-// Blurs a cell with content: background is seen through this cell's own disc. Far less blurred light has only
-// a few taps in that disc: it is gathered again, over its own reach, and lies on top.
-vec4 back_of(vec2 middle, vec4 own_light, vec4 own) {
-    const float own_px = back_radius(own), radius = max(own_px, 1.0);
-    if (own_px < 0.5) return own_light / own.x;
-    float less_px, area, none, on_top;
-    vec4 light = back_over(middle, radius, radius, false, less_px, area);
-    light = area > 0 ? light / area : own_light / own.x;
-    if (less_px > 0) {
-        const vec4 top = back_over(middle, max(less_px, 1.0), radius, true, none, on_top);
-        light = on_top < 1 ? top + (1 - on_top) * light : top / on_top;
-    }
-    return light;
+    const vec4 mean = area > 1e-6 ? light / area : vec4(0);
+    const float around_px = back_px / max(back_area, 1e-6), blurred = smoothstep(2.0, 4.0, around_px) * smoothstep(4.0, 12.0, own_px);
+    if (blurred == 0) return mean;
+    float seen;
+    const vec4 gathered = back_of(middle, mean, around_px, seen);
+    return mix(mean, gathered, blurred * smoothstep(0.0, 0.1, seen));
 }
 
 vec4 near_of(vec2 middle, float radius, out float area) {
@@ -112,9 +135,9 @@ vec4 near_of(vec2 middle, float radius, out float area) {
     area = 0;
     for (int i = 0; i < kTaps; ++i) {
         const vec2 tap = lens[i].xy;
-        const vec2 there = textureLod(cells, place_of(middle, tap, radius, kNear), level).xy;
+        const vec3 there = textureLod(cells, place_of(middle, tap, radius, kNear), level).xyz;
         if (there.x < kLeastArea) continue;
-        const float share = clamp(there.y / there.x, 0.5, radius) / radius;
+        const float share = clamp(near_radius(there), 0.5, radius) / radius;
         const vec4 w = norm(share).x * shape(kNearShape, tap, share);
         light += w * textureLod(cells, place_of(middle, tap, radius, kNearLight), level);
         area += w.a * there.x;
@@ -131,10 +154,12 @@ void main() {
     float is_known = 1, area = 0;
     vec4 back;
     if (has) {
-        back = back_of(middle, texelFetch(cells, ivec3(cell, kBackLight), 0), own);
+        const vec4 own_light = texelFetch(cells, ivec3(cell, kBackLight), 0) / own.x;
+        float seen;
+        back = back_radius(own) < 0.5 ? own_light : back_of(middle, own_light, back_radius(own), seen);
     } else {
-        const vec2 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xy;
-        back = hidden_of(middle, own_near.y / own_near.x, max(near_px, 1.0), is_known);
+        const vec3 own_near = texelFetch(cells, ivec3(cell, kNear), 0).xyz;
+        back = hidden_of(middle, near_radius(own_near), max(near_px, 1.0), is_known);
     }
     vec4 near = vec4(0);
     if (near_px > 0.5) near = near_of(middle, max(near_px, 1.0), area);

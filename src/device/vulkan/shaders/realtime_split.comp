@@ -89,11 +89,14 @@ float own_radius(ivec2 pixel, vec4 light) {
     return is_mixed && share * brightness(near) > 0.5 * own ? found : radius;
 }
 
+// How much light says of the radius of a mean over several depths: roots, so that halves hold a sum of them.
+float counts_of(vec4 light) { return clamp(sqrt(brightness(light)), 1e-3, 60.0); }
+
 void main() {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
     vec4 near_light = vec4(0), back_light = vec4(0);
-    float near_area = 0, near_radius = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
+    float near_area = 0, near_radius = 0, near_counts = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
     vec2 range = vec2(1e9, -1e9), lamp_place = vec2(0);
     vec4 lamp = vec4(0), own_radii;
     for (int i = 0; i < 4; ++i) {
@@ -110,7 +113,10 @@ void main() {
         }
         range = vec2(min(range.x, radius), max(range.y, radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
-        near_light += near * light, near_area += near, near_radius += near * gathered_radius(radius);
+        near_light += near * light, near_area += near;
+        // A mean over two depths has the radius of what gives it its light.
+        const float near_count = near * counts_of(light);
+        near_counts += near_count, near_radius += near_count * gathered_radius(radius);
         // Light in focus hardly counts, or a tap between two cells would gather it.
         const float weight = back * mix(1e-3, 1.0, smoothstep(0.5, 1.5, radius));
         back_light += weight * light, back_area += back, back_weight += weight;
@@ -123,7 +129,7 @@ void main() {
     part[kBackLight][own] = back_light;
     part[kBack][own] = vec4(back_weight, back_radius, back_area, back_counts);
     part[kNearLight][own] = near_light;
-    part[kNear][own] = vec4(near_area, near_radius, 0, 0);
+    part[kNear][own] = vec4(near_area, near_radius, near_counts, 0);
     radii[own] = range;
     for (int k = 0; k < kLayers; ++k) imageStore(cells_1, ivec3(cell, k), part[k][own]);
     imageStore(cells_1, ivec3(cell, kRadii), own_radii);

@@ -51,8 +51,8 @@ float let_through(vec2 from, vec2 to, float radius, float near_px) {
     for (int i = 1; i <= kSteps; ++i) {
         const float way = float(i) * step_of;
         const vec2 place = (start + way * way_px) * 0.5 / vec2(8 * at.tiles);
-        const vec2 near = textureLod(cells, vec3(place, kNear), level).xy;
-        const float there = near.y / max(near.x, 1e-3) / abs(radius) - begin;
+        const vec3 near = textureLod(cells, vec3(place, kNear), level).xyz;
+        const float there = near.y / max(near.z, 1e-7) / abs(radius) - begin;
         const float covers = near.x > 1e-3 ? near.x * max(0.0, 1 - abs(there - way) / step_of) : 0.0;
         hidden += covers * (is_near ? smoothstep(0.2, 0.5, there) : 1.0);  // a lamp is not cut by what it hangs on
     }
