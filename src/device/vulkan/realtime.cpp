@@ -96,8 +96,10 @@ public:
         delivery.rows(last, made, strip.first, strip.y0, strip.y1);
         submissions.run();
         delivery.finish();
+        most_lamps_ = work.most_lamps();
         return true;
     }
+    std::uint64_t most_lamps() const { return most_lamps_; }
 
 private:
     using Step = RealtimePass::Step;
@@ -181,6 +183,7 @@ private:
     const std::uint32_t width_, height_;
     RealtimePass pass_;
     DeviceImage colour_, radii_, result_;
+    std::uint64_t most_lamps_ = 0;
 };
 
 RealtimeDrawer::RealtimeDrawer(Context& context, const RealtimeRule& rule) : context_(context), rule_(rule) {}
@@ -189,6 +192,11 @@ RealtimeDrawer::~RealtimeDrawer() = default;
 int RealtimeDrawer::passes_made() const {
     const std::lock_guard lock(mutex_);
     return passes_made_;
+}
+
+std::uint64_t RealtimeDrawer::most_lamps() const {
+    const std::lock_guard lock(mutex_);
+    return most_lamps_;
 }
 
 std::unique_ptr<RealtimeDrawer::Frame> RealtimeDrawer::frame_of(std::uint32_t width, std::uint32_t height) {
@@ -210,6 +218,7 @@ std::unique_ptr<RealtimeDrawer::Frame> RealtimeDrawer::frame_of(std::uint32_t wi
 void RealtimeDrawer::keep(std::unique_ptr<Frame> frame) {
     constexpr std::size_t kMostIdle = 2;  // the whole strips of a picture, and its last one
     const std::lock_guard lock(mutex_);
+    most_lamps_ = frame->most_lamps();
     if (idle_.size() < kMostIdle) idle_.push_back(std::move(frame));
 }
 
@@ -221,10 +230,10 @@ void RealtimeDrawer::draw(const engine::RealtimePlan& plan, Target out, const Pr
         throw Failed{{ErrorCode::Unsupported,
                       context_.name() + " takes pictures of up to " + std::to_string(most) +
                           " pixels a row in real time; this one has " + std::to_string(width)}};
-    // Rows that influence a row: discs of lamps; surroundings and means, which a tile takes from the next
-    // two.
+    // Rows that influence a row: discs of lamps; surroundings, which a tile takes from the next
+    // four, and means.
     const float reach = float(engine::LampKernels::kHalf) * plan.most_px * plan.pixel_aspect + 2;
-    const int halo = whole_tiles(std::min(reach, float(height))) + 2 * kTile;
+    const int halo = whole_tiles(std::min(reach, float(height))) + 5 * kTile;
     for (int y = 0; y < height;) {
         const int rows = rows_at_once(width, height, halo), end = std::min(height, y + rows);
         const int first = std::max(0, y - halo), last = std::min(height, end + halo);

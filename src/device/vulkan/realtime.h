@@ -33,6 +33,8 @@ public:
     void draw(const engine::RealtimePlan& plan, Target out, const Progress& progress = {},
               bool plant = false);
     int passes_made() const;
+    // In the last frame, or its last strip: the most lamps that a tile looks at.
+    std::uint64_t most_lamps() const;
     // Releases the memory kept for the next frame.
     void let_go();
 
@@ -47,6 +49,7 @@ private:
     mutable std::mutex mutex_;  // of what follows
     std::vector<std::unique_ptr<Frame>> idle_;
     int passes_made_ = 0;
+    std::uint64_t most_lamps_ = 0;
 };
 
 }  // namespace petzval::device::vulkan

@@ -73,10 +73,10 @@ TEST(Watched, WhatIsSaidAfterTheLastFrameEndsTheProcess) {
 
 // A picture with something before and behind focus, and a lamp.
 struct Given {
-    Picture colour{100, 150, {0.2f, 0.3f, 0.4f, 1}};
-    Plane coc_px{100, 150, 5.0f};
-    Given() {
-        for (int y = 0; y < 150; ++y)
+    Picture colour;
+    Plane coc_px;
+    explicit Given(int rows = 150) : colour(100, rows, {0.2f, 0.3f, 0.4f, 1}), coc_px(100, rows, 5.0f) {
+        for (int y = 0; y < rows; ++y)
             for (int x = 0; x < 100; ++x) {
                 if (x > 40 && x < 60) coc_px(x, y) = -7;
                 colour(x, y).r = 0.1f * float((x * 7 + y * 13) % 11);
@@ -101,6 +101,34 @@ TEST(RealtimeDrawer, KeepsItsPassForFramesOfOneSize) {
     drawer.draw(given.plan(), again);
     EXPECT_EQ(drawer.passes_made(), 3);
     EXPECT_EQ(std::memcmp(first.pixels(), again.pixels(), first.size() * sizeof(Rgba)), 0);
+}
+
+// Each bright pixel is a lamp where there are few. Where there are many, discs of their radius bring more
+// light than one of them: taps show them all, and a tile looks at few lamps however many bright pixels there
+// are.
+TEST(RealtimeDrawer, ManyLampsAreNotDrawnOneByOne) {
+    const auto context = any_context();
+    if (!context) GTEST_SKIP() << "no device of Vulkan";
+    RealtimeDrawer drawer(*context);
+    const auto lens = ideal_lens();
+    constexpr int kWidth = 320, kHeight = 192;
+    const Plane coc_px(kWidth, kHeight, 48.0f);
+    for (const int per_thousand : {0, 1, 2, 8, 30}) {
+        Picture colour(kWidth, kHeight, {0.05f, 0.05f, 0.05f, 1}), out(kWidth, kHeight);
+        unsigned state = 1;
+        double light = 0, made = 0;
+        for (std::size_t i = 0; i < colour.size(); ++i) {
+            state = state * 1664525u + 1013904223u;
+            if (int(state / 65536u % 1000u) < per_thousand) colour.pixels()[i] = {400, 300, 200, 1};
+            light += double(colour.pixels()[i].g);
+        }
+        drawer.draw({colour, coc_px, 48, 1, lens}, out);
+        for (std::size_t i = 0; i < out.size(); ++i) made += double(out.pixels()[i].g);
+        EXPECT_LE(drawer.most_lamps(), 40u) << per_thousand;
+        EXPECT_EQ(drawer.most_lamps() > 4, per_thousand == 1 || per_thousand == 2) << per_thousand;
+        // Discs of pixels near the border leave the picture; as many enter it only where taps continue it.
+        EXPECT_NEAR(made / light, 1, per_thousand > 2 ? 0.03 : 0.09) << per_thousand;
+    }
 }
 
 TEST(RealtimeDrawer, DrawsFramesSideBySide) {
@@ -164,10 +192,10 @@ TEST(RealtimeDrawer, LeavesOffBetweenSubmissionsWhereAsked) {
 TEST(RealtimeDrawer, DrawsStripsAsIfTheyWereOne) {
     const auto context = any_context();
     if (!context) GTEST_SKIP() << "no device of Vulkan";
-    const Given given;
-    Picture whole(100, 150), strips(100, 150);
+    const Given given(320);
+    Picture whole(100, 320), strips(100, 320);
     RealtimeDrawer(*context).draw(given.plan(), whole);
-    RealtimeDrawer drawer(*context, {.most_pixels = std::size_t(100) * 112});
+    RealtimeDrawer drawer(*context, {.most_pixels = std::size_t(100) * 240});
     drawer.draw(given.plan(), strips);
     EXPECT_GT(drawer.passes_made(), 1);
     float largest = 0;

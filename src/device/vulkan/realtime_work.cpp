@@ -2,6 +2,7 @@
 
 #include "engine/gather/realtime_plan.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace petzval::device::vulkan {
@@ -38,6 +39,7 @@ void RealtimeWork::take_lamps(const std::uint32_t* kept, const std::int32_t* box
                    y1 = std::size_t(boxes[3]) + 1;
         const std::uint64_t lamps =
             sums[y1 * across + x1] - sums[y0 * across + x1] - sums[y1 * across + x0] + sums[y0 * across + x0];
+        most_lamps_ = std::max(most_lamps_, lamps);
         of_lamps_[tile] = kInvocations * kOfLamp * lamps + kOfTile * (x1 - x0) * (y1 - y0);
     }
 }

@@ -17,10 +17,13 @@ public:
     // Once step kReach has run: what is in the pass's lamps_kept() and lamp_boxes(). Until then there are
     // none.
     void take_lamps(const std::uint32_t* kept, const std::int32_t* boxes);
+    // The most lamps that any tile's box holds.
+    std::uint64_t most_lamps() const { return most_lamps_; }
     std::uint64_t of_group(RealtimePass::Step step, std::uint32_t x, std::uint32_t y) const;
 
 private:
     const std::size_t tiles_x_, tiles_y_;
+    std::uint64_t most_lamps_ = 0;
     std::uint64_t tiles_around_ = 0;       // that a tile looks at
     std::vector<std::uint64_t> of_lamps_;  // of a group, by tile
 };

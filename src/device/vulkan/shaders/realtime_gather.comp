@@ -71,7 +71,7 @@ Sum back_over(vec2 middle, float radius, float own_px, int which) {
         const float share = clamp(reaches, 0.5, radius) / radius;
         const vec4 w = norm(share).y * shape(kFarShape, tap, share);
         sum.more_area += more * w.a * there.x;
-        const float counts = which == kLess ? less : which == kMore ? more : 1 - less - more;
+        const float counts = vec3(1 - less - more, less, more)[which];
         if (counts * w.a == 0) continue;
         sum.light += counts * w * textureLod(cells, place_of(middle, tap, radius, kBackLight), level);
         sum.area += counts * w.a * there.x;
@@ -111,7 +111,8 @@ vec4 hidden_of(vec2 middle, float own_px, float most_px, out float is_known) {
             if (back.z > kLeastArea) {
                 guess(textureLod(cells, place_of(middle, tap, radius, kBackLight), level) * (back.z / back.x), back.z, w,
                       light, area);
-                back_px += w * back.z * back_radius(back), back_area += w * back.z;
+                back_px += w * back.z * back_radius(back);
+                back_area += w * back.z;
             }
             const vec3 near = textureLod(cells, place_of(middle, tap, radius, kNear), level).xyz;
             const float behind = near.x > kLeastArea ? w * smoothstep(0.8, 0.6, near_radius(near) / own_px) : 0.0;

@@ -9,28 +9,60 @@ vec2 surroundings_at(ivec2 pixel) {
                mix(surroundings[high.y * at.tiles.x + low.x], surroundings[high.y * at.tiles.x + high.x], share.x), share.y);
 }
 
+// Mean brightness of 3 x 3, 5 x 5 and 9 x 9 tiles around the group's own. All invocations of the group together.
+const int kWindows = 3;
+shared float around_sums[64][kWindows];
+void measure_around() {
+    const int own = int(gl_LocalInvocationIndex);
+    float sums[kWindows] = float[](0, 0, 0);
+    for (int i = own; i < 81; i += 64) {
+        const ivec2 d = ivec2(i % 9, i / 9) - 4, tile = clamp(ivec2(gl_WorkGroupID.xy) + d, ivec2(0), at.tiles - 1);
+        const float light = surroundings[tile.y * at.tiles.x + tile.x].y;
+        const int far = max(abs(d.x), abs(d.y));
+        if (far <= 1) sums[0] += light / 9;
+        if (far <= 2) sums[1] += light / 25;
+        sums[2] += light / 81;
+    }
+    around_sums[own] = sums;
+    for (int half_way = 32; half_way > 0; half_way /= 2) {
+        barrier();
+        if (own < half_way)
+            for (int k = 0; k < kWindows; ++k) around_sums[own][k] += around_sums[own + half_way][k];
+    }
+    barrier();
+}
+// Mean brightness of what a disc of this radius covers; `tile_mean`: of the nearest tiles.
+float mean_over(float radius_px, float tile_mean) {
+    const float place = clamp(log2(max(radius_px, 1.0) / 8), 0.0, float(kWindows));
+    const float near = place < 1 ? tile_mean : around_sums[0][int(place) - 1];
+    return mix(near, around_sums[0][min(int(place), kWindows - 1)], fract(place));
+}
+
 // The signed radius of the brightest pixel of a square. A pixel on the rim of a lamp shows lamp and surroundings, and its
-// depth may be that of these: a lamp is where it is brightest.
-float radius_of_brightest(ivec2 low, int side, out float most) {
+// depth may be that of these: a lamp is where it is brightest. `all`: the brightness of the square.
+float radius_of_brightest(ivec2 low, int side, out float most, out float all) {
     float radius = 0;
     most = -1;
+    all = 0;
     [[dont_unroll]] for (int i = 0; i < side * side; ++i) {
         const ivec2 pixel = clamp(low + ivec2(i % side, i / side), ivec2(0), at.size - 1);
         const float light = brightness(light_of(texelFetch(colours, pixel, 0)));
+        all += light;
         if (light > most) most = light, radius = radius_of(texelFetch(depths, pixel, 0).r);
     }
     return radius;
 }
 
-// Light that taps alone show well stays: a few times as bright as its surroundings, more for wider discs. So
-// no pixel is reached by many more lamps than are distinguishable.
+// A lamp stands out from the surfaces around it, and as a disc of its own radius from all light that such discs bring
+// there: it is at least a sixteenth of that, so no more than about sixteen lamps reach a pixel. All else is shown by taps.
 vec4 lamp_of(ivec2 pixel, vec4 light) {
+    const float kStandsOut = 1.0 / 16;
     const vec2 around = surroundings_at(pixel);
     const float own = brightness(light);
-    float floor_light = 4 * around.x + 2 * around.y;
+    float floor_light = 4 * around.x;
     if (own <= floor_light) return vec4(0);
-    float most;
-    const float radius = radius_of_brightest(pixel - 1, 3, most);
-    floor_light += 0.08 * radius * radius * around.x;
-    return own > floor_light ? vec4(light.rgb * (1 - floor_light / own), 0) : vec4(0);
+    float most, all;
+    const float radius = abs(radius_of_brightest(pixel - 1, 3, most, all)), disc = max(3.14159 * radius * radius, 1.0);
+    floor_light += max(kStandsOut * disc * own / all, 2.0) * mean_over(radius, around.y);
+    return vec4(light.rgb * (1 - around.x / own) * smoothstep(1.0, 2.0, own / floor_light), 0);
 }

@@ -25,8 +25,8 @@ shared uint lamp_cells[2], lamp_px;  // as bits: they are ordered as floats are
 float lamp_radius(ivec2 cell) {
     const int kSide = 4;
     const ivec2 low = 2 * cell - 1;
-    float most, most_behind = -1, behind;
-    const float found = radius_of_brightest(low, kSide, most);
+    float most, all, most_behind = -1, behind;
+    const float found = radius_of_brightest(low, kSide, most, all);
     if (found > -1.5) return found;
     ivec2 alike = ivec2(0);  // of its depth: as bright, dark
     [[dont_unroll]] for (int i = 0; i < kSide * kSide; ++i) {
@@ -95,6 +95,7 @@ float counts_of(vec4 light) { return clamp(sqrt(brightness(light)), 1e-3, 60.0);
 void main() {
     const uint own = gl_LocalInvocationIndex;
     const ivec2 cell = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy);
+    measure_around();
     vec4 near_light = vec4(0), back_light = vec4(0);
     float near_area = 0, near_radius = 0, near_counts = 0, back_area = 0, back_weight = 0, back_radius = 0, back_counts = 0;
     vec2 range = vec2(1e9, -1e9), lamp_place = vec2(0);
@@ -116,7 +117,8 @@ void main() {
         near_light += near * light, near_area += near;
         // A mean over two depths has the radius of what gives it its light.
         const float near_count = near * counts_of(light);
-        near_counts += near_count, near_radius += near_count * gathered_radius(radius);
+        near_counts += near_count;
+        near_radius += near_count * gathered_radius(radius);
         // Light in focus hardly counts, or a tap between two cells would gather it.
         const float weight = back * mix(1e-3, 1.0, smoothstep(0.5, 1.5, radius));
         back_light += weight * light, back_area += back, back_weight += weight;
