@@ -1,5 +1,5 @@
 // The light of lights that are spread by themselves, on 16 x 16 pixels (or cells) of a tile: each with its complete
-// kernel, dimmed tap by tap by what its viewpoint sees, or by its mask of the pupil.
+// kernel, every tap of it dimmed by the share that its viewpoint sees, or by its mask of the pupil.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "laws/tiles.h"
@@ -20,8 +20,8 @@ layout(push_constant) uniform Push {
 } at;
 
 // A tile: its rectangle, and where its lights begin in the order; the next one says where they end.
-// A light: x, y, its light, radius, kernel, 1 + viewpoint (0: nothing is in the way), first tap; in place of these
-// two: a mask, 8 x 8 points of the pupil's square, row by row from the lowest bit.
+// A light: x, y, its light, radius, kernel, 1 + viewpoint (0: nothing is in the way), first tap. Instead of these
+// two, a light may have a mask: 8 x 8 points of the pupil's square, row by row from the lowest bit.
 const uint kTileWords = 5, kLightWords = 10, kViewWords = 7;
 const int kChunk = kGroup;
 const uint kTile = kLightsTile, kAcross = kTile / kGroupSide, kGroupsOfTile = kAcross * kAcross;

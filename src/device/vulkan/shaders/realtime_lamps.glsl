@@ -31,7 +31,7 @@ void measure_around() {
     }
     barrier();
 }
-// Mean brightness of what a disc of this radius covers; `tile_mean`: of the nearest tiles.
+// Mean brightness of the light under a disc of this radius; `tile_mean`: that of the nearest tiles.
 float mean_over(float radius_px, float tile_mean) {
     const float place = clamp(log2(max(radius_px, 1.0) / 8), 0.0, float(kWindows));
     const float near = place < 1 ? tile_mean : around_sums[0][int(place) - 1];

@@ -89,7 +89,8 @@ float own_radius(ivec2 pixel, vec4 light) {
     return is_mixed && share * brightness(near) > 0.5 * own ? found : radius;
 }
 
-// How much light says of the radius of a mean over several depths: roots, so that halves hold a sum of them.
+// Weight of this light in the mean radius over several depths. The square root of brightness keeps the sum of weights
+// within the range of half floats.
 float counts_of(vec4 light) { return clamp(sqrt(brightness(light)), 1e-3, 60.0); }
 
 void main() {
@@ -115,7 +116,7 @@ void main() {
         range = vec2(min(range.x, radius), max(range.y, radius));
         const float near = 0.25 * blurred_share(-radius), back = 0.25 - near;
         near_light += near * light, near_area += near;
-        // A mean over two depths has the radius of what gives it its light.
+        // The mean over two depths has the radius of the brighter light.
         const float near_count = near * counts_of(light);
         near_counts += near_count;
         near_radius += near_count * gathered_radius(radius);

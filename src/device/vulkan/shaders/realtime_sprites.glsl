@@ -37,9 +37,10 @@ float seen(vec2 from, vec2 to, float radius) {
     return 1 - min(hidden, 1.0);
 }
 
-// And what things in front of focus let through, `near_px` at most: light of a lamp behind goes on beyond the pixel, to where
-// it would have the radius of what stands there; that of a lamp before focus passes what is nearer still on the lamp's
-// other side. One loop for both: drivers that compute on the CPU run either side of a branch.
+// Share of a lamp's light that occluders in front of focus let through; their radii are at most near_px. The light of a
+// lamp behind focus continues past the pixel, to the place where it would have the occluder's radius. The light of a lamp
+// in front of focus passes nearer occluders on the lamp's other side. One loop serves both lamps, because drivers that
+// compute on the CPU run both sides of a branch.
 float let_through(vec2 from, vec2 to, float radius, float near_px) {
     const int kSteps = 8;
     const bool is_near = radius < 0;
