@@ -80,11 +80,12 @@ PETZVAL_API DeepPicture merge_deep(const std::vector<PlacedDeep>& parts, const R
 // One sample per pixel of a flat picture with depth of the same size; pixels that hold nothing give none.
 PETZVAL_API DeepPicture deep_from_flat(View<const Rgba> colour, View<const float> depth_m);
 
-// What the samples look like: colours one over the other, nearest first, and the depth at which the coverage
-// first reaches half of what the pixel has in the end. So thin fog in front does not claim a pixel that shows
-// the wall behind it. A pixel of samples without any coverage (pure glow) has the depth of its nearest
-// sample; a pixel without samples is a miss. Volumes that overlap are taken apart first (image/deep_pixel.h).
-// By `workers`, those of a host, or by our own `threads` (0: all); the same for any number.
+// Composites every pixel's samples into one colour and one depth. Colours are composited over each other,
+// nearest first. The depth is the one at which the accumulated coverage first reaches half of the pixel's
+// final coverage, so that thin fog in front does not claim a pixel that shows the wall behind it. A pixel
+// whose samples have no coverage (pure glow) has the depth of its nearest sample; a pixel without samples is
+// a miss. Overlapping volumes are split first (image/deep_pixel.h). `workers` are a host's threads; without
+// them, `threads` of our own run (0: all). The result is the same for any number of threads.
 PETZVAL_API void flatten(const DeepPicture& deep, Picture& colour, Plane& depth, int threads = 0,
                          Workers* workers = nullptr);
 

@@ -34,8 +34,8 @@ struct DefocusJob {
     // The signed radius of every pixel instead of its depth, which stays empty: the camera is not asked, and
     // depths of `deep`, `behind` and `holdout` are radii too.
     View<const float> coc_px;
-    // Treatment of soft silhouettes in depth_m, or in radii; not for deep pictures. The report's warnings
-    // tell the outcome.
+    // Treatment of soft silhouettes in depth_m, or in radii; deep pictures ignore it. The
+    // report's warnings state what was found.
     DepthEdges depth_edges = DepthEdges::Auto;
     const DeepPicture* deep =
         nullptr;  // all samples of a deep input, same size; replaces colour and depth_m where given
@@ -99,10 +99,10 @@ struct DefocusReport {
 
 PETZVAL_API std::vector<std::string> engine_names();
 
-// A session of one frame (petzval/session.h). Errors: InvalidArgument (sizes differ, empty picture, camera
-// numbers, unknown engine or lens: the message names the field and what would be accepted), OutOfMemory,
-// Cancelled. Never throws anything but std::bad_alloc. Non-finite colour counts as 0; non-finite depth as a
-// miss.
+// Makes one frame in a new session (petzval/session.h). Errors: InvalidArgument (sizes differ, the
+// picture is empty, a camera number is wrong, the engine or lens is unknown: the message names the field and
+// the accepted values), OutOfMemory, Cancelled. The function throws nothing but std::bad_alloc. Non-finite
+// colour counts as 0, non-finite depth as a miss.
 PETZVAL_API Result<DefocusReport> defocus(const DefocusJob& job);
 
 struct Look;

@@ -16,11 +16,12 @@
 namespace petzval {
 
 enum class FileKind { Exr, Png };
-// From the name's extension. Errors: InvalidArgument naming what is accepted.
+// The kind of file that the name's extension asks for. Errors: InvalidArgument, which lists the accepted
+// extensions.
 PETZVAL_API Result<FileKind> kind_of_output(const std::string& path);
 
-// How light becomes a display picture; what is not given depends on the input: a picture that was
-// display-referred keeps its look.
+// The conversion of scene-linear light to a display picture. Fields that are not given get defaults that
+// depend on the input: a picture that was display-referred keeps its look.
 struct DisplayChoice {
     std::optional<double> exposure_stops = {}, contrast = {};
     std::optional<ToneCurve> tone = {};
@@ -30,7 +31,7 @@ struct DisplayChoice {
                                          int threads) const;
 };
 
-// What a PNG says beside its pixels.
+// Key and text of each text chunk of a PNG.
 using PngTexts = std::vector<std::pair<std::string, std::string>>;
 // Codes of develop(). pixel_aspect: of the file's pixels, where they are not square. Errors: OutputFailed.
 PETZVAL_API Status write_codes(const std::string& path, int width, int height,

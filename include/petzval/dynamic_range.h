@@ -1,6 +1,5 @@
-// How much light and how little a picture holds, and giving a picture of little range back what its
-// highlights had: blur shows the difference, because light spread over a disc of radius r is pi r^2 times
-// darker.
+// Measures the dynamic range of a picture and restores clipped highlights. Blur makes missing range visible,
+// because light that is spread over a disc of radius r becomes pi r^2 times darker.
 #pragma once
 
 #include "petzval/export.h"
@@ -25,7 +24,8 @@ struct DynamicRange {
     // diffuse and shadow are half a stop to 4 stops apart: as sRGB codes would look if they were taken for
     // light.
     bool looks_encoded = false;
-    // Sentences for the user: that it looks encoded, that highlights are clipped, and what this does to blur.
+    // Sentences for the user: the picture looks encoded, its highlights are clipped, and how either changes
+    // blur.
     std::vector<std::string> advice;
 };
 

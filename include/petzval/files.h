@@ -21,7 +21,8 @@
 
 namespace petzval {
 
-// Choices of what is read from a file; empty strings mean "detect, and report the choice with its reason".
+// The parts of a file that are read, and their meaning. An empty string means that the reader detects the
+// value and reports it with the reason.
 struct ReadOptions {
     std::string layer;                   // colour layer or part, e.g. "ViewLayer.Combined" or "rgba_right"
     std::string view_name;               // stereo view, e.g. "left"

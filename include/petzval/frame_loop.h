@@ -14,10 +14,10 @@
 
 namespace petzval {
 
-// What to do about a frame whose files are not all there.
+// The treatment of a frame with missing input files.
 enum class MissingFiles { Fail, Skip, Black };
 
-// What became of a frame.
+// The outcome of one frame.
 struct FrameRecord {
     enum class State { Made, Kept, Black, Failed };
     int frame = 0;
@@ -29,13 +29,13 @@ struct FrameRecord {
     std::vector<std::string> warnings = {};
     std::string record = {};  // JSON (records.h); once the frame is done one line as a report has it
 };
-// From the JSON of a frame that was made or kept.
+// Reads the JSON of a frame that was made or kept.
 PETZVAL_API FrameRecord frame_record(const std::string& record);
 
 enum class Say { Detail, Note, Warning, Failure };
 
-// Whoever runs the loop. Functions that are empty are not called; all are called by the thread that runs it,
-// but `cancelled`, which any thread may ask at any time.
+// Callbacks of the program that runs the loop. Empty callbacks are skipped. The thread that runs the loop
+// calls them all, except `cancelled`, which any thread may call at any time.
 struct FrameLoopHost {
     std::function<void(Say, const std::string& line)> say = {};
     std::function<bool(const FrameRecord&)> frame_done = {};  // false stops the run
@@ -43,12 +43,13 @@ struct FrameLoopHost {
     std::function<bool()> cancelled = {};
     // Fields as the host calls them, as "--fstop" for camera.f_number; in the lines of records.
     std::function<std::string(const std::string&)> in_words = {};
-    // A frame of several begins, and ends: what is said between is about it alone.
+    // Called when one frame of several begins and when it ends. Lines said between the two calls concern that
+    // frame.
     std::function<void(bool begins)> around_frame = {};
     bool hears_frames = false;  // and shows that: warnings are not said once more when the frame is done
 };
 
-// What is done with the frames of a shot.
+// The work of a run, one callback for each of its steps.
 struct FrameWork {
     struct Files {
         std::vector<std::string> inputs, outputs;  // of outputs the first is the picture
@@ -59,7 +60,7 @@ struct FrameWork {
     std::function<Result<Files>(int frame)> files;
     // Once the frames are known, before one is made. Empty: nothing is left to be found out.
     std::function<Status(const std::vector<int>& frames)> begin = {};
-    // Makes one frame. `again`: what is there does not count.
+    // Makes one frame. `again`: the frame is made even if valid outputs exist.
     std::function<Result<FrameRecord>(int frame, bool again)> make;
     // Makes a frame without light, of the size of another. Empty: that cannot be.
     std::function<Status(int frame, int like)> black = {};

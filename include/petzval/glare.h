@@ -1,9 +1,9 @@
-// What a lens adds to a picture besides blur: bloom, stars, ghosts and veil, and the light it loses towards
-// the corners. After defocus, in scene-linear light.
+// Effects of a lens besides blur: bloom, stars, ghosts, veil, and the loss of light towards the corners. They
+// are applied after defocus, in scene-linear light.
 //
-// Glare moves light and never makes any: each amount is the share of light that a part takes from where it
-// was, and every part's spread sums to 1 per channel, so the sum over the picture stays (what is thrown
-// beyond the frame is gone). Formulas: docs/explain/glare.md.
+// Glare moves light and never adds any. The amount of each effect is the fraction of light that it takes from
+// a pixel, and its spread sums to 1 per channel. So the sum over the picture is kept, except for light that
+// lands outside the frame. Formulas: docs/explain/glare.md.
 #pragma once
 
 #include "petzval/camera.h"

@@ -18,10 +18,9 @@ struct LookCheck {
     std::vector<Error> idle = {};
 };
 
-// What differs from the defaults counts as chosen, and so does what was `said`: paths of fields, as
-// lens.blades, that somebody wrote out at whatever value. Only what the look itself tells is looked at: that
-// a lens traced from its surfaces takes no coma is said by Lens::open(), that radii leave nothing to focus by
-// whoever has the picture.
+// Checks the fields of a look against each other. A field counts as chosen if it differs from its default or
+// if `said` lists its path (as lens.blades). Only the look itself is examined. Lens::open() reports that a
+// lens traced from its surfaces ignores coma; the code that has the picture reports that radii ignore focus.
 PETZVAL_API LookCheck check(const Look& look, const std::vector<std::string>& said = {});
 
 }  // namespace petzval

@@ -26,13 +26,14 @@ PETZVAL_API const std::vector<LookPreset>& look_presets();
 // Errors: InvalidArgument that lists the presets.
 PETZVAL_API Result<Look> look_preset(const std::string& name);
 
-// The other way: keys that are left out keep their defaults. look_from_json(look_to_json(look)) is `look`,
-// bit for bit, but for pictures and views. Errors: InvalidFile for text that is no JSON, is no look or comes
-// from a later version, for an unknown key (with the known one that it resembles), a key given twice, a value
-// of the wrong type; the message names the key by its path, as lens.blades. Whether values fit each other is
-// said by check(). The key "preset" names a preset whose fields stand where others are left out. The text may
-// also be a link of the lens lab, the URL or its fragment; then the look has the lens of the link. A number
-// that its flag would refuse is refused here too.
+// Reads a look from JSON, or from a link of the lens lab (the URL or its fragment, which includes the lens).
+//
+// Missing keys keep their defaults; the key "preset" names a preset whose fields replace those defaults.
+// look_from_json(look_to_json(look)) equals `look` bit for bit, except for pictures and views. Errors:
+// InvalidFile if the text is not JSON, is not a look or comes from a later version; if a key is unknown (the
+// message suggests the known key that resembles it) or given twice; if a value has the wrong type or its flag
+// would refuse it. The message names the key by its path, as lens.blades. check() reports whether values fit
+// each other.
 PETZVAL_API Result<Look> look_from_json(const std::string& text);
 
 // The look with one field changed: its path as in the JSON ("engine", "lens.blades"), its value as JSON,

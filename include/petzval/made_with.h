@@ -1,5 +1,5 @@
-// What a picture was made with, kept in the picture itself, so that a later run can tell whether it would
-// make another one. Component petzval::files.
+// The settings that made a picture, stored in the picture itself. A later run compares them with its own to
+// decide whether the picture is current. Component petzval::files.
 #pragma once
 
 #include "petzval/display_files.h"
@@ -25,25 +25,25 @@ public:
     void add(const std::string& field, const std::string& text);
     void add(const std::string& field, double value);
     void add(const std::string& field, const std::optional<double>& value);  // nothing where it is not given
-    // Every field of the look that is not at its default; the same of where a shot is, but for names of
-    // files, and its camera; of a display choice what is given.
+    // Each call adds the fields that were chosen: of a look, those that differ from their defaults; of a
+    // source, likewise, with its camera and without file names; of a display choice, those that were given.
     void add(const Look& look);
     void add(const ShotSource& source);
     void add(const DisplayChoice& display);
-    // Names of files that are read, as a digest: a picture that is handed on tells no folders.
+    // Adds a digest of the names of input files, so that a delivered picture reveals no folders.
     void add_files(const std::vector<std::string>& names);
 
     // One line of JSON: the version of petzval, then every setting. The same settings have the same text.
     std::string text() const;
-    // How the settings of a picture with that text differ from these, as "camera.f_number was 2.8 and is 4";
-    // empty where they are the same.
+    // The differences between the settings in `text_of_picture` and these, as "camera.f_number was 2.8 and is
+    // 4". Empty if both are the same.
     std::string difference(const std::string& text_of_picture) const;
 
 private:
     std::map<std::string, std::string> settings_;  // JSON by field
 };
 
-// What becomes of outputs that are there already.
+// The treatment of outputs that already exist.
 enum class ExistingOutputs {
     Replace,
     Keep,    // they are left alone
@@ -55,12 +55,13 @@ struct OutputState {
     std::string why;  // it is kept; or, of Update, what is there is made again; may be empty
 };
 
-// Of Update, `made_with` is compared where it is given: the first output is the picture that holds it.
+// Decides whether existing outputs are kept. The first output is the picture that holds the settings;
+// ExistingOutputs::Update compares them with `made_with`, if given.
 PETZVAL_API OutputState state_of(const std::vector<std::string>& outputs,
                                  const std::vector<std::string>& inputs, ExistingOutputs existing,
                                  const MadeWith* made_with = nullptr);
 
-// Whether a picture, EXR or PNG, can be read to its end: another program or a full disk may have cut it off.
+// True if an EXR or PNG can be read to its end. Another program or a full disk may have truncated it.
 PETZVAL_API bool is_whole_picture(const std::string& path);
 
 }  // namespace petzval

@@ -1,5 +1,5 @@
-// Where what a pixel shows lies in the frames around: motion vectors, as renderers write them beside the
-// colour.
+// Motion vectors, as renderers write them beside the colour: where the surface of a pixel lies in the frames
+// before and after.
 #pragma once
 
 #include "petzval/image.h"
@@ -13,8 +13,8 @@ struct PixelMove {
     float x = 0, y = 0;
 };
 
-// From where a pixel's surface lies now to where it lies one frame before or after. Either may be empty: the
-// other with its sign turned stands for it, as of what moves evenly.
+// Vectors from a pixel to the place of its surface one frame before or after. If one direction is empty, the
+// negative of the other replaces it, as for uniform motion.
 struct MotionVectors {
     Image<PixelMove> to_previous, to_next;
 
@@ -28,7 +28,7 @@ struct MotionVectors {
     }
 };
 
-// Which motion vectors to take from a file, and what they mean.
+// The motion vectors that are read from a file, and the meaning of their values.
 struct MotionReading {
     bool wanted = false;
     // A layer or part; empty: "detect, and say what was taken". By names of their channels, x to the right
@@ -38,8 +38,8 @@ struct MotionReading {
     // what of ILM's public frames moves fits it); two channels of any other layer the way to the next frame
     // (Arnold's motionvector, V-Ray's velocity: from the current to the next frame).
     std::string layer = {};
-    // What the values are multiplied by: 2 where the shutter of vectors was open for half a frame, -1 where
-    // they point the other way, the width in pixels where they are shares of it.
+    // Factors that turn the file's values into pixels per frame: 2 if the vectors span half a frame of
+    // shutter, -1 if they point the other way, the picture's width in pixels if they are fractions of it.
     double scale_x = 1, scale_y = 1;
 };
 

@@ -1,4 +1,4 @@
-// Frames around each frame of a shot, for what its silhouettes hide. Component petzval::files.
+// Neighbouring frames of a shot, which show surfaces that its silhouettes hide. Component petzval::files.
 #pragma once
 
 #include "petzval/export.h"
@@ -14,7 +14,8 @@
 
 namespace petzval {
 
-// Of frames, ascending, those around one: up to `each_side` before it and as many after, the nearest first.
+// The neighbours of one frame: up to `each_side` frames before it and as many after it, the nearest first.
+// `frames` is ascending.
 PETZVAL_API std::vector<int> frames_around(std::span<const int> frames, int frame, int each_side);
 
 // Each is read once and kept while frames near it may follow: at most 2 * `each_side` + 1 pictures, with
@@ -22,16 +23,17 @@ PETZVAL_API std::vector<int> frames_around(std::span<const int> frames, int fram
 class PETZVAL_API Neighbours {
 public:
     using Read = std::function<Result<Shot>(int frame)>;
-    // frames: those of the shot that are there, ascending. max_memory_bytes: for what is kept, the frame
-    // itself and the work on them; 0: no limit. Requires: each_side > 0.
+    // frames: the frames of the shot that exist, ascending. max_memory_bytes: limit for kept pictures, the
+    // frame itself and the work on both; 0: no limit. Requires: each_side > 0.
     Neighbours(std::vector<int> frames, int each_side, Read read, std::size_t max_memory_bytes = 0);
     ~Neighbours();
     Neighbours(const Neighbours&) = delete;
     Neighbours& operator=(const Neighbours&) = delete;
 
-    // What `eyes`, other views of that moment, see of what the shot hides, then what up to `each_side` frames
-    // before and as many after do, the nearest in time first. A function of these alone. A neighbour that
-    // cannot be read is left out by name. Errors: those of seen_elsewhere(); OutOfMemory.
+    // Finds surfaces that `shot` hides: first in `eyes` (other views of the same moment), then in up to
+    // `each_side` frames before and after, the nearest in time first. The result depends on these pictures
+    // alone. A neighbour that cannot be read is skipped, and a warning names it. Errors: those of
+    // seen_elsewhere(); OutOfMemory.
     Result<SeenElsewhere> behind(const Shot& shot, int frame, Workers& workers,
                                  std::span<const Shot* const> eyes = {});
 

@@ -14,8 +14,9 @@ namespace petzval {
 
 struct OcioView {
     std::string display, view;  // empty: the config's default, and that display's
-    // What the config calls scene-linear Rec.709 light. Empty: found by the role aces_interchange, to which
-    // the way is known; else by usual names; else the role scene_linear is taken for it, with a warning.
+    // The config's colour space of scene-linear Rec.709 light. Empty: the space is derived from the role
+    // aces_interchange; without that role from common names; without those the role scene_linear is used,
+    // with a warning.
     std::string space;
 };
 
@@ -25,10 +26,11 @@ struct OcioPicture {
     std::vector<std::string> warnings;
 };
 
-// `picture`: scene-linear Rec.709, premultiplied, shown over black; NaN counts as 0, infinite light as 65504.
-// Drawn by `workers`, those of a host, or by our own `threads` (0: all); the same for any number. Errors:
-// InvalidArgument ($OCIO is not set; the config has no such display, view or space: the message lists those
-// it has), InvalidFile (the config cannot be used).
+// Converts a picture to the codes of an OCIO display. `picture` is scene-linear Rec.709, premultiplied, and
+// is shown over black; NaN counts as 0, infinite light as 65504. `workers` are a host's threads; without
+// them, `threads` of our own run (0: all). The result is the same for any number of threads. Errors:
+// InvalidArgument ($OCIO is not set; the config has no display, view or space of that name: the message lists
+// the available ones), InvalidFile (the config cannot be used).
 PETZVAL_API Result<OcioPicture> ocio_codes(View<const Rgba> picture, const OcioView& view = {},
                                            int threads = 0, Workers* workers = nullptr);
 

@@ -63,8 +63,8 @@ struct SceneSettings {
 
 struct RenderedScene {
     Camera camera;
-    // From the world to the camera, rows one after the other, for points as row vectors (x, y, z, 1), as
-    // OpenEXR's worldToCamera; the camera looks along its +z, +x is right and +y up in the picture.
+    // Matrix from the world to the camera, row by row, for row vectors (x, y, z, 1), as in OpenEXR's
+    // worldToCamera. The camera looks along its +z; in the picture, +x is right and +y is up.
     std::array<double, 16> camera_from_world{};
     Rect data_window;      // of all but the truth; the frame is {0, 0, width, height}
     Picture colour;        // pinhole, box-filtered

@@ -1,4 +1,4 @@
-// What one picture hides and another of the same things shows: a frame before or after it, the other eye.
+// Hidden surfaces of one picture that another picture shows: the frame before or after it, or the other eye.
 // Component petzval::files.
 #pragma once
 
@@ -34,40 +34,48 @@ struct OtherPicture {
     int frames_later = 0;  // than the shot; 0: of the same moment, as the other eye
 };
 
-// Moves what each of `others` shows to where `shot` would see it and keeps what lies there behind the shot's
-// own surface; of several pictures the first that knows a pixel. Of another moment, and with motion vectors:
-// by these, from frame to frame through those of `others` that lie between, evenly on where one of them hides
-// it. Else by both cameras (worldToCamera, focal length, sensor width) and depths; these may look along +z or
-// -z and have x to either side: taken is how most of the picture fits.
+// Projects the pixels of `others` into the view of `shot` and keeps those that lie behind the shot's own
+// surface. If several pictures know a pixel, the first one is used.
 //
-// Left out with a line that says so: a picture of which by its camera less than half looks the same (much
-// moves by itself then, and what was uncovered in it may be covered now), and vectors by which less looks the
-// same than by the camera, or, where that does not hold half of it, less than seven tenths. Of the others,
-// what moves otherwise is found by its surface (pixels that touch and lie at one depth): where both see it,
-// or one sees it a little behind the other, at least nine in ten of its pixels have to lie at one depth and
-// half of these to look the same, else all of it is left out. With vectors it may have come nearer or gone
-// away as a whole. Pixels beside a nearer surface hold some of its light and are left out, and so is what is
-// not opaque, and what lies behind things narrower than three pixels: those are taken apart by what shows on
-// both of their sides, and are steadier so. But small lamps: where one lights a pixel of the shot that has
-// the depth of something else, as those narrower than a pixel and those half behind an edge do in one frame
-// and not in the next, its depth is told; where nothing shows it, it is among what is behind, with less of
-// its light the more frames later or earlier it was seen: it fades in before it comes out. Takes about 80
-// bytes a pixel beside the pictures. Errors: InvalidArgument without depth in metres in `shot` itself, and
-// without a camera or its matrix where there are no vectors.
+// With motion vectors, pixels of another moment follow them from frame to frame through the pictures between;
+// where one of those hides the pixel, its motion continues uniformly. Otherwise both cameras (worldToCamera,
+// focal length, sensor width) and depths project the pixels. Cameras may look along +z or -z and may have x
+// to either side: the variant that fits most of the picture is used.
+//
+// A picture is left out, with a line that says so, in these cases:
+// - by its camera, less than half of the picture looks the same: much moves by itself, and surfaces that were
+//   uncovered there may be covered now;
+// - by its vectors, less looks the same than by its camera, or, if the camera explains less than half, less
+//   than seven tenths.
+//
+// Within a picture, surfaces (connected pixels at one depth) that move by themselves are left out as a whole.
+// Where both pictures see a surface, or one sees it slightly behind the other, at least nine in ten of its
+// pixels must agree in depth and half of these in colour. With vectors, a surface may have come nearer or
+// moved away as a whole. Also left out are pixels beside a nearer surface, which hold some of its light;
+// pixels that are not opaque; and whatever lies behind things narrower than three pixels, which the shot
+// separates more steadily by the surfaces on both of their sides.
+//
+// Small lamps are kept. A lamp narrower than a pixel, or half behind an edge, may light a pixel that has
+// another surface's depth in one frame and not in the next: the result states the lamp's depth there. Where
+// nothing shows the lamp, it joins the hidden surfaces, with less light the more frames away it was seen, so
+// that it fades in before it appears.
+//
+// Memory: about 80 bytes a pixel beside the pictures. Errors: InvalidArgument if `shot` itself has no depth
+// in metres, or, without vectors, no camera or matrix.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const OtherPicture> others,
                                                  Workers& workers);
 // The same of one moment.
 PETZVAL_API Result<SeenElsewhere> seen_elsewhere(const Shot& shot, std::span<const Shot* const> others,
                                                  Workers& workers);
 
-// Puts into the shot what was found: hidden layers in place of its own, depths of lamps. Requires: found for
-// it.
+// Stores the result in the shot: hidden layers, which replace the shot's own, and depths of lamps. Requires:
+// `found` was made for this shot.
 PETZVAL_API void take_over(SeenElsewhere found, Shot& shot);
 
-// Those of `views` that may show what one of them hides: they have a camera of their own, and are not deep.
+// The views that may show what `of` hides: those that have a camera of their own and are not deep.
 PETZVAL_API std::vector<const Shot*> other_eyes(std::span<const Shot* const> views, const Shot& of);
-// The same of views of one moment, as of two eyes, each from the others. Nothing is found for a view that has
-// no depth in metres or no camera, that is deep or has hidden layers of its own.
+// Hidden surfaces of every view of one moment (two eyes), each from the other views. The result is empty for
+// a view that has no depth in metres or no camera, is deep, or comes with hidden layers.
 PETZVAL_API std::vector<SeenElsewhere> seen_by_each_other(std::span<const Shot* const> views,
                                                           Workers& workers);
 

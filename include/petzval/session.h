@@ -34,9 +34,9 @@ struct SessionSettings {
     std::string device = "cpu";
 };
 
-// What the lens of a look does to light besides blur, to a picture that is blurred already: light lost
-// towards the corners, then glare. `rendered` says where the picture lies and what the camera was; its
-// pictures are not asked for. Errors: those of check(look), add_falloff() and add_glare().
+// Applies what the lens of a look does to light besides blur: light lost towards the corners, then glare.
+// `picture` is already blurred. `rendered` gives its place in the frame and the camera; its pictures are not
+// used. Errors: those of check(look), add_falloff() and add_glare().
 PETZVAL_API Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look);
 
 // Request for a frame as display codes instead of light.
@@ -52,9 +52,9 @@ struct Control {
     std::function<bool(double)> progress = {};  // share done 0…1, one call at a time; false cancels
     // True cancels; asked often, by any thread at any time: a flag that another thread sets.
     std::function<bool()> cancelled = {};
-    // Makes this part of the frame alone, in pixels of the display window as the data window is; the image is
-    // that part, bit for bit as in the whole. Costs the part with region_margin_px() around it, but for
-    // glare, which takes the whole frame. Views and stages that are shown instead of a result are made whole.
+    // Makes only this part of the frame, in pixels of the display window, as the data window is. The image is
+    // that part, bit for bit as in the whole frame. The cost is that of the part grown by region_margin_px();
+    // glare still takes the whole frame. Views and stages that replace the result are made whole.
     std::optional<Rect> region = {};
     // For take() only: the report then holds the frame as codes, and its image is empty. A frame drawn by a
     // GPU is read back as codes if no later step needs its light on the CPU. Buffers that are shown instead
@@ -81,28 +81,28 @@ public:
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
 
-    // The settings of the session stand in place of the job's own. Errors: those of petzval::defocus();
-    // InvalidArgument or Unsupported: settings.device is none that there is, or cannot be used; Unsupported:
-    // it was lost, which the error's field, session.device, says too; OutOfMemory: also of its own.
+    // Makes the frame of a job; the session's settings replace the job's own. Errors: those of
+    // petzval::defocus(); InvalidArgument or Unsupported if settings.device does not exist or cannot be used;
+    // Unsupported with the field session.device if the device was lost; OutOfMemory, also for the device's
+    // memory.
     Result<DefocusReport> defocus(const DefocusJob& job, const Control& control = {});
     // The blur of a look alone: no falloff, no glare, and a plate keeps its highlights. Choices without
     // effect are not listed. spare: as FrameStages::begin() has it. Errors: those above, and of Lens::open().
     Result<DefocusReport> defocus(Rendered rendered, Look look, const Control& control = {},
                                   Picture spare = {});
-    // A whole frame, in the order of physics: a plate's highlights given back, blur, light lost towards the
-    // corners, glare, and back into the plate's range. `rendered` says what there is (pictures, place,
-    // camera); all that is chosen is the look's. Choices without effect are listed in the report's warnings
-    // and not refused, as one look serves drafts and final frames; check() tells them beforehand. Errors:
-    // also those of add_falloff(), add_glare(), expand_highlights() and of check(), before any work. All that
-    // follows the blur is the stage "light" of the report.
-    // spare: as FrameStages::begin() has it.
+    // Makes a whole frame, in the order of physics: restore a plate's highlights, blur, lose light towards
+    // the corners, add glare, and return to the plate's range. `rendered` holds the pictures, their place and
+    // the camera; the look holds every choice. Choices without effect are listed in the report's warnings and
+    // not refused, because one look serves drafts and final frames; check() lists them beforehand. Stage
+    // "light" of the report is everything after the blur. spare: as in FrameStages::begin(). Errors: also
+    // those of add_falloff(), add_glare(), expand_highlights() and check(), before any work.
     Result<DefocusReport> take(Rendered rendered, const Look& look, const Control& control = {},
                                Picture spare = {});
     // Takes from a job its pictures, lens, view and memory. Other choices of the job that differ from the
     // look are listed in the warnings.
     Result<DefocusReport> take(const DefocusJob& rendered, const Look& look, const Control& control = {});
 
-    // What petzval::add_light() does. control.region: none; the picture is whole.
+    // Does the same as petzval::add_light(). The picture is whole; control.region is ignored.
     Result<Picture> add_light(Picture picture, const Rendered& rendered, const Look& look,
                               const Control& control = {});
     Result<Picture> add_light(Picture picture, const DefocusJob& rendered, const Look& look,

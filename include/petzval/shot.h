@@ -169,9 +169,9 @@ PETZVAL_API Status focus_within_range(Shot& shot, const CocControls& coc);
 // Reach of this look's light beyond the picture, in pixels: the largest radius of non-empty pixels, plus the
 // displacement by distortion. Errors: those of rendered() and circle_of_confusion().
 PETZVAL_API Result<int> reach_px(const Shot& shot, const Look& look);
-// The data window with the room that light of this look needs where it ends inside the display window: as far
-// as the discs of what is visible reach. spread: how far light lands from its point, in radii. within_frame:
-// no farther than the display window. Errors: those of reach_px().
+// The data window grown by the distance that light of this look travels, where the window ends inside the
+// display window: as far as the discs of visible pixels reach. spread: that distance in radii. within_frame:
+// the result stays inside the display window. Errors: those of reach_px().
 PETZVAL_API Result<Rect> window_of_light(const Shot& shot, const Look& look, double spread = 1,
                                          bool within_frame = false);
 // Adds that many pixels on each side where the data window ends inside the display window; on other sides the

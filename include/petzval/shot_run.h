@@ -60,11 +60,12 @@ PETZVAL_API const char* name_of(ShotView view);
 // An engine makes it; its PNG is developed (exposure, tone).
 PETZVAL_API bool is_rendered(ShotView view);
 PETZVAL_API bool is_developed(ShotView view);
-// What the engine of that name is asked for; nothing and Result for views of others.
+// The view that an engine is asked for. For views of other engines, gaussian_view() returns nothing and
+// scatter_view() returns Result.
 PETZVAL_API std::optional<GaussianView> gaussian_view(ShotView view);
 PETZVAL_API ScatterView scatter_view(ShotView view);
 
-// How far the data window grows: a number of pixels, or one of these.
+// The growth of the data window: a number of pixels, or one of these values.
 constexpr int kOverscanAutomatic = 0, kOverscanWithinFrame = -1, kOverscanOff = -2;
 
 // source.read.view_name of every view of a stereo file.
@@ -85,7 +86,8 @@ struct ShotRunSettings {
     std::optional<Rect> region = {};
     DisplayChoice display = {};             // of PNG outputs
     std::optional<Transfer> transfer = {};  // of codes, read and written, as the user said it
-    // What ShotRunHost::to_display shows, by name; compared by Update. Empty: the display choice.
+    // Names of the display view and space that ShotRunHost::to_display shows; ExistingOutputs::Update
+    // compares them. Empty: `display` is used.
     std::string display_view = {}, display_space = {};
 
     std::string output;          // .exr or .png
@@ -103,7 +105,7 @@ struct ShotRunSettings {
     MotionReading motion = {};
     int retries = 0;  // of a frame that failed for another reason than its input
 
-    // Where the session keeps kernels, and what was chosen of an engine's own options, as JSON: for records.
+    // For records: the folder where the session stores kernels, and the engine's own options as JSON.
     std::string kernel_cache_folder = {}, engine_options = "{}";
     // Said beside the warnings of each frame, as what a look's file holds to no effect.
     std::vector<std::string> warnings = {};
@@ -119,12 +121,12 @@ PETZVAL_API Result<ShotRunSettings> shot_run_from_json(const std::string& text);
 
 struct ShotRunHost : FrameLoopHost {
     std::function<bool(double)> frame_progress = {};  // within a frame; false cancels
-    // By a colour manager, in place of the tone curve: light becomes what the display wants, `settings` what
-    // is left to do to it. `used`: a line on what was taken.
+    // Converts scene-linear light by a colour manager instead of the tone curve. `light` becomes what the
+    // display wants, `settings` what remains to be applied, `used` a line that names the conversion.
     std::function<Status(Picture& light, DevelopSettings& settings, std::string& used,
                          std::vector<std::string>& warnings)>
         to_display = {};
-    // What to add to an error on missing camera numbers, as an example of how to give them.
+    // An example of how to give camera numbers. The run appends it to the error about missing ones.
     std::function<std::string(const FoundCamera&)> camera_example = {};
 };
 

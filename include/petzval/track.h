@@ -24,20 +24,20 @@ struct TrackedFrame {
     bool is_between_keys = false;             // of the focus: it moves as its keys ask for
 };
 
-// Keys at some frames, and between them what lies between: distances evenly in dioptres, f-numbers in stops,
-// everything else evenly; what is no number stays until its next key. Before the first key and behind the
-// last it is as there.
+// Keys of a look and of focus at some frames, and the interpolation between them. Distances are interpolated
+// linearly in dioptres, f-numbers in stops, other numbers linearly; any other value holds until its next key.
+// Before the first key and after the last one, that key's values hold.
 //
-// A CSV file: the first line that is not empty names the columns, '#' begins a comment, an empty value is no
-// key. A JSON file: {"frames": [{"frame": 1001, "focus": 3.2}, …]} with the same names. They are frame; focus
-// (metres; inf), or focus_x and focus_y (a pixel of the display window), or point_x, point_y and point_z
-// (the world, in scene units); follow; fstop; focal_length (mm); and any field of a look by its path, as
-// lens.blades.
+// In a CSV file, the first line that is not empty names the columns, '#' begins a comment, and an empty value
+// sets no key. A JSON file has the same names: {"frames": [{"frame": 1001, "focus": 3.2}, …]}. The names are
+// frame; focus (metres; inf), or focus_x and focus_y (a pixel of the display window), or point_x, point_y and
+// point_z (the world, in scene units); follow; fstop; focal_length (mm); and any field of a look by its path,
+// as lens.blades.
 //
-// A pixel is what is sharp in its own key frame: its depth there is measured (measured_at, set_focus), and
-// between keys the focus moves evenly in dioptres. With follow on, until the next key that says off, the
-// pixel itself moves from key to key, and every frame is focused on what it shows there: for a thing that is
-// tracked, not for a rack, as anything may lie between two pixels.
+// A focus pixel refers to its own key frame: its depth is measured there (measured_at, set_focus), and
+// between keys the focus moves linearly in dioptres. While follow is on, until the next key that turns it
+// off, the pixel itself moves from key to key, and every frame is focused on the surface that it shows there.
+// Use follow for a tracked object, not for a rack, because anything may lie between two pixels.
 class PETZVAL_API Track {
 public:
     // Errors: InvalidFile with the path and the line or the key: missing, damaged, an unknown column, a frame

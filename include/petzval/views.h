@@ -11,14 +11,14 @@
 
 namespace petzval {
 
-// Display-linear 0…1 pictures, the same size as `coc_radius_px` (signed, + is far; NaN: nothing there,
-// black).
+// Two display-linear pictures of the blur, 0…1, of the same size as `coc_radius_px` (signed, + is far; NaN:
+// no surface, drawn black).
 //
-// Both use blue for near and orange for far, the pair that people with any common colour blindness tell apart
-// (after Okabe and Ito, "Color universal design", 2008), and carry a legend unless the picture is too small.
-// The overlay shows the picture dimmed and tinted, in focus white; `display` is that picture, display-linear.
-// The map is black where the radius is 0 and full colour at the largest radius.
-// Radii below permissible_radius_px count as in focus.
+// Both use blue for near and orange for far, a pair that people with any common form of colour blindness
+// distinguish (after Okabe and Ito, "Color universal design", 2008). Both carry a legend unless the picture
+// is too small. The overlay shows `display`, itself a display-linear picture, dimmed and tinted, with
+// surfaces in focus in white. The map is black where the radius is 0 and has full colour at the largest
+// radius. Radii below permissible_radius_px count as in focus.
 Picture focus_overlay(View<const Rgba> display, View<const float> coc_radius_px, float permissible_radius_px,
                       const std::string& title);
 Picture coc_map(View<const float> coc_radius_px, const std::string& title);
