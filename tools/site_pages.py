@@ -166,13 +166,14 @@ def faults(site):
 
 
 def main(program, *words):
+    order = nav()  # a page without a link ends the run here, before the pictures are made
     mkdocs = generator()
     stage_pages()
     write_gallery(pathlib.Path(program).resolve(), "--no-gallery" not in words)
     for name in ("site.css", "site.js"):
         shutil.copy(ROOT / "tools/site" / name, STAGE)
     settings = (ROOT / "tools/site/mkdocs.yml").read_text().replace("STAGE", str(STAGE)).replace("SITE", str(SITE))
-    settings = settings.replace("NAV", nav())
+    settings = settings.replace("NAV", order)
     (ROOT / "build/site.yml").write_text(settings)
     run(mkdocs, "build", "--quiet", "--clean", "--config-file", ROOT / "build/site.yml",
         env={**os.environ, "NO_MKDOCS_2_WARNING": "1", "DISABLE_MKDOCS_2_WARNING": "true"})

@@ -1,4 +1,4 @@
-"""The check of built pages finds links that lead nowhere and pages that load from other hosts."""
+"""The site: the start page lists every page; links that lead nowhere and pages that load from other hosts are found."""
 import pathlib
 import sys
 import tempfile
@@ -22,6 +22,9 @@ class Site(unittest.TestCase):
         self.assertIn("leads nowhere", self.faults('<img alt="x" src="gallery/b.png">')[0])
         self.assertIn("loads https://fonts", self.faults('<link rel="stylesheet" href="https://fonts.org/a.css">')[0])
         self.assertIn("loads //cdn", self.faults('<script src="//cdn.org/a.js"></script>')[0])
+
+    def test_a_section_of_the_start_page_links_to_every_page(self):
+        site_pages.nav()  # exits with the names of the pages that are missing
 
 
 if __name__ == "__main__":
