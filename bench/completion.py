@@ -40,7 +40,7 @@ def group_of(shot):
 
 def shots_folder():
     """Where truths are kept; another one when what a seed looks like changes."""
-    names = ["made_up*", "dice.h", "world.*", "shapes.*", "textures.*", "plants.*", "pinhole.cpp", "truth.cpp", "tracing.*",
+    names = ["made_up/*", "dice.h", "world.*", "shapes.*", "textures.*", "built_in/plants.*", "pinhole.cpp", "truth.cpp", "tracing.*",
              "lamp_light.*", "sampling.*", "optics.h"]
     sources = sorted(p for name in names for p in (ROOT / "src/scene").glob(name) if "_test" not in p.name)
     code = "".join(re.sub(r"//.*|\s", "", p.read_text()) for p in sources)

@@ -13,7 +13,7 @@ Of engines `gather`, `gaussian` and `sprites` all passes, as the device's own co
 the lists of cells and lights, kernels, pixels, what they leave behind; of each light its kernel's pixels, 4 multiply-adds each, 6
 in `gather`; of a blur 5 for each tap of each cell. A pixel of a small picture stands for one of a large.
 Of engine `realtime` all passes: the bytes that its images and buffers hold, each once for each pass that reads or writes
-it, as the pass itself counts them (src/device/vulkan/realtime_pass.cpp); hosts have colours of 16 bits and save 8 bytes a
+it, as the pass itself counts them (src/device/vulkan/realtime/pass.cpp); hosts have colours of 16 bits and save 8 bytes a
 pixel for each of the four times that these cross memory.
 `glare` is no engine: bloom and veil with the quick star, then with the final one, over the picture as it is, at any radius.
 `develop` is none either: light to codes of 8 bits, at any radius.

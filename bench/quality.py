@@ -56,7 +56,7 @@ def engine_names():
 
 def scene_state():
     """Changes when the sources of the scenes do."""
-    sources = sorted((ROOT / "src/scene").glob("*")) + sorted((ROOT / "src/optics").glob("circle*"))
+    sources = sorted(p for p in (ROOT / "src/scene").rglob("*") if p.is_file()) + sorted((ROOT / "src/optics").glob("circle*"))
     return hashlib.sha1(b"".join(p.read_bytes() for p in sources)).hexdigest()[:8]
 
 

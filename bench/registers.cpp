@@ -1,7 +1,7 @@
 // Prints, as a JSON object, a driver's report on each compiled program: registers, shared memory, spills. No
 // program runs, so a driver without its hardware serves as well: bench/gpu.py names one.
 #include "device/failure.h"
-#include "device/vulkan/pipeline.h"
+#include "device/vulkan/driver/pipeline.h"
 #include "process.h"
 
 #include <array>

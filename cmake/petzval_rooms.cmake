@@ -36,14 +36,15 @@ if(NOT PETZVAL_SIMD)
 endif()
 petzval_precompiled(rooms LINKS petzval_options)
 
-# petzval_room(NAME USES rooms… LINKS libraries… TESTS_USE rooms…): src/NAME/*.cpp, and its tests
-# *_test.cpp. A room `a/b` is the target petzval_a_b, its tests are named a.b.Test; tests may look into rooms of TESTS_USE
+# petzval_room(NAME FOLDERS folders… USES rooms… LINKS libraries… TESTS_USE rooms…): src/NAME/*.cpp, those of its FOLDERS,
+# and its tests *_test.cpp. A room `a/b` is the target petzval_a_b, its tests are named a.b.Test; tests may look into rooms of TESTS_USE
 # as well.
 function(petzval_room name)
-  cmake_parse_arguments(ROOM "" "" "USES;LINKS;TESTS_USE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "FOLDERS;USES;LINKS;TESTS_USE" ${ARGN})
   string(REPLACE "/" "_" target ${name})
   string(REPLACE "/" "." prefix ${name})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  list(TRANSFORM ROOM_FOLDERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/${name}/\\1/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp ${ROOM_FOLDERS})
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_(test|bench)\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")

@@ -1,4 +1,4 @@
-# Programs of the device (src/device/vulkan/shaders/*.comp) as words to be compiled in. Sets petzval_vulkan_words, or leaves
+# Programs of the device (src/device/vulkan/shaders) as words to be compiled in. Sets petzval_vulkan_words, or leaves
 # it empty and says what is missing. The loader is found at run time.
 set(petzval_vulkan_words)
 find_path(PETZVAL_VULKAN_HEADERS vulkan/vulkan.h)
@@ -7,8 +7,8 @@ if(NOT PETZVAL_VULKAN_HEADERS OR NOT PETZVAL_GLSLC)
   message(STATUS "Headers of Vulkan and glslc not found: no device but the CPU is built")
   return()
 endif()
-file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.comp)
-file(GLOB shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.glsl
+file(GLOB_RECURSE shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.comp)
+file(GLOB_RECURSE shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/device/vulkan/shaders/*.glsl
      ${PROJECT_SOURCE_DIR}/src/laws/*.h ${PROJECT_SOURCE_DIR}/src/laws/*.inc)
 foreach(shader ${shaders})
   get_filename_component(name ${shader} NAME)

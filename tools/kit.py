@@ -65,7 +65,7 @@ def wgsl(step, made, out):
 def translate(step, made, out):
     """All languages of a program; returns its reflection and what became of the WGSL."""
     spirv = out / "spirv" / f"{step}.spv"
-    run("glslc", "--target-env=vulkan1.2", "-O", "-Werror", "-I", ROOT / "src", "-o", spirv, SHADERS / f"realtime_{step}.comp")
+    run("glslc", "--target-env=vulkan1.2", "-O", "-Werror", "-I", ROOT / "src", "-o", spirv, SHADERS / f"realtime/realtime_{step}.comp")
     run("spirv-val", "--target-env", "vulkan1.2", spirv)
     for folder, suffix, flags in (("glsl", "comp", ("-V", "--version", "450")), ("hlsl", "hlsl", ("--hlsl", "--shader-model", "60")),
                                   ("msl", "metal", ("--msl", "--msl-version", "20200"))):
@@ -104,7 +104,7 @@ def table(step, reflection):
 
 def push_table(reflection):
     block = reflection["types"][reflection["push_constants"][0]["type"]]["members"]
-    names = re.search(r"uniform Push \{(.*?)\}", (SHADERS / "realtime.glsl").read_text(), re.S)[1]
+    names = re.search(r"uniform Push \{(.*?)\}", (SHADERS / "realtime/realtime.glsl").read_text(), re.S)[1]
     names = re.findall(r"\b(\w+)(?=[,;])", re.sub(r"//.*", "", names))
     if len(names) != len(block):
         sys.exit("kit: the push block of realtime.glsl cannot be read")

@@ -79,7 +79,7 @@ def helps(program):
 
 
 def page_of(program):
-    rows = {field: (heading, flag) for heading, flag, field in ROW.findall((ROOT / "apps/cli/look_rows.cpp").read_text())}
+    rows = {field: (heading, flag) for heading, flag, field in ROW.findall((ROOT / "apps/cli/flags/look_rows.cpp").read_text())}
     told = helps(program)
     lines = [HEAD]
     with tempfile.TemporaryDirectory() as folder:

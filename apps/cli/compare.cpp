@@ -3,12 +3,12 @@
 
 #include "petzval/views.h"
 
-#include "console.h"
+#include "console/console.h"
+#include "console/report.h"
+#include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
 #include "output.h"
-#include "report.h"
-#include "run_flags.h"
 #include "verbs.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // petzval defocus: the main job.
 #include "petzval/shot_run.h"
 
-#include "console.h"
-#include "defocus_flags.h"
-#include "fields.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "flags/defocus_flags.h"
+#include "flags/fields.h"
 #include "guard.h"
-#include "interrupt.h"
 #include "verbs.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 #include "defocus_frames.h"
 
-#include "console.h"
-#include "defocus_flags.h"
+#include "console/console.h"
+#include "flags/defocus_flags.h"
 
 #include <cmath>
 #include <utility>

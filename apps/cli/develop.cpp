@@ -3,15 +3,15 @@
 
 #include "petzval/session.h"
 
-#include "camera.h"
-#include "console.h"
+#include "console/console.h"
+#include "console/report.h"
+#include "flags/camera.h"
+#include "flags/look_flags.h"
+#include "flags/ocio.h"
+#include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
-#include "look_flags.h"
-#include "ocio.h"
 #include "output.h"
-#include "report.h"
-#include "run_flags.h"
 #include "verbs.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // petzval devices: what defocus can draw with.
 #include "petzval/devices.h"
 
-#include "report.h"
-#include "run_flags.h"
+#include "console/report.h"
+#include "flags/run_flags.h"
 #include "verbs.h"
 
 #include <memory>

@@ -3,13 +3,13 @@
 
 #include "petzval/output.h"
 
-#include "camera.h"
-#include "console.h"
+#include "console/console.h"
+#include "console/report.h"
+#include "flags/camera.h"
+#include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
 #include "output.h"
-#include "report.h"
-#include "run_flags.h"
 #include "verbs.h"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 #include "frames.h"
 
-#include "console.h"
-#include "fields.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "console/progress.h"
+#include "flags/fields.h"
+#include "flags/run_flags.h"
+#include "flags/values.h"
 #include "guard.h"
-#include "interrupt.h"
-#include "progress.h"
-#include "run_flags.h"
-#include "values.h"
 
 #include <algorithm>
 #include <memory>

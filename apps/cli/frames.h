@@ -4,8 +4,8 @@
 #include "petzval/frame_loop.h"
 #include "petzval/frames.h"
 
-#include "flags.h"
-#include "report.h"
+#include "console/report.h"
+#include "flags/flags.h"
 
 #include <functional>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "guard.h"
 
-#include "console.h"
+#include "console/console.h"
 
 #include <filesystem>
 

@@ -1,9 +1,9 @@
 #include "input.h"
 
-#include "console.h"
-#include "fields.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "flags/fields.h"
 #include "guard.h"
-#include "interrupt.h"
 
 #include <utility>
 

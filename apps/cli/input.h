@@ -6,9 +6,9 @@
 #include "petzval/result.h"
 #include "petzval/shot.h"
 
-#include "camera.h"
-#include "flags.h"
-#include "values.h"
+#include "flags/camera.h"
+#include "flags/flags.h"
+#include "flags/values.h"
 
 #include <optional>
 #include <string>

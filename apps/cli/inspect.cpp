@@ -1,13 +1,13 @@
 // petzval inspect: what was found in a file, and where.
-#include "camera.h"
-#include "changes.h"
-#include "console.h"
-#include "fields.h"
+#include "console/changes.h"
+#include "console/console.h"
+#include "console/light_report.h"
+#include "console/report.h"
+#include "flags/camera.h"
+#include "flags/fields.h"
+#include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
-#include "light_report.h"
-#include "report.h"
-#include "run_flags.h"
 #include "verbs.h"
 
 #include <algorithm>

@@ -2,13 +2,13 @@
 #include "petzval/names.h"
 #include "petzval/version.h"
 
-#include "console.h"
-#include "fields.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "console/last_words.h"
+#include "console/report.h"
+#include "flags/fields.h"
 #include "frames.h"
 #include "guard.h"
-#include "interrupt.h"
-#include "last_words.h"
-#include "report.h"
 #include "revision.h"
 #include "verbs.h"
 

@@ -1,9 +1,9 @@
 #include "output.h"
 
-#include "console.h"
-#include "fields.h"
+#include "console/console.h"
+#include "flags/fields.h"
+#include "flags/values.h"
 #include "guard.h"
-#include "values.h"
 
 #include <cerrno>
 #include <cstring>

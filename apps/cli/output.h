@@ -6,7 +6,7 @@
 #include "petzval/output.h"
 #include "petzval/result.h"
 
-#include "flags.h"
+#include "flags/flags.h"
 
 #include <optional>
 #include <string>

@@ -1,15 +1,15 @@
 // petzval scene: the built-in test scenes.
 #include "petzval/scene.h"
 
-#include "camera.h"
-#include "console.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "console/progress.h"
+#include "console/report.h"
+#include "flags/camera.h"
+#include "flags/run_flags.h"
 #include "frames.h"
 #include "guard.h"
-#include "interrupt.h"
 #include "output.h"
-#include "progress.h"
-#include "report.h"
-#include "run_flags.h"
 #include "verbs.h"
 
 #include <algorithm>

@@ -2,12 +2,12 @@
 #include "petzval/scene.h"
 #include "petzval/shot.h"
 
-#include "console.h"
-#include "flags.h"
+#include "console/console.h"
+#include "console/report.h"
+#include "flags/flags.h"
+#include "flags/run_flags.h"
+#include "flags/values.h"
 #include "output.h"
-#include "report.h"
-#include "run_flags.h"
-#include "values.h"
 #include "verbs.h"
 
 #include <algorithm>

@@ -4,12 +4,12 @@
 #include "petzval/place.h"
 #include "petzval/views.h"
 
-#include "console.h"
+#include "console/console.h"
+#include "flags/run_flags.h"
 #include "frames.h"
 #include "input.h"
 #include "lens/on_picture.h"
 #include "output.h"
-#include "run_flags.h"
 #include "verbs.h"
 #include "video.h"
 

@@ -2,7 +2,7 @@
 // becomes what it does.
 #pragma once
 
-#include "flags.h"
+#include "flags/flags.h"
 
 namespace petzval::cli {
 

@@ -3,11 +3,11 @@
 #include "petzval/lens_facts.h"
 #include "petzval/scene.h"
 
-#include "console.h"
-#include "defocus_flags.h"
+#include "console/console.h"
 #include "defocus_frames.h"
-#include "fields.h"
-#include "look_rows.h"
+#include "flags/defocus_flags.h"
+#include "flags/fields.h"
+#include "flags/look_rows.h"
 #include "verbs.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "c/handles.h"
 #include "c/lent.h"
-#include "device/vulkan/host_pass.h"
+#include "device/vulkan/realtime/host_pass.h"
 #include "kernel/lenses/make_lens.h"
 
 #include <memory>

@@ -2,9 +2,9 @@
 // and write_exr() copies from it.
 #pragma once
 
-#include "files/channel_choice.h"
+#include "files/channels/channel_choice.h"
+#include "files/channels/layer_choice.h"
 #include "files/input_file.h"
-#include "files/layer_choice.h"
 #include "files/layout.h"
 #include "files/primaries.h"
 

@@ -1,8 +1,8 @@
 #include "petzval/files.h"
 
-#include "files/exr_file.h"
-#include "files/exr_prescan.h"
-#include "files/raster.h"
+#include "files/exr/file.h"
+#include "files/exr/prescan.h"
+#include "files/raster/raster.h"
 
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfStringAttribute.h>

@@ -1,10 +1,10 @@
 #include "petzval/files.h"
 
 #include "base/parallel.h"
-#include "files/exr_pixels.h"
-#include "files/exr_prescan.h"
-#include "files/exr_read.h"
-#include "files/raster.h"
+#include "files/exr/pixels.h"
+#include "files/exr/prescan.h"
+#include "files/exr/read.h"
+#include "files/raster/raster.h"
 #include "files/wording.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "petzval/image.h"
 
 #include "base/parallel.h"
-#include "files/exr_file.h"
+#include "files/exr/file.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include "petzval/glare.h"
 
 #include "base/parallel.h"
-#include "device/cpu/bloom.h"
+#include "device/cpu/glare/bloom.h"
 #include "glare/bloom.h"
 #include "glare/ghosts.h"
 #include "kernel/draw/outline.h"

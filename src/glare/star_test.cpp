@@ -1,8 +1,8 @@
 // The star is the aperture's diffraction: as many spikes as its edges ask for, as long as the wavelength.
 #include "base/fft.h"
 #include "base/parallel.h"
-#include "device/cpu/convolve.h"
-#include "device/cpu/streaks.h"
+#include "device/cpu/glare/convolve.h"
+#include "device/cpu/glare/streaks.h"
 #include "glare/filter.h"
 #include "glare/star_kernel.h"
 #include "glare/streaks.h"

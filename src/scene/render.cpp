@@ -2,8 +2,8 @@
 #include "petzval/scene.h"
 
 #include "base/parallel.h"
-#include "scene/gltf.h"
-#include "scene/scenes.h"
+#include "scene/built_in/scenes.h"
+#include "scene/gltf/gltf.h"
 #include "scene/soft_depth.h"
 #include "scene/tracing.h"
 

@@ -4,7 +4,7 @@
 #include "petzval/scene.h"
 #include "petzval/workers.h"
 
-#include "scene/scenes.h"
+#include "scene/built_in/scenes.h"
 
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 
 #include "petzval/camera.h"
 
-#include "engine/samples/plate.h"
+#include "engine/samples/behind/plate.h"
 #include "engine/waist/view.h"
 #include "session/request.h"
 

@@ -1,5 +1,5 @@
 // A mask from a separate file, which limits the effect.
-#include "files/exr_read.h"
+#include "files/exr/read.h"
 #include "shot/file_of_shot.h"
 
 #include <algorithm>

@@ -22,7 +22,7 @@ def messages():
 
 class Fields(CommandLineTest):
     def test_every_field_that_a_message_names_has_a_flag(self):
-        rows = (ROOT / "apps/cli/fields.cpp").read_text() + (ROOT / "apps/cli/look_rows.cpp").read_text()
+        rows = (ROOT / "apps/cli/flags/fields.cpp").read_text() + (ROOT / "apps/cli/flags/look_rows.cpp").read_text()
         known = set(re.findall(r'"([a-z]+\.[a-z_.]+)"', rows))
         met = {(field, path.name) for path, text in messages() for field in FIELD.findall(text)}
         self.assertGreater(len(met), 50)

@@ -1,5 +1,5 @@
 // Scenes as glTF, text and binary.
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 #include "fuzz/held_file.h"
 #include "scene/world.h"

@@ -25,7 +25,7 @@ def preprocessed(command, source):
 
 def shared_files():
     """The laws that programs of a GPU include."""
-    shaders = (ROOT / "src/device/vulkan/shaders").iterdir()
+    shaders = (ROOT / "src/device/vulkan/shaders").rglob("*.*")
     included = {name for s in shaders for name in re.findall(r'#include "laws/(\w+\.h)"', s.read_text())}
     return [LAWS / name for name in sorted(included)]
 

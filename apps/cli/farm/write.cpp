@@ -2,10 +2,10 @@
 #include "petzval/farm/jobs.h"
 #include "petzval/shot_run.h"
 
-#include "console.h"
-#include "defocus_flags.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "flags/defocus_flags.h"
 #include "guard.h"
-#include "interrupt.h"
 #include "verbs.h"
 
 #include <algorithm>

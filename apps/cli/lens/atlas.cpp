@@ -1,13 +1,13 @@
 // petzval lens atlas: discs by place in the frame and by radius, for shaders (docs/reference/lens-atlas.md).
 #include "petzval/lens_kernel.h"
 
-#include "console.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "flags/run_flags.h"
+#include "flags/values.h"
 #include "guard.h"
-#include "interrupt.h"
 #include "lens/mount.h"
 #include "output.h"
-#include "run_flags.h"
-#include "values.h"
 #include "verbs.h"
 
 #include <algorithm>

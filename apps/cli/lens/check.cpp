@@ -2,10 +2,10 @@
 #include "petzval/lens_facts.h"
 #include "petzval/lens_json.h"
 
-#include "console.h"
-#include "report.h"
-#include "run_flags.h"
-#include "values.h"
+#include "console/console.h"
+#include "console/report.h"
+#include "flags/run_flags.h"
+#include "flags/values.h"
 #include "verbs.h"
 
 #include <cmath>

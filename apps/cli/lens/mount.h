@@ -3,10 +3,10 @@
 
 #include "petzval/lens_kernel.h"
 
-#include "camera.h"
-#include "look_flags.h"
-#include "look_rows.h"
-#include "report.h"
+#include "console/report.h"
+#include "flags/camera.h"
+#include "flags/look_flags.h"
+#include "flags/look_rows.h"
 
 #include <optional>
 #include <string>

@@ -1,8 +1,8 @@
 #include "lens/on_picture.h"
 
-#include "console.h"
-#include "interrupt.h"
-#include "progress.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "console/progress.h"
 
 #include <utility>
 

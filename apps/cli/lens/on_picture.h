@@ -4,11 +4,11 @@
 #include "petzval/display_files.h"
 #include "petzval/lens_report.h"
 
-#include "camera.h"
-#include "flags.h"
+#include "flags/camera.h"
+#include "flags/flags.h"
+#include "flags/look_flags.h"
+#include "flags/run_flags.h"
 #include "input.h"
-#include "look_flags.h"
-#include "run_flags.h"
 
 #include <string>
 #include <vector>

@@ -2,13 +2,13 @@
 #include "petzval/lens_kernel.h"
 #include "petzval/lens_report.h"
 
-#include "console.h"
-#include "interrupt.h"
+#include "console/console.h"
+#include "console/interrupt.h"
+#include "flags/look_rows.h"
+#include "flags/run_flags.h"
+#include "flags/values.h"
 #include "lens/mount.h"
-#include "look_rows.h"
 #include "output.h"
-#include "run_flags.h"
-#include "values.h"
 #include "verbs.h"
 
 #include <cmath>

@@ -1,15 +1,15 @@
 // petzval lens report: the sheet of a lens as one HTML page, and sheets of all lenses.
-#include "report.h"
+#include "console/report.h"
 
 #include "petzval/lens_facts.h"
 #include "petzval/lens_report.h"
 
-#include "console.h"
+#include "console/console.h"
+#include "console/progress.h"
+#include "flags/run_flags.h"
+#include "flags/values.h"
 #include "guard.h"
 #include "output.h"
-#include "progress.h"
-#include "run_flags.h"
-#include "values.h"
 #include "verbs.h"
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 #include "device/cpu/cpu_device.h"
 
 #include "colour/develop_plan.h"
-#include "device/cpu/add_lights.h"
 #include "device/cpu/atlas.h"
 #include "device/cpu/composite.h"
 #include "device/cpu/gather.h"
-#include "device/cpu/glare.h"
+#include "device/cpu/glare/glare.h"
+#include "device/cpu/lights/add_lights.h"
+#include "device/cpu/lights/stamp_lights.h"
 #include "device/cpu/mix.h"
-#include "device/cpu/stamp_lights.h"
 #include "device/failure.h"
 #include "engine/lights/plan.h"
 

@@ -1,4 +1,4 @@
-// Lights with viewpoints drawn on the device: what device/cpu/add_lights.h does.
+// Lights with viewpoints drawn on the device: what device/cpu/lights/add_lights.h does.
 #pragma once
 
 #include "device/vulkan/atlas.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/canvas.h"
-#include "device/vulkan/recording.h"
+#include "device/vulkan/driver/recording.h"
 
 #include <cstddef>
 #include <span>

@@ -1,6 +1,6 @@
 #include "device/vulkan/canvas.h"
 
-#include "device/vulkan/test_context.h"
+#include "device/vulkan/driver/test_context.h"
 
 #include <array>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "device/vulkan/composite.h"
 
-#include "device/vulkan/test_context.h"
+#include "device/vulkan/driver/test_context.h"
 #include "engine/samples/complete_testing.h"
 #include "engine/scatter/scatter_kernels.h"
 #include "kernel/lenses/make_lens.h"

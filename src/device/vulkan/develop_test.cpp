@@ -2,7 +2,7 @@
 
 #include "petzval/workers.h"
 
-#include "device/vulkan/test_context.h"
+#include "device/vulkan/driver/test_context.h"
 
 #include <algorithm>
 #include <cmath>

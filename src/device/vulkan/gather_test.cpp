@@ -1,7 +1,7 @@
 #include "device/vulkan/gather.h"
 
 #include "device/failure.h"
-#include "device/vulkan/test_context.h"
+#include "device/vulkan/driver/test_context.h"
 #include "engine/gather/plan.h"
 #include "kernel/lenses/make_lens.h"
 

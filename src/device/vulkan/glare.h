@@ -1,4 +1,4 @@
-// Glare laid over a picture on the device: what device/cpu/glare.h does.
+// Glare laid over a picture on the device: what device/cpu/glare/glare.h does.
 #pragma once
 
 #include "device/vulkan/canvas.h"

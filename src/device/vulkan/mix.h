@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/device.h"
-#include "device/vulkan/recording.h"
+#include "device/vulkan/driver/recording.h"
 #include "engine/gaussian/plan.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Lights with masks drawn on the device: what device/cpu/stamp_lights.h does.
+// Lights with masks drawn on the device: what device/cpu/lights/stamp_lights.h does.
 #pragma once
 
 #include "device/vulkan/atlas.h"

@@ -1,7 +1,7 @@
-// Stars of highlights on the device: what device/cpu/streaks.h and device/cpu/convolve.h do.
+// Stars of highlights on the device: what device/cpu/glare/streaks.h and device/cpu/glare/convolve.h do.
 #pragma once
 
-#include "device/vulkan/recording.h"
+#include "device/vulkan/driver/recording.h"
 #include "glare/plan.h"
 
 namespace petzval::device::vulkan {

@@ -4,7 +4,7 @@
 #include "petzval/result.h"
 
 #include "device/device.h"
-#include "device/vulkan/pass_time.h"
+#include "device/vulkan/driver/pass_time.h"
 
 #include <memory>
 #include <string>

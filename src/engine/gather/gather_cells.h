@@ -6,7 +6,7 @@
 #pragma once
 
 #include "engine/gather/gather_rings.h"
-#include "engine/samples/guessed.h"
+#include "engine/samples/behind/guessed.h"
 #include "engine/samples/seen_first.h"
 #include "engine/waist/engine.h"
 #include "laws/surfaces.h"

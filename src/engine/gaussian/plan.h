@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/gaussian/gaussian_mix.h"
-#include "engine/samples/guessed.h"
+#include "engine/samples/behind/guessed.h"
 #include "engine/waist/engine.h"
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 #include "engine/samples/complete.h"
 
 #include "base/parallel.h"
+#include "engine/samples/behind/out_of_sight.h"
+#include "engine/samples/behind/plate.h"
 #include "engine/samples/connectivity.h"
 #include "engine/samples/hidden.h"
 #include "engine/samples/known_surfaces.h"
 #include "engine/samples/lamps.h"
 #include "engine/samples/lens_left.h"
-#include "engine/samples/out_of_sight.h"
-#include "engine/samples/plate.h"
 #include "engine/samples/sample_source.h"
 
 #include <algorithm>

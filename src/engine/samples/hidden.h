@@ -7,8 +7,8 @@
 
 #include "engine/samples/connectivity.h"
 #include "engine/samples/dim.h"
+#include "engine/samples/silhouettes/two_surfaces.h"
 #include "engine/samples/sparse_rows.h"
-#include "engine/samples/two_surfaces.h"
 
 #include <algorithm>
 #include <cstdint>

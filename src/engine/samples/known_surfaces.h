@@ -2,8 +2,8 @@
 // something nearer hides them.
 #pragma once
 
-#include "engine/samples/cut_edges.h"
 #include "engine/samples/hidden.h"
+#include "engine/samples/outlines/cut_edges.h"
 
 #include <cmath>
 #include <limits>

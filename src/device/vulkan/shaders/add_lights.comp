@@ -43,7 +43,7 @@ float seen(uint k, ivec2 pixel) {
     return visible[words[view + 6u] + uint(tap.y * taps + tap.x)];
 }
 
-// device/cpu/dimmer.cpp: the share of the mask at a place of the pupil's square, between its points.
+// device/cpu/lights/dimmer.cpp: the share of the mask at a place of the pupil's square, between its points.
 float through_mask(uint k, ivec2 offset) {
     const uint low = hit_view[k], high = uint(hit_tap[k]);
     if ((low & high) == 0xffffffffu) return 1;

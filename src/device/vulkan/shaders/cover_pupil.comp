@@ -1,5 +1,5 @@
 // Coverage by nearer occluders of each cell of a viewpoint's pupil: 16 x 16 cells a group. The formulas are
-// device/cpu/pupil_shadow.cpp's.
+// device/cpu/lights/pupil_shadow.cpp's.
 #version 450
 layout(local_size_x = 256) in;
 

@@ -1,4 +1,4 @@
-// Shared by programs of glare. Formulas are glare/light.h's and device/cpu/bloom.cpp's.
+// Shared by programs of glare. Formulas are glare/light.h's and device/cpu/glare/bloom.cpp's.
 
 // A channel as glare sees it: NaN, infinities and negative light are none.
 bool is_finite(float v) { return (floatBitsToUint(v) & 0x7f800000u) != 0x7f800000u; }

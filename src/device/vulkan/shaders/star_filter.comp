@@ -1,4 +1,4 @@
-// Two real pictures in one transform, each times its kernel's: device/cpu/convolve.cpp's filter_pair().
+// Two real pictures in one transform, each times its kernel's: device/cpu/glare/convolve.cpp's filter_pair().
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;

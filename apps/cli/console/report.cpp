@@ -1,0 +1,77 @@
+#include "console/report.h"
+
+#include "petzval/look_json.h"
+
+#include "flags/fields.h"
+#include "output.h"
+
+#include <cmath>
+
+namespace petzval::cli {
+
+Json new_report(const std::string& verb) { return Json::parse(empty_record(verb)); }
+
+Json number(double value) { return Json::parse(record_of_number(value)); }
+
+Json json_of(const std::string& text) {
+    std::string marked;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) in_string = !in_string;
+        const bool minus = text.compare(i, 6, "-1e999") == 0;
+        if (!in_string && (minus || text.compare(i, 5, "1e999") == 0)) {
+            marked += record_of_number(minus ? -HUGE_VAL : HUGE_VAL);
+            i += minus ? 5 : 4;
+        } else {
+            marked += text[i];
+        }
+    }
+    return Json::parse(marked);
+}
+
+Json camera_json(const FoundCamera& camera, ImageScale image_scale) {
+    return Json::parse(record_of_camera(camera, image_scale));
+}
+
+Json look_json(const Look& look) { return Json::parse(look_to_json(look)); }
+
+Json glare_json(const Look& look) { return Json::parse(record_of_glare(look)); }
+
+Json lens_json(const Look& look, const std::string& description) {
+    return Json::parse(record_of_lens(look, description));
+}
+
+Json window_json(const Rect& window) {
+    return {{"x", window.x0}, {"y", window.y0}, {"width", window.width()}, {"height", window.height()}};
+}
+
+Json part_json(const PartSummary& part) {
+    return {{"name", part.name},
+            {"type", part.type},
+            {"view", part.view},
+            {"compression", part.compression},
+            {"data_window", window_json(part.data_window)},
+            {"channels", part.channels}};
+}
+
+Json depth_json(const DepthReport& depth, DepthKind kind) {
+    return Json::parse(record_of_depth(depth, kind));
+}
+
+std::string report_text(const Json& report, int indent) {
+    // A file name that is no UTF-8 has U+FFFD in it afterwards.
+    const std::string text = report.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return finished_record(text, indent, [](const std::string& line) { return in_flags(line); });
+}
+
+Status write_report(const Json& report, const std::string& path) {
+    return write_text(path, report_text(report));
+}
+
+Status tell(const std::string& text, const Json& report, const std::string& json) {
+    if (json != "-")
+        if (Status said = write_text("-", text); !said) return said;
+    return json.empty() ? Status(Done{}) : write_report(report, json);
+}
+
+}  // namespace petzval::cli

@@ -1,0 +1,78 @@
+#include "device/vulkan/realtime/host_pass.h"
+
+#include "device/failure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace petzval::device::vulkan {
+namespace {
+
+std::shared_ptr<const engine::RealtimeLens> shapes_of(const kernel::LensModel& lens) {
+    constexpr double kRadiusPx = 45;  // shapes are those of discs this large: the largest that lamps have
+    return std::make_shared<const engine::RealtimeLens>(
+        engine::realtime_lens(lens, {}, kRadiusPx, kRadiusPx));
+}
+
+}  // namespace
+
+Result<RealtimeOptics> optics_of(const Camera& camera, int width, const DepthScale& depth, double most_px,
+                                 double aspect) {
+    if (!std::isfinite(depth.scale) || !std::isfinite(depth.bias) || (depth.scale == 0 && depth.bias == 0))
+        return Error{ErrorCode::InvalidArgument,
+                     "frame.depth_scale and depth_bias must be finite, not both 0"};
+    const auto coc = CircleOfConfusion::make(camera, width);
+    if (!coc) return coc.error();
+    // Radii are a - k / z: one distance says k.
+    const double a = coc->radius_at_infinity_px(), k = a - coc->radius_px(1);
+    RealtimeOptics optics;
+    optics.add_px = float(a - k * depth.bias), optics.per_depth_px = float(-k * depth.scale);
+    optics.most_px = float(most_px), optics.aspect = float(aspect);
+    return optics;
+}
+
+Result<std::unique_ptr<HostPass>> HostPass::open(const Host& host, const RealtimeSettings& settings) {
+    std::unique_ptr<HostPass> made(new HostPass);
+    Functions& vk = made->vk_;
+    vk.vkGetInstanceProcAddr = host.get_instance_proc_addr;
+    find_functions(vk, host.instance);
+    if (!vk.vkGetDeviceProcAddr || !vk.vkGetPhysicalDeviceMemoryProperties)
+        return Error{ErrorCode::InvalidArgument,
+                     "settings.get_instance_proc_addr does not know this instance"};
+    find_functions(vk, host.device);
+    vk.vkGetPhysicalDeviceMemoryProperties(host.physical_device, &made->memory_);
+    VkPhysicalDeviceProperties properties = {};
+    vk.vkGetPhysicalDeviceProperties(host.physical_device, &properties);
+    if (properties.limits.maxImageDimension2D < std::max(settings.width, settings.height))
+        return Error{ErrorCode::Unsupported, std::string(properties.deviceName) + " takes images of up to " +
+                                                 std::to_string(properties.limits.maxImageDimension2D) +
+                                                 " pixels a side"};
+    made->opened_ = {&vk, host.device, properties.deviceName};
+    auto pass = made->made(settings);
+    if (!pass) return pass.error();
+    made->pass_ = std::move(*pass), made->settings_ = settings;
+    return made;
+}
+
+Result<std::unique_ptr<RealtimePass>> HostPass::made(const RealtimeSettings& settings) {
+    try {
+        return std::make_unique<RealtimePass>(opened_, memory_, settings);
+    } catch (const Failed& failed) {
+        return failed.error;
+    }
+}
+
+Status HostPass::resize(std::uint32_t width, std::uint32_t height, const kernel::LensModel& lens) {
+    RealtimeSettings settings = settings_;
+    settings.width = width, settings.height = height;
+    auto pass = made(settings);
+    if (!pass) return pass.error();
+    (*pass)->set_lens(shapes_of(lens));
+    pass_ = std::move(*pass), settings_ = settings;
+    return Done{};
+}
+
+void HostPass::set_lens(const kernel::LensModel& lens) { pass_->set_lens(shapes_of(lens)); }
+
+}  // namespace petzval::device::vulkan

@@ -1,0 +1,296 @@
+#include "device/vulkan/realtime/pass.h"
+
+#include "device/vulkan/driver/failure.h"
+
+#include <cstring>
+#include <utility>
+
+namespace petzval::device::vulkan {
+namespace {
+
+constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                           kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                           kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+constexpr std::uint32_t kGroup = 8;   // invocations along a side
+constexpr std::uint32_t kLevels = 4;  // of cells
+
+}  // namespace
+
+RealtimePass::RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory,
+                           const RealtimeSettings& settings)
+    : opened_(opened),
+      vk_(*opened.vk),
+      memory_(memory),
+      settings_(settings),
+      heap_(opened, memory, std::size_t(1) << 20),
+      slots_(settings.slots) {
+    try {
+        make();
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+RealtimePass::~RealtimePass() { destroy(); }
+
+void RealtimePass::make() {
+    ImageKind kind;
+    kind.width = tiles_x() * kGroup, kind.height = tiles_y() * kGroup, kind.is_array = true;
+    kind.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    kind.layers = 7, kind.levels = kLevels;
+    cells_ = DeviceImage(opened_, memory_, kind);
+    kind.layers = 3, kind.levels = 1;
+    gathered_ = DeviceImage(opened_, memory_, kind);
+    const std::size_t tiles = std::size_t(tiles_x()) * tiles_y();
+    surroundings_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
+    tiles_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
+    lamps_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
+    reach_ = heap_.allocate(Kind::OnDevice, tiles * 2 * sizeof(float));
+    boxes_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::int32_t));
+    kept_ = heap_.allocate(Kind::OnDevice, tiles * 4 * sizeof(std::uint32_t));
+    lens_ = heap_.allocate(Kind::OnDevice, engine::RealtimeLens::kBytes);
+    make_sampler(VK_FILTER_NEAREST, nearest_);
+    make_sampler(VK_FILTER_LINEAR, linear_);
+    const VkPipelineCreateFlags flags = settings_.is_cut ? VK_PIPELINE_CREATE_DISPATCH_BASE_BIT : 0;
+    for (std::size_t step = 0; step < kSteps; ++step)
+        programs_[step] = make_program(opened_, shader_of(step), 0, flags);
+    make_sets();
+}
+
+void RealtimePass::make_sampler(VkFilter filter, VkSampler& sampler) const {
+    VkSamplerCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = filter;
+    info.mipmapMode =
+        filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.maxLod = VK_LOD_CLAMP_NONE;
+    check(vk_.vkCreateSampler(opened_.device, &info, nullptr, &sampler), opened_.name, "a sampler");
+}
+
+Shader RealtimePass::shader_of(std::size_t step) const {
+    const std::array shaders{
+        Shader::RealtimeMeasure, Shader::RealtimeSplit, Shader::RealtimeReach, Shader::RealtimeGather,
+        settings_.has_float_result ? Shader::RealtimeCombine32 : Shader::RealtimeCombine16};
+    return shaders[step];
+}
+
+void RealtimePass::make_sets() {
+    const std::uint32_t slots = settings_.slots;
+    std::array<VkDescriptorPoolSize, 3> sizes{{{kSampled, 0}, {kStored, 0}, {kBuffer, 0}}};
+    for (std::size_t step = 0; step < kSteps; ++step)
+        for (const VkDescriptorType type : words_of(shader_of(step)).bindings)
+            for (VkDescriptorPoolSize& size : sizes)
+                if (size.type == type) size.descriptorCount += slots;
+    VkDescriptorPoolCreateInfo pool = {};
+    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool.maxSets = kSteps * slots;
+    pool.poolSizeCount = std::uint32_t(sizes.size()), pool.pPoolSizes = sizes.data();
+    check(vk_.vkCreateDescriptorPool(opened_.device, &pool, nullptr, &pool_), opened_.name, "descriptors");
+    std::array<VkDescriptorSetLayout, kSteps> layouts = {};
+    for (std::size_t i = 0; i < kSteps; ++i) layouts[i] = programs_[i].set_layout;
+    VkDescriptorSetAllocateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorPool = pool_, info.descriptorSetCount = kSteps, info.pSetLayouts = layouts.data();
+    for (Slot& slot : slots_) {
+        check(vk_.vkAllocateDescriptorSets(opened_.device, &info, slot.sets.data()), opened_.name,
+              "descriptors");
+        slot.lens = heap_.allocate(Kind::ToDevice, engine::RealtimeLens::kBytes);
+        write_own(slot);
+    }
+}
+
+void RealtimePass::destroy() {
+    if (pool_) vk_.vkDestroyDescriptorPool(opened_.device, pool_, nullptr);
+    for (const Program& program : programs_) destroy_program(opened_, program);
+    for (VkSampler sampler : {nearest_, linear_})
+        if (sampler) vk_.vkDestroySampler(opened_.device, sampler, nullptr);
+}
+
+void RealtimePass::write_image(VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
+                               const VkDescriptorImageInfo& info) const {
+    VkWriteDescriptorSet write = {};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set, write.dstBinding = binding, write.descriptorCount = 1;
+    write.descriptorType = type, write.pImageInfo = &info;
+    vk_.vkUpdateDescriptorSets(opened_.device, 1, &write, 0, nullptr);
+}
+
+void RealtimePass::write_buffer(VkDescriptorSet set, std::uint32_t binding, const Piece& piece) const {
+    const VkDescriptorBufferInfo info = {piece.buffer(), piece.offset(), piece.size()};
+    VkWriteDescriptorSet write = {};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set, write.dstBinding = binding, write.descriptorCount = 1;
+    write.descriptorType = kBuffer, write.pBufferInfo = &info;
+    vk_.vkUpdateDescriptorSets(opened_.device, 1, &write, 0, nullptr);
+}
+
+void RealtimePass::write_own(const Slot& slot) const {
+    constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_GENERAL;
+    write_buffer(slot.sets[kMeasure], 1, surroundings_);
+    for (std::uint32_t level = 0; level < kLevels; ++level)
+        write_image(slot.sets[kSplit], 2 + level, kStored, {VK_NULL_HANDLE, cells_.level(level), kLayout});
+    write_buffer(slot.sets[kSplit], 6, tiles_);
+    write_buffer(slot.sets[kSplit], 7, surroundings_);
+    write_buffer(slot.sets[kSplit], 8, lamps_);
+    write_buffer(slot.sets[kReach], 0, tiles_);
+    write_buffer(slot.sets[kReach], 1, reach_);
+    write_buffer(slot.sets[kReach], 2, lamps_);
+    write_buffer(slot.sets[kReach], 3, boxes_);
+    write_buffer(slot.sets[kReach], 4, kept_);
+    write_image(slot.sets[kReach], 5, kStored, {VK_NULL_HANDLE, cells_.level(0), kLayout});
+    write_image(slot.sets[kGather], 0, kSampled, {linear_, cells_.view(), kLayout});
+    write_buffer(slot.sets[kGather], 1, lens_);
+    write_buffer(slot.sets[kGather], 2, reach_);
+    write_image(slot.sets[kGather], 3, kStored, {VK_NULL_HANDLE, gathered_.view(), kLayout});
+    write_image(slot.sets[kCombine], 3, kSampled, {linear_, gathered_.view(), kLayout});
+    write_image(slot.sets[kCombine], 1, kSampled, {linear_, cells_.view(), kLayout});
+    write_buffer(slot.sets[kCombine], 5, lens_);
+    write_buffer(slot.sets[kCombine], 6, kept_);
+    write_buffer(slot.sets[kCombine], 7, boxes_);
+    write_buffer(slot.sets[kCombine], 8, reach_);
+}
+
+void RealtimePass::write_given(const Slot& slot, const RealtimeImages& images) const {
+    const auto sampled = [this](const RealtimeImages::Input& input) {
+        return VkDescriptorImageInfo{nearest_, input.view, input.layout};
+    };
+    write_image(slot.sets[kMeasure], 0, kSampled, sampled(images.colour));
+    for (const Step step : {kSplit, kCombine})
+        write_image(slot.sets[step], 0, kSampled, sampled(images.colour));
+    write_image(slot.sets[kSplit], 1, kSampled, sampled(images.depth));
+    // Without one something must be bound all the same.
+    write_image(slot.sets[kCombine], 2, kSampled, sampled(images.layer.view ? images.layer : images.colour));
+    write_image(slot.sets[kCombine], 4, kStored, {VK_NULL_HANDLE, images.result, VK_IMAGE_LAYOUT_GENERAL});
+}
+
+void RealtimePass::set_lens(std::shared_ptr<const engine::RealtimeLens> lens) {
+    const std::lock_guard lock(mutex_);
+    chosen_ = std::move(lens);
+}
+
+// Bytes of its images and buffers, each once. Cached reads (the lens's shapes) and buffers that only lamps
+// need are not included.
+std::uint64_t RealtimePass::least_bytes(Step step) const {
+    const std::uint64_t pixels = std::uint64_t(settings_.width) * settings_.height,
+                        tiles = std::uint64_t(tiles_x()) * tiles_y(), cells = tiles * kGroup * kGroup;
+    const std::uint64_t colour = settings_.has_float_result ? 16 : 8, depth = 4, texel = 8;
+    // Four layers of the finest level; a quarter, a sixteenth and a 64th of them of the others.
+    const std::uint64_t all_cells = cells * 4 * texel * 85 / 64, gathered = cells * 3 * texel;
+    const std::uint64_t radii = cells * texel;
+    switch (step) {
+        case kMeasure:
+            return pixels * colour + tiles * 8;
+        case kSplit:
+            return pixels * (colour + depth) + all_cells + radii + tiles * (8 + 8 + 16);
+        case kReach:
+            return tiles * (8 + 16 + 8 + 16 + 16);
+        case kGather:
+            return all_cells + gathered + tiles * 8;
+        default:
+            return pixels * (colour + colour) + radii + gathered + tiles * (8 + 16 + 16);
+    }
+}
+
+void RealtimePass::order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
+                         VkPipelineStageFlags to) const {
+    VkMemoryBarrier barrier = {};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = written;
+    barrier.dstAccessMask = to == VK_PIPELINE_STAGE_TRANSFER_BIT
+                                ? VK_ACCESS_TRANSFER_WRITE_BIT
+                                : VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    vk_.vkCmdPipelineBarrier(commands, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+// After all of the frame before: its images are ours again, and the lens is written.
+void RealtimePass::take_lens(VkCommandBuffer commands, Slot& slot) {
+    constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    {
+        const std::lock_guard lock(mutex_);
+        if (slot.has != chosen_) {
+            slot.has = chosen_;
+            std::memcpy(slot.lens.mapped(), slot.has->fours.data(), engine::RealtimeLens::kBytes);
+        }
+    }
+    order(commands, kCompute, 0, VK_PIPELINE_STAGE_TRANSFER_BIT);
+    const VkBufferCopy copy = {slot.lens.offset(), lens_.offset(), engine::RealtimeLens::kBytes};
+    vk_.vkCmdCopyBuffer(commands, slot.lens.buffer(), lens_.buffer(), 1, &copy);
+    std::array<VkImageMemoryBarrier, 2> fresh = {};
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+        fresh[i].sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+        fresh[i].dstAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+        fresh[i].oldLayout = VK_IMAGE_LAYOUT_UNDEFINED, fresh[i].newLayout = VK_IMAGE_LAYOUT_GENERAL;
+        fresh[i].srcQueueFamilyIndex = fresh[i].dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        fresh[i].image = i == 0 ? cells_.handle() : gathered_.handle();
+        fresh[i].subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                     VK_REMAINING_ARRAY_LAYERS};
+    }
+    vk_.vkCmdPipelineBarrier(commands, kCompute, kCompute, 0, 0, nullptr, 0, nullptr,
+                             std::uint32_t(fresh.size()), fresh.data());
+    order(commands, VK_PIPELINE_STAGE_TRANSFER_BIT | kCompute,
+          VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT, kCompute);
+}
+
+void RealtimePass::begin(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                         const RealtimeOptics& optics) {
+    take_lens(commands, slots_[slot]);
+    write_given(slots_[slot], images);
+    slots_[slot].push = {std::int32_t(settings_.width),
+                         std::int32_t(settings_.height),
+                         std::int32_t(tiles_x()),
+                         std::int32_t(tiles_y()),
+                         optics,
+                         images.layer.view ? 1u : 0u};
+}
+
+Groups RealtimePass::groups(Step step) const {
+    const auto up = [](std::uint32_t count, std::uint32_t of) { return (count + of - 1) / of; };
+    switch (step) {
+        case kReach:
+            return {up(tiles_x() * tiles_y(), 64)};
+        case kCombine:
+            return {up(settings_.width, kGroup), up(settings_.height, kGroup)};
+        default:
+            return {tiles_x(), tiles_y()};
+    }
+}
+
+void RealtimePass::bind(VkCommandBuffer commands, const Slot& slot, Step step, bool plant) {
+    if (step > 0 && !(plant && step == kGather))
+        order(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+              VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+    const Program& program = programs_[step];
+    vk_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline);
+    vk_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout, 0, 1,
+                                &slot.sets[step], 0, nullptr);
+    vk_.vkCmdPushConstants(commands, program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof slot.push,
+                           &slot.push);
+}
+
+void RealtimePass::record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                          const RealtimeOptics& optics) {
+    begin(commands, slot, images, optics);
+    for (const Step step : {kMeasure, kSplit, kReach, kGather, kCombine}) {
+        bind(commands, slots_[slot], step, false);
+        const Groups all = groups(step);
+        vk_.vkCmdDispatch(commands, all.x, all.y, 1);
+    }
+}
+
+void RealtimePass::record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant) {
+    static constexpr std::array kNames{"measure", "split", "reach", "gather", "combine"};
+    const Groups all = groups(step);
+    bind(recording.commands(), slots_[slot], step, plant);
+    recording.begin_pass(kNames[step], {least_bytes(step) * part.groups() / (std::size_t(all.x) * all.y), 0});
+    // Debian's synchronisation validation does not look at dispatches with a base: the first part is one
+    // without.
+    if (part.x == 0 && part.y == 0)
+        vk_.vkCmdDispatch(recording.commands(), part.width, part.height, 1);
+    else
+        vk_.vkCmdDispatchBase(recording.commands(), part.x, part.y, 0, part.width, part.height, 1);
+    recording.end_pass();
+}
+
+}  // namespace petzval::device::vulkan

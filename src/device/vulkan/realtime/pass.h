@@ -1,0 +1,116 @@
+// The pass for real time (docs/explain/real-time.md), recorded into somebody's command buffer.
+#pragma once
+
+#include "device/vulkan/driver/image.h"
+#include "device/vulkan/driver/parts.h"
+#include "device/vulkan/driver/pipeline.h"
+#include "engine/gather/realtime_plan.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace petzval::device::vulkan {
+
+struct RealtimeSettings {
+    std::uint32_t width = 0, height = 0;  // pixels
+    std::uint32_t slots = 1;              // frames that may be in flight
+    bool has_float_result = false;        // rgba32f; else rgba16f
+    bool is_cut = false;                  // frames are recorded in parts
+};
+
+// A signed radius, in pixels, is add_px + per_depth_px * depth.
+struct RealtimeOptics {
+    float add_px = 0, per_depth_px = 0, most_px = 0, aspect = 1;
+};
+
+struct RealtimeImages {
+    struct Input {
+        VkImageView view = VK_NULL_HANDLE;
+        VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    };
+    Input colour, depth, layer;           // layer: null: none
+    VkImageView result = VK_NULL_HANDLE;  // in VK_IMAGE_LAYOUT_GENERAL
+};
+
+// Everything is made at once and kept. Throws Failed.
+class RealtimePass {
+public:
+    // opened.vk outlives this. Requires: width and height 1…16384, slots 1…16.
+    RealtimePass(const Opened& opened, const VkPhysicalDeviceMemoryProperties& memory,
+                 const RealtimeSettings& settings);
+    ~RealtimePass();
+    RealtimePass(const RealtimePass&) = delete;
+    RealtimePass& operator=(const RealtimePass&) = delete;
+
+    // Sets the lens of later recordings. From any thread.
+    void set_lens(std::shared_ptr<const engine::RealtimeLens> lens);
+    // Allocates nothing, waits for nothing. Requires: what was recorded into this slot before has run; all
+    // that is recorded runs on one queue; the inputs are visible to reads of compute shaders, and the result
+    // may be written by them.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+                const RealtimeOptics& optics);
+
+    // The same in parts, in any number of submissions: begin(), then all parts of each step in turn. The bits
+    // do not depend on them.
+    enum Step { kMeasure, kSplit, kReach, kGather, kCombine, kSteps };
+    void begin(VkCommandBuffer commands, std::uint32_t slot, const RealtimeImages& images,
+               const RealtimeOptics& optics);
+    // Requires: settings.is_cut. `plant` leaves out a barrier, to see that it is missed.
+    void record(Recording& recording, std::uint32_t slot, Step step, const Part& part, bool plant = false);
+    Groups groups(Step step) const;
+    // Lamps after step kReach: per tile, row by row, its cells with lamps (two words of four), and the first
+    // and last column and row of the tiles whose lamps reach it.
+    const Piece& lamps_kept() const { return kept_; }
+    const Piece& lamp_boxes() const { return boxes_; }
+    std::uint32_t tiles_x() const { return (settings_.width + 15) / 16; }
+    std::uint32_t tiles_y() const { return (settings_.height + 15) / 16; }
+
+private:
+    struct Push {
+        std::int32_t width = 0, height = 0, tiles_x = 0, tiles_y = 0;
+        RealtimeOptics optics;
+        std::uint32_t has_layer = 0;
+    };
+    static_assert(sizeof(Push) == 36, "as shaders/realtime.glsl has it");
+    struct Slot {
+        std::array<VkDescriptorSet, kSteps> sets = {};
+        Push push;
+        Piece lens;                                       // written by the host
+        std::shared_ptr<const engine::RealtimeLens> has;  // what is in it
+    };
+
+    void make();
+    void destroy();
+    void make_sampler(VkFilter filter, VkSampler& sampler) const;
+    Shader shader_of(std::size_t step) const;
+    void make_sets();
+    void write_own(const Slot& slot) const;
+    void write_given(const Slot& slot, const RealtimeImages& images) const;
+    void write_image(VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
+                     const VkDescriptorImageInfo& info) const;
+    void write_buffer(VkDescriptorSet set, std::uint32_t binding, const Piece& piece) const;
+    void take_lens(VkCommandBuffer commands, Slot& slot);
+    void bind(VkCommandBuffer commands, const Slot& slot, Step step, bool plant);
+    std::uint64_t least_bytes(Step step) const;
+    void order(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
+               VkPipelineStageFlags to) const;
+
+    const Opened opened_;
+    const Functions& vk_;
+    const VkPhysicalDeviceMemoryProperties memory_;
+    const RealtimeSettings settings_;
+    Heap heap_;
+    DeviceImage cells_, gathered_;
+    Piece surroundings_, tiles_, lamps_, reach_, boxes_, kept_, lens_;
+    VkSampler nearest_ = VK_NULL_HANDLE, linear_ = VK_NULL_HANDLE;
+    std::array<Program, kSteps> programs_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::vector<Slot> slots_;
+    std::mutex mutex_;  // of the next line
+    std::shared_ptr<const engine::RealtimeLens> chosen_;
+};
+
+}  // namespace petzval::device::vulkan

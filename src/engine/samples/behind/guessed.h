@@ -1,0 +1,37 @@
+// What one picture does not say, guessed as far as the soft edges of a preview show it.
+// (engine/samples/hidden.h does it for final frames.)
+#pragma once
+
+#include "engine/samples/silhouettes/rims.h"
+#include "engine/samples/sparse_rows.h"
+#include "engine/waist/engine.h"
+
+namespace petzval::engine {
+
+// The sample behind the visible one of a pixel, covering all of it.
+struct FilledIn {
+    Rgba colour;
+    float coc_px = 0;
+};
+using HiddenFill = SparseRows<FilledIn>;
+
+// Looks from every block of pixels that holds something in front of focus, in 16 directions as far as its
+// blur reaches, for farther surfaces around; the one met most, by 1/distance^2, goes on behind, blended from
+// block to block. Beside edges each pixel looks for itself, in 8 directions: so the texture of what is in
+// focus goes on behind a wire.
+HiddenFill fill_hidden(const EngineView& input, View<const Touched> touched);
+
+struct Guessed {
+    HiddenFill fill;
+    Rims rims;
+    bool empty() const { return fill.empty() && rims.empty(); }
+    std::size_t bytes() const { return fill.bytes() + rims.bytes(); }
+};
+// fills: also what is hidden.
+Guessed guess(const EngineView& input, bool fills);
+
+// Pixels a side of the blocks (a power of two), and how far what decides a fill may lie from it.
+int fill_block_px(float nearest_coc_px);
+int fill_reach_px(float nearest_coc_px);
+
+}  // namespace petzval::engine

@@ -1,0 +1,127 @@
+#include "engine/samples/outlines/outline_end.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kOffPx = 0.8f;      // at most, of a point
+constexpr float kMeanOffPx = 0.4f;  // sides of pixels along a line are off by 0.29
+
+constexpr std::array<PixelAt, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};  // each to the right of the last
+
+struct Beside {
+    PixelAt right, left;
+};
+// The pixels to both sides of a step from a corner (y points down).
+Beside beside(PixelAt at, PixelAt step) {
+    if (step.x > 0) return {{at.x, at.y}, {at.x, at.y - 1}};
+    if (step.x < 0) return {{at.x - 1, at.y - 1}, {at.x - 1, at.y}};
+    if (step.y > 0) return {{at.x - 1, at.y}, {at.x, at.y}};
+    return {{at.x, at.y - 1}, {at.x - 1, at.y - 1}};
+}
+
+// Along an outline from where it is hidden on.
+class Tracer {
+public:
+    Tracer(View<const float> coc, OutlineEnd& end) : coc_(coc), end_(end) {}
+
+    void trace() {
+        for (int k = 0; k < 4; ++k) {
+            const auto [right, left] = beside(end_.at, kSteps[std::size_t(k)]);
+            const DepthSide r = side(right), l = side(left);
+            if ((r == DepthSide::Same && l == DepthSide::Farther) ||
+                (l == DepthSide::Same && r == DepthSide::Farther)) {
+                // Traced the other way from how it goes on.
+                end_.same_is_left = r == DepthSide::Same;
+                return follow(k);
+            }
+        }
+    }
+
+private:
+    DepthSide side(PixelAt pixel) const { return depth_side(coc_, pixel, end_.coc_px); }
+    void follow(int k) {
+        const bool same_is_right = end_.same_is_left;
+        PixelAt at = end_.at;
+        while (end_.traced_px < kTracedPx) {
+            const PixelAt step = kSteps[std::size_t(k)];
+            end_.traced[std::size_t(end_.traced_px++)] = {float(at.x - end_.at.x) + 0.5f * float(step.x),
+                                                          float(at.y - end_.at.y) + 0.5f * float(step.y)};
+            at = {at.x + step.x, at.y + step.y};
+            const auto [right, left] = beside(at, step);
+            const DepthSide ahead = side(same_is_right ? right : left),
+                            other = side(same_is_right ? left : right);
+            if (ahead == DepthSide::Nearer || other == DepthSide::Nearer) return;
+            const int to_same = same_is_right ? 1 : 3;  // turns
+            if (ahead == DepthSide::Farther)
+                k = (k + to_same) % 4;
+            else if (other == DepthSide::Same)
+                k = (k + 4 - to_same) % 4;
+        }
+    }
+
+    View<const float> coc_;
+    OutlineEnd& end_;
+};
+
+// As much of what was traced as lies on one line or arc tells how it goes on.
+void find_arc(OutlineEnd& end) {
+    constexpr int kLeastOfArc = 14, kShort = 10;
+    constexpr float kShortOffPx = 0.55f;  // a corner is no line
+    for (const int n : {end.traced_px, 24, 18, kLeastOfArc, 12, 8, kLeastTracedPx}) {
+        if (n > end.traced_px || n < kLeastTracedPx) continue;
+        const auto points = std::span(end.traced).first(std::size_t(n));
+        const PlanePoint into{-points[kLeastTracedPx - 1].x, -points[kLeastTracedPx - 1].y};
+        const FittedArc line = fitted_line(points, {0, 0}, into);
+        end.arc = line.arc, end.told_by = n;
+        if (n < kLeastOfArc ? line.worst_px <= (n < kShort ? kShortOffPx : kOffPx)
+                            : line_or_arc(line, fitted_arc(points, {0, 0}, into), end.arc))
+            return;
+    }
+    end.told_by = 0;
+}
+
+bool tells(const FittedArc& fitted) { return fitted.worst_px <= kOffPx && fitted.mean_px <= kMeanOffPx; }
+
+}  // namespace
+
+DepthSide depth_side(float coc, float surface) {
+    // Less than one_surface() takes: where pixels touch, a step is an outline.
+    constexpr float kStepPx = 0.9f, kStep = 0.05f;
+    if (std::abs(coc - surface) < kStepPx + kStep * std::abs(coc + surface)) return DepthSide::Same;
+    return coc < surface ? DepthSide::Nearer : DepthSide::Farther;
+}
+
+DepthSide depth_side(View<const float> coc, PixelAt pixel, float surface) {
+    return coc.rect().contains(pixel.x, pixel.y) ? depth_side(coc(pixel.x, pixel.y), surface)
+                                                 : DepthSide::Nearer;
+}
+
+bool line_or_arc(const FittedArc& line, const FittedArc& arc, Arc& best) {
+    constexpr float kLinePx = 0.34f, kAsWell = 1.5f, kLeastRadiusPx = 4;
+    const float line2 = line.mean_px * line.mean_px, arc2 = arc.mean_px * arc.mean_px;
+    const bool is_line = tells(line) && (line.mean_px < kLinePx || line2 < kAsWell * arc2);
+    best = is_line ? line.arc : arc.arc;
+    return is_line || (tells(arc) && std::abs(arc.arc.curvature) * kLeastRadiusPx <= 1);
+}
+
+std::optional<OutlineEnd> outline_end(View<const float> coc, int x, int y) {
+    std::array<float, 4> met{coc(x - 1, y - 1), coc(x, y - 1), coc(x - 1, y), coc(x, y)};
+    const auto [low, high] = std::minmax_element(met.begin(), met.end());
+    if (depth_side(*low, *high) == DepthSide::Same) return {};
+    std::sort(met.begin(), met.end());
+    for (const float own : {met[1], met[2]})
+        if (depth_side(met[0], own) == DepthSide::Nearer && depth_side(met[3], own) == DepthSide::Farther) {
+            OutlineEnd end{};
+            end.at = {x, y}, end.coc_px = own;
+            Tracer(coc, end).trace();
+            find_arc(end);
+            if (end.traced_px < kLeastJoinedPx) return {};
+            return end;
+        }
+    return {};
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,44 @@
+#include "engine/samples/silhouettes/two_surfaces.h"
+
+#include <array>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kShapeError = 0.08f;    // of the share that the shape tells
+constexpr float kModelError2 = 0.001f;  // squared, relative: of taking a pixel for a mixture of two colours
+
+}  // namespace
+
+Explained expected(Rgba c, const Guess& near, const Guess& far, float by_shape) {
+    constexpr std::size_t kShares = 11;
+    const float least = 1e-6f + kModelError2 * dot(c, c);
+    std::array<float, kShares> unlikely, variance;  // -2 log of the likelihood, but for the variance
+    for (std::size_t i = 0; i < kShares; ++i) {
+        const float s = float(i) / (kShares - 1), off = (s - by_shape) / kShapeError;
+        variance[i] = s * s * near.variance + (1 - s) * (1 - s) * far.variance + least;
+        unlikely[i] = distance2(c, s * near.colour + (1 - s) * far.colour) / variance[i] + off * off;
+    }
+    const float best = *std::min_element(unlikely.begin(), unlikely.end());
+    float share = 0, total = 0;
+    Rgba step;
+    for (std::size_t i = 0; i < kShares; ++i) {
+        const float s = float(i) / (kShares - 1);
+        const float weight = std::exp(-0.5f * (unlikely[i] - best)) / (variance[i] * std::sqrt(variance[i]));
+        share += weight * s, total += weight;
+        const float gain = weight * (1 - s) * far.variance / variance[i];
+        step += gain * (c - s * near.colour - (1 - s) * far.colour);
+    }
+    return {share / total, light_only(far.colour + (1 / total) * step)};
+}
+
+float share_before(Rgba c, const Guess& near, Rgba behind, float by_shape) {
+    float share = expected(comparable(c), near, {comparable(behind), 0}, by_shape).near_share;
+    const auto at_most = [&](float own, float from_behind) {
+        if ((1 - share) * from_behind > own) share = 1 - std::max(0.0f, own) / from_behind;
+    };
+    at_most(c.r, behind.r), at_most(c.g, behind.g), at_most(c.b, behind.b);
+    return share;
+}
+
+}  // namespace petzval::engine

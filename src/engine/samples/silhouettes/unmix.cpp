@@ -1,0 +1,274 @@
+#include "base/parallel.h"
+#include "engine/samples/hidden.h"
+#include "engine/samples/outlines/outline.h"
+#include "engine/samples/silhouettes/two_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace petzval::engine {
+namespace {
+
+constexpr float kDark = 1e-3f;  // keeps reciprocals finite
+
+// Bits of a pixel: it touches a silhouette, and lamps light it or one beside it.
+enum Touching : unsigned char { kTouches = 1, kLit = 2 };
+
+bool touches_silhouette(View<const unsigned char> connected, int x, int y) {
+    const auto at = [&](int u, int v) {
+        return connected.rect().contains(u, v) ? int(connected(u, v)) : int(kAll);
+    };
+    // Diagonal: a side neighbour is cut from the diagonal pixel.
+    constexpr int kVertical = kUp | kDown, kHorizontal = kLeft | kRight;
+    return connected(x, y) != kAll || (at(x - 1, y) & at(x + 1, y) & kVertical) != kVertical ||
+           (at(x, y - 1) & at(x, y + 1) & kHorizontal) != kHorizontal;
+}
+
+// The same for a whole row at once, where most pixels touch none.
+void find_touching(View<const unsigned char> connected, int y, View<unsigned char> touching) {
+    const int width = connected.width();
+    if (y == 0 || y + 1 == connected.height() || width < 3) {
+        for (int x = 0; x < width; ++x) touching(x, y) = touches_silhouette(connected, x, y);
+        return;
+    }
+    touching(0, y) = touches_silhouette(connected, 0, y);
+    touching(width - 1, y) = touches_silhouette(connected, width - 1, y);
+    const unsigned char *above = connected.row(y - 1), *own = connected.row(y), *below = connected.row(y + 1);
+    unsigned char* const out = touching.row(y);
+    for (int x = 1; x + 1 < width; ++x) {
+        const unsigned beside = own[x - 1] & own[x + 1] & (kUp | kDown);
+        const unsigned over = above[x] & below[x] & (kLeft | kRight);
+        out[x] = (own[x] & (beside | over)) != kAll;
+    }
+}
+
+// True if lamps light the pixel or one beside it: less light of theirs than makes a lamp may fall on it.
+bool lit_around(const LitPicture& picture, int x, int y) {
+    if (!picture.dim_of) return false;
+    const Rect window = Rect{x - 1, y - 1, x + 2, y + 2}.intersected(picture.colour.rect());
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u)
+            if (picture.dim(u, v) != picture.colour(u, v)) return true;
+    return false;
+}
+
+// What the neighbourhood of a silhouette's pixel says of the two surfaces that meet there.
+struct Sides {
+    Pool near_clean, far_clean, far_mixed;
+    float near_coc = 0, far_coc = 0;  // of the closest pixel of that side
+    float near_closest = 1e9f, far_closest = 1e9f;
+    float near_share_by_shape = 0;
+};
+
+// The radius from which on a pixel nearby shows a third surface, behind the two that meet in a pixel. A pixel
+// that shows the farther of these, at `own`, lies one half of their step behind the threshold. A quarter of
+// the step leaves room for the slope of that surface.
+float behind_both(float own, float threshold) {
+    constexpr float kOfHalfStep = 0.5f;
+    if (own <= threshold) return std::numeric_limits<float>::infinity();
+    return own + kOfHalfStep * (own - threshold);
+}
+
+Sides look_around(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching, int x,
+                  int y, float threshold, const UnmixRule& rule) {
+    Sides s;
+    const int reach = rule.clean_within_px;
+    const Rect window = Rect{x - reach, y - reach, x + reach + 1, y + reach + 1}.intersected(coc.rect());
+    const float own_light = std::max(0.0f, luminance(picture.dim(x, y))) + kDark;
+    const float third = behind_both(coc(x, y), threshold);
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u) {
+            if (coc(u, v) > third) continue;
+            const float d2 = float((u - x) * (u - x) + (v - y) * (v - y));
+            const bool near = coc(u, v) <= threshold;
+            const Rgba colour = picture.dim(u, v);
+            // Far pixels count little, and pixels much brighter than this one too: a lamp nearby is not this
+            // surface.
+            const float weight = 1 / ((1 + d2 * d2) * (own_light + std::max(0.0f, luminance(colour))));
+            if (near) {
+                if (!touching(u, v)) s.near_clean.add(colour, weight);
+                if (d2 < s.near_closest) s.near_closest = d2, s.near_coc = coc(u, v);
+            } else {
+                (touching(u, v) ? s.far_mixed : s.far_clean).add(colour, weight);
+                if (d2 < s.far_closest) s.far_closest = d2, s.far_coc = coc(u, v);
+            }
+        }
+    s.near_share_by_shape = Outline(coc, x, y, threshold).near_share(rule.along_outline);
+    return s;
+}
+
+// The colour of a thin thing that has no clean pixel: its pixels nearby count as they differ from the far
+// side. Those that lamps light count only where there are no others: some of that light is left in them.
+Guess least_like(Rgba far_colour, const LitPicture& picture, View<const float> coc,
+                 View<const unsigned char> touching, int x, int y, float threshold) {
+    Pool unlit, lit;
+    for (int v = std::max(0, y - 2); v <= std::min(coc.height() - 1, y + 2); ++v)
+        for (int u = std::max(0, x - 2); u <= std::min(coc.width() - 1, x + 2); ++u) {
+            if (coc(u, v) > threshold) continue;
+            const Rgba colour = picture.dim(u, v);
+            ((touching(u, v) & kLit) != 0 ? lit : unlit)
+                .add(colour, distance2(comparable(colour), far_colour) + 1e-9f);
+        }
+    return (unlit.empty() ? lit : unlit).guess();
+}
+
+// Lamps behind the nearer surface, as the pixels around one tell: the share of the light of lamps in it that
+// is theirs, and their radius.
+struct LampsBehind {
+    float share = 0, coc_px = 0;
+};
+
+// A pixel, by the light of lamps in it; clean: it touches no silhouette.
+struct LitPixel {
+    float light = 0, coc_px = 0;
+    bool clean = false;
+};
+
+// How alike two lights are in colour, 0…1: red and white hardly.
+float alike(Rgba a, Rgba b) {
+    const float cosine2 = dot(a, b) * dot(a, b) / std::max(1e-12f, dot(a, a) * dot(b, b));
+    return cosine2 * cosine2 * cosine2 * cosine2;
+}
+
+// How surely a lamp that lights the nearer side belongs to the surface of its brightest pixel: one that
+// lights only a few pixels of that, and none that touches no silhouette, shows past its edge.
+float share_of_surface(const std::vector<LitPixel>& nearer) {
+    constexpr float kOneSurfacePx = 0.9f, kFewLit = 0.15f, kManyLit = 0.5f;
+    const auto brightest = std::max_element(nearer.begin(), nearer.end(),
+                                            [](const auto& a, const auto& b) { return a.light < b.light; });
+    if (brightest == nearer.end()) return 1;
+    int pixels = 0, lit = 0;
+    for (const LitPixel& p : nearer) {
+        if (std::abs(p.coc_px - brightest->coc_px) > kOneSurfacePx) continue;
+        if (p.light > 0 && p.clean) return 1;
+        ++pixels, lit += p.light > 0;
+    }
+    return std::clamp((float(lit) / float(pixels) - kFewLit) / (kManyLit - kFewLit), kFewLit, 1.0f);
+}
+
+// The side whose pixels nearby are lit brighter, in the pixel's own colour, has the lamp. far_coc: of the
+// farther side.
+LampsBehind find_lamps(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
+                       int x, int y, float threshold, float far_coc) {
+    constexpr int kLampReach = 2;
+    const Rect window =
+        Rect{x - kLampReach, y - kLampReach, x + kLampReach + 1, y + kLampReach + 1}.intersected(coc.rect());
+    Rgba own = picture.colour(x, y) - picture.dim(x, y);
+    if (own == Rgba{}) own = picture.colour(x, y);
+    float near = 0, far = 0;
+    std::vector<LitPixel> nearer;
+    for (int v = window.y0; v < window.y1; ++v)
+        for (int u = window.x0; u < window.x1; ++u) {
+            const Rgba lamp = picture.colour(u, v) - picture.dim(u, v);
+            const float light = luminance(lamp) * alike(lamp, own);
+            if (coc(u, v) <= threshold) {
+                nearer.push_back({light, coc(u, v), !touching(u, v)});
+                near = std::max(near, light);
+            } else if (light > far) {
+                far = light, far_coc = coc(u, v);
+            }
+        }
+    // One behind may light no pixel but those of the edge that it shows past.
+    constexpr float kUnseen = 0.33f;
+    const float sure = share_of_surface(nearer);
+    far = std::max(far, kUnseen * (1 - sure) * near);
+    near *= sure;
+    const float t = std::clamp((far / std::max(1e-9f, near + far) - 0.35f) / 0.3f, 0.0f, 1.0f);
+    return {t * t * (3 - 2 * t), far_coc};
+}
+
+// Where lamps behind light a pixel, what the nearer surface's own colour does not explain is theirs, too.
+void give_to_lamps(Mixture& m) {
+    constexpr float kAsUsual = 3;  // times its colour around
+    if (m.lamps_behind <= 0) return;
+    const Rgba more = light_only(m.near_colour - (kAsUsual * m.near_share) * m.near_clean);
+    const Rgba given = m.lamps_behind * Rgba{more.r, more.g, more.b, 0};
+    m.near_colour -= given, m.far_light += given;
+}
+
+Mixture taken_apart(const LitPicture& picture, View<const float> coc, View<const unsigned char> touching,
+                    int x, int y, const UnmixRule& rule) {
+    float low = coc(x, y), high = coc(x, y);
+    for (int v = std::max(0, y - 1); v <= std::min(coc.height() - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(coc.width() - 1, x + 1); ++u)
+            low = std::min(low, coc(u, v)), high = std::max(high, coc(u, v));
+    const float threshold = 0.5f * (low + high);
+    const Sides s = look_around(picture, coc, touching, x, y, threshold, rule);
+    const Guess far = (s.far_clean.empty() ? s.far_mixed : s.far_clean).guess();
+    const Guess near = s.near_clean.empty() ? least_like(far.colour, picture, coc, touching, x, y, threshold)
+                                            : s.near_clean.guess();
+    Mixture m;
+    m.shows_far = coc(x, y) > threshold;
+    m.near_coc_px = s.near_coc, m.far_coc_px = s.far_coc;
+    m.far_colour = far.colour;
+    m.near_clean = near.colour, m.near_variance = near.variance, m.share_by_shape = s.near_share_by_shape;
+    const Rgba c = picture.dim(x, y);
+    const Rgba lamps = picture.colour(x, y) - c;
+    if ((touching(x, y) & kLit) != 0) {
+        const LampsBehind behind = find_lamps(picture, coc, touching, x, y, threshold, s.far_coc);
+        m.far_light = behind.share * lamps, m.lamp_coc_px = behind.coc_px;
+        m.lights_near = lamps != Rgba{} && behind.share < 1, m.lamps_behind = behind.share;
+    }
+    if (!m.shows_far) return m;
+    const Explained e = expected(comparable(c), near, far, s.near_share_by_shape);
+    m.near_share = e.near_share, m.far_colour = e.far_colour;
+    const float far_share = 1 - m.near_share;
+    m.near_colour = light_only(c - far_share * m.far_colour);
+    // What is left of a dark pixel is all that either may have.
+    if (far_share > 0.05f) {
+        const Rgba left = light_only((c - m.near_colour) * (1 / far_share));
+        m.far_colour = {left.r, left.g, left.b, far.colour.a};
+    }
+    const Rgba lamps_before = lamps - m.far_light;
+    give_to_lamps(m);
+    m.near_colour += lamps_before;
+    return m;
+}
+
+// What shows of hidden samples where nothing is in front of them.
+Rgba composited(std::span<const Hidden> hidden) {
+    Rgba sum;
+    float open = 1;
+    for (const Hidden& h : hidden) sum += open * h.colour, open *= 1 - h.share;
+    return sum;
+}
+
+}  // namespace
+
+Mixtures unmix_silhouettes(const LitPicture& picture, View<const float> coc,
+                           View<const unsigned char> connected, Workers& workers, const UnmixRule& rule) {
+    const int width = coc.width(), height = coc.height();
+    auto touching = Image<unsigned char>::uninitialised(width, height);
+    parallel_for(height, workers, [&](int y) {
+        find_touching(connected, y, touching);
+        for (int x = 0; x < width; ++x)
+            if (touching(x, y) && lit_around(picture, x, y)) touching(x, y) |= kLit;
+    });
+    return {width, height, workers, [&](int y, const auto& emit) {
+                for (int x = 0; x < width; ++x)
+                    if (touching(x, y)) emit(x, taken_apart(picture, coc, touching, x, y, rule));
+            }};
+}
+
+void unmix_nearer(Mixtures& mixtures, const LitPicture& picture, const HiddenLayers& hidden,
+                  Workers& workers) {
+    const View<const Rgba> colour = picture.colour;
+    parallel_for(colour.height(), workers, [&](int y) {
+        mixtures.for_each_in_row(y, [&](int x, Mixture& m) {
+            if (m.shows_far) return;
+            if (const auto behind = hidden.at(x, y); !behind.empty()) m.far_colour = composited(behind);
+            const Rgba dim = picture.dim(x, y);
+            m.near_share = share_before(dim, {m.near_clean, m.near_variance}, m.far_colour, m.share_by_shape);
+            m.near_colour = light_only(dim - (1 - m.near_share) * m.far_colour);
+            const Rgba lamps = colour(x, y) - dim, lamps_before = lamps - m.far_light;
+            give_to_lamps(m);
+            m.near_colour += lamps_before;
+        });
+    });
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,183 @@
+#include "engine/samples/textures/hidden_textures.h"
+
+#include "base/parallel.h"
+#include "engine/samples/nearest_pixel.h"
+
+#include <algorithm>
+
+namespace petzval::engine {
+namespace {
+
+constexpr int kScale = 2;  // pixels on a side of one of details
+// Correlations: up to where nothing, and from where all of a texture is known.
+constexpr float kLeastAlike = 0.7f, kAlike = 0.95f;
+
+}  // namespace
+
+// What a tile looks at lies within 4 of its reach and 96 px: less than of outlines (docs/conventions.md).
+HiddenTextures::HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtures, float reach_px,
+                               Workers& workers)
+    : known_(known),
+      farthest_(std::min(32, int(reach_px) + 8)),
+      around_(std::min(28, 12 + int(reach_px) / 2)) {
+    if (reach_px <= 0) return;
+    const Rect all = known.radii().rect();
+    tile_at_ = Image<int>((all.width() + kTile - 1) / kTile, (all.height() + kTile - 1) / kTile, -1);
+    for (int y = 0; y < all.height(); ++y)
+        mixtures.for_each_in_row(y, [&](int x, const Mixture& m) {
+            int& tile = tile_at_(x / kTile, y / kTile);
+            // (What is sharp hides nothing that is as sharp from a lens.)
+            if (tile >= 0 || m.near_coc_px > -kSharpPx || std::abs(m.far_coc_px) >= kSharpPx) return;
+            tile = int(tiles_.size());
+            tiles_.push_back({x / kTile * kTile, y / kTile * kTile, {}});
+        });
+    if (tiles_.empty()) return;
+    measure_means(workers);
+    measure_details(workers);
+    parallel_for(int(tiles_.size()), workers, [&](int i) {
+        Tile& tile = tiles_[std::size_t(i)];
+        tile.texture = texture_around(tile);
+    });
+    details_ = {};
+}
+
+// Whether any tile looks at it.
+bool HiddenTextures::in_sight(const Rect& block) const {
+    const Rect near = block.grown(kScale * (farthest_ + around_) + 2 * kBlock);
+    const int y1 = std::min(near.y1 / kTile, tile_at_.height() - 1);
+    const int x1 = std::min(near.x1 / kTile, tile_at_.width() - 1);
+    for (int y = std::max(0, near.y0 / kTile); y <= y1; ++y)
+        for (int x = std::max(0, near.x0 / kTile); x <= x1; ++x)
+            if (tile_at_(x, y) >= 0) return true;
+    return false;
+}
+
+void HiddenTextures::measure_means(Workers& workers) {
+    const Rect all = known_.radii().rect();
+    Image<Sum> own((all.width() + kBlock - 1) / kBlock, (all.height() + kBlock - 1) / kBlock);
+    parallel_for(own.height(), workers, [&](int v) {
+        for (int u = 0; u < own.width(); ++u) {
+            const Rect block =
+                Rect{u * kBlock, v * kBlock, (u + 1) * kBlock, (v + 1) * kBlock}.intersected(all);
+            if (!in_sight(block)) continue;
+            for (int y = block.y0; y < block.y1; ++y)
+                for (int x = block.x0; x < block.x1; ++x)
+                    if (sharp(x, y)) own(u, v).add({known_.colour(x, y), 1}, 1);
+        }
+    });
+    means_ = Image<Sum>(own.width(), own.height());
+    parallel_for(own.height(), workers, [&](int v) {
+        for (int u = 0; u < own.width(); ++u)
+            for (int y = std::max(0, v - 1); y <= std::min(own.height() - 1, v + 1); ++y)
+                for (int x = std::max(0, u - 1); x <= std::min(own.width() - 1, u + 1); ++x)
+                    means_(u, v).add(own(x, y), (x == u ? 2.0f : 1.0f) * (y == v ? 2.0f : 1.0f));
+    });
+}
+
+// Around the middle of a pixel that shows something sharp.
+Rgba HiddenTextures::mean(float x, float y) const {
+    const float u = std::clamp((x + 0.5f) / kBlock - 0.5f, 0.0f, float(means_.width() - 1));
+    const float v = std::clamp((y + 0.5f) / kBlock - 0.5f, 0.0f, float(means_.height() - 1));
+    const int u0 = int(u), v0 = int(v);
+    const int u1 = std::min(u0 + 1, means_.width() - 1), v1 = std::min(v0 + 1, means_.height() - 1);
+    const float right = u - float(u0), down = v - float(v0);
+    Sum sum;
+    sum.add(means_(u0, v0), (1 - right) * (1 - down)), sum.add(means_(u1, v0), right * (1 - down));
+    sum.add(means_(u0, v1), (1 - right) * down), sum.add(means_(u1, v1), right * down);
+    return sum.light * (1 / sum.count);
+}
+
+void HiddenTextures::measure_details(Workers& workers) {
+    const Rect all = known_.radii().rect();
+    details_ = Plane(all.width() / kScale, all.height() / kScale, kUnknown);
+    parallel_for(details_.height(), workers, [&](int v) {
+        const int y = v * kScale;
+        for (int x = 0; x + 1 < all.width(); x += kScale)
+            if (means_(x / kBlock, y / kBlock).count > 0 && sharp(x, y) && sharp(x + 1, y) &&
+                sharp(x, y + 1) && sharp(x + 1, y + 1))
+                details_(x / kScale, v) = detail(x, y);
+    });
+}
+
+// Of 2x2 pixels that show something sharp.
+float HiddenTextures::detail(int x, int y) const {
+    const Rgba sum =
+        known_.colour(x, y) + known_.colour(x + 1, y) + known_.colour(x, y + 1) + known_.colour(x + 1, y + 1);
+    const float light = std::max(0.0f, 0.25f * luminance(comparable(sum)));
+    const float around = std::max(0.0f, luminance(comparable(mean(float(x) + 0.5f, float(y) + 0.5f))));
+    return (light - around) / (light + around + 1e-6f);
+}
+
+Texture HiddenTextures::texture_around(const Tile& tile) const {
+    Details piece(kTile / kScale + 2 * around_, farthest_);
+    const int u0 = tile.x / kScale - around_ - farthest_, v0 = tile.y / kScale - around_ - farthest_;
+    const Rect inside = Rect{u0, v0, u0 + piece.side, v0 + piece.side}.intersected(details_.rect());
+    for (int v = inside.y0; v < inside.y1; ++v)
+        for (int u = inside.x0; u < inside.x1; ++u)
+            if (details_(u, v) != kUnknown) piece.set(u - u0, v - v0, details_(u, v));
+    Texture texture = texture_of(piece);
+    for (Texture::Offset& o : texture.repeats) o.x *= kScale, o.y *= kScale;
+    return texture;
+}
+
+void HiddenTextures::move_grain(int x, int y, Moved& moved) const {
+    constexpr std::array<std::array<int, 2>, 8> kWays{
+        {{4, 0}, {-4, 0}, {0, 4}, {0, -4}, {3, 3}, {-3, -3}, {3, -3}, {-3, 3}}};
+    for (int far = 4; far <= 16; far += 4)
+        for (const auto& way : kWays) {
+            const int u = x + far * way[0], v = y + far * way[1];
+            if (!shows(u, v, moved.coc_px)) continue;
+            moved.grain = tiles_[std::size_t(moved.tile)].texture.grain;
+            moved.grain_detail = detail_of_pixel(u, v);
+            return;
+        }
+}
+
+HiddenTextures::Moved HiddenTextures::moved_to(int x, int y, int tile, float coc_px) const {
+    const Texture& texture = tiles_[std::size_t(tile)].texture;
+    Moved moved;
+    moved.tile = tile, moved.coc_px = coc_px;
+    if (texture.grain > 0) move_grain(x, y, moved);
+    for (const Texture::Offset& o : texture.repeats) {
+        if (o.alike <= kLeastAlike) break;
+        const int dx = nearest_pixel(o.x), dy = nearest_pixel(o.y);
+        if (!shows(x + dx, y + dy, coc_px)) continue;
+        moved.alike = o.alike, moved.dx = dx, moved.dy = dy;
+        moved.detail = detail_of_pixel(x + dx, y + dy);
+        break;
+    }
+    return moved;
+}
+
+const HiddenTextures::Moved& HiddenTextures::Point::moved_to_here(int tile, float coc_px) {
+    Moved& moved = found_[std::size_t(tile) % found_.size()];
+    if (moved.tile != tile || std::abs(moved.coc_px - coc_px) > kOnePx / 2)
+        moved = textures_.moved_to(x_, y_, tile, coc_px);
+    return moved;
+}
+
+Rgba HiddenTextures::Point::going_on(KnownSurfaces::Place shown, Rgba otherwise) {
+    constexpr float kRestPx = 4;  // how far what a repeat does not explain goes on
+    const float in_focus = std::clamp(kSharpPx - std::abs(shown.coc_px), 0.0f, 1.0f);
+    const HiddenTextures& all = textures_;
+    if (all.tiles_.empty() || in_focus <= 0) return otherwise;
+    const int tile = all.tile_at_(shown.x / kTile, shown.y / kTile);
+    if (tile < 0) return otherwise;
+    const Moved& moved = moved_to_here(tile, shown.coc_px);
+    if (moved.grain <= 0 && moved.alike <= 0) return otherwise;
+    const Rgba around = all.mean(shown.x, shown.y);
+    const float grain = in_focus * moved.grain;
+    if (grain > 0) otherwise = (1 - grain) * otherwise + grain * light_only(around + moved.grain_detail);
+    if (moved.alike <= 0) return otherwise;
+    Rgba colour = around + moved.detail;
+    const float distance = std::hypot(float(x_ - shown.x), float(y_ - shown.y));
+    const int u = shown.x + moved.dx, v = shown.y + moved.dy;
+    if (distance < 4 * kRestPx && all.shows(u, v, shown.coc_px)) {
+        const Rgba rest = all.known_.colour(shown.x, shown.y) - around - all.detail_of_pixel(u, v);
+        colour += std::exp(-distance / kRestPx) * rest;
+    }
+    const float told = in_focus * std::min(1.0f, (moved.alike - kLeastAlike) / (kAlike - kLeastAlike));
+    return (1 - told) * otherwise + told * light_only(colour);
+}
+
+}  // namespace petzval::engine

@@ -1,0 +1,91 @@
+// Textures of surfaces in focus: behind what hides them they go on as textures.
+//
+// Around each silhouette it is found what repeats (repeats.h): what lies behind the silhouette is then what
+// shows an offset away, as far as the surroundings look like theirs. Grain, of which no place tells of
+// another, goes on as any other piece of it.
+#pragma once
+
+#include "engine/samples/known_surfaces.h"
+#include "engine/samples/textures/repeats.h"
+
+#include <array>
+#include <vector>
+
+namespace petzval::engine {
+
+class HiddenTextures {
+    // Pieces of a surface's texture that are moved to a hidden point, less the means around where they show.
+    struct Moved {
+        int tile = -1;
+        float coc_px = 0;
+        float grain = 0, alike = 0;  // 0: none
+        Rgba grain_detail, detail;
+        int dx = 0, dy = 0;
+    };
+
+public:
+    // Borrows both. reach_px: how far behind a silhouette a lens looks; 0: nothing goes on.
+    HiddenTextures(const KnownSurfaces& known, const Mixtures& mixtures, float reach_px, Workers& workers);
+
+    // A point where something is hidden. Keeps what is found there: most of what is met around it is of one
+    // tile.
+    class Point {
+    public:
+        Point(const HiddenTextures& textures, int x, int y) : textures_(textures), x_(x), y_(y) {}
+        // What is hidden here, of the surface that shows at `shown`: its texture as far as one can tell, else
+        // `otherwise`.
+        Rgba going_on(KnownSurfaces::Place shown, Rgba otherwise);
+
+    private:
+        const Moved& moved_to_here(int tile, float coc_px);
+
+        const HiddenTextures& textures_;
+        int x_, y_;
+        std::array<Moved, 4> found_;  // of tiles with the same last digits
+    };
+
+private:
+    static constexpr int kTile = 32;       // pixels on a side; silhouettes in it share a texture
+    static constexpr int kBlock = 8;       // pixels on a side that have one mean
+    static constexpr float kSharpPx = 3;   // radius; what is blurred more shows no texture
+    static constexpr float kOnePx = 0.6f;  // of one surface; what hides something is nearer by more
+
+    // The sum of the sharp pixels of a block, or of some blocks.
+    struct Sum {
+        Rgba light;
+        float count = 0;
+        void add(const Sum& other, float weight) {
+            light += weight * other.light, count += weight * other.count;
+        }
+    };
+    struct Tile {
+        int x, y;  // its first pixel
+        Texture texture;
+    };
+
+    void measure_means(Workers& workers);
+    void measure_details(Workers& workers);
+    Texture texture_around(const Tile& tile) const;
+    float detail(int x, int y) const;
+    bool in_sight(const Rect& block) const;
+    bool sharp(int x, int y) const { return std::abs(known_.radii()(x, y)) < kSharpPx; }
+    bool shows(int x, int y, float coc_px) const {
+        return known_.radii().rect().contains(x, y) && std::abs(known_.radii()(x, y) - coc_px) < kOnePx &&
+               sharp(x, y);
+    }
+    Rgba detail_of_pixel(int x, int y) const { return known_.colour(x, y) - mean(x, y); }
+    Rgba mean(float x, float y) const;
+    Rgba mean(int x, int y) const { return mean(float(x), float(y)); }
+    Moved moved_to(int x, int y, int tile, float coc_px) const;
+    void move_grain(int x, int y, Moved& moved) const;
+
+    const KnownSurfaces& known_;
+    int farthest_, around_;  // offset; what is held against others around a tile: pixels of details
+    Image<int> tile_at_;     // of tiles_; -1: none
+    std::vector<Tile> tiles_;
+    Image<Sum> means_;  // of 3x3 blocks, of what tiles look at
+    static constexpr float kUnknown = -2;
+    Plane details_;  // as of Details; only while tiles are measured
+};
+
+}  // namespace petzval::engine

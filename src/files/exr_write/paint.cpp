@@ -1,0 +1,40 @@
+#include "files/exr_write/paint.h"
+
+#include "base/parallel.h"
+#include "files/exr_write/output.h"
+
+#include <limits>
+
+#include <Imath/half.h>
+
+namespace petzval {
+namespace {
+
+float component_of(Rgba c, int component) {
+    return component == 0 ? c.r : component == 1 ? c.g : component == 2 ? c.b : c.a;
+}
+
+}  // namespace
+
+void Painter::fill(BandChannel& to, const Painted& from, int first, int y0, int y1) {
+    parallel_for(y1 - y0, workers_, [&](int row) {
+        const Rgba* pixels = from.picture->row(y0 + row - first);
+        if (to.channel.type == SampleType::Half)
+            fill_row(reinterpret_cast<Imath::half*>(to.row(row)), pixels, from, kLargestHalf);
+        else
+            fill_row(reinterpret_cast<float*>(to.row(row)), pixels, from, std::numeric_limits<float>::max());
+    });
+}
+
+template <typename Sample>
+void Painter::fill_row(Sample* to, const Rgba* from, const Painted& how, float largest) {
+    WriteReport row;
+    for (int x = 0; x < how.picture->width(); ++x) {
+        const Rgba c = how.primaries ? transformed(how.primaries->from_rec709, from[x]) : from[x];
+        to[x] = Sample(storable(component_of(c, how.component), largest, row));
+    }
+    if (row.clamped_to_half) clamped_ += row.clamped_to_half;
+    if (row.non_finite) non_finite_ += row.non_finite;
+}
+
+}  // namespace petzval
