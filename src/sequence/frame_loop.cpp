@@ -222,8 +222,7 @@ FrameRecord FrameLoop::State::failure(int frame, const FrameWork::Files& files, 
     return record;
 }
 
-// A frame says nothing itself; what it warns of is said once, whatever its numbers: those of all frames are
-// in the records.
+// Warnings of frames that differ in numbers alone are printed once. The records hold those of every frame.
 void FrameLoop::State::warn_once(const FrameRecord& record) {
     for (const std::string& line : record.warnings)
         if (warned.insert(without_numbers(line)).second && !host.hears_frames) say(Say::Warning, line);

@@ -78,7 +78,7 @@ Result<Json> make_frame(Session& session, const ShotRunSettings& settings, const
 }
 
 Status FrameMaker::make() {
-    // A look is compared by what it says, whatever the age of its file.
+    // Looks are compared by content, not by the age of their files.
     std::vector<std::string> inputs = pictures_of(settings_, context_);
     for (std::string& file : lens_files(look())) inputs.push_back(std::move(file));
     const MadeWith made = made_with(settings_, context_);
@@ -145,7 +145,7 @@ Status FrameMaker::read() {
     return Done{};
 }
 
-// What else the file has to be blurred, and what became of it.
+// Reports the file's other layers: blurred, carried or left sharp.
 void FrameMaker::say_layers() {
     Json blurred = Json::array(), carried = Json::array();
     std::vector<std::string> sharp;
@@ -241,7 +241,7 @@ Status FrameMaker::read_other_views() {
     return Done{};
 }
 
-// What the picture hides and others see: frames before and after, or the other eye.
+// Surfaces that the picture hides and another frame or the other eye shows.
 Status FrameMaker::look_around() {
     std::vector<FrameMaker*> makers{this};
     for (const auto& other : others_) makers.push_back(other.get());

@@ -1,4 +1,4 @@
-// One frame of a run: read, focused, with what its neighbours and other eyes see, blurred, written, recorded.
+// One frame of a run: read, focused, completed by its neighbours and other eyes, blurred, written, recorded.
 #pragma once
 
 #include "petzval/seen_elsewhere.h"
@@ -16,13 +16,13 @@
 
 namespace petzval::sequence {
 
-// What a run knows of a frame beside its settings.
+// Facts of one frame beside its settings.
 struct FrameContext {
     std::optional<TrackedFrame> tracked = {};  // what a track changed
     std::vector<std::string> neighbours = {};  // files of the frames around it
     std::shared_ptr<Result<Shot>> shot = {};   // read ahead; used up
     bool again = false;                        // what is there does not count
-    // What the frames around it, and its other eyes, see behind its surfaces; empty: not asked for.
+    // Surfaces that neighbouring frames and other eyes see behind this frame's; empty: not requested.
     std::function<Result<SeenElsewhere>(const Shot&, std::span<const Shot* const> eyes)> around = {};
 };
 
@@ -35,7 +35,7 @@ Status make_black_frame(const ShotRunSettings& settings, const ShotRunSettings& 
 // The assumption in words, for logs and the attribute petzval:expandHighlights.
 std::string in_words(const HighlightExpansion& expansion);
 
-// What Update compares, and the pictures that a frame is made of: all files but those of its look.
+// Settings that Update compares; picture files that a frame is made of, without those of its look.
 MadeWith made_with(const ShotRunSettings& settings, const FrameContext& context);
 std::vector<std::string> pictures_of(const ShotRunSettings& settings, const FrameContext& context);
 // A lens and its pictures.
@@ -97,7 +97,7 @@ private:
     }
     const Look& look() const { return settings_.look; }
     bool replaces() const { return settings_.existing != ExistingOutputs::Keep || context_.again; }
-    // Glare, falloff and what is given back to a plate are part of the picture, not of what is shown instead.
+    // Glare, falloff and restored highlights are part of the picture, not of other views.
     bool is_beauty() const { return settings_.view == ShotView::Beauty; }
     bool expands_plate() const { return look().expand_highlights && is_beauty(); }
     bool has_radii() const {

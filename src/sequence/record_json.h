@@ -18,8 +18,7 @@ inline std::string as_text(const Json& json) {
 
 inline Json number(double value) { return Json::parse(record_of_number(value)); }
 
-// What took how long of `seconds`, as stages and in sums: those that stand under a name of their own, and
-// `compute`.
+// Seconds of each stage, and their sums: those with a separate name, and `compute`, out of `seconds`.
 void add_stages(Json& record, const std::vector<StageTime>& stages, double seconds);
 
 // Seconds since its making.

@@ -14,7 +14,7 @@
 
 namespace petzval::sequence {
 
-// What the frames around each frame see of what it hides, of each view by itself.
+// Surfaces that each frame hides and its neighbouring frames show, for each view separately.
 class ShotNeighbours {
 public:
     // The settings of a frame; outlives this.

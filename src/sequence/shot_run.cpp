@@ -26,7 +26,7 @@ ShotRunSettings without_patterns(ShotRunSettings settings, int frame) {
     return settings;
 }
 
-// What a track says of a frame stands in place of what was given for all.
+// A track's values for a frame replace those given for all frames.
 Result<ShotRunSettings> with_track(ShotRunSettings settings, const TrackedFrame& tracked) {
     const auto take = [](const std::optional<double>& from, std::optional<double>& to) {
         if (from) to = from;

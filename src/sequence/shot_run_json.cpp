@@ -15,7 +15,7 @@ namespace {
 
 using sequence::Json;
 
-// What is wrong with a value; thrown and caught in this file alone.
+// Message about a wrong value; thrown and caught only in this file.
 struct WrongValue {
     std::string what;
 };

@@ -41,7 +41,7 @@ struct ShotRunTest : testing::Test {
         EXPECT_TRUE(read) << (read ? "" : read.error().message);
         return *read;
     }
-    // What became of each frame.
+    // Records of all frames.
     std::vector<FrameRecord> run(ShotRunSettings chosen, ShotRunHost host = {}) {
         std::vector<FrameRecord> records;
         const auto also = host.frame_done;

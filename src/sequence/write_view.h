@@ -1,5 +1,4 @@
-// What each view shows, and how it is written: EXR covers the data window of the input, PNG its display
-// window.
+// Makes and writes each view: EXR covers the data window of the input, PNG its display window.
 #pragma once
 
 #include "petzval/defocus.h"
@@ -32,7 +31,7 @@ struct ViewSettings {
     std::string output;
     bool overwrite = true;
     DevelopSettings develop;
-    // Of Beauty, as PNG: as in ShotRunHost; may be empty.
+    // Display transform of Beauty as PNG, as in ShotRunHost; may be empty.
     std::function<Status(Picture&, DevelopSettings&, std::string&, std::vector<std::string>&)> to_display;
     std::function<void(const std::string&)> note;
     FoundCamera camera;

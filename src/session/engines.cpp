@@ -36,8 +36,8 @@ Error refuse_engine(const std::string& message, const char* field = "") {
     return {ErrorCode::InvalidArgument, message, field};
 }
 
-// Errors: InvalidArgument where the engine takes no layers, or would mix them with what the picture alone
-// knows.
+// Errors: InvalidArgument if the engine takes no layers, or would mix them with surfaces estimated from the
+// picture alone.
 Status check_layers(const FrameRequest& request, const engine::Engine& e) {
     const Look& look = request.look;
     if (request.rendered.layers.empty() || e.layers == engine::Layers::ByPlan) return Done{};

@@ -15,8 +15,8 @@ std::span<const Engine> engines();
 
 namespace petzval {
 
-// The engine that the look names. Errors: InvalidArgument, with the names that would do; where it takes no
-// holdout or layers that are given, or would mix these with what the picture alone knows.
+// The engine that the look names. Errors: InvalidArgument with the valid names; also if it does not take a
+// given holdout or layers, or would mix layers with surfaces estimated from the picture alone.
 Result<const engine::Engine*> find_engine(const FrameRequest& request);
 
 }  // namespace petzval

@@ -11,16 +11,16 @@
 
 namespace petzval {
 
-// Pixels around a region that engines look at: what spreads there, what hides that, what filling looks at
-// behind it, and the neighbourhoods in which lights are told from surfaces. reach_px: of the light of the
-// largest radius.
+// Margin around a region, in pixels, that engines read: light that spreads into the region, its occluders,
+// the surroundings of hidden surfaces, and the neighbourhoods that separate lights from surfaces. reach_px:
+// reach of the light of the largest radius.
 int region_margin_px(double largest_radius_px, double reach_px);
 
 // The pixels of a frame of that size to be seen for `region` of it: with the margin, from and to whole
 // multiples of `grid`, on which engines have their tiles and cells.
 Rect pixels_for(const Rect& region, int margin_px, int grid, const Rect& frame);
 
-// Errors: InvalidArgument for a region without any pixel of the picture, or of what is not one.
+// Errors: InvalidArgument if the region is empty, not a rectangle, or outside the picture.
 Status check_region(const Rect& region, const FrameRequest& request);
 
 Picture part_of(const Picture& image, const Rect& pixels);

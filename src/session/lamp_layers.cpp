@@ -33,7 +33,7 @@ Result<FrameRequest> lit_by(const FrameRequest& request, LightSpectrum lamp) {
     return lit;
 }
 
-// What the lamp changes of a layer, in the picture as well.
+// Replaces a layer by the lit one and adds the lamp's change to the picture.
 void exchange(Picture& image, Picture& layer, Picture lit) {
     for (std::size_t i = 0; i < image.size(); ++i) {
         Rgba change = lit.pixels()[i] - layer.pixels()[i];

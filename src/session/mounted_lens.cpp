@@ -59,14 +59,14 @@ Result<LensLevels> lens_levels(const FrameRequest& request, const std::shared_pt
     return levels;
 }
 
-// Null where nothing is to be kept. The reference engine asks for a new radius with every point of light.
+// Null if no kernels are kept. The reference engine asks for a new radius with every point of light.
 std::shared_ptr<kernel::KernelStore> store_for(const FrameRequest& request) {
     if (request.kernel_cache_folder.empty() || request.look.engine == "reference") return nullptr;
     return std::make_shared<kernel::KernelStore>(request.kernel_cache_folder, key_of_kernels(request),
                                                  request.kernel_cache_bytes);
 }
 
-// Of given points, but for that of the picture.
+// Spectra of the given points, except the picture's.
 std::set<LightSpectrum> spectra_of_points(const FrameRequest& request) {
     std::set<LightSpectrum> spectra;
     if (request.rendered.lights)

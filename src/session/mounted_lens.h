@@ -29,7 +29,7 @@ struct MountedLens {
     // On the picture's pixels and coarser ones, for engines that work at several resolutions. most_bytes: of
     // the lens's own kernels that it remembers, during a frame too. Errors: those of the lens.
     static Result<std::shared_ptr<MountedLens>> make(const FrameRequest& request, std::size_t most_bytes);
-    // Everything that decides what an engine's kernels are; empty if it cannot be told.
+    // Key of everything that decides an engine's kernels; empty if unknown.
     static std::string key_of(const FrameRequest& request);
 
     std::shared_ptr<kernel::KernelStore> store;  // on disk; null: none

@@ -20,7 +20,7 @@ namespace petzval {
 namespace {
 
 #ifndef PETZVAL_VULKAN
-// What a build without that room has in its place.
+// Stand-in for builds without the room device/vulkan.
 struct VulkanChoice {
     std::string name;
     bool is_software = false;

@@ -1,4 +1,4 @@
-// From the name of a device to the device.
+// Opens a device by its name.
 #pragma once
 
 #include "petzval/result.h"
@@ -15,11 +15,11 @@
 
 namespace petzval {
 
-// choice: as SessionSettings::device. Errors: InvalidArgument: no such device; Unsupported: it cannot be
-// used.
+// choice: as SessionSettings::device. Errors: InvalidArgument if no device has that name, Unsupported if it
+// cannot be used.
 Result<std::shared_ptr<const device::Device>> open_device(const std::string& choice);
 
-// A picture where this device can go on with it.
+// A picture in this device's memory.
 inline std::shared_ptr<device::Canvas> canvas_of(const device::Device& device, Picture picture) {
     std::shared_ptr<device::Canvas> canvas = device.canvas(std::move(picture));
     canvas->view();
@@ -83,9 +83,9 @@ public:
         return device_.develop(plan, picture, workers);
     }
 
-    // Who drew: "gpu:0 its name", or "cpu": what engines draw without a device.
+    // The device that drew: "gpu:0 its name", or "cpu" for engines that draw without a device.
     std::string drawn_by() const;
-    // What the device has to say of how it drew: lines for a report.
+    // The device's notes on how it drew: lines for a report.
     std::vector<std::string> said() const;
 
 private:

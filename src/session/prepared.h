@@ -20,7 +20,7 @@ public:
     // Errors: those of CircleOfConfusion::make.
     static Result<Radii> make(const FrameRequest& request);
     float operator()(float depth) const;
-    // Depths in place of radii, which the controls left as they were.
+    // Depths instead of radii that the controls did not change.
     DeepPicture with_depths(DeepPicture of_radii) const;
     float at_infinity_px() const;  // 0 where radii are given
     Plane of(View<const float> depth, Workers& workers) const;

@@ -19,7 +19,7 @@ Picture textured() {
     return colour;
 }
 
-// A near disc over what is behind it.
+// A near disc over the background.
 Plane radii() {
     Plane coc_px(kWidth, kHeight, 4.0f);
     for (int y = 20; y < 60; ++y)

@@ -20,9 +20,9 @@ inline Rect cells_of(const Rect& pixels, int level, int border) {
         .grown(border);
 }
 
-// Along one axis of a level's grid: how the light of pixels is shared between cells. Each takes a part of it
-// in the two cells whose middles lie around its own (a tent), so that a cell's place never shows: what is
-// enlarged from cells again has its mean where the pixel is. At the ends all goes to the last cell.
+// Shares of a pixel's light in the cells of a level's grid, along one axis. A pixel divides its light between
+// the two cells whose middles lie around its own (a tent). Cells that are enlarged again have their mean at
+// the pixel, so the grid is not visible. Beyond the outermost middles, all light goes to the last cell.
 class CellAxis {
 public:
     CellAxis(int level, int cells) : level_(level), cells_(cells) {}
@@ -67,7 +67,7 @@ public:
     int level() const { return level_; }
     int cells() const { return cells_; }
     int cell(int pixel) const { return pixel >> level_; }
-    // Where the kth share of a pixel goes, k = 0, 1, 2. At the ends all goes to the last cell.
+    // Cell of a pixel's kth share, k = 0, 1, 2. At the ends all light goes to the last cell.
     int cell(int pixel, int k) const { return std::clamp(cell(pixel) + (k - 1) * reach(), 0, cells_ - 1); }
     const std::array<float, 3>& shares(int pixel) const {
         return shares_[std::size_t(pixel) & (shares_.size() - 1)];

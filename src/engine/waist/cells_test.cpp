@@ -22,8 +22,7 @@ TEST(CellsOf, HoldEveryPixelAndNoCellWithoutOne) {
 
 TEST(CellsOf, PixelsNeedNoBorder) { EXPECT_EQ(cells_of({3, 4, 67, 68}, 0, 2), (Rect{3, 4, 67, 68})); }
 
-// Whatever lies on either side of them: sums of a pixel's shares, of where they are and of the squares of
-// that.
+// Sums of a pixel's shares, of their positions and of the squares of these do not depend on the neighbours.
 TEST(CellSplines, KeepLightItsPlaceAndItsWidthForEveryPixel) {
     for (int level = 1; level < 7; ++level) {
         const CellSplines splines(level, 40);
