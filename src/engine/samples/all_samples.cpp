@@ -29,10 +29,10 @@ void hide_what_is_covered(BigVector<CocSample>& samples, std::size_t first) {
                   samples.end());
 }
 
-// A stated sample is the mean of its surface over the pixel. What a pixel shows of its samples from `first`
-// on is made to sum to what the picture shows there, as far as they lie so close together that no lens sees
-// past one of them to the next. Where it is far brighter than they are, and something that bright lies
-// farther behind, the light is from there.
+// A stated sample is the mean of its surface over the pixel. The visible parts of samples from `first` on are
+// scaled to sum to the picture's colour, if they lie so close together that no lens sees past one of them to
+// the next. If the picture is far brighter than they are, and a sample that bright lies farther behind, the
+// light is from there.
 void match_what_shows(BigVector<CocSample>& samples, std::size_t first, Rgba picture) {
     constexpr float kTogetherPx = 0.5f, kApartPx = 1, kCovered = 1 - 1e-6f, kDark = 1e-9f, kFarBrighter = 4;
     float covered = 0, in_front = 0, span_px = 0;

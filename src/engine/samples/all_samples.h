@@ -20,12 +20,12 @@ inline Rgba finite_colour(Rgba c) {
     return {fix(c.r), fix(c.g), fix(c.b), std::clamp(fix(c.a), 0.0f, 1.0f)};
 }
 
-// What is not finite, or not in front of the camera, is a miss: infinitely far.
+// A depth that is not finite, or not in front of the camera, is a miss: infinitely far.
 inline double finite_depth(double depth_m) {
     return depth_m > 0 ? depth_m : std::numeric_limits<double>::infinity();
 }
 
-// A picture with depth and what else is known of it; all of one size.
+// A picture with depth, plate and other stated inputs; all of one size.
 struct StatedPicture {
     View<const Rgba> colour;  // finite
     View<const float> depth;  // planar metres, or radii in pixels where depth_is_coc
@@ -35,7 +35,7 @@ struct StatedPicture {
     std::function<float(float)> radius_px;  // the signed radius of a depth; never falls with depth
 };
 
-// Whether what is stated behind lies at or in front of what is visible.
+// True if a depth stated for the background lies at or in front of the visible depth.
 bool is_same_or_in_front(const StatedPicture& picture, float depth, float visible_depth);
 
 // Empty where nothing but colour and depth is stated. Hidden layers describe a pixel completely where they

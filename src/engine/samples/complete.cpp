@@ -28,7 +28,7 @@ CocSample sample(Rgba colour, float coc_px, float share) {
     return {colour, coc_px, coc_px, empty > kLeastShare ? empty : 0};
 }
 
-// Of another size, to be written: in the memory that there is.
+// Resizes samples that will be overwritten; keeps their memory.
 void restart(CocSamples& samples, int width, int height, std::size_t count) {
     samples.width = width;
     samples.first.clear(), samples.samples.clear();  // nothing is to be kept
@@ -36,7 +36,7 @@ void restart(CocSamples& samples, int width, int height, std::size_t count) {
     samples.samples.resize(count);
 }
 
-// How many pixels away (the larger of columns and rows) the picture is transparent; many where it nowhere is.
+// Distance to the nearest transparent pixel (the larger of columns and rows); large if there is none.
 Image<int> distance_to_emptiness(View<const Rgba> picture) {
     constexpr int kFar = 1 << 20;
     Image<int> distance(picture.width(), picture.height(), kFar);
@@ -55,10 +55,10 @@ Image<int> distance_to_emptiness(View<const Rgba> picture) {
     return distance;
 }
 
-// The stated samples, with emptiness at the end of pixels that the picture shows to be transparent, and of
-// those so near to one that a lens looks past what they show: there the emptiness goes on, as everything does
-// behind what hides it. It takes what the others leave of a pixel's lens, and is no wider than the pixel.
-// (Coverages of a pixel's samples need not sum to 1 where it is opaque: surfaces that meet in it share it.)
+// The stated samples, with emptiness behind transparent pixels and behind pixels so near to one that a lens
+// looks past their edges: emptiness continues behind an occluder as surfaces do. It takes the rest of a
+// pixel's lens and is no wider than the pixel. (Coverages of an opaque pixel's samples need not sum to 1:
+// surfaces that meet in it share it.)
 CocSamples deep_completed(const EngineView& input) {
     const CocSamples stated = stated_samples(input.samples);
     const Image<int> distance = distance_to_emptiness(input.samples.colour);
@@ -87,8 +87,8 @@ CocSamples deep_completed(const EngineView& input) {
     return all;
 }
 
-// What a picture shows, taken apart and filled in. Before a plate, only what is in front of that: `back` is
-// what the plate was completed to.
+// The surfaces of a picture, separated and completed. In front of a plate, only the surfaces before it:
+// `back` is the completed plate.
 class FlatPicture final : public CompletedPicture::Parts {
 public:
     FlatPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim,
@@ -129,7 +129,7 @@ public:
     }
 
 private:
-    // So that rows can be written in parallel.
+    // Counts the samples before each row, so that rows can be written in parallel.
     void count() {
         const auto height = std::size_t(input_.height());
         first_of_row_.assign(height + 1, 0);
@@ -165,7 +165,7 @@ private:
     void visit_surfaces(int x, int y, const Emit& emit) const {
         const Mixture* const m = mixtures_.at(x, y);
         if (!m) {
-            // What a plate's picture leaves uncovered shows the plate.
+            // The plate shows through the uncovered part of the picture.
             const Rgba c = input_.samples.colour(x, y);
             emit(sample(c, input_.samples.coc_px(x, y), back_ ? c.a : 1));
             for (const Hidden& h : hidden_.at(x, y)) emit(sample(h.colour, h.coc_px, h.share));
@@ -251,11 +251,11 @@ void share_lens_area(CocSamples& samples, int another_surface, Workers& workers)
                 }
                 const float alpha = s.colour.a;
                 const bool opaque = alpha > 1 - kLeastShare;
-                // What other surfaces leave is found where they are composited.
+                // The room that other surfaces leave is found where they are composited.
                 left.meet(layer);
                 if (!opaque || dimmed_in_layer)
                     s.colour *= full_in_layer || open <= 0 ? 0 : std::min(1.0f, open / left.before);
-                // One that was dimmed no longer tells by its coverage that it hides what follows.
+                // The coverage of a dimmed sample no longer shows that it hides the samples behind it.
                 if (opaque && dimmed_in_layer) full_in_layer = true;
                 if (!opaque) left.take(s.colour.a, layer), open *= 1 - alpha, dimmed_in_layer = true;
                 layers.next(s);

@@ -1,5 +1,5 @@
-// From one picture with depth to all that a lens may see of the scene: silhouettes taken apart, hidden parts
-// continued.
+// Completes one picture with depth to all surfaces that a lens may see: separates silhouettes, continues
+// hidden parts.
 #pragma once
 
 #include "petzval/workers.h"
@@ -11,17 +11,16 @@
 
 namespace petzval::engine {
 
-// Every sample of every pixel, nearest first, put together by rows. A deep input says it all itself; of a
-// flat one, pixels at silhouettes are taken apart into what they show of each surface, and what is hidden
-// near silhouettes is filled in (engine/samples/hidden.h). What a flat pixel leaves uncovered (alpha below 1)
-// lies at the far end as emptiness: covered, transparent black. `connected`:
-// connections(input.samples.coc_px). Of a picture before a clean plate, that is completed, and what is in
-// front of it put before.
+// Every sample of every pixel, nearest first, by rows. A deep input states all of them. In a flat input,
+// silhouette pixels are separated into their surfaces, and hidden parts near silhouettes are estimated
+// (engine/samples/hidden.h). The uncovered part of a flat pixel (alpha below 1) is emptiness at the far end:
+// covered, transparent black. `connected`: connections(input.samples.coc_px). With a clean plate, the plate
+// is completed, and the surfaces in front of it are placed before it.
 class CompletedPicture {
 public:
     // `input` outlives this.
     CompletedPicture(const EngineView& input, View<const unsigned char> connected, const Dim& dim);
-    // Rows y0…y1-1; from any thread. In place of what was in `into`, with its memory.
+    // Writes rows y0…y1-1; from any thread. Replaces the contents of `into` and keeps its memory.
     void rows(int y0, int y1, CocSamples& into) const { parts_->rows(y0, y1, into); }
     CocSamples all() const {
         CocSamples samples;
@@ -31,7 +30,7 @@ public:
     std::size_t sample_count() const { return parts_->sample_count; }
     float largest_coc_px() const { return parts_->largest_coc_px; }  // of any |radius|
 
-    // What it is made of.
+    // The source of its rows.
     struct Parts {
         std::size_t sample_count = 0;
         float largest_coc_px = 0;
@@ -46,12 +45,12 @@ private:
     int height_;
 };
 
-// From samples that dim each other (Samples::deep_dims_itself) to shares of the lens: what a ray straight
-// through the pixel meets stays what it was. Translucent samples are dimmed by the translucent ones in front
-// of them. An opaque one takes what is left of the lens anyway, and rays that come past what is in front of
-// it see all of it; only translucent samples composited with it in one layer (engine/scatter/sources.h) dim
-// it, and it hides what else is in that layer. For what is left once highlights are taken: they look for what
-// is in front of them themselves. another_surface: of LensLeft.
+// Converts samples that dim each other (Samples::deep_dims_itself) to shares of the lens. A ray straight
+// through the pixel meets the same light as before. Translucent samples are dimmed by the translucent ones in
+// front of them. An opaque sample takes the rest of the lens anyway, and rays that pass its occluders see all
+// of it; only translucent samples composited in its own layer (engine/scatter/sources.h) dim it, and it hides
+// the rest of that layer. Call it after highlights were taken out: they find their occluders themselves.
+// another_surface: as in LensLeft.
 void share_lens_area(CocSamples& samples, int another_surface, Workers& workers);
 
 }  // namespace petzval::engine

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWidth = 40, kHeight = 50;
 
-// A near disc over a far wall, and what a lens may see of both.
+// A near disc over a far wall, completed to the surfaces that a lens may see.
 class DiscBeforeWall {
 public:
     DiscBeforeWall() : colour_(kWidth, kHeight), coc_px_(kWidth, kHeight) {

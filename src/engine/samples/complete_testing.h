@@ -1,4 +1,4 @@
-// For tests of what comes after: all that the first stage leaves of a picture, at once.
+// For tests of later stages: the completed samples of a whole picture.
 #pragma once
 
 #include "engine/samples/complete.h"

@@ -10,11 +10,11 @@
 
 namespace petzval::engine {
 
-// The samples of a deep picture, nearest first. Volumes that overlap are taken apart, thick ones cut so that
-// the radius changes by at most a pixel or an eleventh from one part to the next, each part at its middle
-// radius; pixels of very many samples are summed up at that spacing (image/deep_pixel.h). `radius_px` never
-// falls with depth. Colours are made finite; a depth that is NaN, or not positive unless depth_is_coc, is
-// infinite.
+// The samples of a deep picture, nearest first. Overlapping volumes are separated. Thick ones are cut
+// so that the radius changes by at most a pixel or an eleventh from one part to the next; each part has its
+// middle radius. Pixels of very many samples are summed at that spacing (image/deep_pixel.h). `radius_px`
+// never falls with depth. Colours are made finite; a depth that is NaN, or not positive unless depth_is_coc,
+// is infinite.
 CocSamples deep_samples(const DeepPicture& deep, const std::function<float(float)>& radius_px,
                         bool depth_is_coc, Workers& workers);
 

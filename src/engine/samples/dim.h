@@ -6,11 +6,11 @@
 
 namespace petzval::engine {
 
-// What lamps add to the light of a picture's pixels (engine/lights: HighlightSplit::dim).
+// The light that lamps add to a picture's pixels (engine/lights: HighlightSplit::dim).
 struct Dim {
     // Light of pixel (x, y) without that. Empty: there are no lamps.
     std::function<Rgba(int x, int y, Rgba light)> of;
-    // Light of luminance up to least * its coverage stays as it is: most of a picture is told so at once.
+    // Light of luminance up to least * its coverage is unchanged: a quick test that most pixels pass.
     float least = 0;
     float white = 0;  // scene-linear luminance that counts as bright; 0: none does
 

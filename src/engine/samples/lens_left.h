@@ -1,4 +1,4 @@
-// The law of compositing: how those who arrive at a pixel share its lens.
+// The law of compositing: the surfaces that arrive at a pixel share its lens.
 #pragma once
 
 #include "engine/samples/layers.h"
@@ -18,20 +18,23 @@ namespace petzval::laws {
 
 namespace petzval::engine {
 
-// What is left of a pixel's lens. Parts of one surface lie side by side in the lens: together they take what
-// they arrive with, of what others before them left. Of two surfaces nothing says that one lies just where
-// the other does not: the second takes its share of all that is left. What comes in the next interval of
-// radius goes on from what came before it, what comes `another_surface` layers later is another surface, and
-// what lies between is both in part.
-// Where that leaves free what all of them would fill side by side, nothing is known behind what the nearer
-// ones hide: they meet there. So it is noted what each would take more side by side, and of that they get the
-// same share, so much that they fill the lens as far.
+// The free area of a pixel's lens. Parts of one surface lie side by side in the lens: each takes its own area
+// of the area that nearer surfaces left. A second surface takes its fraction of all free area, because
+// nothing says that it lies just beside the first.
+//
+//   next sample                              treated as
+//   in the next interval of radius           the same surface
+//   `another_surface` layers later           another surface
+//   between                                  a mixture of both
+//
+// If side by side all of them would have filled the lens, the remaining area is returned to them in
+// proportion to the area that each lost: nothing else is known there, so the surfaces meet.
 struct LensLeft {
-    float before = 1;  // that was left before the surface met last
-    float own = 0;     // of that, the share which this surface takes so far
-    float beside = 1;  // that would be left, had all come side by side
-    float more = 0;    // that those would take more then who get less
-    int layer = 0;     // where the last surface was met
+    float before = 1;  // free area before the current surface
+    float own = 0;     // fraction of that taken by this surface so far
+    float beside = 1;  // free area if all lay side by side
+    float more = 0;    // sum of the areas lost against that
+    int layer = 0;     // of the current surface
     int another_surface = kAnotherSurface;
 
     struct Taken {
@@ -45,7 +48,7 @@ struct LensLeft {
         laws::law_meet(before, own, gap, float(another_surface));
         layer = at_layer;
     }
-    // It arrives with so much lens area; emptiness behind everything with a share of what nobody else takes.
+    // A sample arrives with that lens area; emptiness behind everything with a fraction of the rest.
     Taken take(float arrives, int at_layer) {
         meet(at_layer);
         const float of_own = at_layer == kEmptyLayer ? laws::law_of_what_is_left(before, arrives) : arrives;
@@ -54,9 +57,9 @@ struct LensLeft {
         more += taken.more;
         return taken;
     }
-    // Of all that was noted as more.
+    // Fraction of `more` that is returned.
     float share_of_more() const { return laws::law_share_of_more(free(), beside, more); }
-    // Lens area taken in all, with that.
+    // Lens area taken in all, returned area included.
     float taken() const { return laws::law_taken(free(), share_of_more(), more); }
 };
 

@@ -5,7 +5,8 @@
 
 namespace petzval::engine {
 
-// std::lround of what is far smaller than an int; inline, for it is asked a dozen times of every direction.
+// std::lround for values far smaller than an int; inline, because each search direction calls it a dozen
+// times.
 inline int nearest_pixel(float at) { return int(double(at) + std::copysign(0.5, double(at))); }
 
 }  // namespace petzval::engine

@@ -17,7 +17,7 @@ public:
     SampleSource() = default;
     // Rows are asked for from a multiple of this on, and to one or to the end.
     static constexpr int kRows = 16;
-    // Of samples that are there already, and outlive this.
+    // Reads existing samples, which must outlive this.
     SampleSource(const CocSamples& all) : all_(&all), width_(all.width), height_(all.height()) {
         for (const CocSample& s : all.samples)
             largest_coc_px_ = std::max(largest_coc_px_, std::abs(s.coc_px));

@@ -1,5 +1,5 @@
-// What a lens sees of the samples of one pixel, for previews: what a straight ray sees of each, then what
-// passes the others.
+// The visible parts of one pixel's samples, for previews: those on a straight ray first, then those behind
+// other samples.
 #pragma once
 
 #include "petzval/image.h"
@@ -11,13 +11,13 @@
 
 namespace petzval::engine {
 
-// Rays that pass an edge see of what lies behind it what the pinhole sees, before anything that is hidden.
-// But between near and far they cross in focus, and see either.
+// True if the sample is hidden from rays that pass the edge in front of it. These rays see the surface that
+// the pinhole sees beside the edge, unless the two radii lie on both sides of focus, where the rays cross.
 inline bool is_hidden(float in_front_px, float coc_px) { return coc_px <= 0 || in_front_px >= 0; }
 
-// The samples of a pixel, from the nearest, as a gather takes them: what a straight ray sees of one first,
-// then what others in front of it hide. Right behind these no ray to speak of comes past: within two rings,
-// whose light is mixed, what hides would be seen through, so there is room but for what they leave open.
+// The samples of a pixel, nearest first, as a gather takes them: the part on a straight ray first, then the
+// part hidden by others. Hardly any ray reaches a sample right behind its occluder: within two rings, whose
+// light is mixed, the occluder would become transparent, so only the area that it leaves open counts.
 template <typename Emit>
 class SeenFirst {
 public:
@@ -38,7 +38,7 @@ private:
         float coc_px, covered;
     };
 
-    // Of a pixel's lens, beside what lies too close in front.
+    // Free area of a pixel's lens for a sample of that radius, beside occluders right in front of it.
     float room(float coc_px) const {
         const float close_px = std::max(1.0f, 0.3f * std::abs(coc_px));
         float room = 1;

@@ -1,4 +1,4 @@
-// What counts as bright in a frame.
+// Level above which light counts as bright in a frame.
 #pragma once
 
 #include "petzval/image.h"
@@ -6,8 +6,8 @@
 
 namespace petzval::engine {
 
-// Four times the mean luminance of what the picture covers, to the nearest power of two: a frame that shows a
-// little more or less of the same scene has the same lights.
+// Four times the mean luminance of the covered picture, to the nearest power of two, so that a frame that
+// shows a little more or less of the same scene has the same lights.
 float white_of(View<const Rgba> picture, Workers& workers);
 
 }  // namespace petzval::engine

@@ -10,16 +10,16 @@ namespace petzval::engine {
 namespace {
 
 constexpr float kOpaque = 1 - 1e-3f;
-// Steps of the radius from pixel to pixel within one sheet: of what the picture shows, as in connectivity.h;
-// of what is hidden, where one of many leaves may lie beside any other, less.
+// Largest step of the radius from pixel to pixel within one sheet: for visible samples as in connectivity.h;
+// smaller for hidden ones, where one of many leaves may lie beside any other.
 constexpr float kShownStepPx = 0.9f, kHiddenStepPx = 0.25f;
 constexpr float kNoRoomPx = 0.2f;
 constexpr float kMarginPx = 1.5f;  // pixels have a width; half of one less, and the meadow loses 0.5 dB
 
-// Opaque samples that go on from pixel to pixel are a sheet, of any shape. What lies behind it, at pixel p
-// and radius c, is seen past its end at pixel q and radius n where |q - p| <= c - n: from c = n + |q - p| on.
-// The least of that over all ends is a distance transform within the sheet (two-sweep chamfer, G. Borgefors
-// 1986).
+// Opaque samples that continue from pixel to pixel are a sheet, of any shape. A sample behind it, at pixel p
+// and radius c, is seen past the sheet's end at pixel q and radius n if |q - p| <= c - n: from c = n + |q -
+// p| on. The least of that over all ends is a distance transform within the sheet (two-sweep chamfer, G.
+// Borgefors 1986).
 class Sheets {
 public:
     Sheets(const CocSamples& samples, double stretch)
@@ -31,7 +31,7 @@ public:
         for (int y = all_.height() - 1; y >= 0; --y)
             for (int x = all_.width - 1; x >= 0; --x) relax(x, y, -1);
     }
-    // Whether samples before number k, from number `first` on, hide it from every ray.
+    // True if samples `first` … k - 1 hide sample k from every ray.
     bool hide(std::size_t first, std::size_t k) const {
         const float own = all_.samples[k].coc_px;
         for (std::size_t j = first; j < k; ++j)
@@ -58,7 +58,7 @@ private:
                 best = k, tolerance_px = apart;
         return best;
     }
-    // How the sheet of a sample of (x, y) goes on in pixel (x + dx, y + dy), or kNone.
+    // The sample of pixel (x + dx, y + dy) that continues the sheet of sample k of (x, y), or kNone.
     std::size_t next(std::size_t k, int x, int y, int dx, int dy) const {
         const float own = all_.samples[k].coc_px;
         const std::size_t at = pixel(x + dx, y + dy), shown = all_.first[at];
@@ -73,7 +73,7 @@ private:
         for (std::size_t k = all_.first[pixel(x, y)]; k < all_.first[pixel(x, y) + 1]; ++k)
             if (is_opaque(k)) visit(k);
     }
-    // At the picture's edge too: who knows.
+    // The frame's border counts as an end: the sheet may end just beyond it.
     void find_ends(int x, int y) {
         for_opaque(x, y, [&](std::size_t k) {
             for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
@@ -81,7 +81,7 @@ private:
                     seen_from_[k] = all_.samples[k].coc_px;
         });
     }
-    // From the pixels before (x, y), for a sweep in this sense.
+    // Takes distances from the pixels before (x, y), for a sweep in this direction.
     void relax(int x, int y, int sense) {
         constexpr float kSide = 0.918f, kDiagonal = 1.316f;  // never more than the distance
         for_opaque(x, y, [&](std::size_t k) {

@@ -7,11 +7,10 @@
 
 namespace petzval::engine {
 
-// Takes out samples behind an opaque one that goes on around it, whatever its radius does there, as far as
-// rays through any point of the pupil come past; `stretch`: how much wider than its radius the lens makes a
-// disc. Engines would find the same of every sample anew, and not quite: of a lens area taken in parts a
-// little stays free, through which what is behind would show. What lies as near to the frame's edge as that
-// stays.
+// Removes samples behind an opaque sheet if no ray through any point of the pupil passes the sheet's end.
+// `stretch`: width of the lens's discs, as a multiple of their radius. Without this, engines would composite
+// these samples one by one and leave a little of the lens free, through which they would show. Samples that
+// rays could reach past the frame's border stay.
 void drop_out_of_sight(CocSamples& samples, double stretch, Workers& workers);
 
 }  // namespace petzval::engine

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kOpaque = 1 - 1e-3f;
 
-// What is in front of the plate, as if it filled pixels.
+// The surfaces in front of the plate, as if they filled their pixels.
 struct Fronts {
     const LitPicture& picture;
     View<const float> coc_px;
@@ -18,7 +18,7 @@ struct Fronts {
     const LitPicture& plate;
     View<const float> plate_px;
 
-    // Whether a surface at this radius shows beside (x, y) or there.
+    // True if a surface at this radius is visible at (x, y) or beside it.
     bool touch(int x, int y, float radius_px) const {
         const Rect window = Rect{x - 1, y - 1, x + 2, y + 2}.intersected(coc_px.rect());
         for (int v = window.y0; v < window.y1; ++v)

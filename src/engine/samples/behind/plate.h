@@ -1,4 +1,4 @@
-// A clean plate: one picture with depth of what the things in front hide.
+// A clean plate: one picture with depth of the background without the objects in front.
 #pragma once
 
 #include "petzval/workers.h"
@@ -9,8 +9,8 @@
 
 namespace petzval::engine {
 
-// The picture without what the plate knows to be in front: the plate where it lies behind what is visible or
-// is the same, else what is visible.
+// The picture without the objects in front of the plate: the plate's pixel if it lies at or behind the
+// visible surface, else the visible pixel.
 struct BackPicture {
     Picture colour;
     Plane coc_px;
@@ -20,7 +20,7 @@ struct BackPicture {
 // Empty unless `behind` is a plate: no more than one sample in any pixel.
 BackPicture back_picture(const StatedPicture& picture, Workers& workers);
 
-// What is nearer than the plate by less than this hides next to nothing of it.
+// A surface nearer than the plate by less than this hides next to nothing of it.
 inline bool is_before_plate(float coc_px, float plate_px) {
     constexpr float kBehindPx = 0.9f;
     return coc_px < plate_px - kBehindPx;
