@@ -142,6 +142,7 @@ THIRD_PARTY = {
     r"nlohmann/": r"(apps/cli|apps/view|src/files|src/lens_facts|src/lens_sheet|src/look|src/sequence|src/farm|src/c)/",
     r"CLI/": r"apps/cli/",
     r"(GLFW/|imgui|backends/imgui)": r"apps/view/",
+    r"gegl": r"plugins/gegl/",
 }
 # What a library says must not depend on the program around it: it names fields, not flags.
 FLAG = re.compile(r'"(?:[^"\\]|\\.)*?(?<![\w-])--[a-z][a-z-]+')

@@ -1,0 +1,213 @@
+/* The GEGL operation petzval:defocus. Input: scene-linear colour; aux: depth. It runs in GIMP 3 (GEGL
+ * Operation) and in the program gegl. What cannot be made is a warning of GLib, and the input passes
+ * unchanged. */
+#include <gegl-plugin.h>
+#include <math.h>
+#include <petzval/petzval_c.h>
+#include <string.h>
+
+typedef struct {
+    GeglOperationComposer parent;
+    double numbers[5]; /* by Property */
+    char *lens, *look;
+} Defocus;
+
+typedef struct {
+    GeglOperationComposerClass parent;
+} DefocusClass;
+
+enum Property { FOCAL_LENGTH, SENSOR_WIDTH, F_NUMBER, FOCUS_DISTANCE, DEPTH_UNIT, LENS, LOOK };
+
+static const struct {
+    const char *name, *label, *what;
+    double least, most, usual;
+} NUMBERS[] = {
+    {"focal-length", "Focal length", "of the camera, mm", 0.1, 10000, 50},
+    {"sensor-width", "Sensor width", "that the picture spans, mm", 0.1, 10000, 36},
+    {"f-number", "f-number", "of the aperture, such as 2.8", 0.01, 1e9, 2.8},
+    {"focus-distance", "Focus distance", "along the optical axis, m", 0.001, 1e9, 3},
+    {"depth-unit", "Depth unit", "metres per unit of depth", 1e-9, 1e9, 1},
+};
+
+static GTypeInstance* of(gpointer object) { return (GTypeInstance*)object; }
+static Defocus* self_of(gpointer object) { return (Defocus*)(void*)of(object); }
+
+static void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+    Defocus* self = self_of(object);
+    char** text = id - 1 == LENS ? &self->lens : &self->look;
+    (void)spec;
+    if (id - 1 < LENS) {
+        self->numbers[id - 1] = g_value_get_double(value);
+    } else {
+        g_free(*text);
+        *text = g_value_dup_string(value);
+    }
+}
+
+static void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+    Defocus* self = self_of(object);
+    (void)spec;
+    if (id - 1 < LENS)
+        g_value_set_double(value, self->numbers[id - 1]);
+    else
+        g_value_set_string(value, id - 1 == LENS ? self->lens : self->look);
+}
+
+static void finalize(GObject* object) {
+    g_free(self_of(object)->lens);
+    g_free(self_of(object)->look);
+    G_OBJECT_CLASS(g_type_class_peek_parent(of(object)->g_class))->finalize(object);
+}
+
+/* Premultiplied linear light and one channel of depth. */
+static void prepare(GeglOperation* operation) {
+    const Babl* light = babl_format("RaGaBaA float");
+    gegl_operation_set_format(operation, "input", light);
+    gegl_operation_set_format(operation, "aux", babl_format("Y float"));
+    gegl_operation_set_format(operation, "output", light);
+}
+
+/* A lens needs the whole picture, and GEGL would ask for tiles. */
+static GeglRectangle whole(GeglOperation* operation) {
+    const GeglRectangle* input = gegl_operation_source_get_bounding_box(operation, "input");
+    const GeglRectangle nothing = {0, 0, 0, 0};
+    return input && !gegl_rectangle_is_infinite_plane(input) ? *input : nothing;
+}
+
+static GeglRectangle required(GeglOperation* operation, const char* pad, const GeglRectangle* wanted) {
+    (void)pad, (void)wanted;
+    return whole(operation);
+}
+
+static GeglRectangle cached(GeglOperation* operation, const GeglRectangle* wanted) {
+    (void)wanted;
+    return whole(operation);
+}
+
+static GeglRectangle invalidated(GeglOperation* operation, const char* pad, const GeglRectangle* changed) {
+    (void)pad, (void)changed;
+    return whole(operation);
+}
+
+/* One session for all operations: it keeps kernels. Null, and petzval_error_text(), if it cannot be opened.
+ */
+static petzval_session* session(void) {
+    static GMutex mutex;
+    static petzval_session* opened;
+    g_mutex_lock(&mutex);
+    if (!opened) petzval_session_open(NULL, &opened);
+    g_mutex_unlock(&mutex);
+    return opened;
+}
+
+/* The look of the properties: JSON, a link of the lens lab, or the path of a file. */
+static petzval_status look_of(const Defocus* self, petzval_look** look) {
+    const char* text = self->look && *self->look ? self->look : "{\"petzval_look\": 1}";
+    char* read = NULL;
+    petzval_status status;
+    if (g_file_get_contents(text, &read, NULL, NULL)) text = read;
+    status = petzval_look_from_json(text, look);
+    g_free(read);
+    if (!status && self->lens && *self->lens) status = petzval_look_set(*look, "lens.name", self->lens);
+    return status;
+}
+
+/* Depth in metres; what renderers write where nothing was hit becomes infinity. */
+static void to_metres(float* depth, size_t count, double unit) {
+    for (size_t i = 0; i < count; ++i)
+        depth[i] =
+            isfinite(depth[i]) && depth[i] > 0 && depth[i] < 1e9f ? (float)(depth[i] * unit) : INFINITY;
+}
+
+static petzval_status make(const Defocus* self, float* rgba, float* depth, int width, int height) {
+    const double* n = self->numbers;
+    petzval_camera camera = {sizeof camera, n[FOCAL_LENGTH],   n[SENSOR_WIDTH],
+                             n[F_NUMBER],   n[FOCUS_DISTANCE], 0};
+    petzval_pixels light = {sizeof light, width, height, PETZVAL_FLOAT, rgba, rgba + 1, rgba + 2,
+                            rgba + 3,     16,    0};
+    petzval_plane plane = {sizeof plane, width, height, PETZVAL_FLOAT, depth, 4, (ptrdiff_t)width * 4};
+    petzval_look* look = NULL;
+    petzval_shot shot;
+    petzval_status status = look_of(self, &look);
+    light.row_stride = (ptrdiff_t)width * 16;
+    memset(&shot, 0, sizeof shot);
+    shot.size = sizeof shot, shot.colour = &light, shot.depth_m = &plane, shot.camera = &camera;
+    if (!status && !session()) status = PETZVAL_INTERNAL;
+    if (!status) status = petzval_defocus(session(), &shot, look, NULL, &light, NULL);
+    petzval_look_close(look);
+    return status;
+}
+
+static gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer* aux, GeglBuffer* output,
+                        const GeglRectangle* result, int level) {
+    const GeglRectangle all = input ? *gegl_buffer_get_extent(input) : *result;
+    const size_t count = (size_t)all.width * (size_t)all.height;
+    const Babl* light = babl_format("RaGaBaA float");
+    float *rgba, *depth;
+    (void)level;
+    if (!input || !count) return TRUE;
+    rgba = g_try_malloc_n(count, 16), depth = g_try_malloc_n(count, 4);
+    if (!aux) {
+        g_warning("petzval:defocus: connect depth to the pad aux");
+    } else if (!rgba || !depth) {
+        g_warning("petzval:defocus: no memory for %d x %d pixels", all.width, all.height);
+    } else {
+        gegl_buffer_get(input, &all, 1, light, rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+        gegl_buffer_get(aux, &all, 1, babl_format("Y float"), depth, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+        to_metres(depth, count, self_of(operation)->numbers[DEPTH_UNIT]);
+        if (make(self_of(operation), rgba, depth, all.width, all.height)) {
+            g_warning("petzval:defocus: %s", petzval_error_text());
+            gegl_buffer_get(input, &all, 1, light, rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+        }
+        gegl_buffer_set(output, &all, 0, light, rgba, GEGL_AUTO_ROWSTRIDE);
+        g_free(rgba), g_free(depth);
+        return TRUE;
+    }
+    g_free(rgba), g_free(depth);
+    gegl_buffer_copy(input, result, GEGL_ABYSS_NONE, output, result);
+    return TRUE;
+}
+
+static void class_init(gpointer class, gpointer data) {
+    const GParamFlags flags = G_PARAM_READWRITE | G_PARAM_CONSTRUCT | G_PARAM_STATIC_STRINGS;
+    GObjectClass* object = class;
+    GeglOperationClass* operation = class;
+    guint i;
+    (void)data;
+    object->set_property = set_property, object->get_property = get_property, object->finalize = finalize;
+    for (i = 0; i < G_N_ELEMENTS(NUMBERS); ++i)
+        g_object_class_install_property(
+            object, i + 1,
+            g_param_spec_double(NUMBERS[i].name, NUMBERS[i].label, NUMBERS[i].what, NUMBERS[i].least,
+                                NUMBERS[i].most, NUMBERS[i].usual, flags));
+    g_object_class_install_property(
+        object, LENS + 1,
+        g_param_spec_string("lens", "Lens", "name of a lens, or path of a lens file", "", flags));
+    g_object_class_install_property(
+        object, LOOK + 1,
+        g_param_spec_string("look", "Look", "look as JSON, link of the lens lab or path", "", flags));
+    operation->prepare = prepare, operation->threaded = FALSE;
+    operation->get_bounding_box = whole, operation->get_required_for_output = required;
+    operation->get_cached_region = cached, operation->get_invalidated_by_change = invalidated;
+    ((GeglOperationComposerClass*)class)->process = process;
+    gegl_operation_class_set_keys(operation, "name", "petzval:defocus", "title", "Depth of field of a lens",
+                                  "categories", "blur", "description",
+                                  "Depth of field of a real lens, from depth on the pad aux", NULL);
+}
+
+static const GeglModuleInfo INFO = {GEGL_MODULE_ABI_VERSION};
+
+G_MODULE_EXPORT const GeglModuleInfo* gegl_module_query(GTypeModule* module);
+G_MODULE_EXPORT gboolean gegl_module_register(GTypeModule* module);
+
+const GeglModuleInfo* gegl_module_query(GTypeModule* module) {
+    (void)module;
+    return &INFO;
+}
+
+gboolean gegl_module_register(GTypeModule* module) {
+    const GTypeInfo type = {
+        .class_size = sizeof(DefocusClass), .class_init = class_init, .instance_size = sizeof(Defocus)};
+    gegl_module_register_type(module, GEGL_TYPE_OPERATION_COMPOSER, "PetzvalDefocus", &type, 0);
+    return TRUE;
+}
