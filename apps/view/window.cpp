@@ -154,6 +154,7 @@ private:
         ImGui::GetStyle().ScaleAllSizes(size);
         ImGui::GetStyle().WindowRounding = 0;
         ImGui::GetStyle().Colors[ImGuiCol_PopupBg].w = 1;
+        ImGui::GetStyle().Colors[ImGuiCol_SliderGrab].w = 0.45f;  // the number stands on it
         load_letters(size);
         ImGui_ImplGlfw_InitForOpenGL(window_, true);
         ImGui_ImplOpenGL3_Init("#version 150");

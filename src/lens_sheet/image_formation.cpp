@@ -45,7 +45,7 @@ void draw_lens(Svg& svg, Point middle, double half_height) {
 
 // Object, lens, image, with the ray through the middle and those through both focal points.
 Figure magnification(const Scene& scene) {
-    constexpr double kWidth = 352, kHeight = 206, kMiddle = 104, kObject = 0.36;
+    constexpr double kWidth = 352, kHeight = 222, kMiddle = 104, kObject = 0.36;
     const double scale = (kWidth - 30) / 4.5, a = scene.distance, film = image_of(a),
                  m = scene.magnification();
     const double left = (kWidth - (a + film) * scale) / 2;
@@ -68,7 +68,12 @@ Figure magnification(const Scene& scene) {
     const double base = kHeight - 12;
     svg.text({place(-a / 2, 0).x, base}, "a = " + number(a, 1) + " f", "label", Anchor::Middle);
     svg.text({place(film / 2, 0).x, base}, "a′ = " + number(film, 1) + " f", "label", Anchor::Middle);
-    svg.text({0, 14}, "Magnification " + number(m, 1), "title");
+    // Newton's distances, from the focal points.
+    const double above = base - 16;
+    svg.text({place(-(a + 1) / 2, 0).x, above}, "b = " + number(a - 1, 1) + " f", "label", Anchor::Middle);
+    svg.text({place((1 + film) / 2, 0).x, above}, "b′ = " + number(film - 1, 1) + " f", "label",
+             Anchor::Middle);
+    svg.text({0, 14}, "M = a′/a = f/b = b′/f = " + number(m, 1), "title");
     return {svg.str(), "", 4};
 }
 

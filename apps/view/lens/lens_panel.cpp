@@ -62,7 +62,10 @@ void picked_disc(App& app, float side) {
     is_field(app, "disc");
     // Size of a picture's pixel on the screen.
     const float scale = float(made.fine) * draw_disc(box, app.lens_pictures()[0], made.disc);
-    note_in(box, {"radius " + pixels_text(made.coc_px), pixels_text(made.coc_px)});
+    if (app.state.pick)
+        note_in(box, {"radius " + pixels_text(made.coc_px), pixels_text(made.coc_px)});
+    else
+        note_in(box, {"click the picture: its disc", "click the picture"});
     const ImVec2 middle = box.middle();
     if (scale > 6 && scale < box.width())  // the pixel itself
         ImGui::GetWindowDrawList()->AddRect({middle.x - 0.5f * scale, middle.y - 0.5f * scale},

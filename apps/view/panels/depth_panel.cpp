@@ -141,9 +141,11 @@ void depth_panel(App& app) {
     draw_ticks(scale);
     ImGui::Text("%.4g m … %.4g m%s", all.nearest_m, all.farthest_m, all.has_misses ? ", and beyond" : "");
     if (limits)
-        ImGui::TextWrapped("sharp (radius under %.3g px): %.4g m to %s m; hyperfocal %.4g m",
-                           app.setup().permissible_radius_px, limits->near_m,
-                           text_of(limits->far_m, 4).c_str(), limits->hyperfocal_m);
+        ImGui::TextWrapped(
+            "sharp (radius under %.3g px): %.4g m to %s; hyperfocal %.4g m",
+            app.setup().permissible_radius_px, limits->near_m,
+            std::isinf(limits->far_m) ? "infinity" : (text_of(limits->far_m, 4) + " m").c_str(),
+            limits->hyperfocal_m);
 }
 
 }  // namespace petzval::view

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <imgui.h>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,15 +35,53 @@ bool is_picture(const fs::path& path) {
     return false;
 }
 
-// Folders first, then pictures, by name.
+// Folders first, then pictures, by name. Frames of a shot are one entry, such as shot.####.exr.
+struct Entry {
+    std::string name;
+    int frames = 0;  // 0: a single picture
+};
 struct Listing {
     fs::path folder;
-    std::vector<std::string> folders, pictures;
+    std::vector<std::string> folders;
+    std::vector<Entry> pictures;
 };
+
+// ImGui takes ## as the beginning of a name that is not shown: a####.exr becomes a%04d.exr, which means the
+// same.
+std::string readable(const std::string& pattern) {
+    const std::size_t begin = pattern.find('#');
+    if (begin == std::string::npos) return pattern;
+    const std::size_t end = std::min(pattern.find_first_not_of('#', begin), pattern.size());
+    return pattern.substr(0, begin) + "%0" + std::to_string(end - begin) + "d" + pattern.substr(end);
+}
+
+// The name with # for each digit of its frame number, the last digits before the ending; empty: it has none.
+std::string frame_pattern(const std::string& name) {
+    std::size_t end = name.rfind('.');
+    std::size_t begin = end;
+    while (begin > 0 && std::isdigit(static_cast<unsigned char>(name[begin - 1]))) --begin;
+    if (begin == end || begin == 0) return "";
+    return name.substr(0, begin) + std::string(end - begin, '#') + name.substr(end);
+}
+
+std::vector<Entry> with_shots(const std::vector<std::string>& names) {
+    std::map<std::string, int> frames;
+    for (const std::string& name : names) ++frames[frame_pattern(name)];
+    std::vector<Entry> pictures;
+    for (const std::string& name : names) {
+        const std::string pattern = frame_pattern(name);
+        if (pattern.empty() || frames[pattern] < 2)
+            pictures.push_back({name, 0});
+        else if (pictures.empty() || pictures.back().name != pattern)
+            pictures.push_back({pattern, frames[pattern]});
+    }
+    return pictures;
+}
 
 Listing listing_of(const fs::path& folder) {
     constexpr std::size_t kMost = 5000;
     Listing listing{folder, {}, {}};
+    std::vector<std::string> pictures;
     std::error_code failed;
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
         const std::string name = at->path().filename().string();
@@ -51,11 +90,12 @@ Listing listing_of(const fs::path& folder) {
         if (at->is_directory(ignored))
             listing.folders.push_back(name);
         else if (is_picture(at->path()))
-            listing.pictures.push_back(name);
-        if (listing.folders.size() + listing.pictures.size() >= kMost) break;
+            pictures.push_back(name);
+        if (listing.folders.size() + pictures.size() >= kMost) break;
     }
     std::sort(listing.folders.begin(), listing.folders.end());
-    std::sort(listing.pictures.begin(), listing.pictures.end());
+    std::sort(pictures.begin(), pictures.end());
+    listing.pictures = with_shots(pictures);
     return listing;
 }
 
@@ -70,8 +110,10 @@ void draw_listing(App& app, Listing& shown, char* typed, std::size_t size) {
     if (ImGui::Selectable("..")) next = shown.folder.parent_path();
     for (const std::string& name : shown.folders)
         if (ImGui::Selectable((name + "/").c_str())) next = shown.folder / name;
-    for (const std::string& name : shown.pictures) {
-        if (ImGui::Selectable(name.c_str())) {
+    for (const auto& [name, frames] : shown.pictures) {
+        const std::string label =
+            frames > 0 ? readable(name) + "   " + std::to_string(frames) + " frames" : name;
+        if (ImGui::Selectable(label.c_str())) {
             std::strncpy(typed, (shown.folder / name).string().c_str(), size - 1);
             say(app, "open \"" + std::string(typed) + "\"");
             if (app.error.empty()) say(app, "set view.open off");
@@ -92,7 +134,7 @@ void draw_menu(App& app) {
         const std::vector<std::string> recent = recent_files();
         if (ImGui::BeginMenu("Open recent", !recent.empty())) {
             for (const std::string& path : recent)
-                if (ImGui::MenuItem(path.c_str())) say(app, "open \"" + path + "\"");
+                if (ImGui::MenuItem(readable(path).c_str())) say(app, "open \"" + path + "\"");
             ImGui::EndMenu();
         }
         item(app, "Reload", "Ctrl+R", "reload", app.shot() != nullptr);

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <imgui.h>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,6 +61,9 @@ void shelf_panel(App& app) {
     ImGui::InputTextWithHint("find", "planar, 1954, triplet", words, sizeof words);
     is_field(app, "find lens", "words of its name, other names, year or kind");
     ImGui::Combo("sort", &order, "as listed\0by year\0fastest first\0");
+    if (ImGui::Button(app.state.lens ? "close the lens bench" : "open the lens bench"))
+        run_line(app, "toggle view.lens");
+    is_field(app, "lens bench", "the lens in section, its discs and curves (L)");
     if (!ImGui::BeginListBox("##shelf", {-1, 9 * ImGui::GetTextLineHeightWithSpacing()})) return;
     for (const LensSummary& lens : sorted_shelf(words, order)) {
         if (ImGui::Selectable(lens.name.c_str(), lens.name == now)) run_line(app, "set lens " + lens.name);
@@ -93,30 +97,56 @@ void display_panel(App& app) {
     }
     ImGui::TextUnformatted("channel");
     const ToneCurve tone = app.state.choice.develop.tone;
-    if (ImGui::BeginCombo("tone", name_of(tone))) {
+    ImGui::BeginDisabled(app.state.choice.ocio);
+    if (ImGui::BeginCombo("display transform", name_of(tone))) {
         for (const auto& known : names<ToneCurve>())
             if (ImGui::Selectable(known.name, known.value == tone))
                 run_line(app, std::string("set view.tone ") + known.name);
         ImGui::EndCombo();
     }
-    if (!app.setup().ocio_codes) return;
+    is_field(app, "view.tone", "tone curve before sRGB: filmic rolls highlights off, none clips them at 1");
+    ImGui::EndDisabled();
     bool ocio = app.state.choice.ocio;
+    ImGui::BeginDisabled(!app.setup().ocio_codes);
     if (ImGui::Checkbox("OpenColorIO", &ocio)) run_line(app, "toggle view.ocio");
+    ImGui::EndDisabled();
+    is_field(app, "view.ocio",
+             app.setup().ocio_codes ? "display transform of the OpenColorIO configuration"
+                                    : "start the window with $OCIO or --ocio CONFIG");
+    light_plot(app);
+}
+
+// The tooltip says what the right half would show.
+std::string about_side(const std::string& what) {
+    static const std::map<std::string, std::string> known{
+        {"sharp", "the picture before the blur"},
+        {"against", "the second picture"},
+        {"cpu", "the same frame, computed by the CPU"},
+        {"coc", "signed blur radii: near blue, far orange"},
+        {"depth", "near bright, far dark"},
+        {"scatter", "engine for final frames"},
+        {"gather", "quick engine for previews"},
+        {"gaussian", "quickest engine; its blur has no discs"},
+        {"sprites", "gather, with each bright point drawn as a disc"},
+        {"realtime", "GPU passes for games"},
+        {"reference", "traced by many rays: slow, the definition of a correct result"}};
+    const auto found = known.find(what);
+    return found == known.end() ? "" : found->second;
 }
 
 void compare_panel(App& app) {
     const auto wipe_button = [&](const std::string& what) {
         if (ImGui::RadioButton(
-                what.c_str(),
+                what == "coc" ? "radii" : what.c_str(),
                 app.state.wiping && (name_of_side(app, app.state.right) == what ||
                                      (app.state.right.engine.empty() && app.state.right.shown == what))))
             run_line(app, "wipe " + what);
-        is_field(app, "wipe " + what);
+        is_field(app, "wipe " + what, about_side(what));
     };
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("compare with");
+    ImGui::TextUnformatted("right half:");
     ImGui::SameLine();
-    if (ImGui::RadioButton("nothing", !app.state.wiping)) run_line(app, "wipe off");
+    if (ImGui::RadioButton("no comparison", !app.state.wiping)) run_line(app, "wipe off");
     is_field(app, "wipe off");
     wipe_button("sharp");
     if (app.against()) ImGui::SameLine(), wipe_button("against");
@@ -134,7 +164,7 @@ void compare_panel(App& app) {
         ImGui::EndDisabled();
         if (lacks_gpu) is_field(app, "wipe " + engine, "needs a GPU: start the window with --device gpu");
     }
-    if (ImGui::BeginCombo("shown", app.state.left.shown.c_str())) {
+    if (ImGui::BeginCombo(app.state.wiping ? "left half" : "shown", app.state.left.shown.c_str())) {
         std::vector<std::string> names = shown_names();
         if (app.shot())
             for (const FrameLayer& layer : app.shot()->shot.layers)
@@ -364,7 +394,9 @@ std::string file_words(const App& app) {
     if (app.state.timeline.is_shot()) words += "   frame " + std::to_string(app.state.timeline.frame);
     words += app.state.choice.ocio
                  ? "   OpenColorIO"
-                 : std::string("   ") + name_of(develop.transfer) + ", tone " + name_of(develop.tone);
+                 : std::string("   ") +
+                       (develop.transfer == Transfer::Srgb ? "sRGB" : name_of(develop.transfer)) + ", " +
+                       (develop.tone == ToneCurve::None ? "clipped" : name_of(develop.tone));
     if (develop.exposure_stops != 0) words += "   exposure " + text_of(develop.exposure_stops, 3);
     if (develop.contrast != 1) words += "   contrast " + text_of(develop.contrast, 3);
     return words + "   H: help";

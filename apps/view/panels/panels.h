@@ -21,6 +21,8 @@ void draw_help(App& app);
 void draw_timeline(App& app);  // of a shot: its frames and the focus over them
 // Histogram of the picture's depth; into the current window, like the following.
 void depth_panel(App& app);
+// Histogram of the light of the picture that is shown, over stops.
+void light_plot(App& app);
 // Plot of accumulated coverage over depth for the samples of a pixel, nearest first; one step per sample, in
 // its colour.
 void coverage_plot(App& app, const std::string& name, std::span<const DeepSample> samples);

@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "fields.h"
+#include "ranges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,25 @@ NumberNow number_now(const App& app, const std::string& path) {
     return {number ? *number : 0, bool(number), text ? *text : "?"};
 }
 
+// A slider where the field has usual ends and there is room for it, else a number to drag.
+void look_number(App& app, const FieldRow& row, const std::string& label, double now, bool has_room) {
+    double value = now;
+    const bool whole = row.placeholder == "N" && value == std::round(value);
+    const auto ends = has_room || row.placeholder == "FRACTION" ? usual_ends(row) : std::nullopt;
+    const std::string format = ends ? ends->format : number_format(row.placeholder, whole);
+    const bool changed =
+        ends ? ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &ends->least, &ends->most,
+                                   format.c_str(), ends->is_scale ? ImGuiSliderFlags_Logarithmic : 0)
+             : ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, whole ? 0.05f : 0.005f, nullptr,
+                                 nullptr, format.c_str());
+    is_field(app, row.path, row.help);
+    if (!changed || !std::isfinite(value)) return;
+    const double wanted = whole ? std::round(value) : value;
+    // Numbers of blades between 0 and 3 are invalid.
+    const double fitting = row.path == "lens.blades" && wanted > 0 && wanted < 3 ? (now > 0 ? 0 : 3) : wanted;
+    if (fitting != now) say(app, row.path, text_of(fitting, 6));
+}
+
 void say_number(App& app, const std::string& path, bool changed, double value, const std::string& help = "") {
     is_field(app, path, help);
     if (changed && std::isfinite(value)) say(app, path, text_of(value, 6));
@@ -155,21 +175,7 @@ void row_widget(App& app, const FieldRow& row, const std::string& called) {
     if (row.placeholder.find('|') != std::string::npos) return choice_widget(app, row, label, *now);
     const auto number = number_of(*now);
     if (!number || !std::isfinite(*number)) return text_widget(app, row, label, *now);
-    double value = *number;
-    const bool whole = row.placeholder == "N" && value == std::round(value);
-    if (row.placeholder == "FRACTION" && *number >= 0 && *number <= 1)
-        return slider_widget(app, row.path, label, {0, 1, "%.3g"}, row.help);
-    if (row.placeholder == "DEG") return slider_widget(app, row.path, label, {-180, 180, "%.4g°"}, row.help);
-    const float speed = whole ? 0.05f : 0.005f;
-    const bool changed = ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, speed, nullptr,
-                                           nullptr, whole ? "%.0f" : "%.5g");
-    is_field(app, row.path, row.help);
-    if (!changed) return;
-    const double wanted = whole ? std::round(value) : value;
-    // Numbers of blades between 0 and 3 are invalid.
-    const double fitting =
-        row.path == "lens.blades" && wanted > 0 && wanted < 3 ? (*number > 0 ? 0 : 3) : wanted;
-    if (fitting != *number) say(app, row.path, text_of(fitting, 6));
+    look_number(app, row, label, *number, called.empty());
 }
 
 }  // namespace petzval::view

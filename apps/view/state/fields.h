@@ -30,7 +30,7 @@ Status reset_field(App& app, const std::string& name);
 
 // The text with the window's labels instead of field names.
 std::string plain_words(const App& app, std::string text);
-// The flag in words, with its unit.
+// The flag in words.
 std::string label_of(const FieldRow& row);
 
 // A number with so many digits as say it again exactly, or with `digits`.

@@ -2,7 +2,6 @@
 #include "fields.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -17,13 +16,9 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 }  // namespace
 
 std::string label_of(const FieldRow& row) {
-    static const std::map<std::string, std::string> units{
-        {"DEG", "°"},       {"MM", "mm"},     {"M", "m"},        {"M,M", "m"},      {"PX", "px"},
-        {"WAVES", "waves"}, {"PERCENT", "%"}, {"NEAR,FAR", "m"}, {"STOPS", "stops"}};
     std::string label = row.flag.substr(2);
     std::replace(label.begin(), label.end(), '-', ' ');
-    const auto unit = units.find(row.placeholder);
-    return unit == units.end() ? label : label + ", " + unit->second;
+    return label == "cats eye" ? "cat's eye" : label;
 }
 
 std::string plain_words(const App& app, std::string text) {

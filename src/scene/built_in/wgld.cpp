@@ -1,6 +1,6 @@
-// The tori of wgld.org's article on depth of field, shaded as it says: a texture, a diffuse share of at least
-// 0.1, a half-vector highlight of power 50, an ambient term; from near 0.1 to far 30.
-// docs/explain/published.md.
+// The tori of wgld.org's article on depth of field, shaded after it: a texture, a diffuse share of at least
+// 0.1, a half-vector highlight of power 50, an ambient term (docs/explain/published.md says what differs);
+// from near 0.1 to far 30.
 #include "scene/built_in/scenes.h"
 #include "scene/shading.h"
 #include "scene/textures.h"
@@ -57,7 +57,7 @@ void build(World& world, float time) {
 // A camera of large format, so that metres blur as the article's units do.
 BuiltInScene wgld() {
     return {{.name = "wgld",
-             .purpose = "the textured tori of wgld.org's article, near 0.1 to far 30, shaded as it says",
+             .purpose = "the textured tori of wgld.org's article, near 0.1 to far 30, shaded after it",
              .camera = {.focal_length_mm = 300,
                         .sensor_width_mm = 216,
                         .f_number = 1.4,
