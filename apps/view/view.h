@@ -78,6 +78,9 @@ struct Setup {
     RunFiles files;
     // Exposed scene-linear light to a display's codes by OpenColorIO; null: not asked for.
     std::function<Result<Picture>(View<const Rgba>)> ocio_codes;
+    // Filled by run() for the scene hexadrive: makes a second OpenGL context current on the calling thread,
+    // or releases it.
+    std::function<void(bool current)> gl_context = {};
 };
 
 // Opens the window and returns when it is closed or its script has ended. Errors: Unsupported where no window

@@ -112,6 +112,7 @@ public:
             ImGui_ImplGlfw_Shutdown();
             ImGui::DestroyContext();
         }
+        if (hidden_) glfwDestroyWindow(hidden_);
         if (window_) glfwDestroyWindow(window_);
         if (has_glfw_) glfwTerminate();
     }
@@ -138,6 +139,13 @@ public:
         return Done{};
     }
     GLFWwindow* get() const { return window_; }
+    // A context of its own for another thread; null where there is none.
+    GlContext second_context() {
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        hidden_ = glfwCreateWindow(1, 1, "petzval sprites", nullptr, nullptr);
+        if (!hidden_) return nullptr;
+        return [hidden = hidden_](bool current) { glfwMakeContextCurrent(current ? hidden : nullptr); };
+    }
 
 private:
     static Status no_window(const std::string& why) {
@@ -173,7 +181,7 @@ private:
             ImGui::GetIO().Fonts->AddFontFromFileTTF(bold, std::round(14 * scale), nullptr, letters);
     }
 
-    GLFWwindow* window_ = nullptr;
+    GLFWwindow *window_ = nullptr, *hidden_ = nullptr;
     bool has_glfw_ = false, has_imgui_ = false;
 };
 
@@ -365,7 +373,9 @@ Status run(const Setup& setup) {
     }
     Window window;
     if (Status open = window.open(setup); !open) return open;
-    return Loop(window.get(), setup, std::move(script))();
+    Setup with_context = setup;
+    if (setup.scene == "hexadrive") with_context.gl_context = window.second_context();
+    return Loop(window.get(), with_context, std::move(script))();
 }
 
 }  // namespace petzval::view

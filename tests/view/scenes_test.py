@@ -154,7 +154,24 @@ class SceneTest(window.WindowTest):
 
     def test_every_buffer_of_hexadrives_demo_can_be_seen(self):
         self.buffers_of("hexadrive", ["result", "sharp, HDR", "depth", "radii", "surfaces", "levels in one buffer",
-                                      "highlights", "blurred, no glare", "glare alone"])
+                                      "highlights", "blurred, no glare", "glare alone", "2009: sprites", "2009: atlas"])
+
+    def test_the_method_of_2009_draws_a_sprite_for_each_pixel_and_looks_like_scatter(self):
+        out, _ = self.do("""
+            wait
+            shot scatter.png 8
+            key s
+            wait
+            expect no error
+            say frame.passes
+            shot sprites.png 8
+        """, "--scene", "hexadrive", "--scene-size", "320x180")
+        self.assertIn("57600 sprites in one draw", out)
+        scatter, sprites = (window.png_codes(data) for data in self.contents("scatter.png", "sprites.png"))
+        # The picture is the upper left of the window; panels and timeline show other numbers.
+        apart = [abs(a - b) for row, other in zip(scatter[:40], sprites[:40])
+                 for one, two in zip(row[:60], other[:60]) for a, b in zip(one, two)]
+        self.assertLess(sum(apart) / len(apart), 8)
 
     def test_every_buffer_of_wglds_page_can_be_seen(self):
         self.buffers_of("wgld", ["result", "depth index", "sharp", "small blur", "large blur",

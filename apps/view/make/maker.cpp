@@ -90,8 +90,9 @@ std::shared_ptr<const Picture> flat(const DeepPicture& deep) {
 
 const std::vector<std::string>& shown_names() {
     static const std::vector<std::string> names{
-        "result", "sharp",  "against", "coc",        "depth",      "hidden",     "holdout",   "blurred",
-        "glare",  "layers", "levels",  "highlights", "blur-small", "blur-large", "blur-rows", "focus-index"};
+        "result",     "sharp",      "against",   "coc",         "depth",        "hidden",
+        "holdout",    "blurred",    "glare",     "layers",      "levels",       "highlights",
+        "blur-small", "blur-large", "blur-rows", "focus-index", "sprites-2009", "atlas-2009"};
     return names;
 }
 
@@ -109,22 +110,25 @@ bool is_made(const std::string& shown) {
 
 // True for buffers that an engine writes instead of its result.
 bool is_view(const std::string& shown) {
-    return is_buffer(shown) || (shown != "result" && parse<GaussianView>(shown));
+    return (is_buffer(shown) && !is_instanced(shown)) || (shown != "result" && parse<GaussianView>(shown));
 }
 
 bool is_buffer(const std::string& shown) {
-    return shown == "layers" || shown == "levels" || shown == "highlights";
+    return shown == "layers" || shown == "levels" || shown == "highlights" || shown == "atlas-2009";
 }
+
+bool is_instanced(const std::string& shown) { return shown == "sprites-2009" || shown == "atlas-2009"; }
 
 bool same_frame(const Wish& a, const Wish& b) {
     return a.shot == b.shot && numbers_of(a.camera) == numbers_of(b.camera) && a.shown == b.shown &&
            a.look == b.look && a.on_cpu == b.on_cpu;
 }
 
-Maker::Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session,
+Maker::Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session, GlContext gl_context,
              std::function<void()> wake)
     : session_(std::move(session)),
       cpu_session_(std::move(cpu_session)),
+      gl_context_(std::move(gl_context)),
       wake_(std::move(wake)),
       warmup_(cpu_session_ ? std::make_unique<Warmup>(session_,
                                                       [this] {
@@ -389,6 +393,7 @@ MadeFrame Maker::made(const Order& order, const Control& control) {
 Status Maker::take_picture(const Order& order, const Rendered& rendered, const Control& control,
                            MadeFrame& frame) {
     const Wish& wish = order.wish;
+    if (is_instanced(wish.shown)) return take_sprites(order, rendered, control, frame);
     Look look = look_of_step(wish, order.step);
     if (Status done = read_lens_images(look); !done) return done.error();
     const int by = order.step == 0 && wish.shown == "result" ? thinning_of(wish) : 1;
@@ -416,6 +421,34 @@ Status Maker::take_picture(const Order& order, const Rendered& rendered, const C
     frame.quality = look.quality;
     frame.stages = std::move(done->stages);
     frame.warnings = std::move(done->warnings);
+    return Done{};
+}
+
+// Sprites of every pixel; while the camera moves, of every square of pixels that its rays share.
+Status Maker::take_sprites(const Order& order, const Rendered& rendered, const Control& control,
+                           MadeFrame& frame) {
+    const Wish& wish = order.wish;
+    if (!gl_context_)
+        return Error{ErrorCode::Unsupported, "no second OpenGL context can be had for sprites of 2009"};
+    const Look look = look_of_step(wish, 1);
+    auto radii = circle_of_confusion(rendered, look);
+    if (!radii) return radii.error();
+    auto drawn = draw_instanced(gl_context_, wish.shot->shot.colour, *radii,
+                                {look.lens.aperture, look.lens.barrel, wish.camera}, wish.shot->coarse);
+    if (!drawn) return drawn.error();
+    frame.last = true;
+    frame.panels = wish.shown == "atlas-2009" ? std::move(drawn->panels) : std::vector<Panel>{};
+    frame.engine = "sprites of 2009", frame.device = drawn->device, frame.quality = look.quality;
+    frame.stages = std::move(drawn->stages);
+    if (wish.shown == "atlas-2009") {
+        frame.area = drawn->atlas.rect();
+        frame.picture = std::make_shared<const Picture>(std::move(drawn->atlas));
+        return Done{};
+    }
+    auto lit = session_of(wish).add_light(std::move(drawn->image), rendered, look_of_step(wish, 0),
+                                          {.cancelled = control.cancelled});
+    if (!lit) return lit.error();
+    frame.picture = std::make_shared<const Picture>(std::move(*lit));
     return Done{};
 }
 

@@ -9,6 +9,7 @@
 
 #include "darkroom.h"
 #include "depth_histogram.h"
+#include "instanced_draw.h"
 #include "live_scene.h"
 #include "tev.h"
 
@@ -107,7 +108,9 @@ public:
     // `wake` is called, by the maker's thread, whenever there is news.
     // `cpu_session`: of wishes that are on_cpu, of drafts until the other's device has its programs, and of
     // all once that is lost; null: there is no other.
-    Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session, std::function<void()> wake);
+    // `gl_context`: of sprites of 2009; null: they are not offered.
+    Maker(std::shared_ptr<Session> session, std::shared_ptr<Session> cpu_session, GlContext gl_context,
+          std::function<void()> wake);
     ~Maker();  // cancels
     Maker(const Maker&) = delete;
     Maker& operator=(const Maker&) = delete;
@@ -156,11 +159,14 @@ private:
     void warm_up();
     Status take_picture(const Order& order, const Rendered& rendered, const Control& control,
                         MadeFrame& frame);
+    Status take_sprites(const Order& order, const Rendered& rendered, const Control& control,
+                        MadeFrame& frame);
     void look_at_files();
     Result<DefocusReport> shown(const Wish& wish, const Rendered& rendered, const Look& look,
                                 const Control& control);
 
     std::shared_ptr<Session> session_, cpu_session_;
+    GlContext gl_context_;
     std::atomic<bool> device_is_lost_ = false;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
@@ -187,5 +193,7 @@ std::string name_of(const FrameLayer& layer);
 bool is_made(const std::string& shown);
 // Those that are shown whole, whatever is seen of them, as they lie elsewhere than the picture.
 bool is_buffer(const std::string& shown);
+// Those that the method of 2009 draws; they need an OpenGL context.
+bool is_instanced(const std::string& shown);
 
 }  // namespace petzval::view

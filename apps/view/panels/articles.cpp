@@ -37,7 +37,9 @@ Article hexadrive() {
              {"levels in one buffer", "levels", ""},
              {"highlights", "highlights", ""},
              {"blurred, no glare", "blurred", ""},
-             {"glare alone", "glare", ""}}};
+             {"glare alone", "glare", ""},
+             {"2009: sprites", "sprites-2009", ""},
+             {"2009: atlas", "atlas-2009", ""}}};
 }
 
 Article wgld() {

@@ -170,7 +170,8 @@ void compare_panel(App& app) {
             for (const FrameLayer& layer : app.shot()->shot.layers)
                 for (const std::string& kind : {kLayer, kSharpLayer}) names.push_back(kind + name_of(layer));
         for (const std::string& name : names)
-            if (ImGui::Selectable(name.c_str(), name == app.state.left.shown))
+            if ((!is_instanced(name) || app.setup().gl_context) &&
+                ImGui::Selectable(name.c_str(), name == app.state.left.shown))
                 run_line(app, "show \"" + name + "\"");
         ImGui::EndCombo();
     }

@@ -32,7 +32,7 @@ App::App(const Setup& setup, const std::function<void()>& wake)
       wake_(wake),
       darkroom_(setup.ocio_codes, wake),
       bench_(wake),
-      maker_(setup.session, setup.cpu_session, wake) {
+      maker_(setup.session, setup.cpu_session, setup.gl_context, wake) {
     state.choice = setup.choice;
     state.choice.input = opened_ = input_of(setup.source);
     Timeline& line = state.timeline;

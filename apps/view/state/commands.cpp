@@ -106,6 +106,8 @@ Status is_there(const App& app, const std::string& shown) {
     if (!has(shown_names(), shown))
         return invalid("show " + shown +
                        ": not one of result, sharp, against, coc, depth, a layer, a buffer of an engine");
+    if (is_instanced(shown) && !app.setup().gl_context)
+        return invalid("show " + shown + ": start the window with --scene hexadrive");
     if (shown == "against" && !app.against())
         return invalid("there is no second picture; give --against FILE");
     if (app.shot() &&

@@ -25,6 +25,8 @@ const std::vector<Binding>& bindings() {
         {"7", "show levels", "levels that scatter drew"},
         {"8", "show highlights", "light that scatter spreads by itself"},
         {"9", "show focus-index", "focus index of gaussian"},
+        {"s", "show sprites-2009", "hexadrive: a sprite for each pixel"},
+        {"shift+s", "show atlas-2009", "hexadrive: the atlas of these sprites"},
         {"f", "zoom fit", "all of the picture"},
         {"0", "zoom 1", "pixel by pixel"},
         {"equal", "zoom in", "zoom in (also the wheel)"},
