@@ -4,6 +4,7 @@
 #include "petzval/image.h"
 
 #include "device/cpu/gather_taps.h"
+#include "device/cpu/tap_kernel.h"
 #include "laws/compositing.h"
 
 #include <algorithm>
@@ -31,6 +32,13 @@ public:
     std::ptrdiff_t stride() const { return std::ptrdiff_t(stride_); }  // from plane to plane
     float* plane(int i) { return floats_.data() + std::size_t(i) * stride_; }
     float* row(int i, int y) { return plane(i) + std::size_t(y) * std::size_t(width_); }
+    const float* row(int i, int y) const {
+        return floats_.data() + std::size_t(i) * stride_ + std::size_t(y) * std::size_t(width_);
+    }
+    void clear_rows(int count, int y0, int y1) {
+        for (int i = 0; i < count; ++i)
+            std::fill_n(row(i, y0), std::size_t(y1 - y0) * std::size_t(width_), 0.0f);
+    }
     void clear(int count) {
         std::fill_n(floats_.data(), std::size_t(count) * stride_ + engine::kGatherGroup, 0.0f);
     }
@@ -87,6 +95,8 @@ struct Workspace {
     std::vector<Grid> grids;                     // by level
     std::vector<std::vector<Arrival>> arrivals;  // by entry (RingSizes)
     std::vector<std::ptrdiff_t> offsets;
+    std::vector<TapKernel::Step> steps;  // of a kernel those that read lit cells, with their weights
+    std::vector<float> weights;
     std::vector<int> zones;  // of a turn's arrivals, each once
     Planes window, gathered, of_zone, skirt;
     Combined cells, tile;

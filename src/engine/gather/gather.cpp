@@ -30,7 +30,8 @@ struct Strips {
 };
 
 Strips plan_strips(const EngineView& input, const RingSizes& sizes, const BrightPoints& found) {
-    constexpr std::size_t kBytesPerPixel = 94;  // of cells, light and what is hidden, where many depths meet
+    constexpr std::size_t kBytesPerPixel =
+        106;  // of cells, light, blocks and what is hidden, where many depths meet
     const int cell = 1 << (sizes.levels() - 1);
     const int unit = std::max({GatherPlan::kTile, cell, fill_block_px(input.samples.nearest_coc_px)});
     const auto whole_units = [unit](double rows) {
