@@ -66,6 +66,13 @@ if(TARGET petzval_cli)
     install(FILES ${made}/_petzval DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
     install(FILES ${made}/petzval.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
   endif()
+  if(TARGET petzval_view)
+    set(desktop ${PROJECT_SOURCE_DIR}/apps/view/desktop)
+    install(FILES ${desktop}/petzval.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+    install(FILES ${desktop}/petzval.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+    install(FILES ${PROJECT_SOURCE_DIR}/web/lab/icon.svg RENAME petzval.svg
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+  endif()
 endif()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/petzval-config.cmake.in

@@ -273,6 +273,25 @@ def ofx(*_):
     print(left.parents[2])
 
 
+def packages(*_):
+    """Debian packages in build/packages, with their lists of files and what lintian says of them"""
+    run(sys.executable, "tools/packages.py", "build/packages")
+
+
+def tarball(*_):
+    """program, window, libraries and OpenFX plug-in for any folder of Debian 12 or later, in build/packages"""
+    make("release")
+    run(sys.executable, "tools/tarball.py", "build/packages", "build/release")
+
+
+def packages_test(*words):
+    """[--without-blender]: builds packages twice and compares bits; uses packages and tarball in a bare Debian 12 (root)"""
+    packages()
+    run(sys.executable, "tools/packages.py", "build/packages", "--again")
+    tarball()
+    run(sys.executable, "tools/packages_test.py", "build/packages", *words)
+
+
 def site(*words):
     """[--no-gallery]: static pages of docs/ with a gallery of every lens, in build/site"""
     make("release", "petzval_cli")
@@ -283,6 +302,7 @@ VERBS = {"demo": demo, "build": build, "test": test, "path": path, "run": run_pr
          "format": format_sources, "lint": lint, "check": check, "golden": golden,
          "validate-lenses": validate_lenses, "gpu-laws": gpu_laws, "samples": samples, "site": site, "web": web,
          "web-test": web_test, "kit": kit, "wheel": wheel, "farm-test": farm_test, "fuzz": fuzz, "ofx": ofx,
+         "packages": packages, "tarball": tarball, "packages-test": packages_test,
          "blender-addon": blender_addon, "blender-test": blender_test}
 
 
