@@ -1,4 +1,4 @@
-"""The add-on as a user installs it: the zip that fits this Blender, installed and enabled."""
+"""The add-on as a user installs it: the zip that fits this Blender, installed and enabled; or Debian's package."""
 import importlib
 import sys
 
@@ -6,7 +6,7 @@ import bpy
 
 
 def zips():
-    """Paths of the extension and of the add-on, from the words after `--`."""
+    """Paths of the extension and of the add-on, from the words after `--`; "packaged" twice for Debian's package."""
     extension, addon = sys.argv[sys.argv.index("--") + 1:][:2]
     return extension, addon
 
@@ -17,7 +17,8 @@ def package():
     if bpy.app.version >= (4, 2, 0):
         bpy.ops.extensions.package_install_files(filepath=extension, repo="user_default", enable_on_install=True)
         return "bl_ext.user_default.petzval_lens"
-    bpy.ops.preferences.addon_install(filepath=addon)
+    if addon != "packaged":
+        bpy.ops.preferences.addon_install(filepath=addon)
     bpy.ops.preferences.addon_enable(module="petzval_lens")
     return "petzval_lens"
 
