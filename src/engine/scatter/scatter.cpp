@@ -159,7 +159,7 @@ public:
           highlight_kernels_(frame.services.memory->get<HighlightKernels>(
               "highlights", [&] { return std::make_shared<HighlightKernels>(frame); })),
           split_(frame, bright_rule(frame)) {
-        watch_.lap("split", {bytes_of(frame.samples.colour) + bytes_of(frame.samples.coc_px)});
+        watch_.lap("split", bytes_of(frame.samples.colour) + bytes_of(frame.samples.coc_px));
     }
     Result<StripPlan> strips() const { return plan_strips(frame_, rule_, *kernels_, !spare_.colour.empty()); }
     // Memory of the whole frame; one strip may reuse that of the colour, which is no longer needed.
@@ -213,8 +213,8 @@ private:
                 split_.least_of_lamps(), split_.white()});
         strip.sample_bytes = strip.completed->sample_count() * sizeof(CocSample) +
                              std::size_t(input.width()) * std::size_t(input.height()) * sizeof(std::size_t);
-        watch_.lap("complete", {bytes_of(input.samples.colour) + bytes_of(input.samples.coc_px) +
-                                strip.connected.bytes()});
+        watch_.lap("complete",
+                   bytes_of(input.samples.colour) + bytes_of(input.samples.coc_px) + strip.connected.bytes());
         return strip;
     }
 
@@ -268,8 +268,8 @@ private:
     ScatterPlan plan_of(const Strip& strip, SampleSource base) {
         ScatterPlan plan = make_plan(strip.input, std::move(base), strip.connected, strip.rows,
                                      strip.first_row, rule_, *kernels_);
-        watch_.lap("sources", {2 * strip.sample_bytes + bytes_of(strip.input.samples.coc_px) +
-                               strip.connected.bytes() + bytes_of(plan)});
+        watch_.lap("sources", 2 * strip.sample_bytes + bytes_of(strip.input.samples.coc_px) +
+                                  strip.connected.bytes() + bytes_of(plan));
         return plan;
     }
 
@@ -303,7 +303,7 @@ private:
                 layers.subspan(first, std::min(LayerShares::kAtOnce, layers.size() - first));
             if (frame_.services.progress->cancelled()) return;
             const LayerShares shares(strip.input, seen, together);
-            watch_.lap("layers", {bytes_of(seen) * (1 + together.size())});
+            watch_.lap("layers", bytes_of(seen) * (1 + together.size()));
             for (std::size_t i = 0; i < together.size() && !frame_.services.progress->cancelled(); ++i)
                 draw_layer(strip, beauty, plan, shares.of(i), together[i], share, out[first + i]);
         }
@@ -313,7 +313,7 @@ private:
         const CocSamples base = lit_by(strip.base, shares, layer);
         const std::vector<Highlight> highlights = lit_by(beauty.highlights, strip.base, shares, layer);
         relight(plan, strip.input, base, strip.connected, *kernels_);
-        watch_.lap("layers", {3 * bytes_of(base)});
+        watch_.lap("layers", 3 * bytes_of(base));
         draw({strip.input, plan, *kernels_, highlights, beauty.casters, *highlight_kernels_, split_.white(),
               &beauty.highlights},
              share, out);
