@@ -79,6 +79,7 @@ PUBLIC = {
     "engine_report": "engine/waist",
     "export": "base",
     "farm/jobs": "farm",
+    "farm/state": "farm",
     "files": "files",
     "glare": "glare",
     "image": "image",

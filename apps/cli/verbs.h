@@ -13,6 +13,7 @@ void add_scene_points(Verb& scene, Action& chosen);
 void add_compare(Verb& program, Action& chosen);
 void add_devices(Verb& program, Action& chosen);
 void add_farm(Verb& program, Action& chosen);
+void add_farm_jobs(Verb& farm, Action& chosen);  // submit, status and collect
 void add_develop(Verb& program, Action& chosen);
 void add_focus_track(Verb& program, Action& chosen);
 void add_sheet(Verb& program, Action& chosen);

@@ -1,4 +1,7 @@
 // A job array for sbatch. Facts: Slurm 22.05, sbatch(1) and scontrol(1).
+#include "petzval/farm/state.h"
+#include "petzval/frames.h"
+
 #include "farm/writers.h"
 
 #include <algorithm>
@@ -8,6 +11,10 @@ namespace {
 
 // MaxArraySize is 1001 unless a site raises it; the number of an element is below it.
 constexpr std::size_t kMostElements = 1000;
+
+int frames_per_element(const FarmShot& shot) {
+    return std::max(shot.chunk, int((shot.frames.size() + kMostElements - 1) / kMostElements));
+}
 
 // A requeued element begins again with the same number. A full disk can last all night, other failures are
 // tried five times.
@@ -26,8 +33,7 @@ exit $code
 }  // namespace
 
 Result<FarmFile> slurm_file(const FarmShot& shot) {
-    const int size = std::max(shot.chunk, int((shot.frames.size() + kMostElements - 1) / kMostElements));
-    const auto lists = chunks(shot, size);
+    const auto lists = chunks(shot, frames_per_element(shot));
     std::string text = "#!/bin/bash\n";
     const auto option = [&](const std::string& line) { text += "#SBATCH --" + line + "\n"; };
     option("job-name=" + shot.name);
@@ -46,3 +52,15 @@ Result<FarmFile> slurm_file(const FarmShot& shot) {
 }
 
 }  // namespace petzval::farm
+
+std::string petzval::slurm_elements(const FarmShot& shot, const std::vector<int>& frames) {
+    std::vector<int> elements;
+    for (const int frame : frames) {
+        const auto found = std::lower_bound(shot.frames.begin(), shot.frames.end(), frame);
+        const int element = int(found - shot.frames.begin()) / farm::frames_per_element(shot);
+        if (elements.empty() || elements.back() != element) elements.push_back(element);
+    }
+    std::string text = frames_text(elements);
+    std::replace(text.begin(), text.end(), 'x', ':');
+    return text;
+}

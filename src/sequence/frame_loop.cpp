@@ -2,6 +2,7 @@
 
 #include "petzval/frames.h"
 #include "petzval/made_with.h"
+#include "petzval/names.h"
 #include "petzval/output.h"
 #include "petzval/records.h"
 
@@ -218,6 +219,7 @@ FrameRecord FrameLoop::State::failure(int frame, const FrameWork::Files& files, 
     if (!files.inputs.empty()) record.input = files.inputs.front(), json["input"] = record.input;
     if (!files.outputs.empty()) record.output = files.outputs.front(), json["output"] = record.output;
     json["error"] = error.message;
+    json["error_code"] = name_of(error.code);
     record.record = sequence::as_text(json);
     return record;
 }

@@ -156,6 +156,88 @@ class Farm(CommandLineTest):
         done = self.job("xmllint", "--nonet", "--noout", "--dtdvalid", DTD, self.path("job/petzval.xml"))
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def damage(self, name):
+        with open(self.path(name), "wb") as file:
+            file.write(b"junk")
+
+    def state(self, verb="status", code=0):
+        outcome = self.run_program("farm", verb, "job", "--json", "-")
+        self.assertEqual(outcome.code, code, outcome)
+        return {f["frame"]: f["state"] for f in json.loads(outcome.out)["frames"]}
+
+    def test_status_says_of_each_frame_what_became_of_it(self):
+        self.write("list", "--chunk", "3")
+        self.damage("in.0002.exr")
+        self.assertEqual(self.state(), {1: "left", 2: "left", 3: "left"})
+        self.job(self.path("job/run.sh"), "1-2")
+        self.assertEqual(self.state(), {1: "complete", 2: "failed", 3: "left"})
+        said = self.succeed("farm", "status", "job").out
+        for line in ("job: 3 frames, 1-3", "  complete  1  1", "  failed    1  2", "  left      1  3"):
+            self.assertIn(line + "\n", said)
+        self.assertRegex(said, r"frame 2: in.0002.exr: .*\nseconds per frame: median [0-9.]+, slowest [0-9.]+ \(frame 1\)\n"
+                               r"memory: peak [0-9]+M\n")
+
+    def test_collect_finds_a_cut_frame_merges_records_and_leaves_commands(self):
+        self.write("list", "--chunk", "1")
+        self.job(self.path("job/run.sh"), "1-3")
+        os.truncate(self.path("out.0002.exr"), 300)
+        self.assertEqual(self.state(), {1: "complete", 2: "complete", 3: "complete"})  # a glance reads no pictures
+        self.assertEqual(self.state("collect", 1), {1: "complete", 2: "damaged", 3: "complete"})
+        self.assertEqual([json.loads(line)["frame"] for line in self.text("report.jsonl").splitlines()], [1, 2, 3])
+        self.assertEqual(self.text("left"), self.path("job/run.sh") + " 2\n")
+        self.assertEqual(self.job("sh", self.path("job/left")).returncode, 0)
+        self.assertEqual(self.state("collect"), {1: "complete", 2: "complete", 3: "complete"})
+        self.assertNotIn("left", os.listdir(self.path("job")))
+        self.assert_same_as_one_run()
+
+    def test_a_wrong_input_is_never_tried_again(self):
+        self.write("list", "--chunk", "3")
+        self.damage("in.0002.exr")
+        self.job(self.path("job/run.sh"), "1-3")
+        self.assertEqual(self.state("collect", 4)[2], "failed")
+        self.assertNotIn("left", os.listdir(self.path("job")))
+
+    def test_a_record_that_a_killed_process_left_unfinished_is_skipped(self):
+        self.write("list", "--chunk", "3")
+        self.job(self.path("job/run.sh"), "1-3")
+        with open(self.path("job/records/1.n9.7.jsonl"), "w") as file:
+            file.write('[]\n{"frame": "1"}\n{"frame": 1e99}\n{"frame": 2, "seconds": 3, "engine": 4}\n{"frame": 3, "er')
+        self.assertEqual(self.state("collect"), {1: "complete", 2: "complete", 3: "complete"})
+
+    def slurm(self, queue=""):
+        """Stand-ins of sbatch and squeue, which note how they were called."""
+        os.makedirs(self.path("bin"), exist_ok=True)
+        for name, answer in (("sbatch", "41;cluster\n"), ("squeue", queue)):
+            with open(self.path("bin/" + name), "w") as file:
+                os.fchmod(file.fileno(), 0o755)
+                file.write(f"#!/bin/sh\necho {name} \"$@\" >> {self.path('calls')}\nprintf '{answer}'\n")
+        return {"PATH": self.path("bin") + ":" + os.environ["PATH"]}
+
+    def test_submit_and_resubmit_start_only_what_is_not_complete(self):
+        self.write("slurm", "--chunk", "1")
+        self.succeed("farm", "submit", "job", env=self.slurm())
+        self.assertEqual(self.text("slurm_jobs"), "41\n")
+        busy = self.slurm("41 RUNNING\n41 PENDING\n41 PENDING\n7 RUNNING\n")
+        self.assertIn("Slurm: 2 PENDING, 1 RUNNING\n", self.succeed("farm", "status", "job", env=busy).out)
+        self.refuse(2, "farm", "submit", "job", env=busy, says=["still in Slurm's queue: 2 PENDING, 1 RUNNING"])
+        self.job(self.path("job/run.sh"), "2")
+        self.succeed("farm", "collect", "job", "--resubmit", env=self.slurm())
+        with open(self.path("calls")) as file:
+            calls = [line for line in file.read().splitlines() if line.startswith("sbatch")]
+        script = self.path("job/petzval.sbatch")
+        self.assertEqual(calls, [f"sbatch --parsable {script}", f"sbatch --parsable --array=0,2 {script}"])
+
+    def test_a_folder_that_is_no_job_is_refused(self):
+        os.mkdir(self.path("job"))
+        self.refuse(3, "farm", "status", "job", says=["shot.json", "no job"])
+        for text in ("", "[]", "{}", '{"frames": "1-2000000", "output": "o"}', '{"frames": "1"}'):
+            with open(self.path("job/shot.json"), "w") as file:
+                file.write(text)
+            for verb in ("status", "collect", "submit"):
+                self.refuse(3, "farm", verb, "job", says=["shot.json"])
+        self.write("list", "--chunk", "3")
+        self.refuse(2, "farm", "submit", "job", says=["petzval.sbatch", "--for slurm"])
+
     def test_what_cannot_be_a_job_is_refused(self):
         job = ["farm", "write", "--for", "list", "-o", "job"]
         self.refuse(2, *job[:4], "--", *self.shot("out.####.exr"), says=["-o FOLDER"])

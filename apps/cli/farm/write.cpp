@@ -193,8 +193,9 @@ static void add_farm_write(Verb& farm, Action& chosen) {
 }
 
 void add_farm(Verb& program, Action& chosen) {
-    Verb& verb = add_verb(program, "farm", "write jobs for render farms", kExample);
+    Verb& verb = add_verb(program, "farm", "jobs for render farms", kExample);
     add_farm_write(verb, chosen);
+    add_farm_jobs(verb, chosen);
     when_typed(verb, [&verb] { require_verb(verb); });
 }
 

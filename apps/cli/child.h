@@ -1,0 +1,16 @@
+// Programs of the system, run for what they print.
+#pragma once
+
+#include "petzval/result.h"
+
+#include <string>
+#include <vector>
+
+namespace petzval::cli {
+
+// Runs a program found in $PATH, without a shell, and waits for its end. Returns its standard output; its
+// standard error is this program's. Errors: Unsupported if there is no such program; OutputFailed if it does
+// not end with 0.
+Result<std::string> output_of(const std::vector<std::string>& words);
+
+}  // namespace petzval::cli
