@@ -1,21 +1,17 @@
 // petzval: reads the command line, runs one verb, turns its outcome into one line and an exit code.
 #include "petzval/names.h"
-#include "petzval/version.h"
 
 #include "console/console.h"
 #include "console/interrupt.h"
 #include "console/last_words.h"
 #include "console/report.h"
+#include "flags/command_line.h"
 #include "flags/fields.h"
 #include "frames.h"
 #include "guard.h"
-#include "revision.h"
-#include "verbs.h"
 
 #include <exception>
 #include <new>
-
-#include <CLI/CLI.hpp>
 
 namespace petzval::cli {
 namespace {
@@ -64,70 +60,12 @@ void print_failure(int exit_code, const Error& error, const std::string& verb) {
     static_cast<void>(write_report(report, "-"));  // the line on standard error is written in any case
 }
 
-// Data about a failing command line.
-struct Typed {
-    Words words = Words::Flags;  // of the message
-    std::string verb;            // as in a report: "lens psf"; empty if none was understood
-};
-
-std::string verb_of(const CLI::App& program) {
-    std::string verb;
-    for (auto next = program.get_subcommands(); !next.empty(); next = next[0]->get_subcommands())
-        verb += (verb.empty() ? "" : " ") + next[0]->get_name();
-    return verb;
-}
-
 // Errors: an invalid command line, or the errors of its action.
 Status parse_and_act(int argc, const char* const* argv, Typed& typed) {
-    CLI::App program("gives rendered pictures the depth of field of a real lens", "petzval");
-    use_our_help(program);
-    program.footer(
-        "petzval scene make night -o night.exr\n"
-        "petzval defocus night.exr -o out.exr\n"
-        "petzval develop out.exr -o out.png");
-    program.set_help_flag("-h,--help", "this page; petzval VERB --help has the flags of a verb")
-        ->group("Help");
-    program.set_version_flag("--version", "petzval " PETZVAL_VERSION + source_revision())
-        ->description("the version")
-        ->group("Help");
-    program.require_subcommand(0, 1);
-    Action chosen;
-    add_defocus(program, chosen);
-    add_inspect(program, chosen);
-    add_scene(program, chosen);
-    add_compare(program, chosen);
-    add_develop(program, chosen);
-    add_focus_track(program, chosen);
-    add_sheet(program, chosen);
-    add_lens(program, chosen);
-    add_devices(program, chosen);
-    add_farm(program, chosen);
-    add_view(program, chosen);
-    add_help(program, chosen);
-    const auto said = [](const std::string& text) {
-        return print(text) ? Status(Done{})
-                           : Error{ErrorCode::OutputFailed, "standard output cannot be written"};
-    };
-    try {
-        program.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        return said(program.help());
-    } catch (const CLI::CallForAllHelp&) {
-        return said(program.help("", CLI::AppFormatMode::All));
-    } catch (const CLI::CallForVersion& version) {
-        return said(std::string(version.what()) + "\n");
-    } catch (const CLI::ParseError& error) {
-        typed.verb = verb_of(program);
-        return Error{ErrorCode::InvalidArgument, usage_message(error, program)};
-    } catch (const UsageError& error) {
-        typed.verb = verb_of(program);
-        if (error.code == ErrorCode::InvalidFile) typed.words = Words::Fields;
-        return Error{error.code, error.what(), error.field};
-    }
-    typed.verb = verb_of(program);
-    if (!chosen) return Error{ErrorCode::InvalidArgument, "no verb given; petzval --help lists the verbs"};
+    const auto chosen = parsed(argc, argv, typed);
+    if (!chosen) return chosen.error();
     if (Status fine = run_files().check(); !fine) return fine;
-    Status done = chosen();
+    Status done = (*chosen)();
     if (interrupted_by() != 0) return Error{ErrorCode::Cancelled, "interrupted"};
     return done;
 }

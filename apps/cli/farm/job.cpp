@@ -2,10 +2,10 @@
 #include "petzval/farm/state.h"
 #include "petzval/frames.h"
 
-#include "child.h"
+#include "console/report.h"
+#include "farm/child.h"
+#include "flags/run_flags.h"
 #include "frames.h"
-#include "report.h"
-#include "run_flags.h"
 #include "verbs.h"
 
 #include <algorithm>

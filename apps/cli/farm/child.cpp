@@ -1,4 +1,4 @@
-#include "child.h"
+#include "farm/child.h"
 
 #include <array>
 #include <cerrno>
