@@ -63,7 +63,9 @@ void add_record(FarmFrame& frame, const Json& record, const std::string& line, c
     const std::string error = text_of(record, "error");
     const bool is_made = error.empty() && record.contains("engine");
     if (!is_made && error.empty()) return;  // kept: an earlier record says how it was made
-    frame.process = process, frame.record = line, frame.why = error;
+    frame.process = process;
+    frame.record = line;
+    frame.why = error;
     const std::string code = text_of(record, "error_code");
     frame.may_pass = code != "invalid-file" && code != "invalid-argument" && code != "unsupported";
     if (!is_made) return;
@@ -99,8 +101,10 @@ Result<FarmShot> shot_of(const Json& facts, const std::string& path) {
     FarmShot shot;
     shot.name = text_of(facts, "name");
     shot.working_folder = text_of(facts, "working_folder");
-    shot.input = text_of(facts, "input"), shot.output = text_of(facts, "output");
-    shot.look = text_of(facts, "look"), shot.track = text_of(facts, "track");
+    shot.input = text_of(facts, "input");
+    shot.output = text_of(facts, "output");
+    shot.look = text_of(facts, "look");
+    shot.track = text_of(facts, "track");
     shot.seconds_per_frame = number_of(facts, "seconds_per_frame");
     shot.chunk = int(std::clamp(number_of(facts, "chunk"), 1.0, 1e6));
     shot.threads = int(std::clamp(number_of(facts, "threads"), 0.0, 1024.0));

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstring>
 #include <limits>
-#include <memory>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -61,7 +61,8 @@ struct Picture {
         const std::ptrdiff_t sample = is_half ? 2 : 4, row = width * 4 * sample;
         auto* const first =
             reinterpret_cast<char*>(memory.data()) + (is_up && height > 0 ? row * (height - 1) : 0);
-        pixels.size = sizeof pixels, plane.size = sizeof plane;
+        pixels.size = sizeof pixels;
+        plane.size = sizeof plane;
         pixels.width = plane.width = width, pixels.height = plane.height = height;
         pixels.sample = plane.sample = is_half ? PETZVAL_HALF : PETZVAL_FLOAT;
         pixels.pixel_stride = plane.pixel_stride = 4 * sample;
@@ -124,11 +125,13 @@ struct Shot {
             lights.push_back({float(in.number()), float(in.number()), float(in.number()), float(in.number()),
                               float(in.number()), float(in.number()), float(in.number()),
                               float(in.number())});
-        shot.lights = lights.data(), shot.light_count = lights.size();
+        shot.lights = lights.data();
+        shot.light_count = lights.size();
         if (in.flag()) shot.mask = &mask.plane;
         layer = {sizeof layer, &layer_colour.pixels, in.below(3), in.flag() ? "sodium" : nullptr,
                  &layer_out.pixels};
-        if (in.flag()) shot.layers = &layers, shot.layer_count = 1;
+        if (in.flag()) shot.layer_count = 1;
+        if (shot.layer_count == 1) shot.layers = &layers;
     }
     static petzval_rect rect(Bytes& in, int width, int height) {
         if (in.below(4) == 0) return {in.raw<int>(), in.raw<int>(), in.raw<int>(), in.raw<int>()};
@@ -206,7 +209,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
             petzval_look* other = nullptr;
             const petzval_status read = petzval_look_from_json(in.text().c_str(), &other);
             check(read);
-            if (read == PETZVAL_OK) petzval_look_close(look), look = other;
+            if (read == PETZVAL_OK) std::swap(look, other);
+            petzval_look_close(other);
         } else {
             check(petzval_session_trim(session(), in.raw<std::uint64_t>()));
             petzval_usage usage{sizeof usage, 0, 0};

@@ -64,7 +64,7 @@ std::vector<char> segment(std::span<const std::uint8_t> bytes) {
     return file;
 }
 
-// Of this process, gone at its end.
+// Makes a folder of this process, which is removed when the process ends.
 const std::string& folder() {
     static const std::string path = petzval::fuzz::held_file(nullptr, 0, ".unused") + ".store";
     static const bool is_made = [] {

@@ -39,4 +39,11 @@ void say_out_of_memory() noexcept {
 
 void end_orderly_on_terminate() noexcept { std::set_terminate(end); }
 
+namespace {
+
+// Tables of names are made before main(), and memory can end there as well.
+[[gnu::constructor(101)]] void before_all_tables() { end_orderly_on_terminate(); }
+
+}  // namespace
+
 }  // namespace petzval::cli

@@ -2,8 +2,8 @@
 #include "petzval/farm/state.h"
 #include "petzval/frames.h"
 
+#include "console/child.h"
 #include "console/report.h"
-#include "farm/child.h"
 #include "flags/run_flags.h"
 #include "frames.h"
 #include "verbs.h"

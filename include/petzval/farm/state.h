@@ -1,4 +1,4 @@
-// What has become of a shot on a farm: the job's facts, read again, and the state of each frame by its output
+// The job that petzval farm write made is read again: its facts, and the state of each frame by its output
 // and its records. Component petzval::files.
 #pragma once
 

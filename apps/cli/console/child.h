@@ -1,4 +1,4 @@
-// Programs of the system, run for what they print.
+// Runs other programs and returns the text that they print.
 #pragma once
 
 #include "petzval/result.h"
@@ -9,7 +9,7 @@
 namespace petzval::cli {
 
 // Runs a program found in $PATH, without a shell, and waits for its end. Returns its standard output; its
-// standard error is this program's. Errors: Unsupported if there is no such program; OutputFailed if it does
+// standard error is this program's. Errors: Unsupported if $PATH holds no program of that name; OutputFailed if it does
 // not end with 0.
 Result<std::string> output_of(const std::vector<std::string>& words);
 

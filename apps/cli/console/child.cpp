@@ -1,4 +1,4 @@
-#include "farm/child.h"
+#include "console/child.h"
 
 #include <array>
 #include <cerrno>
