@@ -152,7 +152,8 @@ void check(petzval_status status) {
 petzval_session* session() {
     static petzval_session* const opened = [] {
         petzval_session_settings settings{};
-        settings.size = sizeof settings, settings.threads = 1,
+        settings.size = sizeof settings;
+        settings.threads = 1;
         settings.max_memory_bytes = std::uint64_t(512) << 20;
         petzval_session* made = nullptr;
         check(petzval_session_open(&settings, &made));
