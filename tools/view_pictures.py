@@ -57,8 +57,17 @@ SHOWN = [
         wait
         click "panel Lenses"
         wait
-        click "lens apochromat"
+        click "lens triplet"
         set fstop 1.4
+        wait
+        shot {shot}"""),
+    ("view-sheet", ["night.exr"], """
+        click "panel Camera"
+        click "panel Depth"
+        click "panel Look"
+        click "panel Compare"
+        click "panel Lenses"
+        sheet doublet,planar,petzval-portrait,Helios,sonnar-fe-55,speed-panchro,takumar,triplet,uncorrected
         wait
         shot {shot}"""),
     ("view-hexadrive", ["--scene", "hexadrive"], """
@@ -92,6 +101,8 @@ def main(program):
         folder = pathlib.Path(name)
         size = ["--pinhole-samples", "16", "-q"]
         subprocess.run([program, "scene", "make", "table", "-o", "table.exr", "--width", "640", "--height", "360", *size],
+                       cwd=folder, check=True)
+        subprocess.run([program, "scene", "make", "night", "-o", "night.exr", "--width", "640", "--height", "360", *size],
                        cwd=folder, check=True)
         for frame in range(12):
             subprocess.run([program, "scene", "make", "tori", "-o", f"shot.{frame:04}.exr", "--frame", str(3 * frame),

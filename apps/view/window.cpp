@@ -256,6 +256,7 @@ void draw(App& app) {
         draw_panels(app);
         ImGui::End();
     }
+    if (app.has_sheet()) draw_sheet(app);
     if (app.state.help) draw_help(app);
     if (app.state.opening) draw_open(app);
 }

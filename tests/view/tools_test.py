@@ -32,6 +32,31 @@ def free_port():
 
 
 class ToolsTest(window.WindowTest):
+    def test_a_sheet_shows_lenses_and_presets_on_the_picture_and_a_click_uses_one(self):
+        out, err = self.do("""
+            wait
+            sheet doublet,Helios
+            wait
+            expect no error
+            shot sheet.png
+            click "tile Helios  f/2"
+            wait
+            expect lens Helios
+            expect fstop 2
+            shot same.png
+            undo
+            expect lens ideal
+            sheet presets
+            wait
+            expect no error
+            shot presets.png
+            sheet off
+            sheet nonsense
+            expect error no lens is called nonsense
+        """)
+        sheet, presets = self.contents("sheet.png", "presets.png")
+        self.assertNotEqual(sheet, presets)
+
     def test_nothing_that_is_saved_replaces_a_picture_that_the_window_reads(self):
         before = list(self.contents("table.exr", "truth.exr"))
         os.symlink("truth.exr", os.path.join(self.shared, "link.exr"))

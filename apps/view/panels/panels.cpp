@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <imgui.h>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,26 +48,54 @@ std::vector<LensSummary> sorted_shelf(const char* words, int order) {
 }
 
 void preset_choice(App& app) {
+    if (ImGui::Button("see all presets")) run_line(app, "sheet presets");
+    is_field(app, "see presets", "this picture with each preset");
     if (!ImGui::BeginCombo("preset", "a whole look")) return;
     for (const LookPreset& preset : all_presets())
         if (ImGui::Selectable(preset.name.c_str())) run_line(app, "preset " + preset.name);
     ImGui::EndCombo();
 }
 
+// The marked lenses, else the first of those found, on this picture.
+void sheet_button(App& app, const std::set<std::string>& marked, const std::vector<LensSummary>& found) {
+    constexpr std::size_t kMost = 12;
+    std::string names;
+    std::size_t count = 0;
+    for (const LensSummary& lens : found)
+        if ((marked.empty() || marked.contains(lens.name)) && count < kMost) {
+            names += (names.empty() ? "" : ",") + lens.name;
+            ++count;
+        }
+    ImGui::BeginDisabled(count == 0);
+    if (ImGui::Button(("see " + std::to_string(count) + " lenses").c_str())) run_line(app, "sheet " + names);
+    ImGui::EndDisabled();
+    is_field(app, "see lenses",
+             "this picture through the marked lenses, each wide open. Ctrl-click marks a lens; "
+             "without marks: the first of the list");
+}
+
 void shelf_panel(App& app) {
     static char words[128] = "";
     static int order = 0;
+    static std::set<std::string> marked;  // with Ctrl held; for the sheet
     const std::string& now = app.state.choice.look.lens.name;
     preset_choice(app);
     ImGui::InputTextWithHint("find", "planar, 1954, triplet", words, sizeof words);
     is_field(app, "find lens", "words of its name, other names, year or kind");
     ImGui::Combo("sort", &order, "as listed\0by year\0fastest first\0");
-    if (ImGui::Button(app.state.lens ? "close the lens bench" : "open the lens bench"))
-        run_line(app, "toggle view.lens");
+    const std::vector<LensSummary> found = sorted_shelf(words, order);
+    sheet_button(app, marked, found);
+    ImGui::SameLine();
+    if (ImGui::Button(app.state.lens ? "close bench" : "lens bench")) run_line(app, "toggle view.lens");
     is_field(app, "lens bench", "the lens in section, its discs and curves (L)");
     if (!ImGui::BeginListBox("##shelf", {-1, 9 * ImGui::GetTextLineHeightWithSpacing()})) return;
-    for (const LensSummary& lens : sorted_shelf(words, order)) {
-        if (ImGui::Selectable(lens.name.c_str(), lens.name == now)) run_line(app, "set lens " + lens.name);
+    for (const LensSummary& lens : found) {
+        const bool is_marked = marked.contains(lens.name);
+        if (is_marked) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 220, 90, 255));
+        const bool is_clicked = ImGui::Selectable(lens.name.c_str(), lens.name == now);
+        if (is_marked) ImGui::PopStyleColor();
+        if (is_clicked && !ImGui::GetIO().KeyCtrl) run_line(app, "set lens " + lens.name);
+        if (is_clicked && ImGui::GetIO().KeyCtrl && marked.erase(lens.name) == 0) marked.insert(lens.name);
         std::string title = lens.title + (lens.year.empty() ? "" : ", " + lens.year);
         if (lens.f_number > 0) title = "f/" + text_of(lens.f_number, 3) + "  " + title;
         std::string known_as;

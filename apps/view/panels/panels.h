@@ -13,6 +13,7 @@ namespace petzval::view {
 void draw_panels(App& app);       // camera, depth, look, comparison, files
 void draw_status_line(App& app);  // what is under the pointer; what is wrong
 void draw_menu(App& app);         // into the current window's menu bar
+void draw_sheet(App& app);        // the window of the contact sheet
 void draw_open(App& app);         // the window in which a file is chosen
 void input_panel(App& app);       // layers, depth. Requires: a shot
 void camera_panel(App& app);

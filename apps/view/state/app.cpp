@@ -32,6 +32,7 @@ App::App(const Setup& setup, const std::function<void()>& wake)
       wake_(wake),
       darkroom_(setup.ocio_codes, wake),
       bench_(wake),
+      sheet_(setup.cpu_session ? setup.cpu_session : setup.session, wake),
       maker_(setup.session, setup.cpu_session, setup.gl_context, wake) {
     state.choice = setup.choice;
     state.choice.input = opened_ = input_of(setup.source);
@@ -298,7 +299,7 @@ std::string App::waits_for() const {
 
 bool App::is_busy() const {
     return reading_ || is_coarse() || !maker_.is_idle() || !darkroom_.is_idle() || !bench_.is_idle() ||
-           saving_.valid();
+           !sheet_.is_idle() || saving_.valid();
 }
 
 Status App::may_write(const std::string& name) const {
@@ -385,6 +386,7 @@ void App::take_news() {
     }
     for (Print& print : darkroom_.prints()) take_print(std::move(print));
     for (LensMade& made : bench_.news()) take_lens(std::move(made));
+    for (SheetCell& cell : sheet_.news()) take_cell(std::move(cell));
     if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         const Status done = saving_.get();
         notice = done ? "wrote " + saving_to_ : "";

@@ -4,6 +4,7 @@
 #include "petzval/track.h"
 
 #include "bench.h"
+#include "contact_sheet.h"
 #include "curve_edit.h"
 #include "darkroom.h"
 #include "history.h"
@@ -43,6 +44,13 @@ struct Shown {
     Texture texture;
     Print print;  // without its codes
     std::optional<Negative> asked;
+};
+
+// An entry of the contact sheet and its picture on the screen; empty texture: not made yet, or an error.
+struct SheetTile {
+    SheetEntry entry;
+    Texture texture;
+    std::string error;
 };
 
 // Position of the canvas in window pixels, and its mapping to pixels of the frame.
@@ -125,6 +133,12 @@ public:
     void open(const std::string& path);  // another file, or a shot's frames by their pattern
     // One step back, or forward again. Errors: InvalidArgument where there is none.
     Status undo(bool again);
+    // Small pictures of this frame through many looks, in their own window. Errors: InvalidArgument where no
+    // picture with depth and camera is open.
+    Status open_sheet(std::vector<SheetEntry> entries);
+    void close_sheet();
+    bool has_sheet() const { return !sheet_tiles_.empty(); }
+    const std::vector<std::unique_ptr<SheetTile>>& sheet_tiles() const { return sheet_tiles_; }
     void settle_choice();  // a change since the last call becomes a step to undo
     // The choice, with the camera numbers that are assumed: the command line needs them.
     Choice full_choice() const;
@@ -172,6 +186,7 @@ private:
     void ask_prints(int index, const Side& side);
     void ask_lens();
     void take_lens(LensMade made);
+    void take_cell(SheetCell cell);
     void ask_print(int target, Negative negative);
     void clear_print(int target);
 
@@ -203,6 +218,8 @@ private:
     std::function<void()> wake_;
     Darkroom darkroom_;
     LensBench bench_;
+    ContactSheet sheet_;
+    std::vector<std::unique_ptr<SheetTile>> sheet_tiles_;
     Maker maker_;  // last: its thread uses the above
 };
 

@@ -147,6 +147,32 @@ void App::ask_lens() {
     bench_.make(std::move(wish));
 }
 
+Status App::open_sheet(std::vector<SheetEntry> entries) {
+    const auto now = camera();
+    if (!now) return now.error();
+    if (!shot_ || shot_->shot.depth_plane().empty())
+        return Error{ErrorCode::InvalidArgument, "a sheet of looks needs a picture with depth"};
+    sheet_tiles_.clear();
+    for (const SheetEntry& entry : entries) {
+        sheet_tiles_.push_back(std::make_unique<SheetTile>());
+        sheet_tiles_.back()->entry = entry;
+    }
+    sheet_.make(shot_, *now, std::move(entries), state.choice.develop);
+    return Done{};
+}
+
+void App::close_sheet() {
+    sheet_.stop();
+    sheet_tiles_.clear();
+}
+
+void App::take_cell(SheetCell cell) {
+    if (cell.entry >= sheet_tiles_.size()) return;
+    SheetTile& tile = *sheet_tiles_[cell.entry];
+    tile.error = std::move(cell.error);
+    if (!cell.rgba.empty()) tile.texture.load(cell.width, cell.height, cell.rgba);
+}
+
 void App::take_lens(LensMade made) {
     if (made.error) trouble = made.error->message;
     const LensCodes* codes[] = {&made.disc, &made.front, &made.behind, &made.strip};

@@ -14,6 +14,9 @@ Status load_path(App& app, const std::vector<std::string>& words);
 Status forget_path(App& app, const std::vector<std::string>& words);
 Status record(App& app, const std::vector<std::string>& words);
 
+// sheet_commands.cpp
+Status sheet(App& app, const std::vector<std::string>& words);
+
 // shot_commands.cpp
 Status frame(App& app, const std::vector<std::string>& words);
 Status range(App& app, const std::vector<std::string>& words);

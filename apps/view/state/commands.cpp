@@ -330,6 +330,8 @@ const std::vector<Command>& commands() {
         {"copy", "", "the command that makes this frame, to the clipboard", copy},
         {"load_look", "FILE", "", load_look},
         {"preset", "NAME", "a look that ships, or one of your own", preset},
+        {"sheet", "LENS,LENS|presets|off", "this picture through each of them, in a window to choose from",
+         sheet},
         {"save_look", "FILE", "", save_look},
         {"light", "X Y", "light up the rays that land there in the disc, pixels from its middle", light},
         {"bend", "ZONE MM [NM]", "bend the lens's curves: focus of a zone of the pupil, + away from the lens",
