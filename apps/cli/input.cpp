@@ -31,7 +31,8 @@ void InputFlags::add_depth_to(Verb& verb) {
             "meaning of the depth: planar, distance along the axis (default, except for whole numbers); ray, "
             "distance from the pinhole; inverse, 1/planar, or with --depth-range disparity from 0 (far) to 1 "
             "(near); normalized, device, mist: 0 to 1, z-buffer or Blender's mist between --depth-range; "
-            "coc-px, signed blur radius in pixels",
+            "mist-linear, mist-inverse: mist of falloff Linear or Inverse Quadratic; coc-px, signed blur "
+            "radius in pixels",
             depth_kind)
         .value(
             "--depth-range", "NEAR,FAR",

@@ -26,7 +26,14 @@ enum class DepthKind {
     Mist,        // Blender's mist pass, falloff quadratic: the square of the way from range near (0) to range
                  // far (1), by distance from the pinhole
     CocPx,       // already a signed circle-of-confusion radius in pixels, + is far
+    MistLinear,  // as Mist, with Blender's falloff Linear: the way itself
+    MistInverse,  // as Mist, with Blender's falloff Inverse Quadratic: the square root of the way
 };
+
+// True for Blender's mist pass of any falloff.
+constexpr bool is_mist(DepthKind kind) {
+    return kind == DepthKind::Mist || kind == DepthKind::MistLinear || kind == DepthKind::MistInverse;
+}
 
 // Silhouettes that are ramps instead of steps, as depth of networks, averaged and enlarged passes has them: a
 // pixel in a ramp has the depth of nothing that is there.

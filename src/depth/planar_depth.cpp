@@ -16,10 +16,10 @@ constexpr float kHalfMaximum = 65504.f;  // what 1e10 or infinity becomes in a h
 
 // True if values are 0…1 between the ends of a range.
 bool is_ranged(const DepthSettings& s) {
-    return s.kind == DepthKind::Normalized || s.kind == DepthKind::Device || s.kind == DepthKind::Mist ||
+    return s.kind == DepthKind::Normalized || s.kind == DepthKind::Device || is_mist(s.kind) ||
            (s.kind == DepthKind::Inverse && s.range_near && s.range_far);
 }
-bool needs_angles(DepthKind kind) { return kind == DepthKind::Ray || kind == DepthKind::Mist; }
+bool needs_angles(DepthKind kind) { return kind == DepthKind::Ray || is_mist(kind); }
 // Ends may be infinite where values are linear in 1/z.
 bool is_by_inverse(DepthKind kind) { return kind == DepthKind::Device || kind == DepthKind::Inverse; }
 
@@ -87,6 +87,12 @@ public:
     bool is_miss(float stored) const { return petzval::is_miss(stored, ranged_); }
 
 private:
+    // The share of the way between both ends that a value of mist stands for.
+    double mist_way(double stored) const {
+        if (kind_ == DepthKind::MistLinear) return stored;
+        return kind_ == DepthKind::MistInverse ? stored * stored : std::sqrt(stored);
+    }
+
     double planar(double stored, int x, int y) const {
         switch (kind_) {
             case DepthKind::Ray:
@@ -94,7 +100,9 @@ private:
             case DepthKind::Inverse:
                 return ranged_ ? device(1 - stored) : 1 / stored;
             case DepthKind::Mist:
-                return (near_ + std::sqrt(std::max(stored, 0.0)) * (far_ - near_)) * cosine(x, y);
+            case DepthKind::MistLinear:
+            case DepthKind::MistInverse:
+                return (near_ + mist_way(std::max(stored, 0.0)) * (far_ - near_)) * cosine(x, y);
             case DepthKind::Normalized:
                 return near_ + stored * (far_ - near_);
             case DepthKind::Device:

@@ -73,6 +73,10 @@ TEST(PlanarDepth, MistIsTheSquareOfTheWayByDistance) {
     const Converted c = convert({0, 0.25f, 1}, mist);
     EXPECT_THAT(c.depth,
                 testing::ElementsAre(testing::FloatEq(5), testing::FloatEq(15), testing::FloatEq(25)));
+    mist.kind = DepthKind::MistLinear;  // the falloffs of Blender's world: 0.25 of the way is 10 m
+    EXPECT_FLOAT_EQ(convert({0.25f}, mist).depth[0], 10);
+    mist.kind = DepthKind::MistInverse;  // 0.25 is the root of 0.0625 of 20 m
+    EXPECT_FLOAT_EQ(convert({0.25f}, mist).depth[0], 6.25f);
 }
 
 TEST(PlanarDepth, MissesAreRecognisedInTheStoredUnit) {

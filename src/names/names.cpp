@@ -74,8 +74,10 @@ constexpr Named<DepthKind> kDepthKinds[]{
     {DepthKind::Inverse, "inverse", "1/planar; with a range, disparity between its ends"},
     {DepthKind::Normalized, "normalized", "0 to 1 between the ends of a range"},
     {DepthKind::Device, "device", "z-buffer between the ends of a range"},
-    {DepthKind::Mist, "mist", "Blender's mist between the ends of a range"},
-    {DepthKind::CocPx, "coc-px", "signed blur radius in pixels"}};
+    {DepthKind::Mist, "mist", "Blender's mist between the ends of a range, falloff Quadratic"},
+    {DepthKind::CocPx, "coc-px", "signed blur radius in pixels"},
+    {DepthKind::MistLinear, "mist-linear", "mist, falloff Linear"},
+    {DepthKind::MistInverse, "mist-inverse", "mist, falloff Inverse Quadratic"}};
 constexpr Named<DepthEdges> kDepthEdges[]{
     {DepthEdges::Auto, "auto", "snap where most silhouettes are ramps"},
     {DepthEdges::Keep, "keep", "as the depth says"},

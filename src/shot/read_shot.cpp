@@ -158,7 +158,7 @@ View<const float> Shot::depth_plane() const {
 
 Status check(const ShotSource& source) {
     const DepthKind kind = source.depth.kind;
-    const bool ranged = kind == DepthKind::Normalized || kind == DepthKind::Device || kind == DepthKind::Mist;
+    const bool ranged = kind == DepthKind::Normalized || kind == DepthKind::Device || is_mist(kind);
     const bool has_range = source.depth.range_near && source.depth.range_far;
     const std::string name = name_of(kind);
     if (ranged && !has_range)
