@@ -4,6 +4,7 @@
 
 #include "look/fields.h"
 #include "look/limits.h"
+#include "optics/lens_text.h"
 
 #include <optional>
 
@@ -59,10 +60,13 @@ Result<Look> look_of(const Json& told) {
         return refused("it names no lens");
     const Json& lens = told["lens"];
     if (!lens.contains("name") || !lens["name"].is_string()) return refused("it names no lens");
-    if (lens.contains("text") && !lens["text"].is_null())
-        return refused("it holds a pasted lens; save that lens as a file and name the file with lens.name");
     Look look;
     look.lens.name = lens["name"].get<std::string>();
+    if (lens.contains("text") && !lens["text"].is_null()) {
+        if (!lens["text"].is_string()) return refused("its lens is no text");
+        look.lens.name = lens["text"].get<std::string>();
+        if (!optics::is_lens_text(look.lens.name)) return refused("it holds a lens of one line");
+    }
     const Json none = Json::object();
     const Json& fields = lens.contains("look") ? lens["look"] : none;
     if (!fields.is_object()) return refused("its choices are no object");

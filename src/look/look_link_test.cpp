@@ -51,9 +51,10 @@ TEST(LookLink, ABrokenLinkSaysWhatIsWrong) {
                 HasSubstr("lens.blades must be 0 (round) or 3 to 64, not -5"));
     EXPECT_THAT(refusal_of_link("lens=1.eyJsZW5zIjp7Im5hbWUiOiJhIiwibG9vayI6eyJvZGQiOjF9fX0"),
                 HasSubstr("lens.odd"));
-    // {"lens":{"name":"a","text":"1 2 3"}}
+    // {"lens":{"name":"a","text":"1 2 3"}} and {"lens":{"name":"a","text":7}}
     EXPECT_THAT(refusal_of_link("lens=1.eyJsZW5zIjp7Im5hbWUiOiJhIiwidGV4dCI6IjEgMiAzIn19"),
-                HasSubstr("pasted lens"));
+                HasSubstr("a lens of one line"));
+    EXPECT_THAT(refusal_of_link("lens=1.eyJsZW5zIjp7Im5hbWUiOiJhIiwidGV4dCI6N319"), HasSubstr("no text"));
 }
 
 TEST(LookLimits, FilesAreRefusedWhatFlagsAreRefused) {

@@ -2,6 +2,8 @@
 #include "petzval/shot.h"
 #include "petzval/version.h"
 
+#include "optics/lens_text.h"
+
 #include <cmath>
 #include <cstdio>
 
@@ -25,8 +27,8 @@ bool was_blurred(const Shot& shot) {
 }
 
 std::string history_line(const Shot& shot, const Look& look) {
-    std::string line =
-        beginning(shot) + "petzval " PETZVAL_VERSION ", " + look.engine + ", " + look.lens.name;
+    std::string line = beginning(shot) + "petzval " PETZVAL_VERSION ", " + look.engine + ", " +
+                       (optics::is_lens_text(look.lens.name) ? optics::kLensOfText : look.lens.name);
     const auto add = [&](const char* before, const std::optional<FoundNumber>& n, const char* after) {
         if (n) line += before + text_of(n->value) + after;
     };

@@ -3,6 +3,7 @@
 #include "petzval/look_json.h"
 
 #include "files/output_file.h"
+#include "optics/lens_text.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -29,6 +30,7 @@ fs::path folder_of(const std::string& path) {
 // True if a lens of that name is a file, seen from a folder, and not a built-in lens.
 bool is_lens_file(const std::string& name, const fs::path& folder) {
     std::error_code ignored;
+    if (optics::is_lens_text(name)) return false;
     return name.find('/') != std::string::npos ||
            (fs::path(name).has_extension() && fs::is_regular_file(folder / name, ignored));
 }

@@ -2,6 +2,7 @@
 import base64
 import json
 import os
+import pathlib
 import unittest
 
 from pictures import picture, read_exr, write_exr, write_png
@@ -85,6 +86,17 @@ class Looks(CommandLineTest):
         for look in (link, "https://example.org/lab/#" + link):
             self.assertEqual(self.pixels("--look", look), by_flags)
         self.refuse(3, "defocus", "in.exr", "-o", "o.exr", *CAMERA, "--look", link[:-7], says=["--look", "link of the lens lab"])
+
+    def test_a_link_holds_a_pasted_lens_and_so_does_a_saved_look(self):
+        own = pathlib.Path(__file__).parents[2] / "lenses/double-gauss-fast.json"
+        told = {"lens": {"name": "mine", "text": own.read_text(), "look": {"blades": 5}}}
+        link = "lens=1." + base64.urlsafe_b64encode(json.dumps(told).encode()).decode().rstrip("=")
+        by_file = self.pixels("--lens", str(own), "--blades", "5")
+        self.assertEqual(self.pixels("--look", link, "--save-look", "saved.json"), by_file)
+        self.assertEqual(self.pixels("--look", "saved.json"), by_file)
+        self.assertEqual(self.pixels("--lens", own.read_text(), "--blades", "5"), by_file)
+        self.assertNotEqual(self.pixels("--blades", "5"), by_file)
+        self.refuse(3, "defocus", "in.exr", "-o", "o.exr", *CAMERA, "--lens", "50 4\n", says=["pasted: line 1"])
 
     def test_numbers_out_of_range_are_refused_as_those_of_flags(self):
         self.write("look.json", glare={"bloom": -1e30})

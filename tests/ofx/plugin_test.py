@@ -95,6 +95,12 @@ class Plugin(unittest.TestCase):
         self.same({"focusDistance": 4.8, "look": f"lens=1.{link}"},
                   ["--focus", "4.8m", "--lens", "doublet", "--blades", "6", "--coma", "0.5"])
 
+    def test_a_link_brings_a_pasted_lens(self):
+        own = pathlib.Path(__file__).parents[2] / "lenses/petzval-laikin.json"
+        state = {"lens": {"name": "mine", "text": own.read_text(), "look": {"blades": 6}}}
+        link = base64.urlsafe_b64encode(json.dumps(state).encode()).decode().rstrip("=")
+        self.same({"focusDistance": 4.8, "look": f"lens=1.{link}"}, ["--focus", "4.8m", "--lens", own, "--blades", "6"])
+
     def test_each_error_is_one_sentence_in_the_hosts_message(self):
         for params, clips, says in (
                 ({}, self.CLIPS[:2], "no depth"),

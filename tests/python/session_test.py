@@ -69,6 +69,10 @@ class Looks(unittest.TestCase):
         for text in (link, "https://example.org/lab/#" + link):
             look = json.loads(petzval.Look.from_json(text).to_json())
             self.assertEqual((look["lens"]["name"], look["lens"]["blades"]), ("tessar", 5))
+        table = "F/3\n50 4 1.5168 64.2 20\nstop 1 14\n-50 30 20\n"
+        pasted = json.dumps({"lens": {"name": "mine", "text": table}}).encode()
+        kept = petzval.Look.from_json("lens=1." + base64.urlsafe_b64encode(pasted).decode().rstrip("=")).to_json()
+        self.assertEqual(json.loads(kept)["lens"]["name"], table)
         with self.assertRaisesRegex(petzval.InvalidFile, "link of the lens lab"):
             petzval.Look.from_json(link[:-5])
         night = json.loads(petzval.Look.from_json('{"petzval_look": 1, "preset": "night"}').to_json())

@@ -101,7 +101,7 @@ std::vector<LookRow> rows_of_lenses() {
     const Kind focus_mode = one_of({{"best", "\"best\""}, {"paraxial", "\"paraxial\""}});
     return {
         row("Lens", "--lens", "lens.name", value("NAME", parse_text),
-            "lens name (petzval lens list) or lens file; ideal is a flat disc (default)"),
+            "lens name (petzval lens list), lens file or its content; ideal is a flat disc (default)"),
         row("Lens", "--blades", "lens.blades", value("N", parse_blades),
             "aperture blades, 3 or more; 0 is round (default)"),
         row("Lens", "--blade-rotation", "lens.blade_rotation_deg", value("DEG", parse_number),

@@ -10,6 +10,7 @@
 #include "kernel/lenses/opened_lens.h"
 #include "kernel/lenses/third_order.h"
 #include "lens_files/shelf.h"
+#include "optics/lens_text.h"
 
 #include <cmath>
 #include <string_view>
@@ -178,6 +179,10 @@ Lens::Contents contents_of(File file, const LensChoice& choice) {
 }  // namespace
 
 Result<Lens> Lens::open(const LensChoice& choice) {
+    if (optics::is_lens_text(choice.name)) {
+        const auto lens = read(choice.name, optics::kLensOfText);
+        return lens ? lens->with(choice) : lens;
+    }
     auto file = file_of(choice.name);
     if (!file) return file.error();
     Contents contents = contents_of(std::move(*file), choice);
