@@ -209,13 +209,13 @@ def samples(*words):
 
 def web(*words):
     """[--serve]: builds the lens lab into build/web; --serve: then serves it on this machine"""
-    make("release", "petzval_cli")
+    make("release", "petzval_cli", "petzval_validate_lenses")
     run(sys.executable, "tools/web.py", program(), *words)
 
 
 def web_test(*words):
     """[ARGS…]: builds the lens lab and tests it in a headless Chromium; ARGS go to Python's unittest"""
-    make("release", "petzval_cli")
+    make("release", "petzval_cli", "petzval_validate_lenses", "petzval_shared", "petzval_ofx", "ofx_check")
     run(sys.executable, "tools/web.py", program())
     for test in sorted(ROOT.glob("tests/web/*_test.py")):
         run("/usr/bin/python3", test, program(), *words)  # Debian's: selenium is its package

@@ -40,7 +40,8 @@ def build(petzval):
     if not scene.exists():  # Debian's Python: numpy is its package
         run("/usr/bin/python3", "tools/scene_textures.py", petzval, "night", "480", "270", scene)
     shutil.copy(scene, SITE)
-    run(sys.executable, "tools/lens_pages.py", petzval, KERNEL / "lenses")
+    validator = pathlib.Path(petzval).parents[2] / "tests/lens_validation/petzval_validate_lenses"
+    run(sys.executable, "tools/lens_pages.py", petzval, validator, KERNEL / "lenses")
     shutil.copytree(KERNEL / "lenses", SITE / "lenses")
     three_demo(petzval)
 

@@ -1,5 +1,6 @@
 // A second lens beside the first: its disc of the same light.
 import { drawDisc } from "./disc-view.js";
+import { drawSection } from "./section-view.js";
 
 const $ = (id) => document.getElementById(id);
 
@@ -7,11 +8,6 @@ export class Beside {
   #kernel; #facts = new Map();
   constructor(kernel) {
     this.#kernel = kernel;
-  }
-
-  list(lenses, name) {
-    $("beside").replaceChildren(new Option("no other lens", ""), ...lenses.map((lens) => new Option(`${lens.name}: ${lens.title}`, lens.name)));
-    $("beside").value = name ?? "";
   }
 
   async #factsOf(lens) {
@@ -22,6 +18,7 @@ export class Beside {
   /** @param {(facts: object) => object} camera of the same light, for a lens with these facts */
   async show(name, { look, coc_px, x, y, exposure, camera }) {
     $("disc-beside").hidden = $("beside-told").hidden = !name;
+    $("section-beside").toggleAttribute("hidden", !name);
     $("disc").parentElement.classList.toggle("two", Boolean(name));
     if (!name) return;
     const lens = { name, text: null, look };
@@ -30,7 +27,9 @@ export class Beside {
       const { result } = await this.#kernel.ask("disc", { lens, camera: camera(facts), coc_px, x, y }, "beside");
       drawDisc($("disc-beside"), result, coc_px, exposure);
       $("disc-beside").setAttribute("aria-label", `The disc of ${name}`);
-      $("beside-told").textContent = `On the right: ${name}.`;
+      $("beside-told").textContent = `On the right, and in the second section: ${name}.`;
+      const seen = camera(facts), cut = await this.#kernel.ask("section", { lens, camera: seen, depth_m: seen.light_m, x, y, rays: 21 }, "section-beside");
+      drawSection($("section-beside"), cut.result, null);
     } catch (error) {
       if (error.constructor.name !== "Replaced") $("beside-told").textContent = error.message;
     }

@@ -31,13 +31,16 @@ function control(how, changed) {
   return made;
 }
 
-/** One fieldset a group. @param {(how: object, value: number|boolean|string) => void} changed */
+/** Groups that are open at first, where there is room for them. */
+const isOpen = (group) => group === "Aperture" || (group === "Aberrations" && matchMedia("(min-width: 720px)").matches);
+
+/** One part that opens for each group. @param {(how: object, value: number|boolean|string) => void} changed */
 export function buildControls(parent, controls, changed) {
   const groups = Map.groupBy ? Map.groupBy(controls, (c) => c.group) : controls.reduce((all, c) => all.set(c.group, [...(all.get(c.group) ?? []), c]), new Map());
   for (const [group, members] of groups) {
-    const set = document.createElement("fieldset"), legend = document.createElement("legend");
-    legend.textContent = group;
-    set.append(legend, ...members.map((member) => control(member, changed)));
+    const set = Object.assign(document.createElement("details"), { open: isOpen(group) }), summary = document.createElement("summary");
+    summary.textContent = group;
+    set.append(summary, ...members.map((member) => control(member, changed)));
     parent.append(set);
   }
 }

@@ -113,13 +113,18 @@ function next() {
   if (waiting.length) setTimeout(next, 0); // messages that came meanwhile may replace what waits
 }
 
+/** What is dragged comes first: the coarse disc, then the exact one. */
+const FIRST = ["facts", "disc", "exact"];
+const rank = ({ slot }) => (FIRST.includes(slot) ? FIRST.indexOf(slot) : FIRST.length);
+
 onmessage = ({ data }) => {
   const same = data.slot ? waiting.findIndex((other) => other.slot === data.slot) : -1;
   if (same >= 0) {
     postMessage({ id: waiting[same].id, replaced: true });
     waiting[same] = data;
   } else {
-    waiting.push(data);
+    const later = waiting.findIndex((other) => rank(other) > rank(data));
+    waiting.splice(later < 0 ? waiting.length : later, 0, data);
     if (waiting.length === 1 && kernel) setTimeout(next, 0);
   }
 };

@@ -5,16 +5,15 @@ import { drawDisc } from "./disc-view.js";
 import { drawSection } from "./section-view.js";
 import { drawCurves } from "./curves-view.js";
 import { buildControls, showControls } from "./controls.js";
-import { Beside } from "./beside.js";
 import { dragHandles, movedCurve, pointsOf } from "./dragging.js";
 import { saveCanvas, saveText } from "./saving.js";
 
 const $ = (id) => document.getElementById(id);
 const STRIP_PX = [-60, -40, -20, -8, 8, 20, 40, 60];
-const kernel = new Kernel(), beside = new Beside(kernel);
+const kernel = new Kernel();
 
 let { state, problem } = fromFragment(location.hash.slice(1));
-let lenses = [], facts = null, factsAsked = null, section = null, disc = null, spot = null, exposure = 0, picture = null, curveSpan = null, isDragged = false;
+let lenses = [], facts = null, factsAsked = null, section = null, disc = null, spot = null, exposure = 0, picture = null, curveSpan = null, isDragged = false, textureLater = 0, beside = null;
 
 function complain(sentence) {
   $("problem").textContent = sentence ?? "";
@@ -71,12 +70,26 @@ async function update({ lensChanged = false } = {}) {
   drawn("exact", "disc", discArgs(state.light.coc_px), (found, ms) => showDisc(found, ms, 1), (sentence) => ($("told").textContent = sentence));
   askSection();
   showBeside();
+  showTexture();
   const live = picture?.update({ moving: !lensChanged });
   STRIP_PX.forEach((px, i) => drawn(`strip${i}`, "disc", discArgs(px / 2, 0.5), (found) => drawDisc($("strip").children[i].firstChild, found, px / 4, exposure), () => {}));
   return live;
 }
 
-function showBeside() {
+/** The texture takes longer than a disc: it waits until nothing moves. */
+function showTexture() {
+  clearTimeout(textureLater);
+  if (!$("texture-details").open) return;
+  textureLater = setTimeout(async () => {
+    const { drawTexture } = await import("./texture-view.js");
+    await factsAsked;
+    drawn("texture", "texture", { lens: state.lens, camera: camera(0), columns: 193, largest_px: 60 }, (found) => drawTexture($("texture"), found));
+  }, 300);
+}
+
+async function showBeside() {
+  if (!state.beside && !beside) return;
+  beside ??= new (await import("./beside.js")).Beside(kernel);
   const { coc_px, x, y } = state.light;
   beside.show(state.beside, { look: state.lens.look, coc_px, x, y, exposure, camera: (own) => camera(coc_px, 1, own) });
 }
@@ -98,8 +111,20 @@ function curveDragged({ x }, index) {
   return update({ lensChanged: true });
 }
 
-/** The edge of the stop goes to this height: the f-number follows. */
-function stopDragged({ y }) {
+/** Where the sensor stands whose light has this circle of confusion, if the image stays: the handle of the section. */
+function focusOf({ sensor_z_mm, coc_px, f_number }, of_px = coc_px) {
+  const mm = (px) => (2 * f_number * px * state.camera.sensor_mm) / state.camera.width_px;
+  return sensor_z_mm - mm(Math.max(0, coc_px)) + mm(of_px);
+}
+
+/** The edge of the stop goes to this height: the f-number follows; or the sensor goes to this place along the axis. */
+function sectionDragged({ x, y }, which) {
+  if (which === "sensor") {
+    const per_px = focusOf(section, 1) - focusOf(section, 0);
+    state.light.coc_px = Math.max(-60, Math.min(60, Math.round((x - focusOf(section, 0)) / per_px)));
+    update();
+    return;
+  }
   const widest = facts?.f_number || 1, now = state.camera.f_number || widest, wide = Math.max(Math.abs(y), section.stop_radius_mm / 8, 1e-3);
   state.camera.f_number = Number(Math.max(widest, Math.min(64, (now * section.stop_radius_mm) / wide)).toPrecision(3));
   update();
@@ -119,9 +144,9 @@ async function askFacts() {
 function askSection() {
   const { x, y, coc_px } = state.light, seen = camera(coc_px);
   drawn("section", "section", { lens: state.lens, camera: seen, depth_m: seen.light_m, x, y, rays: 21 }, (found) => {
-    section = found;
+    section = { ...found, coc_px, f_number: seen.f_number };
     spot = null;
-    drawSection($("section"), section, null);
+    drawSection($("section"), section, null, focusOf(section));
   });
 }
 
@@ -129,7 +154,7 @@ function lightUp(event) {
   if (!section || !disc) return;
   const box = $("disc").getBoundingClientRect(), scale = disc.side / box.width / disc.scale;
   spot = { x: (event.clientX - box.left - box.width / 2) * scale, y: (event.clientY - box.top - box.height / 2) * scale, reach: Math.max(2, 0.08 * Math.abs(state.light.coc_px)) };
-  const lit = drawSection($("section"), section, spot);
+  const lit = drawSection($("section"), section, spot, focusOf(section));
   $("lit").textContent = lit ? `${lit} of ${section.rays.length} rays meet there.` : "No ray of the drawing meets there; click inside of the disc.";
 }
 
@@ -171,6 +196,7 @@ function listLenses() {
   const found = lenses.filter((lens) => !wanted || `${lens.name} ${lens.names.join(" ")} ${lens.title} ${lens.class} ${lens.year} ${lens.history}`.toLowerCase().includes(wanted));
   $("lens").replaceChildren(...(state.lens.text ? [new Option(`${state.lens.name} (yours)`, "")] : []), ...found.map((lens) => new Option(`${lens.name}: ${lens.title}`, lens.name)));
   $("lens").value = state.lens.text ? "" : state.lens.name;
+  $("save-lens").hidden = !state.lens.text;
 }
 
 function use(lens) {
@@ -185,10 +211,12 @@ function notes(sentences) {
 }
 
 async function useText(text, name) {
-  const lens = { name, text, look: {} };
   try {
+    const { lensOfLook } = await import("./looks.js");
+    const look = lensOfLook(text), lens = look?.lens ?? { name, text, look: {} };
     await kernel.ask("facts", { lens }); // a text that is no lens changes nothing
-    use(lens);
+    await use(lens);
+    if (look?.left_out.length) complain(`This page has no controls for ${look.left_out.join(", ")}: they are left out.`);
   } catch (error) {
     notes([error.message]);
     complain(error.message);
@@ -240,7 +268,7 @@ function wire() {
     showBeside();
   };
   dragHandles($("curves"), curveDragged, () => ((isDragged = false), factsAsked?.then(showCurves)));
-  dragHandles($("section"), stopDragged);
+  dragHandles($("section"), sectionDragged);
   $("beside").onchange = () => ((state.beside = $("beside").value || null), update());
   $("picture-open").onclick = showPicture;
   $("search").oninput = listLenses;
@@ -263,7 +291,9 @@ function wire() {
   $("png").onclick = () => saveCanvas($("disc"), `${state.lens.name}-${state.light.coc_px}px.png`);
   $("exr").onclick = () => exported("discExr", discArgs(state.light.coc_px));
   $("table").onclick = () => exported("tableExr", { lens: state.lens, camera: camera(0), title: [state.lens.name, facts.lens.title].filter(Boolean).join(": ") });
-  $("save").onclick = () => saveText(JSON.stringify({ petzval_look: 1, lens: { name: state.lens.name, ...state.lens.look } }, null, 2) + "\n", `${state.lens.name}-look.json`);
+  $("save").onclick = async () => saveText((await import("./looks.js")).lookText(state.lens), `${state.lens.name}-look.json`);
+  $("save-lens").onclick = () => saveText(state.lens.text, `${state.lens.name}.${state.lens.text.startsWith("{") ? "json" : "txt"}`);
+  $("texture-details").ontoggle = showTexture;
   $("file").onchange = async () => {
     const [file] = $("file").files;
     if (file && file.size > 1 << 20) complain(`${file.name} holds ${file.size} bytes, too many for a lens.`);
@@ -273,7 +303,7 @@ function wire() {
   addEventListener("hashchange", () => {
     ({ state, problem } = fromFragment(location.hash.slice(1)));
     listLenses();
-    beside.list(lenses, state.beside);
+    $("beside").value = state.beside ?? "";
     update({ lensChanged: true }).then(() => problem && complain(problem));
   });
 }
@@ -293,12 +323,14 @@ async function start() {
   }
   wire();
   listLenses();
-  beside.list(lenses, state.beside);
+  $("beside").append(new Option("no other lens", ""), ...lenses.map((lens) => new Option(`${lens.name}: ${lens.title}`, lens.name)));
+  $("beside").value = state.beside ?? "";
+  performance.mark("interactive");
   await update({ lensChanged: true });
   if (problem) complain(problem);
   $("lab").setAttribute("aria-busy", "false");
 }
 
 // For the browser's console, and for tests.
-globalThis.lab = { kernel, use, useText, place, discArgs, showPicture, get state() { return state; }, get picture() { return picture; } };
+globalThis.lab = { kernel, use, useText, place, discArgs, showPicture, get state() { return state; }, get picture() { return picture; }, get disc() { return disc; } };
 start();

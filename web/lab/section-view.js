@@ -1,8 +1,9 @@
 // The lens cut open, with the rays of the light that makes the disc. Rays near the clicked spot of the disc light up.
 import { handle, line, shape, show } from "./drawing.js";
 
-/** @param section as petzval_lens_section() gives it @param {?{x: number, y: number, reach: number}} spot of the disc, pixels */
-export function drawSection(svg, section, spot) {
+/** @param section as petzval_lens_section() gives it @param {?{x: number, y: number, reach: number}} spot of the disc, pixels
+ *  @param {?number} focus_z_mm where the sensor's handle stands; null: nothing can be dragged */
+export function drawSection(svg, section, spot, focus_z_mm = null) {
   const side = section.rays.filter((ray) => Math.abs(ray.off_plane) < 0.06);
   const lit = spot ? section.rays.filter((ray) => Math.hypot(ray.disc_px[0] - spot.x, ray.disc_px[1] - spot.y) <= spot.reach) : [];
   const points = [...section.glass.flatMap((g) => g.outline_mm), [section.sensor_z_mm, section.image_y_mm], [section.stop_z_mm, section.stop_radius_mm],
@@ -19,7 +20,8 @@ export function drawSection(svg, section, spot) {
     ...lit.map(ray("ray lit")),
     shape("path", { d: `M${section.stop_z_mm} ${-reach}V${-section.stop_radius_mm}M${section.stop_z_mm} ${section.stop_radius_mm}V${reach}`, class: "stop" }),
     plane(section.sensor_z_mm, 0.9 * reach, "sensor"),
-    ...[-1, 1].map((side) => handle(section.stop_z_mm, side * section.stop_radius_mm, 0.018 * width, "stop", "Edge of the stop")),
+    ...(focus_z_mm === null ? [] : [-1, 1].map((side) => handle(section.stop_z_mm, side * section.stop_radius_mm, 0.018 * width, "stop", "Edge of the stop"))),
+    ...(focus_z_mm === null ? [] : [handle(focus_z_mm, 0.75 * reach, 0.018 * width, "sensor", "Sensor, to focus")]),
   ]);
   return lit.length;
 }

@@ -3,6 +3,7 @@ import { Kernel, Replaced } from "./kernel.js";
 import { drawDisc, drawLight } from "./disc-view.js";
 import { drawCurves } from "./curves-view.js";
 import { drawCaustic } from "./caustic-view.js";
+import { drawTexture } from "./texture-view.js";
 
 const kernel = new Kernel();
 const WIDTH_PX = 1920, HEIGHT_PX = 1080, SENSOR_MM = 36, FOCAL_MM = 50;
@@ -78,16 +79,6 @@ function texture(lens) {
     kind: "canvas", wide: true, caption: "From 60 px in front of focus (left) to 60 px behind (right); the brightest point of each column is white.", call: "texture",
     args: { lens, camera: cameraFor(0, 2), columns: 257, largest_px: 60 }, draw: drawTexture,
   };
-}
-
-/** @param found a column for each distance, rows from the middle of the disc outwards: the other half is its mirror image */
-function drawTexture(canvas, { columns, used, pixels }) {
-  const height = 2 * used - 1, out = new Float32Array(4 * columns * height);
-  for (let y = 0; y < height; y++) {
-    const from = 4 * columns * Math.abs(y - used + 1);
-    out.set(pixels.subarray(from, from + 4 * columns), 4 * columns * y);
-  }
-  drawLight(canvas, { pixels: out, width: columns, height, white: 1 });
 }
 
 const LAMPS = [[60, 60], [180, 60], [60, 150], [180, 150]], LAMPS_SIZE = [240, 210], DARK = 0.02;
